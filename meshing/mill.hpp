@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace millfoam::meshing {
+
+/// What closes the mill along its axis: two plain walls, or nothing (a periodic slice of a long mill).
+enum class Ends { plain, periodic };
+
+/// Equally spaced lifters of rectangular section on the shell. Lifter 1 is centred on +x at DEM time 0.
+struct Lifters {
+  int count = 0;      ///< number of lifters, 0 for a smooth drum
+  double height = 0;  ///< radial protrusion from the shell, m
+  double width = 0;   ///< width across the radius, m
+};
+
+/// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up.
+struct Geometry {
+  double diameter = 0;  ///< inside the shell, m
+  double length = 0;    ///< along the axis, m
+  Ends ends = Ends::plain;
+  Lifters lifters;
+  double radius() const { return diameter / 2; }
+};
+
+/// Balls of one diameter.
+struct SizeClass {
+  double diameter = 0;  ///< m
+  double mass = 0;      ///< kg of this class in this mill (a slice: in the slice)
+};
+
+/// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are released.
+struct Charge {
+  std::vector<SizeClass> classes;
+  double start_radius = 0;  ///< m
+  double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
+};
+
+/// Elastic solid. The modulus used by the simulation may be softer than the real one; see `Dem::youngs_modulus`.
+struct Material {
+  double density = 0;         ///< kg/m^3
+  double youngs_modulus = 0;  ///< Pa, real
+  double poisson_ratio = 0;
+};
+
+/// Contact of a pair of materials.
+struct Contact {
+  double restitution = 0;       ///< coefficient of restitution, in (0, 1]
+  double friction = 0;          ///< sliding friction coefficient
+  double rolling_friction = 0;  ///< rolling friction coefficient
+};
+
+/// How the dry run is done.
+struct Dem {
+  double youngs_modulus = 0;     ///< Pa, softened modulus used for balls and walls
+  double rayleigh_fraction = 0;  ///< largest time-step over the Rayleigh time of the smallest ball
+  double settle_time = 0;        ///< s the balls fall in the mill at rest, before DEM time 0
+  double duration = 0;           ///< s of turning mill, from DEM time 0
+  double record_interval = 0;    ///< s between dumps
+  int seed = 0;                  ///< of the random insertion
+};
+
+/// Bingham slurry under air.
+struct Slurry {
+  double density = 0;            ///< kg/m^3
+  double plastic_viscosity = 0;  ///< Pa s
+  double yield_stress = 0;       ///< Pa
+  double surface_tension = 0;    ///< N/m
+  double level = 0;              ///< m, height y of the free surface at the start
+};
+
+/// Air above the slurry.
+struct Air {
+  double density = 0;    ///< kg/m^3
+  double viscosity = 0;  ///< Pa s
+};
+
+/// Size of the flow's cells.
+struct Resolution {
+  double cell_size = 0;  ///< m, in the mill's cross-section
+  int layers = 0;        ///< of cells along the axis
+};
+
+/// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
+struct Mill {
+  std::string title;
+  Geometry geometry;
+  double angular_velocity = 0;  ///< rad/s, right-handed about +z: negative turns clockwise with x right and y up
+  Charge charge;
+  Material ball;
+  Material wall;
+  Contact ball_ball;
+  Contact ball_wall;
+  Dem dem;
+  Slurry slurry;
+  Air air;
+  Resolution resolution;
+};
+
+/// Gravity's magnitude used by every stage, m/s^2; it points to -y.
+inline constexpr double gravity = 9.81;
+
+/// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.
+double critical_speed(const Geometry& geometry);
+
+/// A `mill.yaml` that cannot be used; the message is "file:line: key 'a.b': value, what was expected".
+class MillError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads and checks a mill description. Every key is documented in meshing/README.md.
+/// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or one that
+/// is impossible (negative size, lifter longer than the radius, …).
+Mill read_mill(const std::filesystem::path& file);
+
+}  // namespace millfoam::meshing
