@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/charge_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace millfoam::dem_driver {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double ball_volume(double diameter) {
+  return pi / 6 * std::pow(diameter, 3);
+}
+
+double start_length(const meshing::Mill& mill) {
+  return mill.geometry.ends == meshing::Ends::periodic ? mill.geometry.length : mill.charge.start_length;
+}
+
+std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
+  std::vector<ClassCount> classes;
+  for (const auto& size : mill.charge.classes) {
+    const double one = mill.ball.density * ball_volume(size.diameter);
+    const long count = std::lround(size.mass / one);
+    classes.push_back({size.diameter, size.mass, static_cast<double>(count) * one, count});
+  }
+  std::stable_sort(classes.begin(), classes.end(),
+                   [](const auto& a, const auto& b) { return a.diameter > b.diameter; });
+  return classes;
+}
+
+void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
+  for (const auto& size : classes) {
+    if (size.diameter < std::min(2 * mill.charge.start_radius, start_length(mill))) continue;
+    std::ostringstream message;
+    message << "charge: a ball of diameter " << size.diameter
+            << " m does not fit into the start cylinder (radius " << mill.charge.start_radius << " m, length "
+            << start_length(mill) << " m)";
+    throw std::runtime_error(message.str());
+  }
+}
+
+/// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.
+std::vector<Round> cut_into_rounds(const std::vector<ClassCount>& classes, double cylinder) {
+  std::vector<Round> rounds;
+  double inside = 0;
+  double room = round_solidity * cylinder;
+  rounds.emplace_back();
+  for (const auto& size : classes) {
+    const double volume = ball_volume(size.diameter);
+    long left = size.count;
+    while (left > 0) {
+      const long now = std::min(left, static_cast<long>(room / volume));
+      if (now > 0) rounds.back().push_back({size.diameter, now});
+      left -= now;
+      inside += static_cast<double>(now) * volume;
+      room -= static_cast<double>(now) * volume;
+      if (left == 0) break;
+      room = round_solidity * (cylinder - inside / heap_solidity);
+      // Below this a round would bring next to nothing, so that rounds would go on for ever.
+      if (room < volume || room < 0.005 * cylinder) {
+        std::ostringstream message;
+        message << "charge: the balls do not fit into the start cylinder (volume " << cylinder << " m^3); "
+                << left << " balls of " << size.diameter
+                << " m and all smaller ones are left over: raise charge.start_radius or lower the masses";
+        throw std::runtime_error(message.str());
+      }
+      rounds.emplace_back();
+    }
+  }
+  return rounds;
+}
+
+}  // namespace
+
+long ChargePlan::balls() const {
+  long sum = 0;
+  for (const auto& size : classes) sum += size.count;
+  return sum;
+}
+
+double ChargePlan::mass() const {
+  double sum = 0;
+  for (const auto& size : classes) sum += size.mass_realised;
+  return sum;
+}
+
+ChargePlan plan_charge(const meshing::Mill& mill) {
+  ChargePlan plan;
+  plan.classes = count_balls(mill);
+  if (plan.balls() == 0) throw std::runtime_error("charge: no class has the mass of even one ball");
+  check_fits(mill, plan.classes);
+  const double radius = mill.charge.start_radius;
+  plan.rounds = cut_into_rounds(plan.classes, pi * radius * radius * start_length(mill));
+  // Half as long again as a free fall through the start cylinder.
+  plan.round_settle_time = 1.5 * std::sqrt(2 * 2 * radius / meshing::gravity);
+  return plan;
+}
+
+void print_charge(std::ostream& out, const ChargePlan& plan) {
+  out << "charge: " << plan.balls() << " balls, inserted largest first in " << plan.rounds.size()
+      << " round(s)\n"
+      << "  diameter mm     balls   asked kg   realised kg   difference %\n";
+  double asked = 0;
+  for (const auto& size : plan.classes) {
+    asked += size.mass_asked;
+    out << std::setw(13) << std::setprecision(4) << size.diameter * 1e3 << std::setw(10) << size.count
+        << std::setw(11) << size.mass_asked << std::setw(14) << size.mass_realised << std::setw(15)
+        << std::setprecision(2) << 100 * (size.mass_realised / size.mass_asked - 1) << '\n';
+  }
+  out << "        total" << std::setw(10) << plan.balls() << std::setw(11) << std::setprecision(4) << asked
+      << std::setw(14) << plan.mass() << std::setw(15) << std::setprecision(2)
+      << 100 * (plan.mass() / asked - 1) << '\n';
+}
+
+}  // namespace millfoam::dem_driver

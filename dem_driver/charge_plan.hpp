@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <vector>
+
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// How many balls stand for the mass of one size class.
+struct ClassCount {
+  double diameter = 0;       ///< m
+  double mass_asked = 0;     ///< kg
+  double mass_realised = 0;  ///< kg, of `count` whole balls
+  long count = 0;
+};
+
+/// Balls of one size that are put in at one moment.
+struct Insertion {
+  double diameter = 0;  ///< m
+  long count = 0;
+};
+
+/// Insertions, one after the other, before the balls are let fall.
+using Round = std::vector<Insertion>;
+
+/// The charge as whole balls, and the order in which they enter the mill.
+struct ChargePlan {
+  std::vector<ClassCount> classes;  ///< largest first
+  std::vector<Round> rounds;        ///< largest first; every ball of `classes` is in exactly one insertion
+  double round_settle_time = 0;     ///< s, that the balls of a round fall before the next round comes
+  long balls() const;
+  double mass() const;  ///< kg realised
+};
+
+/// Random insertion without overlap jams near a solidity of 0.38; a round fills the free part of the start
+/// cylinder to this much.
+inline constexpr double round_solidity = 0.2;
+/// Solidity of a heap at rest, low on purpose: what lies in the start cylinder from earlier rounds is not
+/// free.
+inline constexpr double heap_solidity = 0.6;
+
+/// Counts the balls of each class by mass, n = round(mass/(density pi/6 d^3)), and cuts them into rounds.
+/// Throws std::runtime_error when no ball results, when a ball is larger than the start cylinder, or when the
+/// charge does not fit into the start cylinder.
+ChargePlan plan_charge(const meshing::Mill& mill);
+
+/// Prints asked and realised mass per class.
+void print_charge(std::ostream& out, const ChargePlan& plan);
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <deque>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dem_driver/deck.hpp"
+
+namespace millfoam::dem_driver {
+
+/// A dry run that cannot be used; the message says what went wrong.
+class RunError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Follows LIGGGHTS' output line by line: how far it is, and whether every ball is still there.
+class LiggghtsLog {
+ public:
+  /// `plan` is the one that the deck was written from.
+  explicit LiggghtsLog(const DemPlan& plan);
+
+  /// Takes the next line. Throws RunError when an insertion brought fewer balls than asked, when balls were
+  /// lost, or when the kinetic energy is not finite. An ERROR of LIGGGHTS is kept (`error()`), because lines
+  /// that explain it may follow.
+  void read(const std::string& line);
+
+  long steps_done() const { return steps_done_; }
+  bool turning() const { return turning_; }                  ///< DEM time 0 is reached
+  bool finished() const { return finished_; }                ///< the deck came to its end
+  const std::string& error() const { return error_; }        ///< first line that begins with ERROR, or empty
+  double resting_energy() const { return resting_energy_; }  ///< kinetic, at DEM time 0, J
+  double kinetic_energy() const { return kinetic_energy_; }  ///< the last one, J
+  double largest_overlap() const { return largest_overlap_; }  ///< of two balls, over the log's lines, m
+  std::string last_lines() const;                              ///< for a message, each on its own line
+
+ private:
+  void read_thermo(const std::vector<std::string>& words);
+  void read_insertion(const std::string& line);
+  void check_balls(long step, long balls) const;
+
+  const DemPlan& plan_;
+  std::deque<std::string> tail_;
+  std::vector<std::string> columns_;  ///< of the thermo table that is being read, else empty
+  std::string error_;
+  long expected_balls_ = 0;
+  long last_step_ = 0;
+  long steps_done_ = 0;
+  bool turning_ = false;
+  bool finished_ = false;
+  double resting_energy_ = 0;
+  double kinetic_energy_ = 0;
+  double largest_overlap_ = 0;
+};
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+namespace millfoam::dem_driver {
+
+/// A progress bar with the remaining time: one line that is written over on a terminal, else a line every 10
+/// %.
+class Progress {
+ public:
+  /// `total` is the number of steps of the whole job; `terminal` says whether `out` is one.
+  Progress(std::ostream& out, bool terminal, long total);
+
+  /// Shows that `done` steps are done; `what` names what is going on.
+  void show(long done, const std::string& what);
+
+  /// Ends the line on a terminal.
+  void end();
+
+ private:
+  std::ostream& out_;
+  bool terminal_;
+  long total_;
+  int shown_ = -1;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace millfoam::dem_driver

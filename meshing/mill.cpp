@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshing/mill_shape.hpp"
+#include "meshing/yaml_section.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+const double pi = std::acos(-1.0);
+/// Solidity of the closest random packing of equal balls.
+constexpr double closest_packing = 0.64;
+/// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
+constexpr double most_cells = 1e8;
+
+Rule positive(const std::string& what) {
+  return {what + " above 0", [](double v) { return v > 0; }};
+}
+Rule not_negative(const std::string& what) {
+  return {what + " of 0 or more", [](double v) { return v >= 0; }};
+}
+Rule positive_below(const std::string& what, double bound, const std::string& unit, const std::string& of) {
+  return {what + " above 0 and below " + of + ", " + shown(bound) + unit,
+          [bound](double v) { return v > 0 && v < bound; }};
+}
+
+Lifters read_lifters(const Section& in, double radius) {
+  Lifters lifters;
+  lifters.count =
+      in.integer("count", {"a whole number of lifters, 0 or more", [](double v) { return v >= 0; }});
+  if (lifters.count == 0) {
+    in.number("height", positive("a length in m"), 1);
+    in.number("width", positive("a length in m"), 1);
+    return lifters;
+  }
+  lifters.height = in.number("height", positive_below("a length", radius, " m", "the radius"));
+  const double tip_radius = radius - lifters.height;
+  const double chord = 2 * std::sqrt(radius * radius - tip_radius * tip_radius);
+  const double pitch = lifters.count > 2 ? 2 * tip_radius * std::tan(pi / lifters.count) : 2 * radius;
+  lifters.width =
+      pitch < chord
+          ? in.number("width",
+                      positive_below("a length", pitch, " m", "the pitch of the lifters at their tops"))
+          : in.number("width", positive_below("a length", chord, " m",
+                                              "the shell's chord at the height of the lifters' tops"));
+  return lifters;
+}
+
+Geometry read_geometry(const Section& in) {
+  Geometry geometry;
+  geometry.diameter = in.number("diameter", positive("a length in m"));
+  geometry.length = in.number("length", positive("a length in m"));
+  geometry.ends = in.choice("ends", {"plain", "periodic"}) == "plain" ? Ends::plain : Ends::periodic;
+  geometry.lifters = read_lifters(in.section("lifters", {"count", "height", "width"}), geometry.radius());
+  return geometry;
+}
+
+double read_angular_velocity(const Section& in, const Geometry& geometry) {
+  if (in.has("angular_velocity")) {
+    for (const char* other : {"fraction_of_critical", "sense"}) {
+      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
+    }
+    return in.number("angular_velocity", {"an angular velocity in rad/s other than 0, negative for clockwise",
+                                          [](double v) { return v != 0; }});
+  }
+  const double fraction = in.number(
+      "fraction_of_critical", positive("a fraction of the critical speed (or the key angular_velocity)"));
+  const double sign = in.choice("sense", {"clockwise", "anticlockwise"}) == "clockwise" ? -1 : 1;
+  return sign * fraction * critical_speed(geometry);
+}
+
+/// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
+/// images.
+Rule ball_diameter(const Geometry& geometry) {
+  const double room = geometry.radius() - geometry.lifters.height;
+  const bool slice_is_short = geometry.length < room;
+  return positive_below("a ball's diameter", std::min(room, geometry.length), " m",
+                        slice_is_short ? "the mill's length" : "the radius inside the lifters");
+}
+
+std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry) {
+  for (const char* other : {"fill", "diameter", "packing"}) {
+    if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
+  }
+  const double share =
+      geometry.length /
+      in.number("reference_length", positive("the length in m that the masses fill"), geometry.length);
+  std::vector<SizeClass> classes;
+  for (const Section& item : in.list("classes", {"diameter", "mass"})) {
+    classes.push_back({item.number("diameter", ball_diameter(geometry)),
+                       item.number("mass", positive("a mass in kg")) * share});
+  }
+  return classes;
+}
+
+std::vector<SizeClass> read_fill(const Section& in, const Geometry& geometry, double density) {
+  if (in.has("reference_length")) in.refuse("reference_length", "it beside classes only, not beside fill");
+  const double fill =
+      in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
+  const double packing = in.number("packing",
+                                   {"the solidity of a resting charge, above 0 and up to 0.74",
+                                    [](double v) { return v > 0 && v <= 0.74; }},
+                                   0.6);
+  return {
+      {in.number("diameter", ball_diameter(geometry)), fill * packing * density * analytic_volume(geometry)}};
+}
+
+Charge read_charge(const Section& in, const Geometry& geometry, double density) {
+  Charge charge;
+  charge.classes = in.has("classes") ? read_classes(in, geometry) : read_fill(in, geometry, density);
+  double volume = 0;
+  double largest = 0;
+  for (const SizeClass& size : charge.classes) {
+    volume += size.mass / density;
+    largest = std::max(largest, size.diameter);
+  }
+  if (volume > closest_packing * analytic_volume(geometry)) {
+    in.refuse(in.has("classes") ? "classes" : "fill",
+              "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
+                  shown(closest_packing * analytic_volume(geometry)) + " m^3");
+  }
+  const double room = geometry.radius() - geometry.lifters.height;
+  charge.start_radius =
+      in.number("start_radius",
+                {"a length above the largest ball's radius, " + shown(largest / 2) +
+                     " m, and not above the radius inside the lifters, " + shown(room) + " m",
+                 [=](double v) { return v > largest / 2 && v <= room; }},
+                room - largest / 2);
+  const bool plain = geometry.ends == Ends::plain;
+  charge.start_length =
+      in.number("start_length",
+                {plain ? "a length above the largest ball's diameter, " + shown(largest) +
+                             " m, and not above the mill's, " + shown(geometry.length) + " m"
+                       : "a length above 0",
+                 [=](double v) { return plain ? v > largest && v <= geometry.length : v > 0; }},
+                0.98 * geometry.length);
+  return charge;
+}
+
+Material read_material(const Section& in) {
+  return {in.number("density", positive("a density in kg/m^3")),
+          in.number("youngs_modulus", positive("a modulus in Pa")),
+          in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
+}
+
+Contact read_contact(const Section& in) {
+  return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
+                                    [](double v) { return v > 0 && v <= 1; }}),
+          in.number("friction", not_negative("a friction coefficient")),
+          in.number("rolling_friction", not_negative("a rolling friction coefficient"))};
+}
+
+Dem read_dem(const Section& in) {
+  Dem dem;
+  dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
+  dem.rayleigh_fraction = in.number(
+      "rayleigh_fraction",
+      {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }});
+  dem.settle_time = in.number("settle_time", not_negative("a time in s"));
+  dem.duration = in.number("duration", positive("a time in s"));
+  dem.record_interval = in.number("record_interval",
+                                  {"a time above 0 and not above the duration, " + shown(dem.duration) + " s",
+                                   [&](double v) { return v > 0 && v <= dem.duration; }});
+  dem.seed = in.integer("seed", {"a whole number above 0", [](double v) { return v > 0; }});
+  return dem;
+}
+
+Slurry read_slurry(const Section& in, double radius) {
+  return {in.number("density", positive("a density in kg/m^3")),
+          in.number("plastic_viscosity", positive("a viscosity in Pa s")),
+          in.number("yield_stress", not_negative("a stress in Pa")),
+          in.number("surface_tension", not_negative("a surface tension in N/m"), 0.07),
+          in.number("level", {"a height in m within the radius, " + shown(radius) + " m, of the axis",
+                              [=](double v) { return std::abs(v) <= radius; }})};
+}
+
+Air read_air(const Section& in) {
+  return {in.number("density", positive("a density in kg/m^3"), 1.2),
+          in.number("viscosity", positive("a viscosity in Pa s"), 1.8e-5)};
+}
+
+Resolution read_resolution(const Section& in, const Geometry& geometry) {
+  Resolution resolution;
+  resolution.cell_size =
+      in.number("cell_size", positive_below("a length", geometry.radius(), " m", "the radius"));
+  resolution.layers =
+      in.integer("layers", {"a whole number of layers, 1 or more", [](double v) { return v >= 1; }});
+  const double cells =
+      analytic_section(geometry) / (resolution.cell_size * resolution.cell_size) * resolution.layers;
+  if (cells > most_cells) {
+    in.refuse("cell_size", "a length that gives at most 1e8 cells, not " + shown(cells));
+  }
+  return resolution;
+}
+
+}  // namespace
+
+double critical_speed(const Geometry& geometry) {
+  return std::sqrt(gravity / geometry.radius());
+}
+
+Mill read_mill(const std::filesystem::path& file) {
+  const Section in = Section::open(
+      file, {"title", "geometry", "speed", "charge", "materials", "dem", "slurry", "air", "resolution"});
+  const Section materials = in.section("materials", {"ball", "wall", "ball_ball", "ball_wall"});
+  const Section::Keys material = {"density", "youngs_modulus", "poisson_ratio"};
+  const Section::Keys contact = {"restitution", "friction", "rolling_friction"};
+
+  Mill mill;
+  mill.title = in.text("title", file.stem().string());
+  mill.geometry = read_geometry(in.section("geometry", {"diameter", "length", "ends", "lifters"}));
+  mill.angular_velocity = read_angular_velocity(
+      in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"}), mill.geometry);
+  mill.ball = read_material(materials.section("ball", material));
+  mill.wall = read_material(materials.section("wall", material));
+  mill.ball_ball = read_contact(materials.section("ball_ball", contact));
+  mill.ball_wall = read_contact(materials.section("ball_wall", contact));
+  mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
+                                                  "packing", "start_radius", "start_length"}),
+                            mill.geometry, mill.ball.density);
+  mill.dem = read_dem(in.section(
+      "dem", {"youngs_modulus", "rayleigh_fraction", "settle_time", "duration", "record_interval", "seed"}));
+  mill.slurry = read_slurry(
+      in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"}),
+      mill.geometry.radius());
+  mill.air = in.has("air") ? read_air(in.section("air", {"density", "viscosity"})) : Air{1.2, 1.8e-5};
+  mill.resolution = read_resolution(in.section("resolution", {"cell_size", "layers"}), mill.geometry);
+  return mill;
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace millfoam::meshing {
+
+/// What a number must satisfy, and the same in words for the message ("a length above 0 m").
+struct Rule {
+  std::string expected;
+  std::function<bool(double)> holds;
+};
+
+/// A strict reader of one map of a YAML file. The keys that the map may have are named when it is opened: an
+/// unknown or repeated key is refused at once, so that a misspelt key is named as such and not as a missing
+/// other one. Every refusal is a MillError "file:line: key 'a.b' = value: expected …".
+class Section {
+ public:
+  using Keys = std::vector<std::string>;
+
+  /// Opens the single document of a file, which must be a map with no keys but the `known` ones.
+  static Section open(const std::filesystem::path& file, const Keys& known);
+
+  /// The map under `key`, which must be there.
+  Section section(const std::string& key, const Keys& known) const;
+  /// The maps in the list under `key`, which must be there and have at least one.
+  std::vector<Section> list(const std::string& key, const Keys& known) const;
+
+  bool has(const std::string& key) const;
+  /// The finite number under `key`, which must satisfy the rule.
+  double number(const std::string& key, const Rule& rule) const;
+  /// As above, or `fallback` where the key is not there.
+  double number(const std::string& key, const Rule& rule, double fallback) const;
+  /// The whole number under `key`, in decimal digits.
+  int integer(const std::string& key, const Rule& rule) const;
+  /// The text under `key`, or `fallback` where the key is not there.
+  std::string text(const std::string& key, const std::string& fallback) const;
+  /// The text under `key`, which must be one of the `choices`.
+  std::string choice(const std::string& key, const Keys& choices) const;
+
+  /// Throws the MillError for a key whose value is not what was expected, or which is missing.
+  [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
+
+ private:
+  Section(YAML::Node node, std::string file, std::string path, int line, const Keys& known);
+  void check_keys() const;
+  YAML::Node value(const std::string& key, const std::string& expected) const;
+  YAML::Node find(const std::string& key) const;
+  /// Line of a key in the file, or the section's own where the key is not there.
+  int line_of(const std::string& key) const;
+  std::string path_of(const std::string& key) const;
+  [[noreturn]] void fail(int line, const std::string& message) const;
+
+  YAML::Node node_;
+  std::string file_;
+  std::string path_;  ///< dotted path from the root, empty at the root
+  int line_;          ///< of the section's key, from 1
+  Keys known_;
+};
+
+/// A number as a message shows it: the shortest decimal form that reads back to it within six digits.
+std::string shown(double value);
+
+}  // namespace millfoam::meshing

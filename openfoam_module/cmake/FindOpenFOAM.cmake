@@ -1,0 +1,74 @@
+# Finds an OpenFOAM to compile against and to link with: either one that is sourced in the shell (WM_PROJECT_DIR holds
+# src/ with its lnInclude folders), or the tree that scripts/setup unpacked in build/openfoam, with the distribution's
+# libraries.
+#
+#   OpenFOAM_ROOT_DIR     the source tree
+#   OpenFOAM_API          its version, as 1912
+#   OpenFOAM::OpenFOAM    include folders, definitions and the compile flags that are safe with OpenFOAM's headers
+#   openfoam_link_libraries(<target> finiteVolume meshTools …)   links OpenFOAM's libraries, found by name
+#
+# The flags: OpenFOAM 1912's field operators let the result of `tensorField & tmp<vectorField>` reuse its operand's
+# storage under __restrict__; GCC 12's loop vectoriser then reads what it has overwritten. Every unit that includes
+# OpenFOAM headers is therefore compiled without it.
+
+if(DEFINED ENV{WM_PROJECT_DIR} AND IS_DIRECTORY "$ENV{WM_PROJECT_DIR}/src/OpenFOAM/lnInclude")
+  set(OpenFOAM_ROOT_DIR "$ENV{WM_PROJECT_DIR}")
+elseif(EXISTS "${CMAKE_SOURCE_DIR}/build/openfoam/src/OpenFOAM/lnInclude")
+  set(OpenFOAM_ROOT_DIR "${CMAKE_SOURCE_DIR}/build/openfoam")
+endif()
+
+if(OpenFOAM_ROOT_DIR AND EXISTS "${OpenFOAM_ROOT_DIR}/META-INFO/api-info")
+  file(STRINGS "${OpenFOAM_ROOT_DIR}/META-INFO/api-info" api_line REGEX "^api=")
+  string(REPLACE "api=" "" OpenFOAM_API "${api_line}")
+endif()
+
+find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ENV FOAM_LIBBIN)
+find_library(OpenFOAM_PSTREAM_LIBRARY Pstream HINTS "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" "$ENV{FOAM_LIBBIN}/dummy")
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(
+  OpenFOAM
+  REQUIRED_VARS OpenFOAM_ROOT_DIR OpenFOAM_API OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY
+  VERSION_VAR OpenFOAM_API
+  REASON_FAILURE_MESSAGE "run scripts/setup, which brings the headers, or source an OpenFOAM first")
+
+if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
+  set(src ${OpenFOAM_ROOT_DIR}/src)
+  add_library(OpenFOAM::OpenFOAM INTERFACE IMPORTED)
+  target_include_directories(
+    OpenFOAM::OpenFOAM SYSTEM
+    INTERFACE ${src}/finiteVolume/lnInclude
+              ${src}/meshTools/lnInclude
+              ${src}/sampling/lnInclude
+              ${src}/dynamicMesh/lnInclude
+              ${src}/dynamicFvMesh/lnInclude
+              ${src}/transportModels
+              ${src}/transportModels/incompressible/lnInclude
+              ${src}/transportModels/interfaceProperties/lnInclude
+              ${src}/transportModels/twoPhaseMixture/lnInclude
+              ${src}/transportModels/immiscibleIncompressibleTwoPhaseMixture/lnInclude
+              ${src}/TurbulenceModels/turbulenceModels/lnInclude
+              ${src}/TurbulenceModels/incompressible/lnInclude
+              ${src}/surfMesh/lnInclude
+              ${src}/fileFormats/lnInclude
+              ${src}/OpenFOAM/lnInclude
+              ${src}/OSspecific/POSIX/lnInclude)
+  set(label_size 32)
+  if(DEFINED ENV{WM_LABEL_SIZE})
+    set(label_size $ENV{WM_LABEL_SIZE})
+  endif()
+  target_compile_definitions(OpenFOAM::OpenFOAM INTERFACE OPENFOAM=${OpenFOAM_API} WM_DP WM_LABEL_SIZE=${label_size}
+                                                          WM_ARCH_OPTION=64 NoRepository)
+  # The last -O on the command line counts: this one follows the build type's -O3.
+  target_compile_options(OpenFOAM::OpenFOAM INTERFACE -O2 -fno-tree-loop-vectorize -ftemplate-depth-100)
+  target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
+  target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)
+endif()
+
+function(openfoam_link_libraries target)
+  target_link_libraries(${target} PRIVATE OpenFOAM::OpenFOAM)
+  foreach(name IN LISTS ARGN)
+    find_library(OpenFOAM_${name}_LIBRARY ${name} HINTS ENV FOAM_LIBBIN REQUIRED)
+    target_link_libraries(${target} PRIVATE ${OpenFOAM_${name}_LIBRARY})
+  endforeach()
+endfunction()

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/meshing/test_mill.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+Mill read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_mill(folder.write("mill.yaml", text));
+}
+
+/// The message with which a description is refused; the folder's name is cut off.
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const MillError& error) {
+    const std::string message = error.what();
+    return message.substr(message.find("mill.yaml"));
+  }
+  return "accepted";
+}
+
+std::string refusal(const std::string& from, const std::string& to) {
+  return refusal(with(example_mill, from, to));
+}
+
+TEST(ReadMill, gives_every_number_of_the_file_in_its_place) {
+  const Mill mill = read(example_mill);
+  EXPECT_EQ(mill.title, "example");
+  EXPECT_EQ(mill.geometry.radius(), 0.06);
+  EXPECT_EQ(mill.geometry.length, 0.024);
+  EXPECT_EQ(mill.geometry.ends, Ends::plain);
+  EXPECT_EQ(mill.geometry.lifters.count, 12);
+  EXPECT_EQ(mill.geometry.lifters.height, 0.008);
+  EXPECT_EQ(mill.geometry.lifters.width, 0.006);
+  EXPECT_EQ(mill.ball.density, 2700);
+  EXPECT_EQ(mill.wall.youngs_modulus, 1e9);
+  EXPECT_EQ(mill.wall.poisson_ratio, 0.4);
+  EXPECT_EQ(mill.ball_ball.friction, 0.94);
+  EXPECT_EQ(mill.ball_wall.restitution, 0.703);
+  EXPECT_EQ(mill.ball_wall.rolling_friction, 0.02);
+  EXPECT_EQ(mill.dem.youngs_modulus, 1e7);
+  EXPECT_EQ(mill.dem.rayleigh_fraction, 0.2);
+  EXPECT_EQ(mill.dem.settle_time, 0.25);
+  EXPECT_EQ(mill.dem.duration, 1.6);
+  EXPECT_EQ(mill.dem.record_interval, 0.002);
+  EXPECT_EQ(mill.dem.seed, 20121);
+  EXPECT_EQ(mill.slurry.density, 1239);
+  EXPECT_EQ(mill.slurry.plastic_viscosity, 0.0014);
+  EXPECT_EQ(mill.slurry.yield_stress, 0.16);
+  EXPECT_EQ(mill.slurry.level, -0.012);
+  EXPECT_EQ(mill.resolution.cell_size, 0.003);
+  EXPECT_EQ(mill.resolution.layers, 8);
+}
+
+TEST(ReadMill, fills_in_the_documented_defaults) {
+  const Mill mill = read(with(example_mill, "title: example\n", ""));
+  EXPECT_EQ(mill.title, "mill");
+  EXPECT_EQ(mill.slurry.surface_tension, 0.07);
+  EXPECT_EQ(mill.air.density, 1.2);
+  EXPECT_EQ(mill.air.viscosity, 1.8e-5);
+  EXPECT_DOUBLE_EQ(mill.charge.start_radius, 0.06 - 0.008 - 0.004);
+  EXPECT_DOUBLE_EQ(mill.charge.start_length, 0.98 * 0.024);
+}
+
+TEST(ReadMill, turns_clockwise_with_negative_speed) {
+  const double critical = std::sqrt(9.81 / 0.06);
+  EXPECT_DOUBLE_EQ(read(example_mill).angular_velocity, -0.5 * critical);
+  EXPECT_DOUBLE_EQ(read(with(example_mill, "sense: clockwise", "sense: anticlockwise")).angular_velocity,
+                   0.5 * critical);
+}
+
+TEST(ReadMill, takes_a_signed_angular_velocity_instead_of_a_fraction) {
+  const std::string speed = "fraction_of_critical: 0.5\n  sense: clockwise";
+  EXPECT_EQ(read(with(example_mill, speed, "angular_velocity: -6.4")).angular_velocity, -6.4);
+  EXPECT_EQ(
+      refusal("  sense", "  angular_velocity: 1\n  sense"),
+      "mill.yaml:11: key 'speed.fraction_of_critical' = 0.5: expected either angular_velocity alone, or "
+      "fraction_of_critical and sense");
+}
+
+TEST(ReadMill, scales_the_masses_from_the_reference_length_to_the_mills) {
+  const Mill mill = read(with(example_mill, "  classes", "  reference_length: 0.12\n  classes"));
+  ASSERT_EQ(mill.charge.classes.size(), 2u);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.008);
+  EXPECT_DOUBLE_EQ(mill.charge.classes[0].mass, 0.02 / 5);
+  EXPECT_DOUBLE_EQ(mill.charge.classes[1].mass, 0.03 / 5);
+}
+
+TEST(ReadMill, fills_a_share_of_a_smooth_drum_in_bulk_with_one_size) {
+  std::string text = example_mill.substr(0, example_mill.find("  classes")) +
+                     "  fill: 0.3\n  diameter: 0.005\n  packing: 0.55\n" +
+                     example_mill.substr(example_mill.find("materials"));
+  text = with(text, "count: 12\n    height: 0.008\n    width: 0.006", "count: 0");
+  const Mill mill = read(text);
+  ASSERT_EQ(mill.charge.classes.size(), 1u);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.005);
+  EXPECT_NEAR(mill.charge.classes[0].mass, 0.3 * 0.55 * 2700 * std::acos(-1.0) * 0.06 * 0.06 * 0.024, 1e-15);
+}
+
+TEST(ReadMill, names_a_misspelt_key_and_the_nearest_known_one) {
+  EXPECT_EQ(refusal("count:", "cuont:"),
+            "mill.yaml:7: key 'geometry.lifters.cuont' is unknown: did you mean 'count'? known here: count, "
+            "height, "
+            "width");
+  EXPECT_EQ(refusal("slurry:", "fluid:").substr(0, 60),
+            std::string("mill.yaml:29: key 'fluid' is unknown: known here: title, geometry").substr(0, 60));
+}
+
+TEST(ReadMill, names_a_missing_key_and_its_section) {
+  EXPECT_EQ(refusal("    height: 0.008\n", ""),
+            "mill.yaml:6: key 'geometry.lifters.height' is missing: expected a length above 0 and below the "
+            "radius, "
+            "0.06 m");
+  EXPECT_EQ(refusal("diameter: 0.008, ", ""),
+            "mill.yaml:15: key 'charge.classes[0].diameter' is missing: expected a ball's diameter above 0 "
+            "and below "
+            "the mill's length, 0.024 m");
+}
+
+TEST(ReadMill, refuses_a_lifter_longer_than_the_radius) {
+  EXPECT_EQ(refusal("height: 0.008", "height: 0.07"),
+            "mill.yaml:8: key 'geometry.lifters.height' = 0.07: expected a length above 0 and below the "
+            "radius, 0.06 m");
+}
+
+TEST(ReadMill, refuses_lifters_that_overlap_or_reach_through_the_shell) {
+  // 2 (0.06 - 0.008) tan(15 degrees) = 0.02787; chord of the shell 0.052 from the axis: 0.05987
+  EXPECT_NE(
+      refusal("width: 0.006", "width: 0.028").find("below the pitch of the lifters at their tops, 0.0278"),
+      std::string::npos);
+  EXPECT_EQ(refusal("width: 0.006", "width: 0.0278"), "accepted");
+  EXPECT_NE(refusal(with(with(example_mill, "count: 12", "count: 1"), "width: 0.006", "width: 0.06"))
+                .find("below the shell's chord at the height of the lifters' tops, 0.0598"),
+            std::string::npos);
+}
+
+struct Refused {
+  std::string from;
+  std::string to;
+  std::string message;  ///< what the message must hold
+};
+
+class Refusal : public testing::TestWithParam<Refused> {};
+
+TEST_P(Refusal, names_line_key_value_and_what_was_expected) {
+  const std::string message = refusal(GetParam().from, GetParam().to);
+  EXPECT_NE(message.find(GetParam().message), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfNumbers, Refusal,
+    testing::Values(
+        Refused{"diameter: 0.12", "diameter: -0.12",
+                "mill.yaml:3: key 'geometry.diameter' = -0.12: expected a length"},
+        Refused{"length: 0.024", "length: 0",
+                "mill.yaml:4: key 'geometry.length' = 0: expected a length in m above 0"},
+        Refused{"length: 0.024", "length: .nan", "'geometry.length' = .nan"},
+        Refused{"length: 0.024", "length: inf", "'geometry.length' = inf"},
+        Refused{"length: 0.024", "length: 1e400", "'geometry.length' = 1e400"},
+        Refused{"length: 0.024", "length: 24 mm", "'geometry.length' = 24 mm: expected a length in m"},
+        Refused{"length: 0.024", "length: \"0.024\"", "'geometry.length' = \"0.024\": expected a length"},
+        Refused{"length: 0.024", "length:", "'geometry.length' = (nothing)"},
+        Refused{"length: 0.024", "length: [1, 2]", "'geometry.length' = […]"},
+        Refused{"length: 0.024", "length: 0.005",
+                "mill.yaml:15: key 'charge.classes[0].diameter' = 0.008: expected a "
+                "ball's diameter above 0 and below the mill's length, 0.005 m"},
+        Refused{"ends: plain", "ends: open", "'geometry.ends' = open: expected one of plain, periodic"},
+        Refused{"count: 12", "count: 12.5", "'geometry.lifters.count' = 12.5: expected a whole number"},
+        Refused{"count: 12", "count: -1", "'geometry.lifters.count' = -1"},
+        Refused{"fraction_of_critical: 0.5", "fraction_of_critical: 0", "'speed.fraction_of_critical' = 0"},
+        Refused{"sense: clockwise", "sense: left", "expected one of clockwise, anticlockwise"},
+        Refused{"mass: 0.02", "mass: -0.02",
+                "'charge.classes[0].mass' = -0.02: expected a mass in kg above 0"},
+        Refused{"mass: 0.02", "mass: 2", "'charge.classes' = […]: expected balls that fit"},
+        Refused{"density: 2700", "density: 0", "mill.yaml:18: key 'materials.ball.density' = 0"},
+        Refused{"poisson_ratio: 0.23", "poisson_ratio: 0.5", "'materials.ball.poisson_ratio' = 0.5"},
+        Refused{"poisson_ratio: 0.23", "poisson_ratio: 0", "'materials.ball.poisson_ratio' = 0"},
+        Refused{"restitution: 0.8", "restitution: 1.1", "'materials.ball_ball.restitution' = 1.1"},
+        Refused{"restitution: 0.8", "restitution: 0", "'materials.ball_ball.restitution' = 0"},
+        Refused{"friction: 0.94", "friction: -0.1", "'materials.ball_ball.friction' = -0.1"},
+        Refused{"rayleigh_fraction: 0.2", "rayleigh_fraction: 2", "'dem.rayleigh_fraction' = 2"},
+        Refused{"record_interval: 0.002", "record_interval: 2", "'dem.record_interval' = 2"},
+        Refused{"seed: 20121", "seed: 0", "'dem.seed' = 0"},
+        Refused{"level: -0.012", "level: 0.061",
+                "'slurry.level' = 0.061: expected a height in m within the radius"},
+        Refused{"yield_stress: 0.16", "yield_stress: -1", "'slurry.yield_stress' = -1"},
+        Refused{"cell_size: 0.003", "cell_size: 0.06", "'resolution.cell_size' = 0.06"},
+        Refused{"cell_size: 0.003", "cell_size: 1e-7", "at most 1e8 cells"},
+        Refused{"layers: 8", "layers: 0", "'resolution.layers' = 0"},
+        Refused{"  classes", "  start_radius: 0.053\n  classes", "'charge.start_radius' = 0.053"},
+        Refused{"  classes", "  start_length: 0.03\n  classes", "'charge.start_length' = 0.03"},
+        Refused{"  classes", "  fill: 0.3\n  classes",
+                "'charge.fill' = 0.3: expected either classes, or fill"}));
+
+TEST(ReadMill, refuses_a_repeated_key) {
+  EXPECT_EQ(refusal("    width: 0.006", "    width: 0.006\n    height: 0.007"),
+            "mill.yaml:10: key 'geometry.lifters.height' is given twice: expected it once");
+}
+
+TEST(ReadMill, says_why_a_file_is_no_description) {
+  EXPECT_NE(refusal("ends: plain", "ends: [plain").find("not valid YAML"), std::string::npos);
+  EXPECT_NE(refusal(std::string()).find("mill.yaml:1: the file is empty: expected a mill"),
+            std::string::npos);
+  EXPECT_NE(refusal(std::string("# nothing\n")).find("the file is empty"), std::string::npos);
+  EXPECT_NE(refusal(std::string("- 1\n- 2\n")).find("mill.yaml:1: not a map"), std::string::npos);
+  EXPECT_NE(refusal(example_mill + "---\n" + example_mill).find("holds 2 YAML documents"), std::string::npos);
+  const TemporaryFolder folder;
+  try {
+    read_mill(folder.path() / "none.yaml");
+    FAIL();
+  } catch (const MillError& error) {
+    EXPECT_NE(std::string(error.what()).find("none.yaml: cannot be read"), std::string::npos);
+  }
+  EXPECT_THROW(read_mill(folder.path()), MillError);
+}
+
+TEST(CriticalSpeed, of_the_published_mills) {
+  Geometry geometry;
+  geometry.diameter = 0.12;
+  EXPECT_NEAR(critical_speed(geometry), 12.79, 0.005);
+  geometry.diameter = 0.3;
+  EXPECT_NEAR(critical_speed(geometry), 8.087, 0.0005);
+}
+
+}  // namespace
+}  // namespace millfoam::meshing
