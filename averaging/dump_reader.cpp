@@ -54,7 +54,9 @@ struct Header {
   std::string columns;  ///< names, separated by blanks
 };
 
-bool starts_with(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+bool starts_with(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
 
 /// Reads an item that the particles do not depend on. `title` is what follows "ITEM: ".
 void read_item(TextLines& lines, std::string_view title, Header& header) {
@@ -81,7 +83,8 @@ Header read_header(TextLines& lines) {
     const std::string_view title = line.substr(item.size());
     if (starts_with(title, atoms)) {
       if (!header.step) throw DumpError(lines.place() + "'ITEM: TIMESTEP' is missing before the particles");
-      if (!header.count) throw DumpError(lines.place() + "'ITEM: NUMBER OF ATOMS' is missing before the particles");
+      if (!header.count)
+        throw DumpError(lines.place() + "'ITEM: NUMBER OF ATOMS' is missing before the particles");
       header.columns = title.substr(atoms.size());
       return header;
     }
@@ -89,14 +92,15 @@ Header read_header(TextLines& lines) {
   }
 }
 
-/// For each column of the file, the number of the required column that it is, or -1. Columns after the last required
-/// one are left out.
+/// For each column of the file, the number of the required column that it is, or -1. Columns after the last
+/// required one are left out.
 std::vector<int> match_columns(const std::string& names, const std::string& place) {
   std::vector<int> wanted;
   std::string_view rest = names;
   for (std::string_view name = take_word(rest); !name.empty(); name = take_word(rest)) {
     const auto found = std::find(required_columns.begin(), required_columns.end(), name);
-    wanted.push_back(found == required_columns.end() ? -1 : static_cast<int>(found - required_columns.begin()));
+    wanted.push_back(found == required_columns.end() ? -1
+                                                     : static_cast<int>(found - required_columns.begin()));
   }
   for (std::size_t c = 0; c < required_columns.size(); ++c) {
     const auto times = std::count(wanted.begin(), wanted.end(), static_cast<int>(c));
@@ -137,7 +141,8 @@ Particle read_particle(TextLines& lines, std::string_view line, const std::vecto
   }
   const auto [id, x, y, z, vx, vy, vz, radius] = values;
   if (!(radius > 0)) {
-    throw DumpError(lines.place() + "radius is " + std::to_string(radius) + ", expected a positive length in m");
+    throw DumpError(lines.place() + "radius is " + std::to_string(radius) +
+                    ", expected a positive length in m");
   }
   return {static_cast<long long>(id), {x, y, z}, {vx, vy, vz}, radius};
 }
@@ -145,7 +150,8 @@ Particle read_particle(TextLines& lines, std::string_view line, const std::vecto
 /// A file opened by zlib, which reads plain and gzip alike.
 class InputFile {
  public:
-  explicit InputFile(const std::filesystem::path& file) : name_(file.string()), file_(gzopen(file.c_str(), "rb")) {
+  explicit InputFile(const std::filesystem::path& file)
+      : name_(file.string()), file_(gzopen(file.c_str(), "rb")) {
     if (file_ == nullptr) throw DumpError(name_ + ": cannot open this file");
     gzbuffer(file_, 1U << 17);
   }
@@ -160,9 +166,11 @@ class InputFile {
     const int got = gzread(file_, text.data() + before, most);
     int status = Z_OK;
     const char* const reason = gzerror(file_, &status);
-    // A gzip stream that stops before its end gives its last bytes and only then, as Z_BUF_ERROR, the failure.
+    // A gzip stream that stops before its end gives its last bytes and only then, as Z_BUF_ERROR, the
+    // failure.
     if (got < 0 || status != Z_OK) {
-      throw DumpError(name_ + ": cannot be read to its end (" + reason + "); the dump is truncated or damaged");
+      throw DumpError(name_ + ": cannot be read to its end (" + reason +
+                      "); the dump is truncated or damaged");
     }
     text.resize(before + static_cast<std::size_t>(got));
     return static_cast<unsigned>(got) == most;
@@ -185,15 +193,16 @@ ParticleRecord parse_dump(std::string_view text, const std::string& name) {
   // A row takes 16 bytes at least: a damaged count must not reserve more than the text can hold.
   record.particles.reserve(std::min(static_cast<std::size_t>(*header.count), text.size() / 16 + 1));
   for (long long p = 0; p < *header.count; ++p) {
-    const std::string_view line = next_line(lines, "particle " + std::to_string(p + 1) + " of " +
-                                                       std::to_string(*header.count));
+    const std::string_view line =
+        next_line(lines, "particle " + std::to_string(p + 1) + " of " + std::to_string(*header.count));
     record.particles.push_back(read_particle(lines, line, columns));
   }
   if (!lines.at_end()) {
     const bool second = starts_with(lines.peek(), "ITEM:");
     next_line(lines, "a whole line");
-    throw DumpError(lines.place() + (second ? "a second record begins, expected one record in a file"
-                                            : "more rows than the header's " + std::to_string(*header.count)));
+    throw DumpError(lines.place() + (second
+                                         ? "a second record begins, expected one record in a file"
+                                         : "more rows than the header's " + std::to_string(*header.count)));
   }
   return record;
 }

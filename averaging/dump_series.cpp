@@ -49,7 +49,8 @@ std::vector<DumpFile> find_dumps(const std::string& pattern) {
                                        [](const DumpFile& a, const DumpFile& b) { return a.step == b.step; });
   if (twin != dumps.end()) {
     throw DumpError("'" + twin->path.string() + "' and '" + std::next(twin)->path.string() +
-                    "' are both of time-step " + std::to_string(twin->step) + ", expected one dump of each time");
+                    "' are both of time-step " + std::to_string(twin->step) +
+                    ", expected one dump of each time");
   }
   return dumps;
 }
@@ -75,13 +76,14 @@ double agreed_timestep(std::optional<double> given, const std::optional<RunNotes
   message.precision(12);
   const bool noted = notes && notes->timestep;
   if (!given && !noted) {
-    message << "the DEM time-step is not known: give --dt SECONDS, or a file 'run.txt' with a line 'timestep SECONDS' "
+    message << "the DEM time-step is not known: give --dt SECONDS, or a file 'run.txt' with a line 'timestep "
+               "SECONDS' "
                "beside the dumps";
   } else if (given && !(*given > 0 && std::isfinite(*given))) {
     message << "--dt is " << *given << ", expected a positive time in s";
   } else if (given && noted && std::abs(*given - *notes->timestep) > 1e-9 * *notes->timestep) {
-    message << "--dt is " << *given << " s, but " << notes->file.string() << " says timestep " << *notes->timestep
-            << " s; they must be the same";
+    message << "--dt is " << *given << " s, but " << notes->file.string() << " says timestep "
+            << *notes->timestep << " s; they must be the same";
   } else {
     return noted ? *notes->timestep : *given;
   }

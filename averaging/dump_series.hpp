@@ -14,8 +14,8 @@ struct DumpFile {
   long long step = 0;  ///< DEM time-step in its header
 };
 
-/// The dumps that a pattern matches (glob(3): * ? [ ] and ~), in order of their time-steps, read from their headers.
-/// Throws DumpError when none matches, a header cannot be read, or two have the same time-step.
+/// The dumps that a pattern matches (glob(3): * ? [ ] and ~), in order of their time-steps, read from their
+/// headers. Throws DumpError when none matches, a header cannot be read, or two have the same time-step.
 std::vector<DumpFile> find_dumps(const std::string& pattern);
 
 /// What the DEM driver notes in `run.txt` beside its dumps: lines "key value"; other keys are allowed.
@@ -30,8 +30,8 @@ struct RunNotes {
 std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder);
 
 /// The DEM time-step, s: `given`, or else the notes'.
-/// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when `given` is
-/// not positive.
+/// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when
+/// `given` is not positive.
 double agreed_timestep(std::optional<double> given, const std::optional<RunNotes>& notes);
 
 }  // namespace millfoam::averaging

@@ -137,7 +137,9 @@ void check_window(const BoxGrid& grid, std::size_t number, const SolidsWindow& w
   check_values(grid, "velocity", number, window.velocity, "a finite number",
                [&](std::size_t n) { return std::isfinite(window.velocity[n]); });
   const auto is_diameter = [&](const std::vector<double>& d) {
-    return [&](std::size_t n) { return std::isfinite(d[n]) && (d[n] > 0 || (d[n] == 0 && window.solidity[n] == 0)); };
+    return [&](std::size_t n) {
+      return std::isfinite(d[n]) && (d[n] > 0 || (d[n] == 0 && window.solidity[n] == 0));
+    };
   };
   const char* expected = "a finite number, above 0 where there are solids";
   check_values(grid, "diameter", number, window.diameter, expected, is_diameter(window.diameter));

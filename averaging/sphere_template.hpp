@@ -6,17 +6,17 @@
 
 namespace millfoam::averaging {
 
-/// The points of an n x n x n lattice that lie in the unit sphere; each stands for 1/N of a sphere's volume, N being
-/// their number. The lattice's coordinates along each axis are (2 i + 1)/n - 1, i = 0 ... n-1.
+/// The points of an n x n x n lattice that lie in the unit sphere; each stands for 1/N of a sphere's volume,
+/// N being their number. The lattice's coordinates along each axis are (2 i + 1)/n - 1, i = 0 ... n-1.
 ///
-/// Shared between voxels, a sphere's volume is kept exactly; its places are known to the lattice's spacing. The share
-/// below a plane across an axis is wrong by up to half of the points of the layer that the plane meets, 3/(4n) of the
-/// sphere's volume in the limit of large n, with no bias over positions:
+/// Shared between voxels, a sphere's volume is kept exactly; its places are known to the lattice's spacing.
+/// The share below a plane across an axis is wrong by up to half of the points of the layer that the plane
+/// meets, 3/(4n) of the sphere's volume in the limit of large n, with no bias over positions:
 ///
 ///     n                                        6      8     12     16     24
 ///     N                                      136    280    912   2176   7208
-///     largest error of the share, %          11.8   10.0   6.1   4.6    3.1
-///     root mean square over positions, %      4.9    3.7   2.4   1.8    1.2
+///     largest error of the share, %         12.4    9.3    6.2    4.9    3.1
+///     root mean square over positions, %     5.3    4.0    2.6    2.0    1.3
 ///
 /// Source: Malahe 2012 (template spheres for averaging DEM onto a grid).
 class SphereTemplate {

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double smallest_modulus = 5e6;
-constexpr char contact_model[] = "gran model hertz tangential history rolling_friction epsd2";
+// Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
+// to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
+constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
 /// LIGGGHTS wants a different prime above 10000 for every random stream.
 class Primes {
@@ -44,12 +46,13 @@ void write_box(std::ostream& out, const meshing::Mill& mill, RankGrid ranks) {
   // The box ends just outside the shell, so that a ball that went through a wall is soon missed and reported.
   const double margin = 0.02 * mill.geometry.diameter;
   const double half = mill.geometry.radius() + margin;
-  const double z_margin = is_periodic(mill) ? 0 : margin;
+  const double z0 = is_periodic(mill) ? 0 : -margin;
+  const double z1 = mill.geometry.length - z0;
   out << "units si\natom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
       << "processors " << ranks.x << ' ' << ranks.y << " 1\n"
       << "boundary f f " << (is_periodic(mill) ? 'p' : 'f') << '\n'
-      << "region box block " << -half << ' ' << half << ' ' << -half << ' ' << half << ' ' << -z_margin << ' '
-      << mill.geometry.length + z_margin << " units box\n"
+      << "region box block " << -half << ' ' << half << ' ' << -half << ' ' << half << ' ' << z0 << ' ' << z1
+      << " units box\n"
       << "create_box 2 box\n";
 }
 

@@ -34,14 +34,16 @@ struct SizeClass {
   double mass = 0;      ///< kg of this class in this mill (a slice: in the slice)
 };
 
-/// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are released.
+/// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are
+/// released.
 struct Charge {
   std::vector<SizeClass> classes;
   double start_radius = 0;  ///< m
   double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
 };
 
-/// Elastic solid. The modulus used by the simulation may be softer than the real one; see `Dem::youngs_modulus`.
+/// Elastic solid. The modulus used by the simulation may be softer than the real one; see
+/// `Dem::youngs_modulus`.
 struct Material {
   double density = 0;         ///< kg/m^3
   double youngs_modulus = 0;  ///< Pa, real
@@ -90,7 +92,8 @@ struct Resolution {
 struct Mill {
   std::string title;
   Geometry geometry;
-  double angular_velocity = 0;  ///< rad/s, right-handed about +z: negative turns clockwise with x right and y up
+  double angular_velocity =
+      0;  ///< rad/s, right-handed about +z: negative turns clockwise with x right and y up
   Charge charge;
   Material ball;
   Material wall;
@@ -114,8 +117,8 @@ class MillError : public std::runtime_error {
 };
 
 /// Reads and checks a mill description. Every key is documented in meshing/README.md.
-/// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or one that
-/// is impossible (negative size, lifter longer than the radius, …).
+/// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or
+/// one that is impossible (negative size, lifter longer than the radius, …).
 Mill read_mill(const std::filesystem::path& file);
 
 }  // namespace millfoam::meshing

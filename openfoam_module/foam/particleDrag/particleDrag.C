@@ -25,27 +25,15 @@ namespace fv
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-template<class Type>
-Foam::tmp<Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>>
-Foam::fv::particleDrag::solidsField
-(
-    const word& name,
-    const dimensionSet& dims
-) const
+Foam::IOobject Foam::fv::particleDrag::fieldIO(const word& name) const
 {
-    return tmp<GeometricField<Type, fvPatchField, volMesh>>::New
+    return IOobject
     (
-        IOobject
-        (
-            name,
-            mesh_.time().timeName(),
-            mesh_,
-            IOobject::NO_READ,
-            IOobject::AUTO_WRITE
-        ),
+        name,
+        mesh_.time().timeName(),
         mesh_,
-        dimensioned<Type>(dims, Zero),
-        extrapolatedCalculatedFvPatchScalarField::typeName
+        IOobject::NO_READ,
+        IOobject::AUTO_WRITE
     );
 }
 
@@ -179,9 +167,27 @@ Foam::fv::particleDrag::particleDrag
     slurry_(),
     air_(),
     multiplier_(1),
-    solidity_(solidsField<scalar>("solidity", dimless)),
-    velocity_(solidsField<vector>("solidsVelocity", dimVelocity)),
-    diameter_(solidsField<scalar>("solidsDiameter", dimLength)),
+    solidity_
+    (
+        fieldIO("solidity"),
+        mesh,
+        dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
+    velocity_
+    (
+        fieldIO("solidsVelocity"),
+        mesh,
+        dimensionedVector(dimVelocity, Zero),
+        extrapolatedCalculatedFvPatchVectorField::typeName
+    ),
+    diameter_
+    (
+        fieldIO("solidsDiameter"),
+        mesh,
+        dimensionedScalar(dimLength, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    ),
     sampledIndex_(-1)
 {
     fieldNames_.setSize(1, coeffs_.lookupOrDefault<word>("U", "U"));
@@ -190,9 +196,9 @@ Foam::fv::particleDrag::particleDrag
     read(dict);
     source_ = solidsSource::New(coeffs_, mesh.time());
 
-    Info<< "    drag law " << std::string(law_->name) << " ("
-        << std::string(law_->reference) << "), " << source_->description()
-        << endl;
+    Info<< "    drag law " << word(std::string(law_->name), false) << " ("
+        << std::string(law_->reference).c_str() << "), "
+        << source_->description().c_str() << endl;
 
     const label uncovered = sampleSolids();
     if (uncovered)

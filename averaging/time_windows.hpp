@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace millfoam::averaging {
+
+/// Windows that cannot be cut; the message names the times.
+class WindowError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// How a run is to be cut into windows. Times are rounded to whole time-steps.
+struct WindowRequest {
+  double timestep = 0;                ///< of the DEM run, s
+  std::optional<long long> interval;  ///< time-steps between records; unless known, the smallest between two
+  std::optional<double> length;       ///< s; unless given, one window over the whole run
+  std::optional<double> start;        ///< DEM time, s; unless given, that of the first record
+  std::optional<double> end;          ///< DEM time, s, not included; unless given, all records are used
+};
+
+/// One window [begin, end) in time-steps and the records in it, as numbers into the list of records.
+struct WindowSpan {
+  long long begin = 0;
+  long long end = 0;
+  std::size_t first_record = 0;
+  std::size_t records = 0;
+};
+
+/// A run cut into windows.
+struct WindowPlan {
+  std::vector<WindowSpan> windows;
+  std::vector<std::string> notes;  ///< sentences about records left out and windows not full
+};
+
+/// Cuts records into the windows [start + w T, start + (w+1) T) by whole time-steps, so that no record
+/// changes window by rounding of times.
+///
+/// A window that the records do not fill is kept, with a note. Only a last one that holds nothing but the
+/// record at its very beginning is left out, with a note: that record closes the window before. A whole run
+/// ends one record interval after its last record, since each record stands for one interval.
+///
+/// @param steps  time-steps of the records, rising
+/// Throws WindowError for a length shorter than the record interval, times that are not finite or an end that
+/// is not after the start, no record in the range, or a window without a record.
+WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request);
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "meshing/mill.hpp"
+
+namespace millfoam::meshing {
+
+/// Quadrilaterals that fill the mill's cross-section at DEM time 0, the lifters left out.
+///
+/// Three blocks, from the axis outwards: a square core with bulging sides; a ring of cells from the core to
+/// the lifters' tops (an O-grid: the core's corners are its four irregular points); and between each two
+/// lifters a block up to the shell whose outer lines end at the lifters' sides. A smooth drum has no such
+/// blocks: its ring ends at the shell.
+struct CrossSection {
+  enum class Part { shell, lifters };
+  /// A side of one quadrilateral that lies on a wall; the interior is to the left of the way from the first
+  /// point to the second.
+  struct WallEdge {
+    std::array<int, 2> points;
+    Part part;
+  };
+
+  std::vector<Eigen::Vector2d> points;    ///< m; those on the shell lie on its circle
+  std::vector<std::array<int, 4>> quads;  ///< anticlockwise
+  std::vector<WallEdge> walls;
+};
+
+/// How many cells each block has along its sides.
+struct Divisions {
+  int lifter = 0;  ///< along a lifter's top; 0 for a smooth drum
+  int gap = 0;     ///< along the shell between two lifters; 0 for a smooth drum
+  int height = 0;  ///< along a lifter's side; 0 for a smooth drum
+  int core = 0;    ///< along a side of the core: a quarter of the perimeter
+  int ring = 0;    ///< between the core and the lifters' tops
+};
+
+/// Divisions whose cells are about `cell_size` (m) wide on the lifters and the shell. The perimeter is a
+/// multiple of four, as the core needs, and no cell spans more than a fortieth of the shell, so that the
+/// facets of the shell stay within 0.42 % of the circle's area.
+Divisions choose_divisions(const Geometry& geometry, double cell_size);
+
+/// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure).
+CrossSection make_cross_section(const Geometry& geometry, double cell_size);
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mesh_quality.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace millfoam::meshing {
+namespace {
+
+using Eigen::Vector3d;
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+void measure_face(const VolumeMesh& mesh, const Quad& face, MeshMeasures& measures) {
+  Vector3d middle = Vector3d::Zero();
+  for (int p : face) middle += mesh.points[index(p)] / 4;
+  Vector3d area = Vector3d::Zero();
+  std::array<Vector3d, 4> triangles;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3d& a = mesh.points[index(face[i])];
+    const Vector3d& b = mesh.points[index(face[(i + 1) % 4])];
+    triangles[i] = (a - middle).cross(b - middle) / 2;
+    area += triangles[i];
+  }
+  Vector3d moment = Vector3d::Zero();
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double share = triangles[i].dot(area.normalized());
+    moment += share * (mesh.points[index(face[i])] + mesh.points[index(face[(i + 1) % 4])] + middle) / 3;
+    sum += share;
+  }
+  measures.face_area.push_back(area);
+  measures.face_centre.push_back(moment / sum);
+}
+
+/// Calls visit(cell, face, sign) for both sides of each face; sign is +1 where the normal points out of the
+/// cell.
+template <typename Visit>
+void for_each_side(const VolumeMesh& mesh, const Visit& visit) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    visit(index(mesh.owner[f]), f, 1.0);
+    if (f < mesh.neighbour.size()) visit(index(mesh.neighbour[f]), f, -1.0);
+  }
+}
+
+/// Half the extent of a face in a direction, and at least a share of the distance between the centres.
+double half_width(const VolumeMesh& mesh, std::size_t f, const Vector3d& centre, const Vector3d& direction,
+                  double least) {
+  double width = least;
+  for (int p : mesh.faces[f])
+    width = std::max(width, std::abs(direction.dot(mesh.points[index(p)] - centre)));
+  return width;
+}
+
+/// Where `line`, from the cell's centre, meets the face, against the face's centre.
+double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, const Vector3d& line,
+                double share) {
+  const Vector3d to_face = m.face_centre[f] - m.cell_centre[index(mesh.owner[f])];
+  const Vector3d miss = to_face - m.face_area[f].dot(to_face) / m.face_area[f].dot(line) * line;
+  const Vector3d direction = miss / (miss.norm() + std::numeric_limits<double>::min());
+  return miss.norm() / half_width(mesh, f, m.face_centre[f], direction, share * line.norm());
+}
+
+std::string sentence(const char* what, double value, double limit, const char* unit) {
+  std::ostringstream text;
+  text << "the mesh's " << what << " is " << value << unit << ", above the allowed " << limit << unit
+       << ": choose another resolution.cell_size, or lifters that are less high or less wide";
+  return text.str();
+}
+
+}  // namespace
+
+MeshMeasures measure(const VolumeMesh& mesh) {
+  MeshMeasures m;
+  for (const Quad& face : mesh.faces) measure_face(mesh, face, m);
+  const std::size_t cells = index(mesh.cells);
+  std::vector<Vector3d> middle(cells, Vector3d::Zero());
+  std::vector<int> faces(cells, 0);
+  for_each_side(mesh, [&](std::size_t c, std::size_t f, double) {
+    middle[c] += m.face_centre[f];
+    ++faces[c];
+  });
+  for (std::size_t c = 0; c < cells; ++c) middle[c] /= faces[c];
+  m.cell_volume.assign(cells, 0);
+  m.cell_centre.assign(cells, Vector3d::Zero());
+  for_each_side(mesh, [&](std::size_t c, std::size_t f, double sign) {
+    const double pyramid = sign * m.face_area[f].dot(m.face_centre[f] - middle[c]) / 3;
+    m.cell_volume[c] += pyramid;
+    m.cell_centre[c] += pyramid * (0.75 * m.face_centre[f] + 0.25 * middle[c]);
+  });
+  for (std::size_t c = 0; c < cells; ++c) m.cell_centre[c] /= m.cell_volume[c];
+  return m;
+}
+
+MeshQuality quality(const VolumeMesh& mesh) {
+  const MeshMeasures m = measure(mesh);
+  MeshQuality q;
+  q.smallest_cell = *std::min_element(m.cell_volume.begin(), m.cell_volume.end());
+  for (double volume : m.cell_volume) q.volume += volume;
+  q.smallest_edge = std::numeric_limits<double>::max();
+  double smallest_cosine = 1;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Quad& face = mesh.faces[f];
+      const double edge = (mesh.points[index(face[i])] - mesh.points[index(face[(i + 1) % 4])]).norm();
+      q.smallest_edge = std::min(q.smallest_edge, edge);
+      q.largest_edge = std::max(q.largest_edge, edge);
+    }
+    const Vector3d& centre = m.cell_centre[index(mesh.owner[f])];
+    const Vector3d normal = m.face_area[f].normalized();
+    if (f < mesh.neighbour.size()) {
+      const Vector3d line = m.cell_centre[index(mesh.neighbour[f])] - centre;
+      smallest_cosine = std::min(smallest_cosine, line.normalized().dot(normal));
+      q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.2));
+    } else {
+      const Vector3d line = normal * normal.dot(m.face_centre[f] - centre);
+      q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.4));
+    }
+  }
+  q.max_non_orthogonality = std::acos(smallest_cosine) * 180 / std::acos(-1.0);
+  return q;
+}
+
+void require_quality(const MeshQuality& q, double analytic_volume) {
+  if (!(q.smallest_cell > 0))
+    throw std::runtime_error(sentence("smallest cell turned inside out by", -q.smallest_cell, 0, " m^3"));
+  if (!(q.max_non_orthogonality <= allowed_non_orthogonality)) {
+    throw std::runtime_error(sentence("largest non-orthogonality", q.max_non_orthogonality,
+                                      allowed_non_orthogonality, " degrees"));
+  }
+  if (!(q.max_skewness <= allowed_skewness)) {
+    throw std::runtime_error(sentence("largest skewness", q.max_skewness, allowed_skewness, ""));
+  }
+  const double error = std::abs(q.volume / analytic_volume - 1);
+  if (!(error <= allowed_volume_error)) {
+    throw std::runtime_error(sentence("relative error in volume", error, allowed_volume_error, ""));
+  }
+}
+
+}  // namespace millfoam::meshing

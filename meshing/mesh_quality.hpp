@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "meshing/volume_mesh.hpp"
+
+namespace millfoam::meshing {
+
+/// Area vectors and centroids of the faces, volumes and centroids of the cells, as OpenFOAM computes them:
+/// faces from triangles about the mean of their points, cells from pyramids about the mean of their faces'
+/// centroids.
+struct MeshMeasures {
+  std::vector<Eigen::Vector3d> face_area;    ///< m^2, along the face's normal
+  std::vector<Eigen::Vector3d> face_centre;  ///< m
+  std::vector<double> cell_volume;           ///< m^3, negative for a cell turned inside out
+  std::vector<Eigen::Vector3d> cell_centre;  ///< m
+};
+MeshMeasures measure(const VolumeMesh& mesh);
+
+/// What a flow solver asks of a mesh, with OpenFOAM's definitions (primitiveMeshTools in its source).
+struct MeshQuality {
+  double volume = 0;         ///< of all cells, m^3
+  double smallest_cell = 0;  ///< volume, m^3
+  double smallest_edge = 0;  ///< m
+  double largest_edge = 0;   ///< m
+  double max_non_orthogonality =
+      0;                    ///< degrees between a face's normal and the line between its two cells' centres
+  double max_skewness = 0;  ///< distance of that line from the face's centre over the face's half-width
+};
+MeshQuality quality(const VolumeMesh& mesh);
+
+/// Largest values that a mill's mesh may have.
+inline constexpr double allowed_non_orthogonality = 50;  // degrees
+inline constexpr double allowed_skewness = 1.5;
+inline constexpr double allowed_volume_error = 0.005;  // relative to the closed form
+
+/// Throws std::runtime_error with the value and the limit for a mesh that is no good; `analytic_volume` in
+/// m^3.
+void require_quality(const MeshQuality& quality, double analytic_volume);
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "meshing/cross_section.hpp"
+
+namespace millfoam::meshing {
+
+/// The O-grid inside a closed ring of points about the axis. The core's corners lie at 0.75 of the ring's
+/// smallest radius and its sides are arcs that turn by 30 degrees, so that each corner has 120 degrees, like
+/// the two cells of the ring that meet there. Points inside the core are a Coons patch of its sides, those of
+/// the ring lie on straight lines (W. J. Gordon and C. A. Hall, Int. J. Numer. Methods Eng. 7, 461 (1973)).
+
+/// Layers of cells between core and ring that make them about as thick as they are wide. `radius` is the
+/// ring's smallest, m, `side` the number of cells along a side of the core.
+int ring_layers(double radius, int side);
+
+/// Adds core and ring to a section. `rim` are the indices of the ring's points, anticlockwise, four times
+/// `divisions.core` of them; the first corner of the core is opposite `rim[first_corner]`.
+void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner,
+                const Divisions& divisions);
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/openfoam_files.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "meshing/output_file.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_header(std::ostream& out, const std::string& type, const std::string& location,
+                  const std::string& object, const std::string& note = "") {
+  out << "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       " << type << ";\n";
+  if (!note.empty()) out << "    note        \"" << note << "\";\n";
+  out << "    location    \"" << location << "\";\n    object      " << object << ";\n}\n\n";
+}
+
+/// A list in OpenFOAM's notation, one item a line.
+template <typename List, typename WriteItem>
+void write_list(std::ostream& out, const List& list, const WriteItem& write_item) {
+  out << list.size() << "\n(\n";
+  for (const auto& item : list) {
+    write_item(item);
+    out << '\n';
+  }
+  out << ")\n";
+}
+
+void write_labels(const fs::path& folder, const std::string& object, const std::vector<int>& labels,
+                  const std::string& note) {
+  write_file(folder / object, [&](std::ostream& out) {
+    write_header(out, "labelList", "constant/polyMesh", object, note);
+    write_list(out, labels, [&](int label) { out << label; });
+  });
+}
+
+/// First point of a patch's first face.
+const Eigen::Vector3d& first_point(const VolumeMesh& mesh, const Patch& patch) {
+  const Quad& face = mesh.faces[static_cast<std::size_t>(patch.start)];
+  return mesh.points[static_cast<std::size_t>(face[0])];
+}
+
+void write_patch(std::ostream& out, const VolumeMesh& mesh, const Patch& patch) {
+  out << "    " << patch.name << "\n    {\n";
+  if (patch.neighbour.empty()) {
+    out << "        type            wall;\n        inGroups        1(wall);\n";
+  } else {
+    const auto other = std::find_if(mesh.patches.begin(), mesh.patches.end(),
+                                    [&](const Patch& p) { return p.name == patch.neighbour; });
+    const double separation = first_point(mesh, *other).z() - first_point(mesh, patch).z();
+    out << "        type            cyclic;\n        inGroups        1(cyclic);\n        neighbourPatch  "
+        << patch.neighbour << ";\n        transform       translational;\n        separationVector (0 0 "
+        << exact(separation) << ");\n        matchTolerance  0.0001;\n";
+  }
+  out << "        nFaces          " << patch.size << ";\n        startFace       " << patch.start
+      << ";\n    }";
+}
+
+}  // namespace
+
+void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
+  const fs::path whole = case_folder / "constant" / "polyMesh";
+  const fs::path partial = whole.string() + ".partial";
+  fs::remove_all(partial);
+  write_file(partial / "points", [&](std::ostream& out) {
+    write_header(out, "vectorField", "constant/polyMesh", "points");
+    write_list(out, mesh.points, [&](const Eigen::Vector3d& point) { out << '(' << exact(point) << ')'; });
+  });
+  write_file(partial / "faces", [&](std::ostream& out) {
+    write_header(out, "faceList", "constant/polyMesh", "faces");
+    write_list(out, mesh.faces, [&](const Quad& face) {
+      out << "4(" << face[0] << ' ' << face[1] << ' ' << face[2] << ' ' << face[3] << ')';
+    });
+  });
+  const std::string note = "nPoints:" + std::to_string(mesh.points.size()) +
+                           " nCells:" + std::to_string(mesh.cells) +
+                           " nFaces:" + std::to_string(mesh.faces.size()) +
+                           " nInternalFaces:" + std::to_string(mesh.neighbour.size());
+  write_labels(partial, "owner", mesh.owner, note);
+  write_labels(partial, "neighbour", mesh.neighbour, note);
+  write_file(partial / "boundary", [&](std::ostream& out) {
+    write_header(out, "polyBoundaryMesh", "constant/polyMesh", "boundary");
+    write_list(out, mesh.patches, [&](const Patch& patch) { write_patch(out, mesh, patch); });
+  });
+  fs::remove_all(whole);
+  fs::rename(partial, whole);
+}
+
+void write_mill_properties(const Mill& mill, double time, const fs::path& case_folder) {
+  write_file(case_folder / "constant" / "millProperties", [&](std::ostream& out) {
+    write_header(out, "dictionary", "constant", "millProperties");
+    const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
+    number("radius", mill.geometry.radius());
+    number("length", mill.geometry.length);
+    number("lifterHeight", mill.geometry.lifters.height);
+    out << "endsType " << (mill.geometry.ends == Ends::plain ? "plain" : "periodic") << ";\n";
+    number("omega", mill.angular_velocity);
+    number("time0", time);
+    number("slurryDensity", mill.slurry.density);
+    number("slurryViscosity", mill.slurry.plastic_viscosity);
+    number("slurryKinematicViscosity", mill.slurry.plastic_viscosity / mill.slurry.density);
+    number("yieldStress", mill.slurry.yield_stress);
+    number("surfaceTension", mill.slurry.surface_tension);
+    number("slurryLevel", mill.slurry.level);
+    number("airDensity", mill.air.density);
+    number("airViscosity", mill.air.viscosity);
+    number("airKinematicViscosity", mill.air.viscosity / mill.air.density);
+  });
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace millfoam::meshing {
+
+/// Four point indices; the normal is right-handed about their order.
+using Quad = std::array<int, 4>;
+
+/// Faces at the mesh's boundary, one after the other.
+struct Patch {
+  std::string name;
+  int start = 0;          ///< index of the first face
+  int size = 0;           ///< number of faces, which may be 0
+  std::string neighbour;  ///< name of the patch that this one is joined to periodically; empty for a wall
+};
+
+/// Cells bounded by quadrilateral faces, in the order that OpenFOAM asks for: first the faces between two
+/// cells, sorted by owner and then by neighbour, with owner < neighbour; then the patches' faces. A face's
+/// normal points out of its owner. In a pair of periodic patches face i matches face i, and their first
+/// points match.
+struct VolumeMesh {
+  std::vector<Eigen::Vector3d> points;  ///< m
+  std::vector<Quad> faces;
+  std::vector<int> owner;      ///< of each face
+  std::vector<int> neighbour;  ///< of each face between two cells
+  std::vector<Patch> patches;
+  int cells = 0;
+};
+
+/// The same mesh turned by `angle` (rad, right-handed) about the z axis.
+VolumeMesh turned(VolumeMesh mesh, double angle);
+
+}  // namespace millfoam::meshing

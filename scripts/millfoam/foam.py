@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads OpenFOAM cases written in ASCII: fields, meshes, times."""
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+class FoamError(RuntimeError):
+    """A case that cannot be read; the message names the file and the reason."""
+
+
+def times(case):
+    """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out."""
+    found = []
+    for entry in Path(case).iterdir():
+        if entry.is_dir() and re.fullmatch(r"\d+(\.\d+)?(e-?\d+)?", entry.name):
+            found.append((float(entry.name), entry))
+    return sorted(found)
+
+
+def _body(path):
+    path = Path(path)
+    if not path.is_file():
+        raise FoamError(f"{path}: no such file")
+    text = path.read_text()
+    if re.search(r"format\s+binary", text[:2000]):
+        raise FoamError(f"{path}: binary; expected writeFormat ascii")
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+
+
+def _numbers(text):
+    return np.array(text.replace("(", " ").replace(")", " ").split(), dtype=float)
+
+
+def read_field(path, cells=None):
+    """Internal field of a vol*Field: array [cells] or [cells, components].
+
+    A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
+    text = _body(path)
+    uniform = re.search(r"internalField\s+uniform\s+([^;]+);", text)
+    if uniform:
+        value = _numbers(uniform.group(1))
+        if cells is None:
+            raise FoamError(f"{path}: uniform; the number of cells is needed")
+        field = np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
+    else:
+        head = re.search(r"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(", text)
+        if not head:
+            raise FoamError(f"{path}: no internalField was found")
+        count = int(head.group(2))
+        end = text.index(";", head.end())
+        values = _numbers(text[head.end():end])
+        if count == 0 or len(values) % count:
+            raise FoamError(f"{path}: {len(values)} numbers for {count} cells; the file is cut short")
+        field = values if len(values) == count else values.reshape(count, -1)
+    if not np.all(np.isfinite(field)):
+        raise FoamError(f"{path}: a value is not finite")
+    return field
+
+
+def _list(path):
+    """Text between the outer brackets of a mesh file, and the count before it."""
+    text = _body(path)
+    text = text[text.index("}") + 1:]
+    head = re.search(r"(\d+)\s*\(", text)
+    if not head:
+        raise FoamError(f"{path}: no list was found")
+    return int(head.group(1)), text[head.end():text.rindex(")")]
+
+
+@dataclass
+class Patch:
+    """A boundary patch: its faces are [start, start + size)."""
+    start: int
+    size: int
+
+
+@dataclass
+class Mesh:
+    """A polyMesh: points [n, 3] in m, faces as lists of point numbers, owner [faces], neighbour [internal faces]."""
+    points: np.ndarray
+    faces: list
+    owner: np.ndarray
+    neighbour: np.ndarray
+    patches: dict
+
+    @property
+    def cells(self):
+        return int(self.owner.max()) + 1
+
+    def centres_and_volumes(self):
+        """Cell centres [cells, 3] (m) and volumes [cells] (m^3), by the pyramids over each cell's faces."""
+        centre, area = zip(*(self._face_geometry(face) for face in self.faces))
+        centre, area = np.array(centre), np.array(area)
+        estimate = np.zeros((self.cells, 3))
+        count = np.zeros(self.cells)
+        sides = [(self.owner, 1.0, slice(None)), (self.neighbour, -1.0, slice(len(self.neighbour)))]
+        for cell, _, faces in sides:
+            np.add.at(estimate, cell, centre[faces])
+            np.add.at(count, cell, 1)
+        estimate /= count[:, None]
+        volume = np.zeros(self.cells)
+        moment = np.zeros((self.cells, 3))
+        for cell, sign, faces in sides:
+            pyramid = sign * np.einsum("ij,ij->i", area[faces], centre[faces] - estimate[cell]) / 3
+            np.add.at(volume, cell, pyramid)
+            np.add.at(moment, cell, pyramid[:, None] * (0.75 * centre[faces] + 0.25 * estimate[cell]))
+        return moment / volume[:, None], volume
+
+    def _face_geometry(self, face):
+        corner = self.points[face]
+        middle = corner.mean(axis=0)
+        after = np.roll(corner, -1, axis=0)
+        normal = np.cross(corner - middle, after - middle) / 2
+        third = (corner + after + middle) / 3
+        size = np.linalg.norm(normal, axis=1)
+        return (third * size[:, None]).sum(axis=0) / size.sum(), normal.sum(axis=0)
+
+
+def read_mesh(case, time=None):
+    """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
+    folder = Path(case) / "constant" / "polyMesh"
+    moved = Path(time) / "polyMesh" / "points" if time else None
+    count, text = _list(moved if moved and moved.is_file() else folder / "points")
+    points = _numbers(text).reshape(count, 3)
+    count, text = _list(folder / "faces")
+    faces = [np.array(found.split(), dtype=int) for found in re.findall(r"\d+\(([\d\s]*)\)", text)]
+    if len(faces) != count:
+        raise FoamError(f"{folder / 'faces'}: {len(faces)} faces for a count of {count}")
+    owner = _numbers(_list(folder / "owner")[1]).astype(int)
+    neighbour = _numbers(_list(folder / "neighbour")[1]).astype(int)
+    return Mesh(points, faces, owner, neighbour, read_patches(folder / "boundary"))
+
+
+def read_patches(path):
+    """Patches of a polyMesh/boundary file: name -> Patch."""
+    text = _body(path)
+    patches = {}
+    for name, entries in re.findall(r"(\w+)\s*\{([^{}]*startFace[^{}]*)\}", text):
+        start = int(re.search(r"startFace\s+(\d+)", entries).group(1))
+        size = int(re.search(r"nFaces\s+(\d+)", entries).group(1))
+        patches[name] = Patch(start, size)
+    return patches
+
+
+def read_dictionary(path):
+    """Flat `key value;` entries of a dictionary file: name -> text; sub-dictionaries are left out."""
+    text = re.sub(r"FoamFile\s*\{[^}]*\}", "", _body(path))
+    return dict(re.findall(r"^\s*(\w+)\s+([^;{}]+);", text, flags=re.M))

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the slurry/air flow of a mill case: fields averaged over the axis, in the lab frame.
+
+The mesh is a cross-section extruded along the axis and turns rigidly, so that cells stand in columns and a column's
+place at any time follows from its place at the start."""
+from pathlib import Path
+
+import numpy as np
+from matplotlib.path import Path as Outline
+from scipy.spatial import cKDTree
+
+from . import foam
+
+
+class MillFlow:
+    """The flow in case directory `case`; `frames` are its written times [(s, Path)], the initial one included."""
+
+    def __init__(self, case):
+        self.case = Path(case)
+        properties = foam.read_dictionary(self.case / "constant" / "millProperties")
+        self.omega = float(properties["omega"])
+        self.radius = float(properties["radius"])
+        self.time0 = float(properties["time0"])
+        self.density = float(properties["slurryDensity"])
+        self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
+        if len(self.frames) < 2:
+            raise RuntimeError(f"{self.case}: no flow was written; is log.flow complete?")
+        self.mesh = foam.read_mesh(self.case)
+        self.centres, self.volumes = self.mesh.centres_and_volumes()
+        _, first, self.column = np.unique(np.round(self.centres[:, :2] / self.radius, 6), axis=0, return_index=True,
+                                          return_inverse=True)
+        self.column_centres = self.centres[first, :2]
+        self.column_volume = np.bincount(self.column, self.volumes)
+        self._tree = cKDTree(self.column_centres)
+
+    def turned(self, points, time):
+        """x-y points [n, 2] of the mesh at flow time 0, where they are at `time`."""
+        c, s = np.cos(self.omega * time), np.sin(self.omega * time)
+        return points @ np.array([[c, s], [-s, c]])
+
+    def field(self, name, path):
+        """A field of a written time as [cells] or [cells, components]."""
+        return foam.read_field(path / name, self.mesh.cells)
+
+    def over_axis(self, values, weights=1.0):
+        """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these vanish."""
+        weight = self.volumes * weights
+        total = np.bincount(self.column, weight)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total, np.nan)
+
+    def end_wall(self):
+        """Quads of the feed end: [faces, 4, 2] (m) at flow time 0, and each one's column [faces]."""
+        patch = self.mesh.patches["feedEnd"]
+        faces = np.array(self.mesh.faces[patch.start:patch.start + patch.size])
+        quads = self.mesh.points[faces][:, :, :2]
+        return quads, self.column[self.mesh.owner[patch.start:patch.start + patch.size]]
+
+    def outline(self):
+        """The mill's inner outline, shell and lifters, as a closed polygon [n + 1, 2] (m) at flow time 0."""
+        patch = self.mesh.patches["feedEnd"]
+        following = {}
+        edges = [(face[i], face[(i + 1) % 4]) for face in self.mesh.faces[patch.start:patch.start + patch.size]
+                 for i in range(4)]
+        inner = {(b, a) for a, b in edges}
+        for a, b in edges:
+            if (a, b) not in inner:
+                following[a] = b
+        loop = [next(iter(following))]
+        while len(loop) <= len(following):
+            loop.append(following[loop[-1]])
+        return self.mesh.points[loop][:, :2]
+
+    def on_grid(self, column_values, time, x, y):
+        """Column values [columns] at pixels x [nx], y [ny] (m, lab frame) at `time`: [ny, nx], NaN outside the mill."""
+        pixels = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        back = self.turned(pixels, -time)
+        inside = Outline(self.outline()).contains_points(back)
+        values = np.where(inside, column_values[self._tree.query(back)[1]], np.nan)
+        return values.reshape(len(y), len(x))
+
+    def slurry_volume(self, path):
+        """Volume of slurry at a written time, m^3."""
+        return float((self.field("alpha.slurry", path) * self.volumes).sum())
+
+    def slurry_centroid(self, time, path):
+        """Centre (x, y) of the slurry's volume at a written time, m."""
+        weight = self.field("alpha.slurry", path) * self.volumes
+        centre = (weight[:, None] * self.turned(self.centres[:, :2], time)).sum(axis=0) / weight.sum()
+        return float(centre[0]), float(centre[1])

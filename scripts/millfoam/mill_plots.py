@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of a mill: maps of charge and slurry, a strip of frames, an animation."""
+import io
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import PolyCollection
+from PIL import Image
+
+PIXELS = 130
+SLURRY, SPEED, SOLIDITY = "Blues", "viridis", "YlOrBr"
+
+
+def draw_mill(axis, flow, time):
+    """The mill's outline at flow time `time` and an arrow for its sense of rotation; axes in mm."""
+    outline = 1e3 * flow.turned(flow.outline(), time)
+    axis.plot(*outline.T, color="0.15", lw=1.2)
+    radius = 1e3 * flow.radius
+    start = np.radians(60 if flow.omega < 0 else 30)
+    end = np.radians(30 if flow.omega < 0 else 60)
+    arc = 1.09 * radius * np.array([[np.cos(a), np.sin(a)] for a in np.linspace(start, end, 20)])
+    axis.plot(*arc[:-1].T, color="0.15", lw=1.5)
+    axis.annotate("", arc[-1], arc[-4], arrowprops={"arrowstyle": "-|>", "color": "0.15", "lw": 1.5})
+    limit = 1.17 * radius
+    axis.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel="x, mm", ylabel="y, mm")
+
+
+def _arrows(axis, x, y, velocity, speed):
+    """Arrows of equal length, a few across the mill, where the velocity is known."""
+    known = np.isfinite(velocity[..., 0]) & (speed > 0)
+    unit = velocity[..., :2] / np.where(known, speed, 1)[..., None]
+    xx, yy = np.meshgrid(x, y)
+    axis.quiver(1e3 * xx[known], 1e3 * yy[known], unit[known][:, 0], unit[known][:, 1], color="k", scale=22, width=0.006,
+                headwidth=4, pivot="mid", alpha=0.75)
+
+
+def mean_flow(flow, begin):
+    """Slurry averaged over axis and time from `begin` (s) on a lab-frame grid: x, y, share [ny, nx] and velocity
+    [ny, nx, 2] weighted by the share; NaN outside the mill (share) or where there is no slurry (velocity)."""
+    x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
+    chosen = [(time, path) for time, path in flow.frames if time >= begin - 1e-9]
+    share, momentum = 0.0, 0.0
+    seen = 0.0
+    for time, path in chosen:
+        alpha = np.clip(flow.field("alpha.slurry", path), 0, 1)
+        velocity = flow.field("U", path)
+        column = flow.over_axis(alpha)
+        flux = np.stack([flow.over_axis(alpha * velocity[:, i]) for i in (0, 1)], axis=-1)
+        frame = flow.on_grid(column, time, x, y)
+        inside = np.isfinite(frame)
+        # A pixel that a lifter sweeps counts only while it is inside the mill
+        seen = seen + inside
+        share = share + np.where(inside, frame, 0)
+        momentum = momentum + np.stack(
+            [np.where(inside, flow.on_grid(flux[:, i], time, x, y), 0) for i in (0, 1)], axis=-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        mean = np.where(seen > 0, share / seen, np.nan)
+        velocity = np.where((mean > 0.02)[..., None], momentum / share[..., None], np.nan)
+    return x, y, mean, velocity
+
+
+def plot_maps(flow, solids, begin, out):
+    """Four maps, averaged over the axis: solidity, balls' speed, slurry share, slurry speed."""
+    x, y, share, velocity = mean_flow(flow, begin)
+    ball_speed = np.linalg.norm(solids.velocity[..., :2], axis=-1)
+    slurry_speed = np.linalg.norm(velocity, axis=-1)
+    top = np.nanmax([np.nanpercentile(ball_speed, 99), np.nanpercentile(slurry_speed, 99)])
+    figure, axes = plt.subplots(2, 2, figsize=(11, 9.6), constrained_layout=True)
+    xs, ys = (solids.x[1:] + solids.x[:-1]) / 2, (solids.y[1:] + solids.y[:-1]) / 2
+    edges = np.linspace(-1e3 * flow.radius, 1e3 * flow.radius, PIXELS + 1)
+    masked_speed = np.where(solids.solidity > 0.005, ball_speed, np.nan)
+    panels = [
+        (1e3 * solids.x, 1e3 * solids.y, solids.solidity, SOLIDITY, (0, 0.65), "charge: solidity, –"),
+        (1e3 * solids.x, 1e3 * solids.y, masked_speed, SPEED, (0, top), "charge: speed, m/s"),
+        (edges, edges, share, SLURRY, (0, 1), "slurry: share of the volume, –"),
+        (edges, edges, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),
+    ]
+    for axis, (ex, ey, values, colours, limits, title) in zip(axes.flat, panels):
+        image = axis.pcolormesh(ex, ey, values, cmap=colours, vmin=limits[0], vmax=limits[1], shading="flat")
+        figure.colorbar(image, ax=axis, shrink=0.85)
+        axis.set_title(title)
+    _arrows(axes[0, 1], xs, ys, np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
+    thin = slice(4, None, 9)
+    _arrows(axes[1, 1], x[thin], y[thin], np.where((share > 0.3)[..., None], velocity, np.nan)[thin, thin],
+            slurry_speed[thin, thin])
+    last = flow.frames[-1][0]
+    for axis in axes.flat:
+        draw_mill(axis, flow, last)
+    figure.suptitle(f"Averages over the axis; charge: DEM time {solids.begin:.3g} to {solids.end:.3g} s, "
+                    f"slurry: flow time {begin:.3g} to {last:.3g} s; mill outline at the end")
+    figure.savefig(out, dpi=110)
+    plt.close(figure)
+
+
+def draw_frame(axis, flow, time, path, quads, columns):
+    """Slurry share over the axis at one time, with the charge's edge (solidity 0.2) where the flow felt one."""
+    alpha = flow.over_axis(flow.field("alpha.slurry", path))
+    turned = 1e3 * flow.turned(quads.reshape(-1, 2), time).reshape(quads.shape)
+    patches = PolyCollection(turned, array=np.clip(alpha[columns], 0, 1), cmap=SLURRY, edgecolors="face", lw=0.2)
+    patches.set_clim(0, 1)
+    axis.add_collection(patches)
+    if (path / "solidity").is_file():
+        phi = flow.over_axis(flow.field("solidity", path))
+        x = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
+        grid = flow.on_grid(phi, time, x, x)
+        if np.nanmax(grid) > 0.2:
+            axis.contour(1e3 * x, 1e3 * x, np.nan_to_num(grid), [0.2], colors="tab:orange", linewidths=1.3)
+    draw_mill(axis, flow, time)
+    axis.set_title(f"t = {time:.2f} s, {abs(flow.omega * time) / (2 * np.pi):.2f} turns", fontsize=10)
+    return patches
+
+
+def plot_strip(flow, out, count=6):
+    """`count` frames of the slurry, equally spaced in time."""
+    quads, columns = flow.end_wall()
+    numbers = np.unique(np.linspace(0, len(flow.frames) - 1, count).round().astype(int))
+    rows = (len(numbers) + 2) // 3
+    figure, axes = plt.subplots(rows, 3, figsize=(12.5, 4.2 * rows), constrained_layout=True, squeeze=False)
+    for axis, number in zip(axes.flat, numbers):
+        patches = draw_frame(axis, flow, *flow.frames[number], quads, columns)
+    for axis in axes.flat[len(numbers):]:
+        axis.set_visible(False)
+    figure.colorbar(patches, ax=axes, shrink=0.6, label="slurry share over the axis, –  (orange: charge, solidity 0.2)")
+    figure.savefig(out, dpi=100)
+    plt.close(figure)
+
+
+def animate(flow, out):
+    """The frames as an endless GIF."""
+    quads, columns = flow.end_wall()
+    pictures = []
+    for time, path in flow.frames:
+        figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
+        patches = draw_frame(axis, flow, time, path, quads, columns)
+        figure.colorbar(patches, ax=axis, shrink=0.8, label="slurry share over the axis, –")
+        buffer = io.BytesIO()
+        figure.savefig(buffer, dpi=80)
+        plt.close(figure)
+        pictures.append(Image.open(buffer).convert("P", palette=Image.ADAPTIVE, colors=128))
+    pictures[0].save(out, save_all=True, append_images=pictures[1:], duration=100, loop=0)

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads solids.h5, the averaged charge (layout: averaging/README.md)."""
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+
+@dataclass
+class SolidsMap:
+    """Charge averaged over the axis and over windows, on the box's x-y voxels.
+
+    x, y: voxel edges [nx + 1], [ny + 1] (m); solidity [ny, nx]; velocity [ny, nx, 3] (m/s), NaN where there are no
+    balls; begin, end: DEM time covered (s)."""
+    x: np.ndarray
+    y: np.ndarray
+    solidity: np.ndarray
+    velocity: np.ndarray
+    begin: float
+    end: float
+
+    def centroid(self):
+        """Centre (x, y) of the balls' volume, m."""
+        x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+        total = self.solidity.sum()
+        return float((self.solidity.sum(axis=0) * x).sum() / total), float((self.solidity.sum(axis=1) * y).sum() / total)
+
+
+def read_map(path, begin=-np.inf, end=np.inf):
+    """Mean over axis and time of the windows that touch [begin, end) of DEM time; velocity is weighted by solidity."""
+    with h5py.File(path, "r") as file:
+        if file.attrs.get("complete", 0) != 1:
+            raise RuntimeError(f"{path}: not complete; average the dumps again")
+        lower, upper, shape = (np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "shape"))
+        begins, ends = file["window/begin"][:], file["window/end"][:]
+        chosen = np.flatnonzero((ends > begin) & (begins < end))
+        if len(chosen) == 0:
+            raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
+        solidity, flux = 0.0, 0.0
+        for window in chosen:
+            phi = file["solidity"][window]
+            solidity = solidity + phi.mean(axis=0)
+            flux = flux + (phi[..., None] * file["velocity"][window]).mean(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        velocity = np.where(solidity[..., None] > 1e-6, flux / solidity[..., None], np.nan)
+    edges = [np.linspace(lower[axis], upper[axis], int(shape[axis]) + 1) for axis in (0, 1)]
+    return SolidsMap(*edges, solidity / len(chosen), velocity, float(begins[chosen[0]]), float(ends[chosen[-1]]))

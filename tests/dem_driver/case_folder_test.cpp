@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/case_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::small_mill;
+using tests::TemporaryFolder;
+
+void touch(const std::filesystem::path& file) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << "x\n";
+}
+
+TEST(CaseFolder, OnlyDumpsAndRunFileOfAnEarlierRunAreRemoved) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  for (const char* name : {"dump.0.txt", "dump.50.txt", "run.txt", "dump.0.gz", "notes.txt"})
+    touch(folder.dumps() / name);
+  EXPECT_EQ(prepare_folders(folder), 2u);
+  EXPECT_TRUE(find_dumps(folder).empty());
+  EXPECT_FALSE(std::filesystem::exists(folder.run_file()));
+  EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "dump.0.gz"));
+  EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "notes.txt"));
+}
+
+TEST(CaseFolder, AMissingWallIsNamed) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.lifters = {4, 0.002, 0.002};
+  touch(folder.walls() / "shell.stl");
+  touch(folder.walls() / "lifters.stl");
+  touch(folder.walls() / "feedEnd.stl");
+  const std::string message = message_of([&] { find_walls(folder, mill); });
+  EXPECT_NE(message.find("dischargeEnd.stl"), std::string::npos);
+  EXPECT_NE(message.find("millMesh"), std::string::npos);
+}
+
+TEST(CaseFolder, APeriodicSliceHasNoEndsEvenIfTheirFilesLieThere) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  touch(folder.walls() / "shell.stl");
+  touch(folder.walls() / "feedEnd.stl");
+  EXPECT_EQ(find_walls(folder, small_mill()), std::vector<std::string>{"shell"});
+}
+
+TEST(CaseFolder, TheRunFileGivesTimestepIntervalAndSpeedToFullPrecision) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  const auto mill = small_mill();
+  const DemPlan plan = plan_dem(mill);
+  prepare_folders(folder);
+  write_run_file(folder, mill, plan);
+  std::ifstream in(folder.run_file());
+  std::map<std::string, double> entries;
+  std::string key;
+  for (double value = 0; in >> key >> value;) entries[key] = value;
+  EXPECT_EQ(entries,
+            (std::map<std::string, double>{{"timestep", plan.step.value},
+                                           {"interval", static_cast<double>(plan.step.steps_per_record)},
+                                           {"angular_velocity", -12}}));
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver

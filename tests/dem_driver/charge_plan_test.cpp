@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/charge_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::small_mill;
+
+constexpr double pi = 3.14159265358979323846;
+
+TEST(ChargePlan, TheCountIsTheMassOverTheMassOfOneBallRounded) {
+  auto mill = small_mill();
+  const double one = 2500 * pi / 6 * std::pow(0.002, 3);
+  mill.charge.classes = {{0.002, 40.4 * one}};
+  const auto plan = plan_charge(mill);
+  EXPECT_EQ(plan.classes.at(0).count, 40);
+  EXPECT_NEAR(plan.mass(), 40 * one, 1e-15);
+  EXPECT_NEAR(plan.classes.at(0).mass_asked, 40.4 * one, 1e-15);
+}
+
+TEST(ChargePlan, LargestBallsComeFirst) {
+  const auto plan = plan_charge(small_mill());
+  double last = 1;
+  for (const auto& round : plan.rounds)
+    for (const auto& insertion : round) {
+      EXPECT_LE(insertion.diameter, last);
+      last = insertion.diameter;
+    }
+}
+
+TEST(ChargePlan, EveryBallIsInExactlyOneInsertion) {
+  auto mill = small_mill();
+  for (auto& size : mill.charge.classes) size.mass *= 2;
+  const auto plan = plan_charge(mill);
+  std::map<double, long> inserted;
+  for (const auto& round : plan.rounds)
+    for (const auto& insertion : round) inserted[insertion.diameter] += insertion.count;
+  EXPECT_EQ(inserted, (std::map<double, long>{{0.002, 200}, {0.003, 300}}));
+}
+
+TEST(ChargePlan, NoRoundFillsMoreThanItsShareOfTheStartCylinder) {
+  auto mill = small_mill();
+  for (auto& size : mill.charge.classes) size.mass *= 2;
+  const auto plan = plan_charge(mill);
+  EXPECT_GT(plan.rounds.size(), 1u);
+  const double cylinder = pi * 0.018 * 0.018 * 0.012;
+  for (const auto& round : plan.rounds) {
+    double volume = 0;
+    for (const auto& insertion : round)
+      volume += static_cast<double>(insertion.count) * pi / 6 * std::pow(insertion.diameter, 3);
+    EXPECT_LE(volume, 0.2 * cylinder);
+  }
+}
+
+TEST(ChargePlan, AChargeThatDoesNotFitTheStartCylinderIsRefused) {
+  auto mill = small_mill();
+  mill.charge.classes.at(0).mass *= 50;
+  EXPECT_NE(message_of([&] { plan_charge(mill); }).find("do not fit into the start cylinder"),
+            std::string::npos);
+}
+
+TEST(ChargePlan, ABallLargerThanTheStartCylinderIsRefusedWithItsDiameter) {
+  auto mill = small_mill();
+  mill.charge.classes = {{0.037, 1}};
+  EXPECT_NE(message_of([&] { plan_charge(mill); }).find("0.037"), std::string::npos);
+}
+
+TEST(ChargePlan, AChargeLighterThanOneBallIsRefused) {
+  auto mill = small_mill();
+  mill.charge.classes = {{0.003, 1e-6}};
+  EXPECT_NE(message_of([&] { plan_charge(mill); }).find("mass of even one ball"), std::string::npos);
+}
+
+TEST(ChargePlan, TheReportHasAskedAndRealisedMass) {
+  auto mill = small_mill();
+  const double one = 2500 * pi / 6 * std::pow(0.002, 3);
+  mill.charge.classes = {{0.002, 49.6 * one}};
+  std::ostringstream out;
+  print_charge(out, plan_charge(mill));
+  EXPECT_NE(out.str().find("0.0005194"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("0.0005236"), std::string::npos) << out.str();
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/deck.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::small_mill;
+
+std::string deck_of(const meshing::Mill& mill, const std::vector<std::string>& parts = {"shell"},
+                    int ranks = 1) {
+  std::ostringstream out;
+  write_deck(out, mill, plan_dem(mill), parts, ranks);
+  return out.str();
+}
+
+bool has_line(const std::string& deck, const std::string& wanted) {
+  std::istringstream in(deck);
+  for (std::string line; std::getline(in, line);)
+    if (line == wanted) return true;
+  return false;
+}
+
+/// All words that follow `word` in the deck.
+std::vector<std::string> after(const std::string& deck, const std::string& word) {
+  std::istringstream in(deck);
+  std::vector<std::string> found;
+  for (std::string last, now; in >> now; last = now)
+    if (last == word) found.push_back(now);
+  return found;
+}
+
+TEST(Deck, APeriodicSliceIsPeriodicAlongTheAxisFromZeroToItsLength) {
+  const std::string deck = deck_of(small_mill());
+  EXPECT_TRUE(has_line(deck, "boundary f f p"));
+  EXPECT_NE(deck.find(" 0 0.012 units box"), std::string::npos);
+}
+
+TEST(Deck, AMillWithPlainEndsIsClosedAndItsBoxReachesBeyondTheEnds) {
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  const std::string deck = deck_of(mill, {"shell", "feedEnd", "dischargeEnd"});
+  EXPECT_TRUE(has_line(deck, "boundary f f f"));
+  EXPECT_NE(deck.find(" -0.0008 0.0128 units box"), std::string::npos);
+}
+
+TEST(Deck, EveryPartIsAWallAndEveryPartTurns) {
+  const std::string deck = deck_of(small_mill(), {"shell", "lifters", "feedEnd"});
+  EXPECT_EQ(after(deck, "n_meshes"), std::vector<std::string>{"3"});
+  EXPECT_NE(deck.find("meshes shell lifters feedEnd\n"), std::string::npos);
+  for (const std::string part : {"shell", "lifters", "feedEnd"}) {
+    EXPECT_NE(deck.find("mesh/surface file ../walls/" + part + ".stl type 2"), std::string::npos);
+    EXPECT_NE(deck.find("move/mesh mesh " + part + " rotate"), std::string::npos);
+  }
+}
+
+TEST(Deck, ANegativeSpeedTurnsAboutMinusZWithAPositivePeriod) {
+  const std::string deck = deck_of(small_mill());
+  EXPECT_NE(deck.find("rotate origin 0 0 0 axis 0 0 -1 period 0.523598775598299"), std::string::npos) << deck;
+}
+
+TEST(Deck, APositiveSpeedTurnsAboutPlusZ) {
+  auto mill = small_mill();
+  mill.angular_velocity = 12;
+  EXPECT_NE(deck_of(mill).find("axis 0 0 1 period 0.5235"), std::string::npos);
+}
+
+TEST(Deck, AMillAtRestHasNoMovingMesh) {
+  auto mill = small_mill();
+  mill.angular_velocity = 0;
+  EXPECT_EQ(deck_of(mill).find("move/mesh"), std::string::npos);
+}
+
+TEST(Deck, TheClockIsSetBackBeforeTheMillTurnsAndTheDumpsBegin) {
+  const std::string deck = deck_of(small_mill());
+  const auto reset = deck.find("reset_timestep 0");
+  EXPECT_NE(reset, std::string::npos);
+  EXPECT_LT(deck.rfind("insert/pack"), reset);
+  EXPECT_GT(deck.find("move/mesh"), reset);
+  EXPECT_GT(deck.find("dump balls"), reset);
+}
+
+TEST(Deck, TheTurningRunIsAWholeNumberOfDumpIntervals) {
+  const auto mill = small_mill();
+  const DemPlan plan = plan_dem(mill);
+  EXPECT_EQ(plan.dumps, 31);
+  EXPECT_EQ(plan.turning_steps, 30 * plan.step.steps_per_record);
+  EXPECT_TRUE(has_line(deck_of(mill), "run " + std::to_string(plan.turning_steps)));
+}
+
+TEST(Deck, ADurationThatIsNotAWholeNumberOfRecordsIsRoundedUp) {
+  auto mill = small_mill();
+  mill.dem.duration = 0.295;
+  EXPECT_EQ(plan_dem(mill).dumps, 31);
+}
+
+TEST(Deck, TheRunCommandsAddUpToTheStepsThatProgressCounts) {
+  auto mill = small_mill();
+  for (auto& size : mill.charge.classes) size.mass *= 2;
+  long sum = 0;
+  for (const auto& steps : after(deck_of(mill), "run")) sum += std::atol(steps.c_str());
+  EXPECT_EQ(sum, plan_dem(mill).total_steps());
+}
+
+TEST(Deck, PairPropertiesAreBallsFirstWallsSecond) {
+  const std::string deck = deck_of(small_mill());
+  EXPECT_NE(deck.find("coefficientRestitution peratomtypepair 2 0.8 0.7 0.7 0.7\n"), std::string::npos);
+  EXPECT_NE(deck.find("coefficientFriction peratomtypepair 2 0.5 0.4 0.4 0.4\n"), std::string::npos);
+  EXPECT_NE(deck.find("coefficientRollingFriction peratomtypepair 2 0.01 0.02 0.02 0.02\n"),
+            std::string::npos);
+  EXPECT_NE(deck.find("youngsModulus peratomtype 5000000 5000000\n"), std::string::npos);
+  EXPECT_NE(deck.find("poissonsRatio peratomtype 0.25 0.3\n"), std::string::npos);
+}
+
+TEST(Deck, EveryRandomStreamHasItsOwnPrimeAboveTenThousand) {
+  const std::string deck = deck_of(small_mill());
+  std::vector<std::string> seeds = after(deck, "seed");
+  for (const char* style : {"particletemplate/sphere", "particledistribution/discrete"})
+    for (const auto& seed : after(deck, style)) seeds.push_back(seed);
+  EXPECT_EQ(static_cast<long>(seeds.size()), 3 * plan_dem(small_mill()).insertions());
+  EXPECT_EQ(std::set<std::string>(seeds.begin(), seeds.end()).size(), seeds.size());
+  for (const auto& text : seeds) {
+    const long seed = std::atol(text.c_str());
+    EXPECT_GT(seed, 10000);
+    for (long divisor = 2; divisor * divisor <= seed; ++divisor) EXPECT_NE(seed % divisor, 0) << seed;
+  }
+}
+
+TEST(Deck, RollingFrictionIsAConstantDirectionalTorqueForBallsAndWallsAlike) {
+  const std::string deck = deck_of(small_mill());
+  const std::string model = "gran model hertz tangential history rolling_friction cdt";
+  EXPECT_TRUE(has_line(deck, "pair_style " + model));
+  EXPECT_NE(deck.find("wall/" + model + " mesh"), std::string::npos);
+}
+
+TEST(Deck, RanksSplitTheCrossSectionAndNeverTheAxis) {
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 2), "processors 2 1 1"));
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 6), "processors 3 2 1"));
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 7), "processors 7 1 1"));
+}
+
+TEST(Deck, NoRanksAreRefused) {
+  EXPECT_NE(message_of([] { split_ranks(0); }).find("-np: 0"), std::string::npos);
+}
+
+TEST(Deck, AModulusSofterThanLiggghtsAcceptsIsRefusedByItsKey) {
+  auto mill = small_mill();
+  mill.dem.youngs_modulus = 1e6;
+  EXPECT_NE(message_of([&] { deck_of(mill); }).find("dem.youngs_modulus"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver

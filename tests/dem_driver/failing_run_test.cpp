@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A script stands in for LIGGGHTS here, because LIGGGHTS cannot be asked to fail in a given way.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "dem_driver/liggghts_run.hpp"
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::PathVariable;
+using tests::small_mill;
+using tests::TemporaryFolder;
+
+/// A case with a `liggghts` of its own, before everything else on PATH.
+class FailingRun : public ::testing::Test {
+ protected:
+  /// What run_liggghts complains about when LIGGGHTS does `script`.
+  std::string complaint(const std::string& script) {
+    const auto program = temporary_.path() / "liggghts";
+    std::ofstream(program) << "#!/bin/sh\n" << script << '\n';
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const PathVariable path(temporary_.path().string() + ":" + std::getenv("PATH"));
+    prepare_folders(folder_);
+    std::ostringstream progress;
+    return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false}); });
+  }
+
+  bool complains(const std::string& script, const std::string& words) {
+    const std::string message = complaint(script);
+    const bool names_log = message.find(folder_.log().string()) != std::string::npos;
+    EXPECT_TRUE(names_log) << message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    return names_log && message.find(words) != std::string::npos;
+  }
+
+  TemporaryFolder temporary_;
+  CaseFolder folder_{temporary_.path() / "case"};
+};
+
+const std::string inserted =
+    "echo 'millFoam inserted 150 of 0.003 total 150'\necho 'millFoam inserted 100 of 0.002 total 250'\n";
+
+TEST_F(FailingRun, AnExitCodeIsReportedWithTheLogsLastLines) {
+  EXPECT_TRUE(complains("echo some hint\nexit 7", "exit code 7"));
+  EXPECT_TRUE(complains("echo some hint\nexit 7", "  some hint"));
+}
+
+TEST_F(FailingRun, AnErrorLineIsReportedEvenWithExitCodeZero) {
+  EXPECT_TRUE(complains("echo 'ERROR: Cannot open mesh file'\necho 'millFoam finished'",
+                        "LIGGGHTS stopped: ERROR: Cannot open mesh file"));
+}
+
+TEST_F(FailingRun, LostBallsAreCountedAndTheStepsNamed) {
+  EXPECT_TRUE(complains(
+      inserted + "echo millFoam turning\necho '  Step  Atoms  KinEng  overlap'\necho '0 250 1e-3 0'\n"
+                 "echo '400 250 1e-3 0'\necho '800 247 1e-3 0'\nsleep 60",
+      "lost 3 of 250 balls between steps 400 and 800 of the turning mill"));
+}
+
+TEST_F(FailingRun, FewerBallsThanAskedAreReportedWithTheirDiameter) {
+  EXPECT_TRUE(
+      complains("echo 'millFoam inserted 150 of 0.003 total 150'\n"
+                "echo 'millFoam inserted 100 of 0.002 total 241'\nsleep 60",
+                "inserted 91 of 100 balls of diameter 0.002"));
+}
+
+TEST_F(FailingRun, AnEnergyThatIsNotFiniteStopsTheRun) {
+  EXPECT_TRUE(complains(inserted + "echo '  Step  Atoms  KinEng  overlap'\necho '10 250 nan 0'\nsleep 60",
+                        "kinetic energy is not finite at step 10"));
+}
+
+TEST_F(FailingRun, AnEarlyEndIsNoSuccess) {
+  EXPECT_TRUE(complains(inserted, "before the deck's last line"));
+}
+
+TEST_F(FailingRun, MissingDumpsAreCounted) {
+  const std::string message = complaint(inserted + "echo millFoam finished\necho x > ../dumps/dump.0.txt");
+  EXPECT_NE(message.find("1 dumps, expected 31"), std::string::npos) << message;
+}
+
+TEST_F(FailingRun, WithoutLiggghtsOnPathThePackageIsNamed) {
+  prepare_folders(folder_);
+  const PathVariable path("/no/such/folder");
+  std::ostringstream progress;
+  const std::string message = message_of([&] {
+    run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false});
+  });
+  EXPECT_NE(message.find("liggghts is not on PATH"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A short run of LIGGGHTS itself: 250 balls in a small drum.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "dem_driver/liggghts_run.hpp"
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::small_mill;
+using tests::TemporaryFolder;
+
+struct Ball {
+  double id = 0, type = 0, x = 0, y = 0, z = 0, vx = 0, vy = 0, vz = 0, radius = 0;
+};
+
+struct Snapshot {
+  long step = 0;
+  std::vector<Ball> balls;
+};
+
+Snapshot read_dump(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  Snapshot snapshot;
+  std::size_t count = 0;
+  std::string line;
+  std::getline(in, line);
+  in >> snapshot.step >> std::ws;
+  std::getline(in, line);
+  in >> count >> std::ws;
+  while (std::getline(in, line) && line.rfind("ITEM: ATOMS", 0) != 0) {
+  }
+  EXPECT_EQ(line.substr(0, 42), "ITEM: ATOMS id type x y z vx vy vz radius ");
+  for (Ball b; in >> b.id >> b.type >> b.x >> b.y >> b.z >> b.vx >> b.vy >> b.vz >> b.radius;)
+    snapshot.balls.push_back(b);
+  EXPECT_EQ(snapshot.balls.size(), count);
+  return snapshot;
+}
+
+/// The run is done once; every test looks at its own side of it.
+class RealRun : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    temporary_ = new TemporaryFolder;
+    const CaseFolder folder{temporary_->path()};
+    const auto mill = small_mill();
+    plan_ = new DemPlan(plan_dem(mill));
+    tests::write_drum(folder, mill.geometry);
+    prepare_folders(folder);
+    std::ofstream deck(folder.deck());
+    write_deck(deck, mill, *plan_, find_walls(folder, mill), 1);
+    deck.close();
+    std::ostringstream progress;
+    result_ = new RunResult(run_liggghts(folder, *plan_, 1, {progress, false}));
+    progress_ = new std::string(progress.str());
+    snapshots_ = new std::vector<Snapshot>;
+    for (const auto& file : find_dumps(folder)) snapshots_->push_back(read_dump(file));
+    std::sort(snapshots_->begin(), snapshots_->end(),
+              [](const auto& a, const auto& b) { return a.step < b.step; });
+  }
+  static void TearDownTestSuite() {
+    delete snapshots_;
+    delete progress_;
+    delete result_;
+    delete plan_;
+    delete temporary_;
+  }
+
+  static inline TemporaryFolder* temporary_ = nullptr;
+  static inline DemPlan* plan_ = nullptr;
+  static inline RunResult* result_ = nullptr;
+  static inline std::string* progress_ = nullptr;
+  static inline std::vector<Snapshot>* snapshots_ = nullptr;
+};
+
+double centroid_x(const Snapshot& snapshot) {
+  double moment = 0;
+  double volume = 0;
+  for (const auto& b : snapshot.balls) {
+    moment += std::pow(b.radius, 3) * b.x;
+    volume += std::pow(b.radius, 3);
+  }
+  return moment / volume;
+}
+
+TEST_F(RealRun, EverySnapshotHasEveryBallOfBothSizes) {
+  for (const auto& snapshot : *snapshots_) {
+    EXPECT_EQ(snapshot.balls.size(), 250u);
+    EXPECT_EQ(std::count_if(snapshot.balls.begin(), snapshot.balls.end(),
+                            [](const Ball& b) { return std::abs(b.radius - 0.0015) < 1e-12; }),
+              150);
+  }
+}
+
+TEST_F(RealRun, DumpsAreAtWholeIntervalsFromZeroToTheEnd) {
+  ASSERT_EQ(static_cast<long>(snapshots_->size()), plan_->dumps);
+  for (std::size_t i = 0; i < snapshots_->size(); ++i)
+    EXPECT_EQ((*snapshots_)[i].step, static_cast<long>(i) * plan_->step.steps_per_record);
+}
+
+TEST_F(RealRun, NoBallIsOutsideTheDrumByMoreThanTheAllowedOverlap) {
+  for (const auto& snapshot : *snapshots_)
+    for (const auto& b : snapshot.balls)
+      EXPECT_LT(std::hypot(b.x, b.y) + b.radius, 0.02 + allowed_overlap_ratio * 2 * b.radius);
+}
+
+TEST_F(RealRun, BallsLeaveThePeriodicSliceByNoMoreThanTheNeighbourSkin) {
+  // LIGGGHTS carries them to the other side only when it rebuilds its neighbour lists.
+  const double skin = 0.4 * 0.002;
+  for (const auto& snapshot : *snapshots_)
+    for (const auto& b : snapshot.balls) {
+      EXPECT_GE(b.z, -skin);
+      EXPECT_LE(b.z, 0.012 + skin);
+    }
+}
+
+TEST_F(RealRun, TheChargeRestsInTheLowerPartAtTimeZero) {
+  EXPECT_LT(result_->resting_speed, 0.02);
+  double sum = 0;
+  for (const auto& b : snapshots_->front().balls) sum += b.y;
+  EXPECT_LT(sum / 250, -0.005);
+}
+
+TEST_F(RealRun, AClockwiseMillLiftsItsChargeOnTheLeft) {
+  double mean = 0;
+  for (auto snapshot = snapshots_->end() - 10; snapshot != snapshots_->end(); ++snapshot)
+    mean += centroid_x(*snapshot) / 10;
+  EXPECT_LT(mean, -0.001);
+}
+
+TEST_F(RealRun, SpeedsAreFiniteAndBelowTheExpectedImpact) {
+  for (const auto& b : snapshots_->back().balls)
+    EXPECT_LT(std::sqrt(b.vx * b.vx + b.vy * b.vy + b.vz * b.vz), expected_impact_speed(small_mill()));
+}
+
+TEST_F(RealRun, ProgressIsALineEveryTenPercentUpToTheEnd) {
+  EXPECT_EQ(std::count(progress_->begin(), progress_->end(), '\n'), 11) << *progress_;
+  EXPECT_NE(progress_->find("100 %"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver

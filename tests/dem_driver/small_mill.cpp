@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "small_mill.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+namespace millfoam::dem_driver::tests {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+using Point = std::array<double, 3>;
+
+double ball_mass(double diameter) {
+  return 2500 * pi / 6 * std::pow(diameter, 3);
+}
+
+void write_facet(std::ostream& out, const std::array<Point, 3>& corners) {
+  out << "facet normal 0 0 0\nouter loop\n";
+  for (const auto& point : corners)
+    out << "vertex " << point[0] << ' ' << point[1] << ' ' << point[2] << '\n';
+  out << "endloop\nendfacet\n";
+}
+
+}  // namespace
+
+meshing::Mill small_mill() {
+  meshing::Mill mill;
+  mill.title = "small drum";
+  mill.geometry.diameter = 0.04;
+  mill.geometry.length = 0.012;
+  mill.geometry.ends = meshing::Ends::periodic;
+  mill.angular_velocity = -12;
+  mill.charge.classes = {{0.002, 100 * ball_mass(0.002)}, {0.003, 150 * ball_mass(0.003)}};
+  mill.charge.start_radius = 0.018;
+  mill.charge.start_length = 0.01;
+  mill.ball = {2500, 6e10, 0.25};
+  mill.wall = {2700, 7e10, 0.3};
+  mill.ball_ball = {0.8, 0.5, 0.01};
+  mill.ball_wall = {0.7, 0.4, 0.02};
+  mill.dem.youngs_modulus = 5e6;
+  mill.dem.rayleigh_fraction = 0.2;
+  mill.dem.settle_time = 0.15;
+  mill.dem.duration = 0.3;
+  mill.dem.record_interval = 0.01;
+  mill.dem.seed = 7;
+  return mill;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (fs::temp_directory_path() / "dem driver XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry) {
+  fs::create_directories(folder.walls());
+  std::ofstream out(folder.walls() / "shell.stl");
+  out.precision(12);
+  out << "solid shell\n";
+  const int sides = 60;
+  for (int i = 0; i < sides; ++i) {
+    const double a = 2 * pi * i / sides;
+    const double b = 2 * pi * ((i + 1) % sides) / sides;
+    const auto corner = [&](double angle, double z) {
+      return Point{geometry.radius() * std::cos(angle), geometry.radius() * std::sin(angle), z};
+    };
+    write_facet(out, {corner(a, 0), corner(b, 0), corner(b, geometry.length)});
+    write_facet(out, {corner(a, 0), corner(b, geometry.length), corner(a, geometry.length)});
+  }
+  out << "endsolid shell\n";
+}
+
+PathVariable::PathVariable(const std::string& value) {
+  if (const char* path = std::getenv("PATH")) before_ = path;
+  setenv("PATH", value.c_str(), 1);
+}
+
+PathVariable::~PathVariable() {
+  setenv("PATH", before_.c_str(), 1);
+}
+
+}  // namespace millfoam::dem_driver::tests

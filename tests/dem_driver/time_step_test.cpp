@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/time_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "dem_driver/contact.hpp"
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::small_mill;
+
+TEST(TimeStep, ARecordIntervalIsAWholeNumberOfStepsNoLongerThanAnyLimit) {
+  const auto mill = small_mill();
+  const TimeStep step = choose_time_step(mill);
+  EXPECT_NEAR(step.value * static_cast<double>(step.steps_per_record), mill.dem.record_interval, 1e-17);
+  for (const auto& limit : step.limits) EXPECT_LE(step.value, limit.value) << limit.reason;
+}
+
+TEST(TimeStep, OneStepFewerPerRecordWouldBreakALimit) {
+  const auto mill = small_mill();
+  const TimeStep step = choose_time_step(mill);
+  double longest = 1;
+  for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
+  EXPECT_GT(mill.dem.record_interval / static_cast<double>(step.steps_per_record - 1), longest);
+}
+
+TEST(TimeStep, ASmallRayleighFractionGovernsThroughTheSmallestBall) {
+  auto mill = small_mill();
+  mill.dem.rayleigh_fraction = 0.01;
+  const TimeStep step = choose_time_step(mill);
+  const double rayleigh = rayleigh_time(0.001, 2500, {5e6, 0.25});
+  EXPECT_LE(step.value, 0.01 * rayleigh);
+  EXPECT_GT(step.value, 0.01 * rayleigh * (1 - 0.01 * rayleigh / mill.dem.record_interval));
+}
+
+TEST(TimeStep, FourTimesTheModulusHalvesTheRayleighLimit) {
+  auto mill = small_mill();
+  const double soft = choose_time_step(mill).limits.at(0).value;
+  mill.dem.youngs_modulus *= 4;
+  EXPECT_NEAR(choose_time_step(mill).limits.at(0).value / soft, 0.5, 1e-12);
+}
+
+TEST(TimeStep, TheHardestImpactIsAFallThroughTheDiameterPlusTheShellsSpeed) {
+  auto mill = small_mill();
+  mill.geometry.diameter = 0.2;
+  mill.angular_velocity = -5;
+  EXPECT_NEAR(expected_impact_speed(mill), std::sqrt(2 * 9.81 * 0.2) + 0.5, 1e-12);
+}
+
+TEST(TimeStep, AFastMillIsLimitedByTheCrossingOfTheAllowedOverlap) {
+  auto mill = small_mill();
+  mill.angular_velocity = -5000;
+  mill.dem.rayleigh_fraction = 100;
+  const TimeStep step = choose_time_step(mill);
+  const double crossing = 0.15 * 0.002 / 6 / expected_impact_speed(mill);
+  EXPECT_LE(step.value, crossing);
+  EXPECT_GT(step.value, 0.99 * crossing);
+}
+
+TEST(TimeStep, TheReportNamesTheLimitsAndWarnsWhenBallsAreTooSoft) {
+  auto mill = small_mill();
+  std::ostringstream fine;
+  print_time_step(fine, choose_time_step(mill));
+  EXPECT_NE(fine.str().find("Rayleigh time of 2 mm"), std::string::npos);
+  EXPECT_EQ(fine.str().find("WARNING"), std::string::npos);
+  mill.dem.youngs_modulus = 1e4;
+  std::ostringstream soft;
+  print_time_step(soft, choose_time_step(mill));
+  EXPECT_NE(soft.str().find("raise dem.youngs_modulus"), std::string::npos);
+}
+
+TEST(TimeStep, AMillWithoutBallsIsRefused) {
+  auto mill = small_mill();
+  mill.charge.classes.clear();
+  EXPECT_NE(message_of([&] { choose_time_step(mill); }).find("no size class"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver
