@@ -41,15 +41,13 @@ class TextLines {
 
 /// Takes the next word off the front of a line; empty when there is none.
 inline std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t begin = line.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) {
-    line = {};
-    return {};
-  }
-  line.remove_prefix(begin);
-  const std::string_view word = line.substr(0, line.find_first_of(blanks));
-  line.remove_prefix(word.size());
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  std::size_t begin = 0;
+  while (begin < line.size() && is_blank(line[begin])) ++begin;
+  std::size_t end = begin;
+  while (end < line.size() && !is_blank(line[end])) ++end;
+  const std::string_view word = line.substr(begin, end - begin);
+  line.remove_prefix(end);
   return word;
 }
 

@@ -184,8 +184,8 @@ class OpenFoamTest(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def box(self, **options):
-        """A meshed BoxCase in the temporary folder."""
-        case = BoxCase(self.folder / "case", **options)
+        """A meshed BoxCase in a new folder of the temporary one."""
+        case = BoxCase(tempfile.mkdtemp(prefix="case", dir=self.folder), **options)
         self.assert_runs(case, "blockMesh")
         return case
 

@@ -33,7 +33,8 @@ STIFFNESS = 1e-3
 # Reynolds numbers on both sides of every switch in Re that the laws have at these solidities: Hill 2.7 and 6.6,
 # Benyahia 3.2 and 6.6, Wen-Yu 1000. Their switches in phi (0.2, 0.4) lie between the solidities.
 SOLIDITIES = (0.15, 0.5)
-REYNOLDS = (0.5, 50.0, 2000.0)
+BRANCHES = (0.5, 50.0, 2000.0)
+REYNOLDS = (0.5, 5.0, 50.0, 500.0, 2000.0)
 LENGTHS = (4, 8, 16)  # cells
 
 
@@ -59,9 +60,10 @@ class Bed:
 
 
 def beds(quick):
-    """Every bed of the study; with `quick` one length only, which still visits every branch of every law."""
+    """Every bed of the study; with `quick` one length and three speeds, which still visit every branch of every law."""
+    chosen = BRANCHES if quick else REYNOLDS
     table = subprocess.run(
-        ["millDrag", "--phi", ",".join(map(str, SOLIDITIES)), "--re", ",".join(map(str, REYNOLDS)),
+        ["millDrag", "--phi", ",".join(map(str, SOLIDITIES)), "--re", ",".join(map(str, chosen)),
          "--mu", str(VISCOSITY), "--rho", str(DENSITY), "--d", str(DIAMETER)],
         check=True, capture_output=True, text=True).stdout
     rows = list(csv.DictReader(table.splitlines()))
@@ -140,15 +142,24 @@ def plot(results, out):
         ("|relative error|, %", lambda bed: 100 * abs(bed.error), "log"),
     ]
     laws = list(dict.fromkeys(bed.law for bed in results))
+    longest = max(bed.cells for bed in results)
     colours = plt.get_cmap("tab10")
+
+    def place(bed):
+        """Laws stand side by side at each Reynolds number."""
+        return bed.reynolds * 1.12 ** (laws.index(bed.law) - len(laws) / 2)
+
     figure, axes = plt.subplots(len(BOXES), 4, figsize=(16, 7.5), squeeze=False, sharex=True, constrained_layout=True)
     for row, box in zip(axes, BOXES):
         for axis, (title, value, scale) in zip(row, panels):
             for bed in (bed for bed in results if bed.box == box):
-                # Laws stand side by side at each Reynolds number
-                at = bed.reynolds * 1.12 ** (laws.index(bed.law) - len(laws) / 2)
-                axis.plot(at, value(bed), "o" if bed.solidity < 0.3 else "s", ms=2 + bed.cells / 4, mfc="none",
+                axis.plot(place(bed), value(bed), "o" if bed.solidity < 0.3 else "s", ms=2 + bed.cells / 4, mfc="none",
                           color=colours(laws.index(bed.law)))
+            for law in laws:
+                for phi in SOLIDITIES:
+                    line = [bed for bed in results if (bed.box, bed.law, bed.solidity, bed.cells) == (box, law, phi, longest)]
+                    axis.plot([place(bed) for bed in line], [value(bed) for bed in line], lw=0.7,
+                              color=colours(laws.index(law)))
             axis.set(xscale="log", yscale=scale, title=f"{box} box: {title}")
             axis.grid(alpha=0.3)
         row[3].axhline(100 * TOLERANCE, color="k", ls="--", lw=1)

@@ -7,6 +7,7 @@
 #include "OStringStream.H"
 #include "Time.H"
 
+#include <cfenv>
 #include <cmath>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -30,17 +31,28 @@ Foam::solidsRecord::interpolationNames_
 
 void Foam::solidsRecord::guarded(const std::function<void()>& action) const
 {
+    // OpenFOAM traps invalid operations: a NaN in the file would stop the
+    // program where it is first compared, before the reader can name it
+    std::fenv_t traps;
+    std::feholdexcept(&traps);
+
+    bool failed = false;
     std::string reason;
     try
     {
         action();
-        return;
     }
     catch (const std::exception& error)
     {
+        failed = true;
         reason = error.what();
     }
-    FatalIOErrorInFunction(dict_) << reason << exit(FatalIOError);
+    std::fesetenv(&traps);
+
+    if (failed)
+    {
+        FatalIOErrorInFunction(dict_) << reason << exit(FatalIOError);
+    }
 }
 
 
