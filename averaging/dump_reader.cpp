@@ -17,15 +17,19 @@ namespace {
 
 constexpr std::array<std::string_view, 8> required_columns{"id", "x", "y", "z", "vx", "vy", "vz", "radius"};
 
-std::string_view next_line(TextLines& lines, const std::string& expected) {
-  const bool nothing_left = lines.at_end();
-  const std::optional<std::string_view> line = lines.next();
-  if (line) return *line;
-  throw DumpError(lines.place() + (nothing_left ? "the text ends here" : "the text ends within this line") +
-                  ", expected " + expected + "; the dump is truncated");
+DumpError truncated(const TextLines& lines, const std::string& expected) {
+  return DumpError(lines.place() +
+                   (lines.at_end() ? "the text ends here" : "the text ends within this line") +
+                   ", expected " + expected + "; the dump is truncated");
 }
 
-long long next_count(TextLines& lines, const std::string& what) {
+std::string_view next_line(TextLines& lines, const char* expected) {
+  const std::optional<std::string_view> line = lines.next();
+  if (!line) throw truncated(lines, expected);
+  return *line;
+}
+
+long long next_count(TextLines& lines, const char* what) {
   std::string_view line = next_line(lines, what);
   const std::string text(line);
   const auto value = as_number<long long>(take_word(line));
@@ -36,8 +40,8 @@ long long next_count(TextLines& lines, const std::string& what) {
 }
 
 void skip_box_bounds(TextLines& lines) {
-  for (const char axis : {'x', 'y', 'z'}) {
-    std::string_view line = next_line(lines, std::string("the box's bounds along ") + axis);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::string_view line = next_line(lines, "the bounds of the box along x, y and z");
     const std::string text(line);
     const auto lower = as_number<double>(take_word(line));
     const auto upper = as_number<double>(take_word(line));
@@ -92,8 +96,7 @@ Header read_header(TextLines& lines) {
   }
 }
 
-/// For each column of the file, the number of the required column that it is, or -1. Columns after the last
-/// required one are left out.
+/// For each column of the file, the number of the required column that it is, or -1.
 std::vector<int> match_columns(const std::string& names, const std::string& place) {
   std::vector<int> wanted;
   std::string_view rest = names;
@@ -105,46 +108,50 @@ std::vector<int> match_columns(const std::string& names, const std::string& plac
   for (std::size_t c = 0; c < required_columns.size(); ++c) {
     const auto times = std::count(wanted.begin(), wanted.end(), static_cast<int>(c));
     if (times == 1) continue;
-    throw DumpError(place + "column '" + std::string(required_columns[c]) + "' is " +
-                    (times == 0 ? "missing" : "there twice") + "; the columns are '" + names + "'");
+    std::string message = place + "column '";
+    message.append(required_columns[c]).append(times == 0 ? "' is missing" : "' is there twice");
+    throw DumpError(message.append("; the columns are '").append(names).append("'"));
   }
   return wanted;
 }
 
-double finite_number(std::string_view word, std::string_view column, const TextLines& lines) {
-  const auto value = as_number<double>(word);
-  if (!value || !std::isfinite(*value)) {
-    throw DumpError(lines.place() + "column '" + std::string(column) + "' is '" + std::string(word) +
-                    "', expected a finite number");
+template <typename Number>
+Number column_value(std::string_view word, std::size_t column, const char* expected, const TextLines& lines) {
+  const auto value = as_number<Number>(word);
+  if (!value || !std::isfinite(static_cast<double>(*value))) {
+    throw DumpError(lines.place() + "column '" + std::string(required_columns[column]) + "' is '" +
+                    std::string(word) + "', expected " + expected);
   }
   return *value;
 }
 
-Particle read_particle(TextLines& lines, std::string_view line, const std::vector<int>& columns) {
+DumpError wrong_length(const TextLines& lines, const std::string& found, std::size_t expected) {
+  return DumpError(lines.place() + "this row has " + found + " values, expected " + std::to_string(expected));
+}
+
+Particle read_particle(const TextLines& lines, std::string_view line, const std::vector<int>& columns) {
+  Particle particle;
   std::array<double, required_columns.size()> values{};
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string_view word = take_word(line);
-    if (word.empty()) {
-      throw DumpError(lines.place() + "this row has " + std::to_string(c) + " values, expected " +
-                      std::to_string(columns.size()));
-    }
+    if (word.empty()) throw wrong_length(lines, std::to_string(c), columns.size());
     if (columns[c] < 0) continue;
-    const auto wanted = static_cast<std::size_t>(columns[c]);
-    values[wanted] = finite_number(word, required_columns[wanted], lines);
-    if (wanted == 0 && !as_number<long long>(word)) {
-      throw DumpError(lines.place() + "column 'id' is '" + std::string(word) + "', expected a whole number");
+    const auto column = static_cast<std::size_t>(columns[c]);
+    if (column == 0) {
+      particle.id = column_value<long long>(word, column, "a whole number", lines);
+    } else {
+      values[column] = column_value<double>(word, column, "a finite number", lines);
     }
   }
-  if (const std::string_view extra = take_word(line); !extra.empty()) {
-    throw DumpError(lines.place() + "this row has more than the expected " + std::to_string(columns.size()) +
-                    " values: '" + std::string(extra) + "'");
-  }
-  const auto [id, x, y, z, vx, vy, vz, radius] = values;
-  if (!(radius > 0)) {
-    throw DumpError(lines.place() + "radius is " + std::to_string(radius) +
+  if (!take_word(line).empty()) throw wrong_length(lines, "more", columns.size());
+  particle.position = {values[1], values[2], values[3]};
+  particle.velocity = {values[4], values[5], values[6]};
+  particle.radius = values[7];
+  if (!(particle.radius > 0)) {
+    throw DumpError(lines.place() + "radius is " + std::to_string(particle.radius) +
                     ", expected a positive length in m");
   }
-  return {static_cast<long long>(id), {x, y, z}, {vx, vy, vz}, radius};
+  return particle;
 }
 
 /// A file opened by zlib, which reads plain and gzip alike.
@@ -193,9 +200,11 @@ ParticleRecord parse_dump(std::string_view text, const std::string& name) {
   // A row takes 16 bytes at least: a damaged count must not reserve more than the text can hold.
   record.particles.reserve(std::min(static_cast<std::size_t>(*header.count), text.size() / 16 + 1));
   for (long long p = 0; p < *header.count; ++p) {
-    const std::string_view line =
-        next_line(lines, "particle " + std::to_string(p + 1) + " of " + std::to_string(*header.count));
-    record.particles.push_back(read_particle(lines, line, columns));
+    const std::optional<std::string_view> line = lines.next();
+    if (!line) {
+      throw truncated(lines, "particle " + std::to_string(p + 1) + " of " + std::to_string(*header.count));
+    }
+    record.particles.push_back(read_particle(lines, *line, columns));
   }
   if (!lines.at_end()) {
     const bool second = starts_with(lines.peek(), "ITEM:");

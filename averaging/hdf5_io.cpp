@@ -164,6 +164,8 @@ Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsiz
   const Handle space(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()), H5Sclose,
                      action);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
+  // Without the time of writing in it, the same input gives the same file to the last bit.
+  check(H5Pset_obj_track_times(properties.get(), false), action);
   check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), action);
   if (!row.empty()) {
     check(H5Pset_shuffle(properties.get()), action);

@@ -104,6 +104,9 @@ struct SolidsWriter::Open {
 
 SolidsWriter::SolidsWriter(const std::filesystem::path& path, const BoxGrid& grid, const SolidsHeader& header)
     : path_(path), part_(path.string() + ".part"), cells_(grid.size()) {
+  // Where a full disk kept a file from being flushed, HDF5 1.10's handler at exit crashes on what is left of
+  // it. All that is opened here is closed by its handle, so that the handler has no work.
+  H5dont_atexit();
   hdf5::naming_file<SolidsFileError>(part_, [&] { open_ = std::make_unique<Open>(part_, grid, header); });
 }
 

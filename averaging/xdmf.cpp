@@ -75,7 +75,7 @@ std::filesystem::path xdmf_path(const std::filesystem::path& solids_file) {
 }
 
 std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
-  const std::filesystem::path path = xdmf_path(solids_file);
+  std::filesystem::path path = xdmf_path(solids_file);
   const SolidsReader solids(solids_file);
   std::ofstream out(path);
   out.precision(17);

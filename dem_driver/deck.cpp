@@ -84,7 +84,7 @@ void write_walls(std::ostream& out, const std::vector<std::string>& parts) {
     out << "fix " << part << " all mesh/surface file ../walls/" << part << ".stl type 2\n";
   out << "fix walls all wall/" << contact_model << " mesh n_meshes " << parts.size() << " meshes";
   for (const auto& part : parts) out << ' ' << part;
-  out << "\nfix motion all nve/sphere\n";
+  out << '\n';
 }
 
 void write_thermo(std::ostream& out, const DemPlan& plan) {
@@ -124,8 +124,10 @@ void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& p
   const auto& rounds = plan.charge.rounds;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     out << "\n# round " << i + 1 << " of " << rounds.size() << '\n';
+    if (i > 0) out << "unfix motion\n";
     for (const auto& insertion : rounds[i]) write_insertion(out, mill, insertion, ++number, primes);
-    out << "run " << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps) << '\n';
+    out << "fix motion all nve/sphere\nrun " << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps)
+        << '\n';
   }
 }
 

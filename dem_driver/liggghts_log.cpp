@@ -97,10 +97,11 @@ void LiggghtsLog::read_insertion(const std::string& line) {
   if (!(in >> asked >> word >> diameter >> word >> total))
     throw RunError("cannot read LIGGGHTS' line: " + line);
   const long inserted = total - expected_balls_;
-  if (inserted < asked) {
+  if (inserted != asked) {
     std::ostringstream message;
     message << "LIGGGHTS inserted " << inserted << " of " << asked << " balls of diameter " << diameter
-            << " m: raise charge.start_radius or lower the masses";
+            << " m";
+    if (inserted < asked) message << ": raise charge.start_radius or lower the masses";
     throw RunError(message.str());
   }
   expected_balls_ = total;

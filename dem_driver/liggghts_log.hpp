@@ -21,9 +21,9 @@ class LiggghtsLog {
   /// `plan` is the one that the deck was written from.
   explicit LiggghtsLog(const DemPlan& plan);
 
-  /// Takes the next line. Throws RunError when an insertion brought fewer balls than asked, when balls were
-  /// lost, or when the kinetic energy is not finite. An ERROR of LIGGGHTS is kept (`error()`), because lines
-  /// that explain it may follow.
+  /// Takes the next line. Throws RunError when an insertion brought another number of balls than asked, when
+  /// balls were lost, or when the kinetic energy is not finite. An ERROR of LIGGGHTS is kept (`error()`),
+  /// because lines that explain it may follow.
   void read(const std::string& line);
 
   long steps_done() const { return steps_done_; }

@@ -59,7 +59,7 @@ void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const De
   Progress progress(output.out, output.terminal, plan.total_steps());
   try {
     while (const auto line = child.read_line()) {
-      file << *line << '\n';
+      file << *line << '\n' << std::flush;
       log.read(*line);
       progress.show(log.steps_done(), phase(log, plan));
     }

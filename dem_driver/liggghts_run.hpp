@@ -26,8 +26,8 @@ struct ProgressOutput {
 /// Runs LIGGGHTS on the deck of `folder` with `ranks` processes (mpirun for more than one) in DIR/dem;
 /// everything it prints goes to DIR/dem/log.liggghts. Shows progress and stops at the first sign of a useless
 /// run. Throws RunError when `liggghts` (or `mpirun`) is not on PATH, when LIGGGHTS fails, loses balls or
-/// inserts fewer than asked, or when the number of dumps is not the plan's; the message has the log's name
-/// and last lines.
+/// inserts another number than asked, or when the number of dumps is not the plan's; the message has the
+/// log's name and last lines.
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress);
 
 /// Prints balls, steps, speed of the computation, overlap and dumps.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "meshing/divisions.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
 

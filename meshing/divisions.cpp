@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/divisions.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "meshing/cross_section.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
 

@@ -67,11 +67,16 @@ double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, co
   return miss.norm() / half_width(mesh, f, m.face_centre[f], direction, share * line.norm());
 }
 
-std::string sentence(const char* what, double value, double limit, const char* unit) {
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::runtime_error(
+      "the mesh has " + what +
+      ": choose another resolution.cell_size, or lifters that are less high or less wide");
+}
+
+void require_at_most(double limit, double value, const std::string& what, const std::string& unit) {
   std::ostringstream text;
-  text << "the mesh's " << what << " is " << value << unit << ", above the allowed " << limit << unit
-       << ": choose another resolution.cell_size, or lifters that are less high or less wide";
-  return text.str();
+  text << what << " of " << value << unit << ", above the allowed " << limit << unit;
+  if (!(value <= limit)) refuse(text.str());
 }
 
 }  // namespace
@@ -128,19 +133,14 @@ MeshQuality quality(const VolumeMesh& mesh) {
 }
 
 void require_quality(const MeshQuality& q, double analytic_volume) {
-  if (!(q.smallest_cell > 0))
-    throw std::runtime_error(sentence("smallest cell turned inside out by", -q.smallest_cell, 0, " m^3"));
-  if (!(q.max_non_orthogonality <= allowed_non_orthogonality)) {
-    throw std::runtime_error(sentence("largest non-orthogonality", q.max_non_orthogonality,
-                                      allowed_non_orthogonality, " degrees"));
-  }
-  if (!(q.max_skewness <= allowed_skewness)) {
-    throw std::runtime_error(sentence("largest skewness", q.max_skewness, allowed_skewness, ""));
-  }
-  const double error = std::abs(q.volume / analytic_volume - 1);
-  if (!(error <= allowed_volume_error)) {
-    throw std::runtime_error(sentence("relative error in volume", error, allowed_volume_error, ""));
-  }
+  std::ostringstream inverted;
+  inverted << "a cell turned inside out, of " << q.smallest_cell << " m^3";
+  if (!(q.smallest_cell > 0)) refuse(inverted.str());
+  require_at_most(allowed_non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
+                  " degrees");
+  require_at_most(allowed_skewness, q.max_skewness, "a largest skewness", "");
+  require_at_most(allowed_volume_error, std::abs(q.volume / analytic_volume - 1),
+                  "a relative error in volume", "");
 }
 
 }  // namespace millfoam::meshing

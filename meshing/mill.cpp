@@ -32,8 +32,8 @@ Lifters read_lifters(const Section& in, double radius) {
   lifters.count =
       in.integer("count", {"a whole number of lifters, 0 or more", [](double v) { return v >= 0; }});
   if (lifters.count == 0) {
-    in.number("height", positive("a length in m"), 1);
-    in.number("width", positive("a length in m"), 1);
+    in.number("height", not_negative("a length in m"), 0);
+    in.number("width", not_negative("a length in m"), 0);
     return lifters;
   }
   lifters.height = in.number("height", positive_below("a length", radius, " m", "the radius"));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "meshing/cross_section.hpp"
+#include "meshing/divisions.hpp"
 
 namespace millfoam::meshing {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/surface_check.hpp"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -7,8 +9,6 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <stdexcept>
-
-#include "meshing/wall_surface.hpp"
 
 namespace millfoam::meshing {
 namespace {

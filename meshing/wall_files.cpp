@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/wall_files.hpp"
+
 #include <Eigen/Geometry>
 
 #include "meshing/output_file.hpp"
-#include "meshing/wall_surface.hpp"
 
 namespace millfoam::meshing {
 namespace {

@@ -3,12 +3,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "averaging/average_run.hpp"
+#include "averaging/text_lines.hpp"
 
 namespace {
 
@@ -48,12 +53,11 @@ void declare(CLI::App& app, Options& options) {
 /// Seconds, or nothing for the whole run.
 std::optional<double> window_length(const std::string& text) {
   if (text == "whole") return std::nullopt;
-  double length = 0;
-  if (!CLI::detail::lexical_cast(text, length) || !(length >= 0)) {
+  const std::optional<double> length = as_number<double>(text);
+  if (!length || !(*length >= 0)) {
     throw std::invalid_argument("--window is '" + text + "', expected a time in s or 'whole'");
   }
-  if (length == 0) return std::nullopt;
-  return length;
+  return *length == 0 ? std::nullopt : length;
 }
 
 AverageRequest as_request(const Options& options) {
@@ -80,12 +84,14 @@ int main(int argc, char** argv) {
   CLI::App app("Averages the balls of a DEM run over voxels and time windows into a solids file");
   Options options;
   declare(app, options);
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     const auto note = [](const std::string& sentence) { std::cerr << "millAverage: " << sentence << '\n'; };
     const AverageSummary summary = average_run(as_request(options), {show_progress, note});
     std::cout << report(summary) << options.output << '\n';
     return 0;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
   } catch (const std::exception& error) {
     std::cerr << "millAverage: error: " << error.what() << '\n';
     return 1;

@@ -9,7 +9,8 @@
 #include "meshing/mill_mesh.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/openfoam_files.hpp"
-#include "meshing/wall_surface.hpp"
+#include "meshing/surface_check.hpp"
+#include "meshing/wall_files.hpp"
 
 namespace {
 

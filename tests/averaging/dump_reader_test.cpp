@@ -138,7 +138,8 @@ TEST(DumpReader, ARadiusThatIsNotPositiveIsRefused) {
 TEST(DumpReader, RowsOfTheWrongLengthAreRefused) {
   const std::string text = dump_text(1200, two_balls);
   expect_named(refusal(replaced(text, "-0.125 0.75", "-0.125")), {"dump7.txt:11", "8 values", "expected 9"});
-  expect_named(refusal(replaced(text, "-0.125 0.75", "-0.125 1 0.75")), {"dump7.txt:11", "more than", "9"});
+  expect_named(refusal(replaced(text, "-0.125 0.75", "-0.125 1 0.75")),
+               {"dump7.txt:11", "more values", "expected 9"});
 }
 
 TEST(DumpReader, MoreThanOneRecordOrTooManyRowsAreRefused) {

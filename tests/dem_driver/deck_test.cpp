@@ -141,6 +141,23 @@ TEST(Deck, RollingFrictionIsAConstantDirectionalTorqueForBallsAndWallsAlike) {
   EXPECT_NE(deck.find("wall/" + model + " mesh"), std::string::npos);
 }
 
+TEST(Deck, NoBallMovesWhileBallsAreInserted) {
+  auto mill = small_mill();
+  for (auto& size : mill.charge.classes) size.mass *= 2;
+  std::istringstream in(deck_of(mill));
+  bool moving = false;
+  int insertions = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("fix motion", 0) == 0) moving = true;
+    if (line == "unfix motion") moving = false;
+    if (line.find("insert/pack") == std::string::npos) continue;
+    ++insertions;
+    EXPECT_FALSE(moving) << line;
+  }
+  EXPECT_GT(insertions, 2);
+  EXPECT_TRUE(moving);
+}
+
 TEST(Deck, RanksSplitTheCrossSectionAndNeverTheAxis) {
   EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 2), "processors 2 1 1"));
   EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 6), "processors 3 2 1"));

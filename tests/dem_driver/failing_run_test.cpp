@@ -69,6 +69,10 @@ TEST_F(FailingRun, FewerBallsThanAskedAreReportedWithTheirDiameter) {
                 "inserted 91 of 100 balls of diameter 0.002"));
 }
 
+TEST_F(FailingRun, MoreBallsThanAskedAreReportedToo) {
+  EXPECT_TRUE(complains("echo 'millFoam inserted 151 of 0.003 total 152'", "inserted 152 of 151 balls"));
+}
+
 TEST_F(FailingRun, AnEnergyThatIsNotFiniteStopsTheRun) {
   EXPECT_TRUE(complains(inserted + "echo '  Step  Atoms  KinEng  overlap'\necho '10 250 nan 0'\nsleep 60",
                         "kinetic energy is not finite at step 10"));

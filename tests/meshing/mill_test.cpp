@@ -104,6 +104,16 @@ TEST(ReadMill, fills_a_share_of_a_smooth_drum_in_bulk_with_one_size) {
   EXPECT_NEAR(mill.charge.classes[0].mass, 0.3 * 0.55 * 2700 * std::acos(-1.0) * 0.06 * 0.06 * 0.024, 1e-15);
 }
 
+TEST(ReadMill, takes_a_smooth_drum_with_or_without_the_size_of_its_lifters) {
+  const Mill mill = read(with(example_mill, "count: 12", "count: 0"));
+  EXPECT_EQ(mill.geometry.lifters.count, 0);
+  EXPECT_EQ(mill.geometry.lifters.height, 0);
+  EXPECT_EQ(mill.geometry.lifters.width, 0);
+  const std::string lifters = "count: 12\n    height: 0.008\n    width: 0.006";
+  EXPECT_EQ(refusal(lifters, "count: 0"), "accepted");
+  EXPECT_EQ(refusal(lifters, "count: 0\n    height: 0\n    width: 0"), "accepted");
+}
+
 TEST(ReadMill, names_a_misspelt_key_and_the_nearest_known_one) {
   EXPECT_EQ(refusal("count:", "cuont:"),
             "mill.yaml:7: key 'geometry.lifters.cuont' is unknown: did you mean 'count'? known here: count, "

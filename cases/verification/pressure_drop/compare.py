@@ -31,7 +31,7 @@ STEPS = 10
 # beta dt/(e rho): below 0.002 the drag, explicit in the pressure equation, costs less than the tolerance
 STIFFNESS = 1e-3
 # Reynolds numbers on both sides of every switch in Re that the laws have at these solidities: Hill 2.7 and 6.6,
-# Benyahia 3.2 and 6.6, Wen-Yu 1000. Their switches in phi (0.2, 0.4) lie between the solidities.
+# Benyahia 4.7 and 6.6, Wen-Yu 1000. Their switches in phi (0.2, 0.4) lie between the solidities.
 SOLIDITIES = (0.15, 0.5)
 BRANCHES = (0.5, 50.0, 2000.0)
 REYNOLDS = (0.5, 5.0, 50.0, 500.0, 2000.0)

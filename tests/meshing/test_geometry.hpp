@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "meshing/mill.hpp"
+
+namespace millfoam::meshing {
+
+/// A mill and the size of its cells, m.
+struct TestMill {
+  Geometry geometry;
+  double cell_size = 0;
+};
+
+inline TestMill test_mill(double diameter, int count, double height, double width, double cell_size,
+                          Ends ends = Ends::plain) {
+  return {{diameter, diameter / 5, ends, {count, height, width}}, cell_size};
+}
+
+/// The 12 cm and the 30 cm mill, a smooth drum, and mills that are harder to mesh.
+inline std::vector<TestMill> ordinary_mills() {
+  return {test_mill(0.12, 12, 0.008, 0.006, 0.002), test_mill(0.12, 12, 0.008, 0.006, 0.003),
+          test_mill(0.12, 12, 0.008, 0.006, 0.004), test_mill(0.12, 12, 0.008, 0.006, 0.006),
+          test_mill(0.3, 20, 0.01, 0.01, 0.005),    test_mill(0.3, 20, 0.01, 0.01, 0.01),
+          test_mill(0.12, 0, 0, 0, 0.003),          test_mill(0.12, 0, 0, 0, 0.01)};
+}
+
+inline std::vector<TestMill> unusual_mills() {
+  return {test_mill(0.12, 1, 0.008, 0.006, 0.004),  test_mill(0.12, 2, 0.008, 0.006, 0.004),
+          test_mill(0.12, 3, 0.02, 0.02, 0.004),    test_mill(0.12, 5, 0.008, 0.006, 0.004),
+          test_mill(0.12, 7, 0.008, 0.006, 0.006),  test_mill(0.12, 11, 0.008, 0.002, 0.006),
+          test_mill(0.12, 30, 0.004, 0.004, 0.003), test_mill(0.12, 12, 0.03, 0.004, 0.003),
+          test_mill(0.12, 12, 0.008, 0.025, 0.003), test_mill(0.12, 12, 0.001, 0.006, 0.003)};
+}
+
+/// Area of the mill's section whose shell has a facet over each of `gap` equal angles between two lifters:
+/// triangles to the axis between the lifters' feet, and between each lifter's sides and top by the shoelace
+/// formula.
+inline double faceted_section(const Geometry& geometry, int gap) {
+  const double r = geometry.radius(), width = geometry.lifters.width;
+  const double foot = std::sqrt(r * r - width * width / 4), top = r - geometry.lifters.height;
+  const double facet = (2 * std::acos(-1.0) / geometry.lifters.count - 2 * std::asin(width / 2 / r)) / gap;
+  return geometry.lifters.count * (gap * r * r / 2 * std::sin(facet) + width / 2 * (2 * top - foot));
+}
+
+}  // namespace millfoam::meshing
