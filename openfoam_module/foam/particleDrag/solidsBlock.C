@@ -9,11 +9,10 @@
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::solidsBlock::solidsBlock(const dictionary& dict)
-:
-    box_(),
-    solidity_(dict.get<scalar>("solidity")),
-    velocity_(dict.get<vector>("velocity")),
-    diameter_(dict.get<scalar>("diameter"))
+: box_(),
+  solidity_(dict.get<scalar>("solidity")),
+  velocity_(dict.get<vector>("velocity")),
+  diameter_(dict.get<scalar>("diameter"))
 {
     dict.lookup("box") >> box_.min() >> box_.max();
 
@@ -40,14 +39,9 @@ Foam::solidsBlock::solidsBlock(const dictionary& dict)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::solidsBlock::sample
-(
-    const scalar,
-    const UList<point>& at,
-    scalarField& solidity,
-    vectorField& velocity,
-    scalarField& diameter
-)
+Foam::label Foam::solidsBlock::sample(
+    const scalar, const UList<point>& at, scalarField& solidity,
+    vectorField& velocity, scalarField& diameter)
 {
     forAll(at, i)
     {
@@ -63,8 +57,8 @@ Foam::label Foam::solidsBlock::sample
 Foam::string Foam::solidsBlock::description() const
 {
     OStringStream text;
-    text<< "uniform bed of solidity " << solidity_ << ", velocity "
-        << velocity_ << " m/s, diameter " << diameter_ << " m in " << box_;
+    text << "uniform bed of solidity " << solidity_ << ", velocity "
+         << velocity_ << " m/s, diameter " << diameter_ << " m in " << box_;
     return text.str();
 }
 

@@ -12,19 +12,17 @@
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
-const Foam::Enum<Foam::solidsRecord::range> Foam::solidsRecord::rangeNames_
-({
-    { range::error, "error" },
-    { range::hold, "hold" },
-    { range::repeat, "repeat" },
+const Foam::Enum<Foam::solidsRecord::range> Foam::solidsRecord::rangeNames_({
+    {range::error, "error"},
+    {range::hold, "hold"},
+    {range::repeat, "repeat"},
 });
 
 const Foam::Enum<millfoam::averaging::Interpolation>
-Foam::solidsRecord::interpolationNames_
-({
-    { millfoam::averaging::Interpolation::cell, "cell" },
-    { millfoam::averaging::Interpolation::linear, "linear" },
-});
+    Foam::solidsRecord::interpolationNames_({
+        {millfoam::averaging::Interpolation::cell, "cell"},
+        {millfoam::averaging::Interpolation::linear, "linear"},
+    });
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -65,19 +63,15 @@ Foam::scalar Foam::solidsRecord::duration() const
 void Foam::solidsRecord::checkTime0() const
 {
     scalar time0;
-    if
-    (
-        dict_.readIfPresent("time0", time0)
-     && mag(time0 - reader_->time0()) > reader_->timestep()
-    )
+    if (dict_.readIfPresent("time0", time0) &&
+        mag(time0 - reader_->time0()) > reader_->timestep())
     {
         FatalIOErrorInFunction(dict_)
             << "time0 is " << time0 << " s but " << file_
             << " begins at DEM time " << reader_->time0() << " s: the mesh"
             << " would be turned against the solids. Make the mesh with"
             << " millMesh --at-time " << reader_->time0()
-            << " or average from --start " << time0
-            << exit(FatalIOError);
+            << " or average from --start " << time0 << exit(FatalIOError);
     }
 }
 
@@ -87,13 +81,13 @@ void Foam::solidsRecord::checkGaps() const
     const auto& windows = reader_->windows();
     for (std::size_t i = 1; i < windows.size(); ++i)
     {
-        if (mag(windows[i].begin - windows[i-1].end) > reader_->timestep()/2)
+        if (mag(windows[i].begin - windows[i - 1].end) >
+            reader_->timestep() / 2)
         {
             FatalIOErrorInFunction(dict_)
                 << file_ << ": no solids between DEM times "
-                << windows[i-1].end << " s and " << windows[i].begin
-                << " s; expected windows without a gap"
-                << exit(FatalIOError);
+                << windows[i - 1].end << " s and " << windows[i].begin
+                << " s; expected windows without a gap" << exit(FatalIOError);
         }
     }
 }
@@ -105,12 +99,12 @@ Foam::label Foam::solidsRecord::windowAt(const scalar t) const
     const label last = label(windows.size()) - 1;
 
     // Half a DEM step: times that should agree may differ by rounding
-    const scalar tolerance = reader_->timestep()/2;
+    const scalar tolerance = reader_->timestep() / 2;
 
     scalar elapsed = t;
     if (outOfRange_ == range::repeat)
     {
-        elapsed -= duration()*std::floor((t + tolerance)/duration());
+        elapsed -= duration() * std::floor((t + tolerance) / duration());
     }
     else if (outOfRange_ == range::hold)
     {
@@ -124,16 +118,12 @@ Foam::label Foam::solidsRecord::windowAt(const scalar t) const
             << windows.back().end << " s, that is flow times 0 to "
             << duration() << " s, but the flow needs " << t << " s."
             << " Shorten the flow (endTime), record more, or choose"
-            << " outOfRange hold or repeat"
-            << exit(FatalIOError);
+            << " outOfRange hold or repeat" << exit(FatalIOError);
     }
 
     label number = 0;
-    while
-    (
-        number < last
-     && reader_->time0() + elapsed + tolerance >= windows[number].end
-    )
+    while (number < last &&
+           reader_->time0() + elapsed + tolerance >= windows[number].end)
     {
         ++number;
     }
@@ -144,31 +134,23 @@ Foam::label Foam::solidsRecord::windowAt(const scalar t) const
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::solidsRecord::solidsRecord(const dictionary& dict, const Time& time)
-:
-    dict_(dict),
-    file_(dict.get<fileName>("solids").expand()),
-    interpolation_(interpolationNames_.get("interpolation", dict)),
-    outOfRange_
-    (
-        rangeNames_.getOrDefault("outOfRange", dict, range::error)
-    ),
-    number_(-1)
+: dict_(dict),
+  file_(dict.get<fileName>("solids").expand()),
+  interpolation_(interpolationNames_.get("interpolation", dict)),
+  outOfRange_(rangeNames_.getOrDefault("outOfRange", dict, range::error)),
+  number_(-1)
 {
     if (!file_.isAbsolute())
     {
-        file_ = time.globalPath()/file_;
+        file_ = time.globalPath() / file_;
     }
 
-    guarded
-    (
+    guarded(
         [this]()
         {
-            reader_ = std::make_unique<millfoam::averaging::SolidsReader>
-            (
-                std::string(file_)
-            );
-        }
-    );
+            reader_ = std::make_unique<millfoam::averaging::SolidsReader>(
+                std::string(file_));
+        });
 
     checkTime0();
     checkGaps();
@@ -184,14 +166,9 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const Time& time)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::solidsRecord::sample
-(
-    const scalar t,
-    const UList<point>& at,
-    scalarField& solidity,
-    vectorField& velocity,
-    scalarField& diameter
-)
+Foam::label Foam::solidsRecord::sample(
+    const scalar t, const UList<point>& at, scalarField& solidity,
+    vectorField& velocity, scalarField& diameter)
 {
     const label wanted = windowAt(t);
     if (wanted != number_)
@@ -205,20 +182,12 @@ Foam::label Foam::solidsRecord::sample
     {
         const point& p = at[i];
         const millfoam::averaging::LocalSolids solids =
-            millfoam::averaging::sample
-            (
-                reader_->grid(),
-                window_,
-                {p.x(), p.y(), p.z()},
-                interpolation_
-            );
+            millfoam::averaging::sample(
+                reader_->grid(), window_, {p.x(), p.y(), p.z()},
+                interpolation_);
         solidity[i] = solids.solidity;
-        velocity[i] = vector
-        (
-            solids.velocity[0],
-            solids.velocity[1],
-            solids.velocity[2]
-        );
+        velocity[i] =
+            vector(solids.velocity[0], solids.velocity[1], solids.velocity[2]);
         diameter[i] = solids.diameter;
         uncovered += solids.inside ? 0 : 1;
     }
@@ -229,11 +198,11 @@ Foam::label Foam::solidsRecord::sample
 Foam::string Foam::solidsRecord::description() const
 {
     OStringStream text;
-    text<< label(reader_->windows().size()) << " windows of " << file_
-        << ", DEM times " << reader_->time0() << " to "
-        << reader_->windows().back().end << " s, "
-        << interpolationNames_[interpolation_] << " interpolation, "
-        << rangeNames_[outOfRange_] << " beyond";
+    text << label(reader_->windows().size()) << " windows of " << file_
+         << ", DEM times " << reader_->time0() << " to "
+         << reader_->windows().back().end << " s, "
+         << interpolationNames_[interpolation_] << " interpolation, "
+         << rangeNames_[outOfRange_] << " beyond";
     return text.str();
 }
 
