@@ -221,6 +221,9 @@ class RefusedDictionary(OpenFoamTest):
     def test_a_box_turned_inside_out(self):
         self.assert_entries_refused("law Ergun;" + re.sub(r"box [^;]*", "box (9 9 9) (-9 -9 -9)", self.BLOCK), "box is")
 
+    def test_a_negative_multiplier(self):
+        self.assert_entries_refused(f"law Ergun; multiplier -1; {self.BLOCK}", "multiplier is -1")
+
     def test_a_missing_law(self):
         self.assert_entries_refused(self.BLOCK, "law")
 

@@ -26,8 +26,8 @@ DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014
 HALF_GAP, CELLS = 0.005, 100
 PLUG = 0.4  # half width of the plug over half the gap
 DRIVE = YIELD_STRESS / (PLUG * HALF_GAP)
-# The plug creeps by a hundredth of the plastic rate. Stiffer plugs need a shorter step: interFoam is stable
-# while the largest viscosity times step over density and cell squared stays below some 400, here it is 330.
+# The plug creeps by a hundredth of the plastic rate. Stiffer plugs need a shorter step: runs whose largest viscosity
+# times step over density and cell squared was 361 were steady, with 3600 they were not; here it is 330.
 VISCOSITY_RATIO, M = 100.0, 1.0
 REGULARISATIONS = ("biviscosity", "Papanastasiou")
 TOLERANCE = 0.02
