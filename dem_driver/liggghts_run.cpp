@@ -33,8 +33,8 @@ std::vector<std::string> command(const CaseFolder& folder, int ranks) {
   return words;
 }
 
-/// For Open MPI (others ignore it): ranks that wait give way and are not tied to a core, because on a machine
-/// that is busy otherwise spinning ranks slow each other down many times over; and root has to say twice that
+/// For Open MPI (others ignore it): ranks that wait give way and are not tied to a core, so that they do not
+/// take time from a rank that works or from another program on the same core; and root has to say twice that
 /// it means it.
 std::vector<std::string> environment() {
   std::vector<std::string> variables{"OMPI_MCA_mpi_yield_when_idle=1",
