@@ -123,6 +123,12 @@ void note_windows_not_full(long long interval, double timestep, WindowPlan& plan
   }
 }
 
+/// A window that is not full ends with its last record's interval: what was not recorded is not claimed.
+void end_with_the_dumps(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
+  WindowSpan& last = plan.windows.back();
+  last.end = std::min(last.end, steps[last.first_record + last.records - 1] + interval);
+}
+
 }  // namespace
 
 WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request) {
@@ -137,6 +143,7 @@ WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest
   cut(steps, range, length, request.timestep, plan);
   drop_closing_record(steps, interval, request.timestep, plan);
   note_windows_not_full(interval, request.timestep, plan);
+  end_with_the_dumps(steps, interval, plan);
   return plan;
 }
 

@@ -18,10 +18,11 @@ constexpr double smallest_modulus = 5e6;
 // to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
-/// LIGGGHTS wants a different prime above 10000 for every random stream.
+/// LIGGGHTS wants a different prime above 10000 for every random stream. Each seed has a stretch of numbers
+/// of its own, so that two seeds have no stream in common.
 class Primes {
  public:
-  explicit Primes(int start) : last_(std::max(start, 10006)) {}
+  explicit Primes(int seed) : last_(10006 + stretch * seed) {}
   int next() {
     do {
       ++last_;
@@ -35,6 +36,7 @@ class Primes {
       if (number % divisor == 0) return false;
     return true;
   }
+  static constexpr int stretch = 10007;
   int last_;
 };
 

@@ -164,7 +164,8 @@ Dem read_dem(const Section& in) {
   dem.record_interval = in.number("record_interval",
                                   {"a time above 0 and not above the duration, " + shown(dem.duration) + " s",
                                    [&](double v) { return v > 0 && v <= dem.duration; }});
-  dem.seed = in.integer("seed", {"a whole number above 0", [](double v) { return v > 0; }});
+  dem.seed =
+      in.integer("seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }});
   return dem;
 }
 

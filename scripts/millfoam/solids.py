@@ -33,7 +33,9 @@ def read_map(path, begin=-np.inf, end=np.inf):
             raise RuntimeError(f"{path}: not complete; average the dumps again")
         lower, upper, shape = (np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "shape"))
         begins, ends = file["window/begin"][:], file["window/end"][:]
-        chosen = np.flatnonzero((ends > begin) & (begins < end))
+        # Times that should agree may differ by rounding
+        tolerance = file.attrs["timestep"] / 2
+        chosen = np.flatnonzero((ends > begin + tolerance) & (begins < end - tolerance))
         if len(chosen) == 0:
             raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
         solidity, flux = 0.0, 0.0

@@ -55,6 +55,7 @@ TEST(TimeWindows, ALastWindowThatTheDumpsDoNotFillIsKeptWithAWarning) {
   const WindowPlan plan = plan_windows(every(200, 16000), windows_of(0.05));
   ASSERT_EQ(plan.windows.size(), 4U);
   EXPECT_EQ(plan.windows[3].records, 6U);
+  EXPECT_EQ(plan.windows[3].end, 16200) << "one interval after the last record";
   ASSERT_EQ(plan.notes.size(), 1U);
   expect_named(plan.notes[0], {"window 3", "0.15 s", "0.2 s", "6 records", "25"});
 }

@@ -134,6 +134,20 @@ TEST(Deck, EveryRandomStreamHasItsOwnPrimeAboveTenThousand) {
   }
 }
 
+TEST(Deck, TwoSeedsHaveNoRandomStreamInCommon) {
+  meshing::Mill mill = small_mill();
+  std::set<std::string> streams;
+  std::size_t count = 0;
+  for (const int seed : {1, 2, 100000}) {
+    mill.dem.seed = seed;
+    for (const auto& stream : after(deck_of(mill), "seed")) {
+      streams.insert(stream);
+      ++count;
+    }
+  }
+  EXPECT_EQ(streams.size(), count);
+}
+
 TEST(Deck, RollingFrictionIsAConstantDirectionalTorqueForBallsAndWallsAlike) {
   const std::string deck = deck_of(small_mill());
   const std::string model = "gran model hertz tangential history rolling_friction cdt";

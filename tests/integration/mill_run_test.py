@@ -4,7 +4,6 @@
 The mill case itself with coarser cells and less time, run with the law's drag, with twice of it, and with none."""
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,20 +12,11 @@ import numpy as np
 
 from millfoam import foam, solids
 from millfoam.mill_flow import MillFlow
+from millfoam.run import run
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_12cm"
 START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
 DRAGS = {"law": 1, "doubled": 2, "off": 0}
-
-
-def call(name, *command, cwd):
-    """Runs a stage; a failure shows the end of its log."""
-    log = cwd / f"log.{name}"
-    with open(log, "w") as out:
-        done = subprocess.run([str(word) for word in command], cwd=cwd, stdout=out, stderr=subprocess.STDOUT)
-    if done.returncode:
-        raise AssertionError(f"{name} failed; its log ends with:\n" + "\n".join(log.read_text().splitlines()[-15:]))
-    return log.read_text()
 
 
 def replace(path, *changes):
@@ -52,28 +42,35 @@ class MillRun(unittest.TestCase):
         replace(charge / "mill.yaml", (r"cell_size: \S+", "cell_size: 0.005"), (r"layers: \S+", "layers: 3"),
                 (r"  duration: \S+", f"  duration: {START + END}"))
         replace(charge / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {END}"))
-        call("mesh", "millMesh", "mill.yaml", "--case", ".", "--at-time", START, cwd=charge)
-        call("dem", "millDem", "mill.yaml", "--case", ".", cwd=charge)
+        run(charge, "millMesh", "mill.yaml", "--case", ".", "--at-time", START)
+        run(charge, "millDem", "mill.yaml", "--case", ".")
         length = foam.read_dictionary(charge / "constant" / "millProperties")["length"]
-        cls.ledger = call("average", "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.066, -0.066, 0, 0.066,
-                          0.066, length, "--shape", 12, 12, 2, "--start", START, "--window", 0.05, "--periodic", "z",
-                          "-o", "solids.h5", cwd=charge)
+        run(charge, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.066, -0.066, 0, 0.066, 0.066, length,
+            "--shape", 12, 12, 2, "--start", START, "--window", 0.05, "--periodic", "z", "-o", "solids.h5")
         shutil.copytree(charge / "0.orig", charge / "0")
-        call("pool", "setAlphaField", cwd=charge)
+        run(charge, "setAlphaField")
         cls.flows = {name: cls.flow(charge, name, multiplier) for name, multiplier in DRAGS.items()}
         cls.solids = solids.read_map(charge / "solids.h5", START + LATE, START + END)
+        cls.print_centroids()
 
     @classmethod
     def flow(cls, charge, name, multiplier):
         case = cls.folder / name
         shutil.copytree(charge, case, ignore=shutil.ignore_patterns("dumps"))
         replace(case / "constant" / "fvOptions", (r"multiplier +\S+;", f"multiplier {multiplier};"))
-        call("flow", "millInterFoam", cwd=case)
+        run(case, "millInterFoam")
         return MillFlow(case)
 
-    def late_centroid(self, name):
+    @classmethod
+    def print_centroids(cls):
+        print("centroid, mm:  charge  x {:.1f}  y {:.1f}".format(*1e3 * np.array(cls.solids.centroid())))
+        for name in cls.flows:
+            print("centroid, mm:  slurry, drag {}  x {:.1f}  y {:.1f}".format(name, *1e3 * cls.late_centroid(name)))
+
+    @classmethod
+    def late_centroid(cls, name):
         """Mean centroid (x, y) of the slurry from LATE on, m."""
-        flow = self.flows[name]
+        flow = cls.flows[name]
         return np.mean([flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= LATE - 1e-9], axis=0)
 
     def test_charge_lies_on_the_rising_side_and_below_the_axis(self):

@@ -7,7 +7,6 @@ plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); beside it u = G (
 (Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). Exit code 1 when one misses."""
 import argparse
 import shutil
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -20,6 +19,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam import foam
+from millfoam.run import run as run_program
+from millfoam.run import write_parameters
 
 # Slurry with 30 % solids by mass
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014
@@ -79,16 +80,12 @@ class Flow:
 
 def run(regularisation, case, template):
     shutil.copytree(template, case)
-    parameters = dict(
-        density=DENSITY, yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
+    write_parameters(
+        case, density=DENSITY, yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
         viscosityRatio=VISCOSITY_RATIO, m=M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS, step=STEP,
         endTime=STEPS * STEP, writeInterval=STEPS // 10)
-    (case / "parameters").write_text("".join(f"{key} {value};\n" for key, value in parameters.items()))
-    for program in ("blockMesh", "millInterFoam"):
-        with open(case / f"log.{program}", "w") as log:
-            done = subprocess.run([program, "-case", str(case)], stdout=log, stderr=subprocess.STDOUT)
-        if done.returncode:
-            sys.exit(f"{program} failed; see {case}/log.{program}")
+    run_program(case, "blockMesh")
+    run_program(case, "millInterFoam")
     *_, before, last = (path for _, path in foam.times(case))
     mesh = foam.read_mesh(case)
     y = mesh.centres_and_volumes()[0][:, 1]

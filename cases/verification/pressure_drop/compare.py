@@ -20,6 +20,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam import foam
+from millfoam.run import run as run_program
+from millfoam.run import write_parameters
 
 DENSITY, VISCOSITY, DIAMETER = 1000.0, 1e-3, 5e-3
 BOXES = {"8 m": 1.0, "8 cm": 0.01}
@@ -85,17 +87,13 @@ def run(bed, number, work, template):
     case = work / f"bed{number:03d}"
     shutil.copytree(template, case)
     step = STIFFNESS * (1 - bed.solidity) * DENSITY / bed.beta
-    parameters = dict(
-        scale=scale, steps=STEPS, step=step, endTime=STEPS * step, density=DENSITY, viscosity=VISCOSITY,
+    write_parameters(
+        case, scale=scale, steps=STEPS, step=step, endTime=STEPS * step, density=DENSITY, viscosity=VISCOSITY,
         kinematicViscosity=VISCOSITY / DENSITY, law=bed.law, bedBegin=FIRST_CELL * CELL * scale,
         bedEnd=(FIRST_CELL + bed.cells) * CELL * scale, solidity=bed.solidity, ballSpeed=bed.speed,
         diameter=DIAMETER)
-    (case / "parameters").write_text("".join(f"{key} {value};\n" for key, value in parameters.items()))
-    for program in ("blockMesh", "millInterFoam"):
-        with open(case / f"log.{program}", "w") as log:
-            done = subprocess.run([program, "-case", str(case)], stdout=log, stderr=subprocess.STDOUT)
-        if done.returncode:
-            sys.exit(f"{program} failed; see {case}/log.{program}")
+    run_program(case, "blockMesh")
+    run_program(case, "millInterFoam")
     measure(bed, case)
     if abs(bed.error) <= TOLERANCE:
         shutil.rmtree(case)

@@ -3,12 +3,11 @@
 """What is at rest in a mill at rest stays at rest: on the mill's own mesh, first slurry alone, then a pool under air.
 
 Slurry alone must stay below 1e-6 m/s. The pool's free surface, exactly flat at the start, does not stay at rest with
-interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported, and
-must stay within what that error can drive. Exit code 1 when something misses."""
+interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported and
+guarded against getting worse. Exit code 1 when something misses."""
 import argparse
 import math
 import shutil
-import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,14 +20,21 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam import foam
+from millfoam.run import run as run_program
+from millfoam.run import write_parameters
 
-GRAVITY = 9.81
 STILL = 1e-6  # m/s, largest speed of the slurry alone
 CONSERVED = 1e-6  # relative change of the slurry's volume
 FLUID_STEPS, POOL_END = 50, 0.2
+# Three times what this mesh showed (air 1.0, slurry 0.041): nothing physical, a guard against getting worse
+MOST_AIR, MOST_SLURRY = 3.0, 0.12  # m/s
+STILL_FLUID = dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no",
+                   writeInterval=FLUID_STEPS * 1e-3)
+# By name: mill (beside this file), the DEM time it is turned to, parameters of the flow
 RUNS = {
-    "fluid": dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no", writeInterval=FLUID_STEPS * 1e-3),
-    "pool": dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes", writeInterval=0.01),
+    "pool": ("mill.yaml", 0, dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes", writeInterval=0.01)),
+    "fluid": ("mill.yaml", 0, STILL_FLUID),
+    "slice": ("../../mills/mill_12cm/mill.yaml", 1.0, STILL_FLUID),
 }
 
 
@@ -50,16 +56,12 @@ def run(name, work, here):
     """Runs one of RUNS in its own folder under `work`; a program that fails ends this one."""
     case = work / name
     shutil.copytree(here / "template", case)
-    (case / "parameters").write_text("".join(f"{key} {value};\n" for key, value in RUNS[name].items()))
-    commands = [["millMesh", str(here / "mill.yaml"), "--case", str(case)]]
+    mill, time, parameters = RUNS[name]
+    write_parameters(case, **parameters)
+    run_program(case, "millMesh", here / mill, "--case", ".", "--at-time", time)
     if name == "pool":
-        commands.append(["setAlphaField", "-case", str(case)])
-    commands.append(["millInterFoam", "-case", str(case)])
-    for command in commands:
-        with open(case / f"log.{command[0]}", "w") as log:
-            done = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT)
-        if done.returncode:
-            sys.exit(f"{command[0]} failed; see {case}/log.{command[0]}")
+        run_program(case, "setAlphaField")
+    run_program(case, "millInterFoam")
     return case
 
 
@@ -83,20 +85,7 @@ def measure(case):
     return Pool(*np.array(rows).T)
 
 
-def bounds(case):
-    """Speeds (m/s) that the air and the slurry of the pool may not exceed.
-
-    Air: what the weight of slurry over an error in height of one cell drives, sqrt(2 (rho_s - rho_a) g cell/rho_a).
-    Slurry: free fall through the mill."""
-    mill = {key: float(value) for key, value in foam.read_dictionary(case / "constant" / "millProperties").items()
-            if key in ("radius", "slurryDensity", "airDensity")}
-    mesh = foam.read_mesh(case)
-    cell = max(np.ptp(mesh.points[face][:, :2], axis=0).max() for face in mesh.faces)
-    excess = mill["slurryDensity"] / mill["airDensity"] - 1
-    return math.sqrt(2 * excess * GRAVITY * cell), math.sqrt(2 * GRAVITY * 2 * mill["radius"])
-
-
-def report(fluid, pool, most, out):
+def report(fluids, pool, out):
     """Writes and prints the table; the number of lines that missed."""
     lines = [f"{'':<44} {'found':>11} {'allowed':>9}"]
     missed = 0
@@ -107,9 +96,10 @@ def report(fluid, pool, most, out):
         missed += not hit
         lines.append(f"{text:<44} {found:11.3e} {allowed:9.2e}" + ("" if hit else "  MISSED"))
 
-    row(f"slurry alone, {len(fluid)} steps: largest m/s", fluid[:, 1].max(), STILL)
-    row(f"pool, {pool.time[-1]:g} s: air, largest m/s", pool.air.max(), most[0])
-    row("pool: slurry, largest m/s", pool.slurry.max(), most[1])
+    for name, fluid in fluids.items():
+        row(f"slurry alone ({name}), {len(fluid)} steps: largest m/s", fluid[:, 1].max(), STILL)
+    row(f"pool, {pool.time[-1]:g} s: air, largest m/s", pool.air.max(), MOST_AIR)
+    row("pool: slurry, largest m/s", pool.slurry.max(), MOST_SLURRY)
     row("pool: relative change of the slurry's volume", pool.volume_change, CONSERVED)
     lines += ["", "pool, spurious speeds in m/s",
               f"{'time s':>7} {'air max':>9} {'slurry max':>11} {'slurry rms':>11}"]
@@ -120,9 +110,10 @@ def report(fluid, pool, most, out):
     return missed
 
 
-def plot(fluid, pool, steps, out):
+def plot(fluids, pool, steps, out):
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5), constrained_layout=True)
-    left.semilogy(1e3 * fluid[:, 0], np.maximum(fluid[:, 1], 1e-18), label="largest speed")
+    for name, fluid in fluids.items():
+        left.semilogy(1e3 * fluid[:, 0], np.maximum(fluid[:, 1], 1e-18), label=f"largest speed ({name})")
     left.axhline(STILL, color="k", ls="--", label="allowed")
     left.set(title="Slurry alone, at rest", xlabel="time, ms", ylabel="m/s")
     right.semilogy(1e3 * steps[:, 0], steps[:, 1], color="0.7", label="largest of every step")
@@ -143,13 +134,14 @@ def main():
     work = here / "runs"
     shutil.rmtree(work, ignore_errors=True)
     with ThreadPoolExecutor(options.jobs) as threads:
-        fluid_case, pool_case = threads.map(lambda name: run(name, work, here), RUNS)
-    fluid, steps, pool = largest_speeds(fluid_case), largest_speeds(pool_case), measure(pool_case)
-    missed = report(fluid, pool, bounds(pool_case), here / "rest.txt")
-    if len(fluid) != FLUID_STEPS or abs(pool.time[-1] - POOL_END) > 1e-6:
-        print(f"the runs ended early: {len(fluid)} steps of {FLUID_STEPS}, {pool.time[-1]} s of {POOL_END}")
+        cases = dict(zip(RUNS, threads.map(lambda name: run(name, work, here), RUNS)))
+    steps, pool = largest_speeds(cases["pool"]), measure(cases["pool"])
+    fluids = {"plain ends": largest_speeds(cases["fluid"]), "slice": largest_speeds(cases["slice"])}
+    missed = report(fluids, pool, here / "rest.txt")
+    if any(len(fluid) != FLUID_STEPS for fluid in fluids.values()) or abs(pool.time[-1] - POOL_END) > 1e-6:
+        print(f"a run ended early: expected {FLUID_STEPS} steps of slurry alone and {POOL_END} s of the pool")
         missed += 1
-    plot(fluid, pool, steps, here / "rest.png")
+    plot(fluids, pool, steps, here / "rest.png")
     return 1 if missed else 0
 
 

@@ -197,6 +197,15 @@ void Foam::fv::particleDrag::addSup(
 }
 
 
+void Foam::fv::particleDrag::addSup(fvMatrix<vector>& eqn, const label)
+{
+    FatalErrorInFunction
+        << type() << " " << name_ << ": the equation of " << eqn.psi().name()
+        << " has no density; expected a solver such as interFoam, whose"
+        << " momentum equation is per volume" << exit(FatalError);
+}
+
+
 bool Foam::fv::particleDrag::read(const dictionary& dict)
 {
     if (!option::read(dict))

@@ -160,7 +160,11 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const Time& time)
         outOfRange_ = range::hold;
     }
     windowAt(time.startTime().value());
-    windowAt(time.endTime().value());
+    // Without a set end (stopAt nextWrite and its kin) only the run can tell
+    if (time.endTime().value() < GREAT)
+    {
+        windowAt(time.endTime().value());
+    }
 }
 
 
