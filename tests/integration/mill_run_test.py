@@ -65,27 +65,30 @@ class MillRun(unittest.TestCase):
     def print_centroids(cls):
         print("centroid, mm:  charge  x {:.1f}  y {:.1f}".format(*1e3 * np.array(cls.solids.centroid())))
         for name in cls.flows:
-            print("centroid, mm:  slurry, drag {}  x {:.1f}  y {:.1f}".format(name, *1e3 * cls.late_centroid(name)))
+            print("centroid, mm:  slurry, drag {}  x {:.1f}  y {:.1f}".format(name, *1e3 * cls.late_centroids(name).mean(axis=0)))
 
     @classmethod
-    def late_centroid(cls, name):
-        """Mean centroid (x, y) of the slurry from LATE on, m."""
+    def late_centroids(cls, name):
+        """Centroid (x, y) of the slurry, m, in every frame from LATE on."""
         flow = cls.flows[name]
-        return np.mean([flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= LATE - 1e-9], axis=0)
+        return np.array([flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= LATE - 1e-9])
 
     def test_charge_lies_on_the_rising_side_and_below_the_axis(self):
         x, y = self.solids.centroid()
-        self.assertLess(x, -0.005)
-        self.assertLess(y, -0.005)
+        self.assertLess(x, 0)
+        self.assertLess(y, 0)
 
     def test_slurry_lies_on_the_rising_side(self):
-        self.assertLess(self.late_centroid("law")[0], -0.005)
+        self.assertTrue(np.all(self.late_centroids("law")[:, 0] < 0))
 
-    def test_doubled_drag_raises_the_slurry(self):
-        self.assertGreater(self.late_centroid("doubled")[1], self.late_centroid("law")[1] + 1e-5)
+    def test_doubled_drag_raises_the_slurry_at_every_time(self):
+        self.assertTrue(np.all(self.late_centroids("doubled")[:, 1] > self.late_centroids("law")[:, 1]))
 
     def test_without_drag_the_slurry_does_not_follow_the_charge(self):
-        self.assertGreater(self.late_centroid("off")[0], self.late_centroid("law")[0] / 2)
+        # What the lifters alone carry up is less than half of what they carry with the charge between them.
+        lifted = -self.late_centroids("off")[:, 0].mean()
+        self.assertLess(lifted, -self.late_centroids("law")[:, 0].mean() / 2)
+        self.assertLess(lifted, -self.solids.centroid()[0] / 4)
 
     def test_slurry_is_conserved(self):
         for name, flow in self.flows.items():
@@ -97,9 +100,10 @@ class MillRun(unittest.TestCase):
             self.assertAlmostEqual(flow.frames[-1][0], END)
             for _, path in flow.frames:
                 for field in ("U", "p_rgh", "alpha.slurry"):
-                    self.assertTrue(np.all(np.isfinite(flow.field(field, path))))
+                    flow.field(field, path)  # raises where a value is not finite
 
     def test_slurry_is_slower_than_the_shell_on_average(self):
+        # Nothing but the shell and what it lifts drives the slurry.
         flow = self.flows["law"]
         _, path = flow.frames[-1]
         weight = flow.field("alpha.slurry", path) * flow.volumes
