@@ -51,7 +51,7 @@ class MillRun(unittest.TestCase):
         run(charge, "setAlphaField")
         cls.flows = {name: cls.flow(charge, name, multiplier) for name, multiplier in DRAGS.items()}
         cls.solids = solids.read_map(charge / "solids.h5", START + LATE, START + END)
-        cls.print_centroids()
+        cls.print_summary()
 
     @classmethod
     def flow(cls, charge, name, multiplier):
@@ -62,16 +62,31 @@ class MillRun(unittest.TestCase):
         return MillFlow(case)
 
     @classmethod
-    def print_centroids(cls):
+    def print_summary(cls):
         print("centroid, mm:  charge  x {:.1f}  y {:.1f}".format(*1e3 * np.array(cls.solids.centroid())))
         for name in cls.flows:
-            print("centroid, mm:  slurry, drag {}  x {:.1f}  y {:.1f}".format(name, *1e3 * cls.late_centroids(name).mean(axis=0)))
+            print("centroid, mm:  slurry, drag {}  x {:.1f}  y {:.1f};  slip over ball speed {:.2f}".format(
+                name, *1e3 * cls.late_centroids(name).mean(axis=0), cls.slip(name)))
 
     @classmethod
     def late_centroids(cls, name):
         """Centroid (x, y) of the slurry, m, in every frame from LATE on."""
         flow = cls.flows[name]
         return np.array([flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= LATE - 1e-9])
+
+    @classmethod
+    def slip(cls, name):
+        """Mean slip |u_s - U| over mean |u_s| of the balls in slurry, from LATE on."""
+        slip = speed = 0.0
+        flow = cls.flows[name]
+        for time, path in flow.frames:
+            if time < LATE - 1e-9:
+                continue
+            weight = flow.field("solidity", path) * flow.field("alpha.slurry", path) * flow.volumes
+            balls = flow.field("solidsVelocity", path)
+            slip += (weight * np.linalg.norm(balls - flow.field("U", path), axis=1)).sum()
+            speed += (weight * np.linalg.norm(balls, axis=1)).sum()
+        return slip / speed
 
     def test_charge_lies_on_the_rising_side_and_below_the_axis(self):
         x, y = self.solids.centroid()
@@ -85,10 +100,11 @@ class MillRun(unittest.TestCase):
         self.assertTrue(np.all(self.late_centroids("doubled")[:, 1] > self.late_centroids("law")[:, 1]))
 
     def test_without_drag_the_slurry_does_not_follow_the_charge(self):
-        # What the lifters alone carry up is less than half of what they carry with the charge between them.
-        lifted = -self.late_centroids("off")[:, 0].mean()
-        self.assertLess(lifted, -self.late_centroids("law")[:, 0].mean() / 2)
-        self.assertLess(lifted, -self.solids.centroid()[0] / 4)
+        # The lifters alone carry some slurry up, but less than the charge does at any time; and among the balls the
+        # slurry moves with them only where they drag it.
+        self.assertTrue(np.all(self.late_centroids("off")[:, 0] > self.late_centroids("law")[:, 0]))
+        self.assertLess(self.slip("law"), 0.5)
+        self.assertGreater(self.slip("off"), 2 * self.slip("law"))
 
     def test_slurry_is_conserved(self):
         for name, flow in self.flows.items():
