@@ -40,8 +40,9 @@ struct WindowPlan {
 /// changes window by rounding of times.
 ///
 /// A window that the records do not fill is kept, with a note. Only a last one that holds nothing but the
-/// record at its very beginning is left out, with a note: that record closes the window before. A whole run
-/// ends one record interval after its last record, since each record stands for one interval.
+/// record at its very beginning is left out, with a note: that record closes the window before. The last
+/// window and a whole run end at most one record interval after their last record, since each record stands
+/// for one interval: no time is claimed that was not recorded.
 ///
 /// @param steps  time-steps of the records, rising
 /// Throws WindowError for a length shorter than the record interval, times that are not finite or an end that
