@@ -49,6 +49,7 @@ std::vector<int> add_rim(CrossSection& section, const Geometry& geometry, const 
 
 std::vector<int> add_smooth_rim(CrossSection& section, const Geometry& geometry, int around) {
   std::vector<int> rim;
+  rim.reserve(static_cast<std::size_t>(around));
   for (int i = 0; i < around; ++i) {
     rim.push_back(add_point(section, on_circle(geometry.radius(), 2 * pi * i / around)));
   }
@@ -96,7 +97,7 @@ void add_gap(CrossSection& section, const Geometry& geometry, const Divisions& d
 }
 
 void add_lifter_tops(CrossSection& section, const Divisions& divisions, const std::vector<int>& rim) {
-  const auto period = static_cast<std::size_t>(divisions.lifter + divisions.gap);
+  const auto period = static_cast<std::size_t>(divisions.lifter) + static_cast<std::size_t>(divisions.gap);
   for (std::size_t p = 0; p < rim.size(); ++p) {
     if (p % period < static_cast<std::size_t>(divisions.lifter)) {
       section.walls.push_back({{rim[p], rim[(p + 1) % rim.size()]}, Part::lifters});

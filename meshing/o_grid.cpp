@@ -55,7 +55,8 @@ void place_boundary(CrossSection& section, const Core& core, const std::vector<V
   double smallest = rim.front().norm();
   for (const Vector2d& point : rim) smallest = std::min(smallest, point.norm());
   const auto corner = [&](int k) -> Vector2d {
-    return corner_radius * smallest * rim[static_cast<std::size_t>(k % 4 * side)].normalized();
+    const int p = k % 4 * side;
+    return corner_radius * smallest * rim[static_cast<std::size_t>(p)].normalized();
   };
   for (int k = 0; k < 4; ++k) {
     const auto points = arc(corner(k), corner(k + 1), side);
@@ -100,6 +101,7 @@ void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_co
   assert(static_cast<int>(rim.size()) == around);
   const auto rim_index = [&](int p) { return rim[static_cast<std::size_t>((first_corner + p) % around)]; };
   std::vector<Vector2d> outer;
+  outer.reserve(rim.size());
   for (int p = 0; p < around; ++p) outer.push_back(section.points[static_cast<std::size_t>(rim_index(p))]);
 
   const Core core{static_cast<int>(section.points.size()), side};

@@ -107,8 +107,8 @@ Section Section::open(const std::filesystem::path& file, const Keys& known) {
   return {root, file.string(), "", 1, known};
 }
 
-Section::Section(YAML::Node node, std::string file, std::string path, int line, const Keys& known)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)), line_(line), known_(known) {
+Section::Section(const YAML::Node& node, std::string file, std::string path, int line, const Keys& known)
+    : node_(node), file_(std::move(file)), path_(std::move(path)), line_(line), known_(known) {
   check_keys();
 }
 

@@ -47,7 +47,7 @@ class Section {
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
 
  private:
-  Section(YAML::Node node, std::string file, std::string path, int line, const Keys& known);
+  Section(const YAML::Node& node, std::string file, std::string path, int line, const Keys& known);
   void check_keys() const;
   YAML::Node value(const std::string& key, const std::string& expected) const;
   YAML::Node find(const std::string& key) const;
