@@ -193,7 +193,7 @@ void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
     throw std::runtime_error(message.str());
   }
   out.precision(std::numeric_limits<double>::digits10);
-  out << "# Written by millDem. " << mill.title << '\n';
+  out << "# Written by millDem\n";
   write_box(out, mill, split_ranks(ranks));
   write_physics(out, mill, plan);
   write_walls(out, parts);

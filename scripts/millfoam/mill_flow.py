@@ -21,7 +21,6 @@ class MillFlow:
         self.omega = float(properties["omega"])
         self.radius = float(properties["radius"])
         self.time0 = float(properties["time0"])
-        self.density = float(properties["slurryDensity"])
         self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
         if len(self.frames) < 2:
             raise RuntimeError(f"{self.case}: no flow was written; is log.flow complete?")

@@ -134,6 +134,12 @@ TEST(Deck, EveryRandomStreamHasItsOwnPrimeAboveTenThousand) {
   }
 }
 
+TEST(Deck, ATitleOfTwoLinesIsNoCommand) {
+  meshing::Mill mill = small_mill();
+  mill.title = "drum\nquit";
+  EXPECT_FALSE(has_line(deck_of(mill), "quit"));
+}
+
 TEST(Deck, TwoSeedsHaveNoRandomStreamInCommon) {
   meshing::Mill mill = small_mill();
   std::set<std::string> streams;
