@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "averaging/average_run.hpp"
-#include "averaging/text_lines.hpp"
+#include "averaging/run/average_run.hpp"
+#include "averaging/dumps/text_lines.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "averaging/dump_reader.hpp"
+#include "averaging/dumps/dump_reader.hpp"
 
 namespace millfoam::averaging {
 

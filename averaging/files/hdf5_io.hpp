@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "averaging/files/hdf5_handle.hpp"
+
+/// The few kinds of attributes and data sets that this room's files are made of. All functions throw
+/// hdf5::Error with the name of the attribute or data set when HDF5 fails.
+namespace millfoam::averaging::hdf5 {
+
+Handle open_group(hid_t parent, const std::string& name);
+Handle create_group(hid_t parent, const std::string& name);
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, const std::vector<double>& values);
+void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
+
+/// A single number is written as a scalar, as h5py's users expect.
+void write_attribute(hid_t object, const std::string& name, double value);
+void write_attribute(hid_t object, const std::string& name, int value);
+
+/// Gives an attribute that is there a new value.
+void overwrite_attribute(hid_t object, const std::string& name, int value);
+
+/// Text of fixed or of variable length.
+std::string read_text_attribute(hid_t object, const std::string& name);
+
+/// Any kind of number, converted; throws unless there are `count` of them.
+std::vector<double> read_double_attribute(hid_t object, const std::string& name, std::size_t count);
+std::vector<int> read_int_attribute(hid_t object, const std::string& name, std::size_t count);
+
+/// Creates an empty data set that grows along its first dimension.
+/// @param row    dimensions of one row, slowest first; empty for a single number per row
+/// @param type   H5T_NATIVE_DOUBLE or H5T_NATIVE_INT64
+/// @param units  written as the attribute `units`
+/// A row with dimensions is one chunk, compressed (shuffle, deflate level 1: most voxels of a mill are
+/// empty).
+Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsize_t>& row, hid_t type,
+                   const std::string& units);
+
+/// Appends one row; `values` holds the product of its dimensions.
+void append_row(const Handle& dataset, const double* values);
+void append_row(const Handle& dataset, long long value);
+
+/// Dimensions of a data set, slowest first.
+std::vector<hsize_t> dimensions(hid_t parent, const std::string& name);
+
+/// Row `index` along the first dimension, flattened in C order.
+std::vector<double> read_row(hid_t parent, const std::string& name, hsize_t index);
+
+/// All values, flattened in C order.
+std::vector<double> read_all(hid_t parent, const std::string& name);
+
+}  // namespace millfoam::averaging::hdf5

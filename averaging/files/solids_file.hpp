@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "averaging/grids/box_grid.hpp"
+
+/// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
+/// class may be used by two threads at once.
+namespace millfoam::averaging {
+
+/// The version of the layout that is written and that can be read.
+inline constexpr int solids_version = 1;
+
+/// A solids file that cannot be read or written; the message names the file and the reason.
+class SolidsFileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A span of DEM time [begin, end), s, and the number of records (dumps) averaged in it.
+struct TimeWindow {
+  double begin = 0;
+  double end = 0;
+  long long records = 0;
+};
+
+/// Where the particles' volume went: means over a window's records, m^3. volume_in = deposited + outside +
+/// clipped.
+struct Ledger {
+  double volume_in = 0;  ///< of all particles of the records
+  double deposited = 0;  ///< in the grid's voxels
+  double outside = 0;    ///< beyond the grid
+  double clipped = 0;    ///< above a cap on solidity (there is no cap yet: 0)
+};
+
+/// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
+struct SolidsWindow {
+  std::vector<double> solidity;    ///< [n] particle volume over cell volume, in [0, 1)
+  std::vector<double> velocity;    ///< [n][3] volume-weighted velocity of the particles in the lab frame, m/s
+  std::vector<double> diameter;    ///< [n] Sauter mean d32 = sum V / sum(V/d), m
+  std::vector<double> diameter43;  ///< [n] d43 = sum(V d) / sum V, m
+};
+
+/// Everything that is stored about one window.
+struct WindowAverage {
+  TimeWindow time;
+  Ledger ledger;
+  SolidsWindow mean;
+  std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
+  std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
+  std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
+};
+
+/// What holds for the whole file.
+struct SolidsHeader {
+  double time0 = 0;        ///< DEM time at which the first window begins, s
+  double timestep = 0;     ///< of the DEM run, s
+  bool whole_run = false;  ///< one window over the whole run
+};
+
+/// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the
+/// file is called `path` + ".part" and says that it is not complete, so a run that is killed leaves nothing
+/// that looks whole. All members throw SolidsFileError.
+class SolidsWriter {
+ public:
+  SolidsWriter(const std::filesystem::path& path, const BoxGrid& grid, const SolidsHeader& header);
+  ~SolidsWriter();
+  SolidsWriter(const SolidsWriter&) = delete;
+  SolidsWriter& operator=(const SolidsWriter&) = delete;
+
+  /// Appends the next window and hands it to the operating system. Every field must have the grid's size.
+  void append(const WindowAverage& window);
+
+  /// Marks the file complete and gives it its name, replacing an older file. Throws when no window was
+  /// appended.
+  void finish();
+
+ private:
+  struct Open;
+  std::filesystem::path path_;
+  std::filesystem::path part_;
+  std::size_t cells_;
+  std::unique_ptr<Open> open_;
+};
+
+/// Reads a solids file, one window at a time. Any number of processes may read one file at once: it is opened
+/// read-only and without HDF5's file locks (which some network file systems refuse), and HDF5 prints nothing
+/// of its own.
+class SolidsReader {
+ public:
+  /// Opens and checks the file: there, HDF5, of this format and version, complete, all data sets of matching
+  /// shape, windows in order. Throws SolidsFileError.
+  explicit SolidsReader(const std::filesystem::path& path);
+  ~SolidsReader();
+  SolidsReader(SolidsReader&&) noexcept;
+  SolidsReader& operator=(SolidsReader&&) noexcept;
+
+  const BoxGrid& grid() const;
+  const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
+  double time0() const;                            ///< DEM time at which the first window begins, s
+  double timestep() const;                         ///< of the DEM run, s
+  bool whole_run() const;                          ///< one window over the whole run, to be held
+
+  /// Fields of window `number`, from 0. Throws SolidsFileError for a number beyond the last, a value that is
+  /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which voxel.
+  SolidsWindow read_window(std::size_t number) const;
+
+ private:
+  struct Open;
+  std::filesystem::path path_;
+  std::unique_ptr<Open> open_;
+};
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "averaging/files/solids_file.hpp"
+
+/// Names, units and homes of what solids.h5 holds: the one place that the writer, the reader and the .xdmf
+/// share.
+namespace millfoam::averaging::layout {
+
+inline constexpr const char* format = "millfoam-solids";
+
+/// A data set [window][z][y][x] or, of vectors, [window][z][y][x][3].
+struct Field {
+  const char* name;
+  const char* units;
+  bool vector;
+  /// Where a window keeps it.
+  const std::vector<double>& (*of)(const WindowAverage&);
+};
+
+using Values = std::vector<double>;
+
+inline constexpr std::array<Field, 7> fields{{
+    {"solidity", "1", false, [](const WindowAverage& w) -> const Values& { return w.mean.solidity; }},
+    {"velocity", "m/s", true, [](const WindowAverage& w) -> const Values& { return w.mean.velocity; }},
+    {"diameter", "m", false, [](const WindowAverage& w) -> const Values& { return w.mean.diameter; }},
+    {"diameter43", "m", false, [](const WindowAverage& w) -> const Values& { return w.mean.diameter43; }},
+    {"solidity_deviation", "1", false,
+     [](const WindowAverage& w) -> const Values& { return w.solidity_deviation; }},
+    {"velocity_deviation", "m/s", true,
+     [](const WindowAverage& w) -> const Values& { return w.velocity_deviation; }},
+    {"granular_temperature", "m2/s2", false,
+     [](const WindowAverage& w) -> const Values& { return w.granular_temperature; }},
+}};
+
+/// A column of /ledger, m^3.
+struct LedgerColumn {
+  const char* name;
+  double Ledger::*value;
+};
+
+inline constexpr std::array<LedgerColumn, 4> ledger{{{"volume_in", &Ledger::volume_in},
+                                                     {"deposited", &Ledger::deposited},
+                                                     {"outside", &Ledger::outside},
+                                                     {"clipped", &Ledger::clipped}}};
+
+}  // namespace millfoam::averaging::layout

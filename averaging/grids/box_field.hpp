@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "averaging/grids/box_grid.hpp"
+#include "averaging/files/solids_file.hpp"
+
+namespace millfoam::averaging {
+
+/// The solids at one point.
+struct LocalSolids {
+  double solidity = 0;
+  Vector3 velocity{};   ///< of the particles, lab frame, m/s; 0 where there are none
+  double diameter = 0;  ///< Sauter mean, m; 0 where there are no particles
+  bool inside = false;  ///< whether the point lies in the grid; outside there are no solids
+};
+
+/// How a field on voxels is read at a point.
+enum class Interpolation {
+  cell,   ///< the value of the voxel that holds the point
+  linear  ///< trilinear between the centres of voxels
+};
+
+/// Solids at `point` (m, lab frame) out of one window on `grid`.
+///
+/// `linear` interpolates phi, phi*u and phi/d and divides afterwards, so that an empty voxel takes part with
+/// its lack of particles and not with a velocity of 0: beside it the velocity stays the particles' own.
+/// Within the outer half of the outermost voxels the values are those of their centres; along a periodic axis
+/// the last voxel is the first one's neighbour. The window's fields must have the grid's size.
+LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
+                   Interpolation interpolation);
+
+}  // namespace millfoam::averaging

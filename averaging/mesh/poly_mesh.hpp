@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace millfoam::averaging {
+
+/// Faces of a mesh on one part of its boundary: [first, first + faces).
+struct MeshPatch {
+  std::string name;
+  int first = 0;
+  int faces = 0;
+};
+
+/// How the points of a mesh make faces and the faces make polyhedral cells, in OpenFOAM's order: internal
+/// faces first; a face's normal, by the right-hand rule about its points, points out of its owner.
+struct MeshTopology {
+  std::size_t points = 0;
+  std::size_t cells = 0;
+  std::vector<int> face_begin;     ///< [faces + 1] where a face's points begin in face_points
+  std::vector<int> face_points;    ///< point numbers of all faces
+  std::vector<int> owner;          ///< [faces] cell
+  std::vector<int> neighbour;      ///< [internal faces] cell, higher than the owner
+  std::vector<MeshPatch> patches;  ///< of the boundary faces, in their order
+
+  std::size_t faces() const { return owner.size(); }
+  std::size_t internal_faces() const { return neighbour.size(); }
+};
+
+using MeshPoints = std::vector<Eigen::Vector3d>;  ///< [points], m
+
+/// Throws std::invalid_argument, naming the face, cell or patch, for a topology that is not one: numbers out
+/// of range, faces of fewer than three points, a neighbour not above its owner, cells of fewer than four
+/// faces, patches that do not cover the boundary faces in order.
+void check(const MeshTopology& topology);
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/statistics/time_windows.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+namespace millfoam::averaging {
+
+namespace {
+
+std::string seconds(long long steps, double timestep) {
+  std::ostringstream text;
+  text << static_cast<double>(steps) * timestep << " s";
+  return text.str();
+}
+
+long long whole_steps(double time, double timestep, const char* what) {
+  constexpr double exactly_countable = 9e15;
+  const double steps = std::round(time / timestep);
+  if (!(std::abs(steps) < exactly_countable)) {
+    std::ostringstream message;
+    message << what << " is " << time << " s, expected a time that can be counted in steps of " << timestep
+            << " s";
+    throw WindowError(message.str());
+  }
+  return static_cast<long long>(steps);
+}
+
+/// The smallest number of steps between two records; 1 when there is only one.
+long long smallest_interval(const std::vector<long long>& steps) {
+  long long interval = 0;
+  for (std::size_t r = 1; r < steps.size(); ++r) {
+    const long long between = steps[r] - steps[r - 1];
+    assert(between > 0);
+    interval = interval == 0 ? between : std::min(interval, between);
+  }
+  return std::max(interval, 1LL);
+}
+
+long long window_length(const WindowRequest& request, long long interval) {
+  const long long length = whole_steps(*request.length, request.timestep, "the window's length");
+  if (length >= interval) return length;
+  std::ostringstream message;
+  message << "the window's length " << *request.length << " s is less than the "
+          << seconds(interval, request.timestep) << " between two records";
+  throw WindowError(message.str());
+}
+
+/// Records used: all from `start` on and before `end`, in steps.
+struct Range {
+  long long start;
+  long long end;
+  std::size_t first;  ///< number of the first record
+  std::size_t last;   ///< number of the record after the last
+};
+
+Range used_range(const std::vector<long long>& steps, const WindowRequest& request, long long interval) {
+  const double dt = request.timestep;
+  Range range{};
+  range.start = request.start ? whole_steps(*request.start, dt, "the start") : steps.front();
+  range.end = request.end ? whole_steps(*request.end, dt, "the end") : steps.back() + interval;
+  range.first = static_cast<std::size_t>(
+      std::distance(steps.begin(), std::lower_bound(steps.begin(), steps.end(), range.start)));
+  range.last = static_cast<std::size_t>(
+      std::distance(steps.begin(), std::lower_bound(steps.begin(), steps.end(), range.end)));
+  if (request.end && range.end <= range.start) {
+    throw WindowError("the end " + seconds(range.end, dt) + " is not after the start " +
+                      seconds(range.start, dt));
+  }
+  if (range.first >= range.last) {
+    throw WindowError("no record between " + seconds(range.start, dt) + " and " +
+                      (request.end ? seconds(range.end, dt) : "the end") + "; they go from " +
+                      seconds(steps.front(), dt) + " to " + seconds(steps.back(), dt));
+  }
+  return range;
+}
+
+void note_unused(const std::vector<long long>& steps, const Range& range, WindowPlan& plan) {
+  if (range.first > 0)
+    plan.notes.push_back(std::to_string(range.first) + " records before the start are not used");
+  if (range.last < steps.size()) {
+    plan.notes.push_back(std::to_string(steps.size() - range.last) + " records from the end on are not used");
+  }
+}
+
+void cut(const std::vector<long long>& steps, const Range& range, long long length, double timestep,
+         WindowPlan& plan) {
+  std::size_t record = range.first;
+  for (long long begin = range.start; record < range.last; begin += length) {
+    WindowSpan span{begin, begin + length, record, 0};
+    while (record < range.last && steps[record] < span.end) ++record;
+    span.records = record - span.first_record;
+    if (span.records == 0) {
+      throw WindowError("there is no record in the window from " + seconds(span.begin, timestep) + " to " +
+                        seconds(span.end, timestep) + ": a gap in the dumps, or a wrong --start");
+    }
+    plan.windows.push_back(span);
+  }
+}
+
+/// Leaves out a last window of which there is only the record at its beginning, unless that fills it.
+void drop_closing_record(const std::vector<long long>& steps, long long interval, double timestep,
+                         WindowPlan& plan) {
+  const WindowSpan& last = plan.windows.back();
+  const bool only_its_beginning = last.records == 1 && steps[last.first_record] == last.begin;
+  if (plan.windows.size() < 2 || !only_its_beginning || last.end - last.begin <= interval) return;
+  plan.notes.push_back("the record at " + seconds(last.begin, timestep) +
+                       " closes the last window and opens none: it is not used");
+  plan.windows.pop_back();
+}
+
+void note_windows_not_full(long long interval, double timestep, WindowPlan& plan) {
+  for (std::size_t w = 0; w < plan.windows.size(); ++w) {
+    const WindowSpan& span = plan.windows[w];
+    const long long full = (span.end - span.begin) / interval;
+    if (static_cast<long long>(span.records) >= full) continue;
+    plan.notes.push_back("warning: window " + std::to_string(w) + " from " + seconds(span.begin, timestep) +
+                         " to " + seconds(span.end, timestep) + " holds " + std::to_string(span.records) +
+                         " records, " + std::to_string(full) + " would fill it");
+  }
+}
+
+/// A window that is not full ends with its last record's interval: what was not recorded is not claimed.
+void end_with_the_dumps(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
+  WindowSpan& last = plan.windows.back();
+  last.end = std::min(last.end, steps[last.first_record + last.records - 1] + interval);
+}
+
+}  // namespace
+
+WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request) {
+  if (steps.empty()) throw WindowError("there are no records");
+  assert(request.timestep > 0);
+  const long long interval = request.interval.value_or(smallest_interval(steps));
+  const Range range = used_range(steps, request, interval);
+  const long long length = request.length ? window_length(request, interval) : range.end - range.start;
+
+  WindowPlan plan;
+  note_unused(steps, range, plan);
+  cut(steps, range, length, request.timestep, plan);
+  drop_closing_record(steps, interval, request.timestep, plan);
+  note_windows_not_full(interval, request.timestep, plan);
+  end_with_the_dumps(steps, interval, plan);
+  return plan;
+}
+
+}  // namespace millfoam::averaging

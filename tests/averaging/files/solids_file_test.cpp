@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/files/solids_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+#include <limits>
+
+#include "averaging/files/xdmf.hpp"
+#include "tests/averaging/test_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+const BoxGrid grid({-1, -2, 0}, {1, 2, 3}, {2, 3, 4}, {false, false, true});
+
+/// A window whose values tell entries and windows apart.
+WindowAverage window_number(int number) {
+  const std::size_t n = grid.size();
+  WindowAverage window;
+  window.time = {0.5 + 0.05 * number, 0.55 + 0.05 * number, 25 - number};
+  window.ledger = {4.0, 2.5, 1.5, 0};
+  window.mean = {std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n, 0.004),
+                 std::vector<double>(n, 0.005)};
+  for (std::size_t v = 0; v < n; ++v) window.mean.solidity[v] = 0.01 * static_cast<double>(v) + 0.1 * number;
+  for (std::size_t v = 0; v < 3 * n; ++v) window.mean.velocity[v] = static_cast<double>(v) - 5.0 * number;
+  window.solidity_deviation.assign(n, 0.01);
+  window.velocity_deviation.assign(3 * n, 0.02);
+  window.granular_temperature.assign(n, 0.03);
+  return window;
+}
+
+/// A folder with a whole file of three windows.
+struct SolidsFile : ::testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "solids.h5";
+
+  SolidsFile() { write(window_number(1)); }
+
+  void write(const WindowAverage& second) const {
+    SolidsWriter writer(path, grid, {0.5, 1e-5, false});
+    writer.append(window_number(0));
+    writer.append(second);
+    writer.append(window_number(2));
+    writer.finish();
+  }
+
+  void set_attribute(const char* name, int value) const {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+    H5Awrite(attribute, H5T_NATIVE_INT, &value);
+    H5Aclose(attribute);
+    H5Fclose(file);
+  }
+
+  void remove(const char* name) const {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, name, H5P_DEFAULT);
+    H5Fclose(file);
+  }
+
+  std::string refusal_to_open() const {
+    return message_of<SolidsFileError>([&] { SolidsReader reader(path); });
+  }
+
+  std::string refusal_of_window(std::size_t number) const {
+    const SolidsReader reader(path);
+    return message_of<SolidsFileError>([&] { reader.read_window(number); });
+  }
+};
+
+TEST_F(SolidsFile, GivesBackWhatWasWritten) {
+  const SolidsReader reader(path);
+  EXPECT_EQ(reader.time0(), 0.5);
+  EXPECT_EQ(reader.timestep(), 1e-5);
+  EXPECT_FALSE(reader.whole_run());
+  EXPECT_EQ(reader.grid().lower(), grid.lower());
+  EXPECT_EQ(reader.grid().upper(), grid.upper());
+  EXPECT_EQ(reader.grid().shape(), grid.shape());
+  EXPECT_EQ(reader.grid().periodic(), grid.periodic());
+  ASSERT_EQ(reader.windows().size(), 3U);
+  for (int w = 0; w < 3; ++w) {
+    const WindowAverage written = window_number(w);
+    const SolidsWindow read = reader.read_window(static_cast<std::size_t>(w));
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].begin, written.time.begin);
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].end, written.time.end);
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].records, written.time.records);
+    EXPECT_EQ(read.solidity, written.mean.solidity);
+    EXPECT_EQ(read.velocity, written.mean.velocity);
+    EXPECT_EQ(read.diameter, written.mean.diameter);
+    EXPECT_EQ(read.diameter43, written.mean.diameter43);
+  }
+}
+
+TEST_F(SolidsFile, MayBeReadSeveralTimesAtOnce) {
+  const SolidsReader first(path), second(path);
+  EXPECT_EQ(first.read_window(2).solidity, second.read_window(2).solidity);
+}
+
+TEST_F(SolidsFile, ThatIsMissingIsRefused) {
+  std::filesystem::remove(path);
+  expect_named(refusal_to_open(), {path.string(), "no such file"});
+}
+
+TEST_F(SolidsFile, WhoseRunDidNotFinishIsRefused) {
+  std::filesystem::remove(path);
+  {
+    SolidsWriter writer(path, grid, {});
+    writer.append(window_number(0));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  expect_named(refusal_to_open(), {"no such file", "solids.h5.part", "not complete"});
+  std::filesystem::rename(folder / "solids.h5.part", path);
+  expect_named(refusal_to_open(), {path.string(), "not complete"});
+}
+
+TEST_F(SolidsFile, OfAnotherVersionIsRefusedWithBothVersions) {
+  set_attribute("version", 7);
+  expect_named(refusal_to_open(), {path.string(), "is 7", "expected 1"});
+}
+
+TEST_F(SolidsFile, ThatIsSomethingElseIsRefused) {
+  folder.write("solids.h5", "ITEM: TIMESTEP\n");
+  expect_named(refusal_to_open(), {path.string(), "not an HDF5 file"});
+  H5Fclose(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  expect_named(refusal_to_open(), {path.string(), "'format' is missing"});
+}
+
+TEST_F(SolidsFile, ThatIsCutShortIsRefused) {
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  expect_named(refusal_to_open(), {path.string()});
+}
+
+TEST_F(SolidsFile, WithoutOneOfItsDataSetsIsRefusedByTheSetsName) {
+  remove("velocity");
+  expect_named(refusal_to_open(), {path.string(), "'velocity'"});
+}
+
+TEST_F(SolidsFile, WithAnImpossibleSolidityIsRefusedWithItsVoxel) {
+  WindowAverage bad = window_number(1);
+  for (const double solidity : {1.0, -0.1, std::nan("")}) {
+    bad.mean.solidity[grid.offset({1, 2, 3})] = solidity;
+    write(bad);
+    expect_named(refusal_of_window(1), {path.string(), "solidity", "(1 2 3)", "window 1"});
+  }
+  EXPECT_EQ(SolidsReader(path).read_window(0).solidity, window_number(0).mean.solidity);
+}
+
+TEST_F(SolidsFile, WithAVelocityThatIsNotFiniteIsRefusedWithItsVoxel) {
+  WindowAverage bad = window_number(1);
+  bad.mean.velocity[3 * grid.offset({0, 1, 2}) + 2] = std::numeric_limits<double>::infinity();
+  write(bad);
+  expect_named(refusal_of_window(1), {"velocity is inf", "(0 1 2)", "window 1"});
+}
+
+TEST_F(SolidsFile, WithSolidsOfNoDiameterIsRefused) {
+  WindowAverage bad = window_number(1);
+  bad.mean.diameter[grid.offset({1, 0, 0})] = 0;
+  write(bad);
+  expect_named(refusal_of_window(1), {"diameter is 0", "(1 0 0)", "above 0"});
+}
+
+TEST_F(SolidsFile, AWindowBeyondTheLastIsRefused) {
+  expect_named(refusal_of_window(3), {"no window 3", "only 3"});
+}
+
+TEST_F(SolidsFile, WhoseWindowsAreOutOfOrderIsRefused) {
+  WindowAverage early = window_number(1);
+  early.time = {0.1, 0.2, 25};
+  write(early);
+  expect_named(refusal_to_open(), {"window 1", "0.1", "rising order"});
+}
+
+TEST_F(SolidsFile, AFieldOfTheWrongSizeIsNotWritten) {
+  SolidsWriter writer(folder / "other.h5", grid, {});
+  WindowAverage window = window_number(0);
+  window.mean.diameter.pop_back();
+  expect_named(message_of<SolidsFileError>([&] { writer.append(window); }), {"diameter", "23", "24"});
+  expect_named(message_of<SolidsFileError>([&] { writer.finish(); }), {"other.h5", "no window"});
+}
+
+TEST(SolidsWriter, AFolderThatIsNotThereIsToldWithTheFilesName) {
+  const auto nowhere = [] { SolidsWriter("no/such/folder/solids.h5", grid, {}); };
+  expect_named(message_of<SolidsFileError>(nowhere), {"no/such/folder/solids.h5", "create"});
+}
+
+TEST_F(SolidsFile, IsToldToParaViewWindowByWindow) {
+  const auto xdmf = write_xdmf(path);
+  EXPECT_EQ(xdmf.filename(), "solids.xdmf");
+  std::ifstream input(xdmf);
+  const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+  expect_named(text, {"<Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"5 4 3\"/>", "<Time Value=\"0.5",
+                      "window 2", "solids.h5:/granular_temperature", "Dimensions=\"3 4 3 2 3\""});
+  expect_named(message_of<SolidsFileError>([&] { write_xdmf(folder / "solids.xdmf"); }),
+               {"solids.xdmf", "ParaView"});
+}
+
+}  // namespace
+}  // namespace millfoam::averaging
