@@ -14,13 +14,15 @@ struct TimeTable {
   std::vector<double> values;  ///< [times]
 };
 
-/// A rigid motion: where the points of a body are at a time.
+/// A rigid motion of a body.
 class Motion {
  public:
   virtual ~Motion() = default;
 
-  /// Carries a point's position at `from` (DEM time, s) to its position at `to`.
-  virtual Eigen::Isometry3d carry(double from, double to) const = 0;
+  /// The body's place at a DEM time, s: maps a point of the body, m, to where it is then. The places of two
+  /// times together say how the body moves between them; what the body's points are numbered by is up to the
+  /// caller.
+  virtual Eigen::Isometry3d place(double time) const = 0;
 };
 
 /// One of, or a composition of, the motions that a user can name; each text is one motion, and the first one
