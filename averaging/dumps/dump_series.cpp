@@ -28,6 +28,15 @@ std::vector<std::filesystem::path> matches(const std::string& pattern) {
   return paths;
 }
 
+double finite(std::string_view word, std::string_view key, const TextLines& lines) {
+  const auto value = as_number<double>(word);
+  if (!value || !std::isfinite(*value)) {
+    throw DumpError(lines.place() + "key '" + std::string(key) + "' is '" + std::string(word) +
+                    "', expected a finite number");
+  }
+  return *value;
+}
+
 template <typename Number>
 Number positive(std::string_view word, std::string_view key, const TextLines& lines) {
   const auto value = as_number<Number>(word);
@@ -67,6 +76,7 @@ std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder) {
     const std::string_view value = take_word(*line);
     if (key == "timestep") notes.timestep = positive<double>(value, key, lines);
     if (key == "interval") notes.interval = positive<long long>(value, key, lines);
+    if (key == "angular_velocity") notes.angular_velocity = finite(value, key, lines);
   }
   return notes;
 }
@@ -86,6 +96,24 @@ double agreed_timestep(std::optional<double> given, const std::optional<RunNotes
             << *notes->timestep << " s; they must be the same";
   } else {
     return noted ? *notes->timestep : *given;
+  }
+  throw DumpError(message.str());
+}
+
+std::optional<double> agreed_angular_velocity(std::optional<double> given,
+                                              const std::optional<RunNotes>& notes) {
+  std::ostringstream message;
+  message.precision(12);
+  if (given && !std::isfinite(*given)) {
+    message << "--speed is " << *given << ", expected a finite angular velocity in rad/s";
+  } else if (given && notes && notes->angular_velocity &&
+             std::abs(*given - *notes->angular_velocity) > 1e-9 * std::abs(*given)) {
+    message << "--speed is " << *given << " rad/s, but " << notes->file.string() << " says angular_velocity "
+            << *notes->angular_velocity << " rad/s; they must be the same";
+  } else if (given) {
+    return given;
+  } else {
+    return notes ? notes->angular_velocity : std::nullopt;
   }
   throw DumpError(message.str());
 }

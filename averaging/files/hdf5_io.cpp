@@ -84,6 +84,20 @@ void append_raw_row(const Handle& dataset, hid_t type, const void* values) {
   check(H5Dwrite(dataset.get(), type, memory_space.get(), file_space.get(), H5P_DEFAULT, values), action);
 }
 
+void write_raw_array(hid_t parent, const std::string& name, hid_t type, const void* values,
+                     const std::vector<hsize_t>& sizes, const std::string& units) {
+  const std::string action = "write data set '" + name + "' (is the disk full?)";
+  const Handle space(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), H5Sclose,
+                     action);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, action);
+  check(H5Pset_obj_track_times(properties.get(), false), action);
+  const Handle dataset(
+      H5Dcreate2(parent, name.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+      H5Dclose, action);
+  write_attribute(dataset.get(), "units", units);
+  check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), action);
+}
+
 }  // namespace
 
 Handle open_group(hid_t parent, const std::string& name) {
@@ -184,6 +198,24 @@ void append_row(const Handle& dataset, const double* values) {
 
 void append_row(const Handle& dataset, long long value) {
   append_raw_row(dataset, H5T_NATIVE_LLONG, &value);
+}
+
+void write_array(hid_t parent, const std::string& name, const std::vector<double>& values,
+                 const std::vector<hsize_t>& sizes, const std::string& units) {
+  write_raw_array(parent, name, H5T_NATIVE_DOUBLE, values.data(), sizes, units);
+}
+
+void write_array(hid_t parent, const std::string& name, const std::vector<long long>& values,
+                 const std::string& units) {
+  write_raw_array(parent, name, H5T_NATIVE_LLONG, values.data(), {values.size()}, units);
+}
+
+bool has(hid_t parent, const std::string& name) {
+  return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+bool has_attribute(hid_t object, const std::string& name) {
+  return H5Aexists(object, name.c_str()) > 0;
 }
 
 std::vector<hsize_t> dimensions(hid_t parent, const std::string& name) {

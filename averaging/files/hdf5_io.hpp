@@ -44,6 +44,20 @@ Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsiz
 void append_row(const Handle& dataset, const double* values);
 void append_row(const Handle& dataset, long long value);
 
+/// Writes a data set of fixed size; `sizes` are its dimensions, slowest first.
+void write_array(hid_t parent, const std::string& name, const std::vector<double>& values,
+                 const std::vector<hsize_t>& sizes, const std::string& units);
+
+/// Writes a list of whole numbers.
+void write_array(hid_t parent, const std::string& name, const std::vector<long long>& values,
+                 const std::string& units);
+
+/// Whether there is a data set or group of this name.
+bool has(hid_t parent, const std::string& name);
+
+/// Whether an object has an attribute.
+bool has_attribute(hid_t object, const std::string& name);
+
 /// Dimensions of a data set, slowest first.
 std::vector<hsize_t> dimensions(hid_t parent, const std::string& name);
 

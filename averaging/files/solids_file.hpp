@@ -3,18 +3,20 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "averaging/grids/box_grid.hpp"
+#include "averaging/grids/grid.hpp"
+#include "averaging/statistics/record_sums.hpp"
 
 /// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
 /// class may be used by two threads at once.
 namespace millfoam::averaging {
 
 /// The version of the layout that is written and that can be read.
-inline constexpr int solids_version = 1;
+inline constexpr int solids_version = 2;
 
 /// A solids file that cannot be read or written; the message names the file and the reason.
 class SolidsFileError : public std::runtime_error {
@@ -26,15 +28,8 @@ struct TimeWindow {
   double begin = 0;
   double end = 0;
   long long records = 0;
-};
-
-/// Where the particles' volume went: means over a window's records, m^3. volume_in = deposited + outside +
-/// clipped.
-struct Ledger {
-  double volume_in = 0;  ///< of all particles of the records
-  double deposited = 0;  ///< in the grid's voxels
-  double outside = 0;    ///< beyond the grid
-  double clipped = 0;    ///< above a cap on solidity (there is no cap yet: 0)
+  bool starts_late = false;  ///< records are missing at its beginning
+  bool ends_short = false;   ///< or at the end that was asked for
 };
 
 /// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
@@ -43,23 +38,33 @@ struct SolidsWindow {
   std::vector<double> velocity;    ///< [n][3] volume-weighted velocity of the particles in the lab frame, m/s
   std::vector<double> diameter;    ///< [n] Sauter mean d32 = sum V / sum(V/d), m
   std::vector<double> diameter43;  ///< [n] d43 = sum(V d) / sum V, m
+  /// [n] share of the cell inside the mill, mean over the window; empty unless walls cut the cells.
+  /// `solidity` is by the volume inside.
+  std::vector<double> inside_fraction;
 };
 
 /// Everything that is stored about one window.
 struct WindowAverage {
   TimeWindow time;
-  Ledger ledger;
+  Ledger ledger;  ///< means over the window's records
   SolidsWindow mean;
+  std::vector<double> number;                ///< [n] of balls, parts counting as parts, mean over the records
   std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
   std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
   std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
+  double balls_per_cell = 0;  ///< mean over the records of balls deposited / cells that hold some of them
 };
 
 /// What holds for the whole file.
 struct SolidsHeader {
-  double time0 = 0;        ///< DEM time at which the first window begins, s
-  double timestep = 0;     ///< of the DEM run, s
-  bool whole_run = false;  ///< one window over the whole run
+  double time0 = 0;                        ///< DEM time at which the first window begins, s
+  double timestep = 0;                     ///< of the DEM run, s
+  bool whole_run = false;                  ///< one window over the whole run
+  std::string method;                      ///< how balls were shared between cells, in words
+  std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
+  double smoothing = 0;                    ///< width of the diffusion on the mesh, m; 0: none
+  std::optional<double> solidity_cap;      ///< above which solids were moved to neighbours
+  bool inside_fractions = false;           ///< whether windows have inside fractions
 };
 
 /// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the
@@ -67,7 +72,7 @@ struct SolidsHeader {
 /// that looks whole. All members throw SolidsFileError.
 class SolidsWriter {
  public:
-  SolidsWriter(const std::filesystem::path& path, const BoxGrid& grid, const SolidsHeader& header);
+  SolidsWriter(const std::filesystem::path& path, const Grid& grid, const SolidsHeader& header);
   ~SolidsWriter();
   SolidsWriter(const SolidsWriter&) = delete;
   SolidsWriter& operator=(const SolidsWriter&) = delete;
@@ -99,15 +104,22 @@ class SolidsReader {
   SolidsReader(SolidsReader&&) noexcept;
   SolidsReader& operator=(SolidsReader&&) noexcept;
 
-  const BoxGrid& grid() const;
+  const Grid& grid() const;
   const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
   double time0() const;                            ///< DEM time at which the first window begins, s
   double timestep() const;                         ///< of the DEM run, s
   bool whole_run() const;                          ///< one window over the whole run, to be held
+  const SolidsHeader& header() const;              ///< all that holds for the whole file
 
   /// Fields of window `number`, from 0. Throws SolidsFileError for a number beyond the last, a value that is
-  /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which voxel.
+  /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which cell.
   SolidsWindow read_window(std::size_t number) const;
+
+  /// Where the particles' volume went, per window. Throws SolidsFileError.
+  std::vector<Ledger> read_ledgers() const;
+
+  /// Mean number of balls in a cell that holds some, per window. Throws SolidsFileError.
+  std::vector<double> read_balls_per_cell() const;
 
  private:
   struct Open;

@@ -11,7 +11,8 @@ namespace millfoam::averaging::layout {
 
 inline constexpr const char* format = "millfoam-solids";
 
-/// A data set [window][z][y][x] or, of vectors, [window][z][y][x][3].
+/// A data set over windows and cells: [window][z][y][x] on a box, [window][cell] on a mesh, see
+/// `field_shape`; of vectors with [3] behind.
 struct Field {
   const char* name;
   const char* units;
@@ -22,11 +23,12 @@ struct Field {
 
 using Values = std::vector<double>;
 
-inline constexpr std::array<Field, 7> fields{{
+inline constexpr std::array<Field, 8> fields{{
     {"solidity", "1", false, [](const WindowAverage& w) -> const Values& { return w.mean.solidity; }},
     {"velocity", "m/s", true, [](const WindowAverage& w) -> const Values& { return w.mean.velocity; }},
     {"diameter", "m", false, [](const WindowAverage& w) -> const Values& { return w.mean.diameter; }},
     {"diameter43", "m", false, [](const WindowAverage& w) -> const Values& { return w.mean.diameter43; }},
+    {"number", "1", false, [](const WindowAverage& w) -> const Values& { return w.number; }},
     {"solidity_deviation", "1", false,
      [](const WindowAverage& w) -> const Values& { return w.solidity_deviation; }},
     {"velocity_deviation", "m/s", true,
@@ -34,6 +36,11 @@ inline constexpr std::array<Field, 7> fields{{
     {"granular_temperature", "m2/s2", false,
      [](const WindowAverage& w) -> const Values& { return w.granular_temperature; }},
 }};
+
+/// A data set [window][z][y][x] in /grid, there only where walls cut the cells.
+inline constexpr Field inside_fraction{
+    "insideFraction", "1", false,
+    [](const WindowAverage& w) -> const Values& { return w.mean.inside_fraction; }};
 
 /// A column of /ledger, m^3.
 struct LedgerColumn {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/files/grid_io.hpp"
+#include "averaging/files/hdf5_file.hpp"
 #include "averaging/files/hdf5_io.hpp"
 #include "averaging/files/solids_file.hpp"
 #include "averaging/files/solids_layout.hpp"
@@ -7,20 +9,16 @@ namespace millfoam::averaging {
 
 namespace {
 
-hdf5::Handle create_file(const std::filesystem::path& path) {
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-          "create the file (is the folder there and writable?)"};
-}
-
-std::vector<int> as_ints(const std::array<bool, 3>& flags) {
-  return {flags[0], flags[1], flags[2]};
-}
-
-std::vector<hsize_t> row_dimensions(const BoxGrid& grid, bool vector) {
-  std::vector<hsize_t> row;
-  for (std::size_t a = 3; a-- > 0;) row.push_back(static_cast<hsize_t>(grid.shape()[a]));
+std::vector<hsize_t> row_dimensions(const Grid& grid, bool vector) {
+  const std::vector<std::size_t> shape = field_shape(grid);
+  std::vector<hsize_t> row(shape.begin(), shape.end());
   if (vector) row.push_back(3);
   return row;
+}
+
+hdf5::Handle create_field(hid_t parent, const Grid& grid, const layout::Field& field) {
+  return hdf5::create_rows(parent, field.name, row_dimensions(grid, field.vector), H5T_NATIVE_DOUBLE,
+                           field.units);
 }
 
 }  // namespace
@@ -28,18 +26,22 @@ std::vector<hsize_t> row_dimensions(const BoxGrid& grid, bool vector) {
 struct SolidsWriter::Open {
   hdf5::Handle file;
   std::vector<hdf5::Handle> fields;
+  std::vector<hdf5::Handle> inside_fraction;  ///< one where walls cut the cells, none otherwise
   std::vector<hdf5::Handle> ledger;
   std::vector<hdf5::Handle> times;
   std::size_t windows = 0;
 
-  Open(const std::filesystem::path& part, const BoxGrid& grid, const SolidsHeader& header)
-      : file(create_file(part)) {
+  Open(const std::filesystem::path& part, const Grid& grid, const SolidsHeader& header)
+      : file(hdf5::create_file(part)) {
     write_root(header);
-    write_grid(grid);
+    const hdf5::Handle grid_group = hdf5::create_group(file.get(), "grid");
+    hdf5::write_grid(grid_group.get(), grid);
+    if (header.inside_fractions) {
+      inside_fraction.push_back(create_field(grid_group.get(), grid, layout::inside_fraction));
+    }
     create_windows();
     for (const layout::Field& field : layout::fields) {
-      fields.push_back(hdf5::create_rows(file.get(), field.name, row_dimensions(grid, field.vector),
-                                         H5T_NATIVE_DOUBLE, field.units));
+      fields.push_back(create_field(file.get(), grid, field));
     }
     const hdf5::Handle group = hdf5::create_group(file.get(), "ledger");
     for (const layout::LedgerColumn& column : layout::ledger) {
@@ -55,29 +57,30 @@ struct SolidsWriter::Open {
     hdf5::write_attribute(root, "time0", header.time0);
     hdf5::write_attribute(root, "timestep", header.timestep);
     hdf5::write_attribute(root, "whole_run", header.whole_run ? 1 : 0);
-  }
-
-  void write_grid(const BoxGrid& grid) const {
-    const hdf5::Handle group = hdf5::create_group(file.get(), "grid");
-    hdf5::write_attribute(group.get(), "kind", std::string("box"));
-    hdf5::write_attribute(group.get(), "lower",
-                          std::vector<double>(grid.lower().begin(), grid.lower().end()));
-    hdf5::write_attribute(group.get(), "upper",
-                          std::vector<double>(grid.upper().begin(), grid.upper().end()));
-    hdf5::write_attribute(group.get(), "shape", std::vector<int>(grid.shape().begin(), grid.shape().end()));
-    hdf5::write_attribute(group.get(), "periodic", as_ints(grid.periodic()));
+    hdf5::write_attribute(root, "method", header.method);
+    hdf5::write_attribute(root, "smoothing", header.smoothing);
+    if (header.angular_velocity) {
+      hdf5::write_attribute(root, "angular_velocity", *header.angular_velocity);
+    }
+    if (header.solidity_cap) hdf5::write_attribute(root, "solidity_cap", *header.solidity_cap);
   }
 
   void create_windows() {
     const hdf5::Handle group = hdf5::create_group(file.get(), "window");
     times.push_back(hdf5::create_rows(group.get(), "begin", {}, H5T_NATIVE_DOUBLE, "s"));
     times.push_back(hdf5::create_rows(group.get(), "end", {}, H5T_NATIVE_DOUBLE, "s"));
-    times.push_back(hdf5::create_rows(group.get(), "records", {}, H5T_NATIVE_LLONG, "1"));
+    for (const char* name : {"records", "starts_late", "ends_short"}) {
+      times.push_back(hdf5::create_rows(group.get(), name, {}, H5T_NATIVE_LLONG, "1"));
+    }
+    times.push_back(hdf5::create_rows(group.get(), "balls_per_cell", {}, H5T_NATIVE_DOUBLE, "1"));
   }
 
   void append(const WindowAverage& window) {
     for (std::size_t f = 0; f < fields.size(); ++f) {
       hdf5::append_row(fields[f], layout::fields[f].of(window).data());
+    }
+    for (const hdf5::Handle& data : inside_fraction) {
+      hdf5::append_row(data, window.mean.inside_fraction.data());
     }
     for (std::size_t c = 0; c < ledger.size(); ++c) {
       hdf5::append_row(ledger[c], &(window.ledger.*layout::ledger[c].value));
@@ -85,25 +88,27 @@ struct SolidsWriter::Open {
     hdf5::append_row(times[0], &window.time.begin);
     hdf5::append_row(times[1], &window.time.end);
     hdf5::append_row(times[2], window.time.records);
-    flush();
+    hdf5::append_row(times[3], window.time.starts_late ? 1LL : 0LL);
+    hdf5::append_row(times[4], window.time.ends_short ? 1LL : 0LL);
+    hdf5::append_row(times[5], &window.balls_per_cell);
+    hdf5::flush(file.get());
     ++windows;
   }
 
-  void flush() const { hdf5::check(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "write to disk (is it full?)"); }
-
   void finish() {
-    flush();
+    hdf5::flush(file.get());
     hdf5::overwrite_attribute(file.get(), "complete", 1);
-    flush();
+    hdf5::flush(file.get());
     fields.clear();
+    inside_fraction.clear();
     ledger.clear();
     times.clear();
     file.close("close the file");
   }
 };
 
-SolidsWriter::SolidsWriter(const std::filesystem::path& path, const BoxGrid& grid, const SolidsHeader& header)
-    : path_(path), part_(path.string() + ".part"), cells_(grid.size()) {
+SolidsWriter::SolidsWriter(const std::filesystem::path& path, const Grid& grid, const SolidsHeader& header)
+    : path_(path), part_(path.string() + ".part"), cells_(cell_count(grid)) {
   // Where a full disk kept a file from being flushed, HDF5 1.10's handler at exit crashes on what is left of
   // it. All that is opened here is closed by its handle, so that the handler has no work.
   H5dont_atexit();
@@ -116,26 +121,24 @@ SolidsWriter::~SolidsWriter() {
 }
 
 void SolidsWriter::append(const WindowAverage& window) {
-  for (const layout::Field& field : layout::fields) {
+  const auto check_size = [&](const layout::Field& field) {
     const std::size_t expected = cells_ * (field.vector ? 3 : 1);
-    if (field.of(window).size() != expected) {
-      throw SolidsFileError(part_.string() + ": " + field.name + " has " +
-                            std::to_string(field.of(window).size()) + " values, the grid needs " +
-                            std::to_string(expected));
-    }
-  }
+    if (field.of(window).size() == expected) return;
+    throw SolidsFileError(part_.string() + ": " + field.name + " has " +
+                          std::to_string(field.of(window).size()) + " values, the grid needs " +
+                          std::to_string(expected));
+  };
+  for (const layout::Field& field : layout::fields) check_size(field);
+  if (!open_->inside_fraction.empty()) check_size(layout::inside_fraction);
   hdf5::naming_file<SolidsFileError>(part_, [&] { open_->append(window); });
 }
 
 void SolidsWriter::finish() {
   if (open_->windows == 0) throw SolidsFileError(part_.string() + ": no window was written");
-  hdf5::naming_file<SolidsFileError>(part_, [&] { open_->finish(); });
-  std::error_code failure;
-  std::filesystem::rename(part_, path_, failure);
-  if (failure) {
-    throw SolidsFileError(part_.string() + ": cannot rename it to '" + path_.string() +
-                          "': " + failure.message());
-  }
+  hdf5::naming_file<SolidsFileError>(part_, [&] {
+    open_->finish();
+    hdf5::rename_file(part_, path_);
+  });
 }
 
 }  // namespace millfoam::averaging

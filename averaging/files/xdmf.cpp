@@ -3,7 +3,11 @@
 
 #include <fstream>
 #include <sstream>
+#include <utility>
+#include <vector>
 
+#include "averaging/files/hdf5_file.hpp"
+#include "averaging/files/hdf5_io.hpp"
 #include "averaging/files/solids_file.hpp"
 #include "averaging/files/solids_layout.hpp"
 
@@ -11,40 +15,79 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Three values from the slowest axis, z, to the fastest, x, as XDMF wants them.
 template <typename Values>
-std::string zyx(const Values& values) {
+std::string joined(const Values& values) {
   std::ostringstream text;
   text.precision(17);
-  text << values[2] << ' ' << values[1] << ' ' << values[0];
+  for (const auto& value : values) text << (text.tellp() > 0 ? " " : "") << value;
   return text.str();
 }
 
-void write_geometry(std::ostream& out, const BoxGrid& grid) {
-  const auto [nx, ny, nz] = grid.shape();
-  out << "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\""
-      << zyx(VoxelIndex{nx + 1, ny + 1, nz + 1})
-      << "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n";
-  for (const Vector3& values : {grid.lower(), grid.spacing()}) {
-    out << "          <DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">"
-        << zyx(values) << "</DataItem>\n";
-  }
-  out << "        </Geometry>\n";
+/// An array in the text itself or, named FILE:/NAME, in an HDF5 file.
+std::string data_item(const std::string& sizes, bool whole_numbers, bool in_file,
+                      const std::string& content) {
+  std::string type = " NumberType=\"Float\" Precision=\"8\"";
+  if (whole_numbers) type = " NumberType=\"Int\" Precision=\"8\"";
+  return "          <DataItem Dimensions=\"" + sizes + "\"" + type + " Format=\"" +
+         (in_file ? "HDF" : "XML") + "\">" + content + "</DataItem>\n";
 }
 
+/// What ParaView needs to know of a grid: its topology and geometry.
+class Geometry {
+ public:
+  Geometry(std::ostream& out, const std::string& file, std::vector<hsize_t> points, hsize_t topology)
+      : out_(out), file_(file), points_(std::move(points)), topology_(topology) {}
+
+  void operator()(const BoxGrid& grid) const {
+    const auto [nx, ny, nz] = grid.shape();
+    const auto [x, y, z] = grid.lower();
+    const auto [dx, dy, dz] = grid.spacing();
+    out_ << "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\""
+         << joined(std::vector<int>{nz + 1, ny + 1, nx + 1})
+         << "\"/>\n        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+         << data_item("3", false, false, joined(Vector3{z, y, x}))
+         << data_item("3", false, false, joined(Vector3{dz, dy, dx})) << "        </Geometry>\n";
+  }
+
+  void operator()(const CylinderGrid& grid) const {
+    const auto [nr, ntheta, nz] = grid.shape();
+    out_ << "        <Topology TopologyType=\"3DSMesh\" Dimensions=\""
+         << joined(std::vector<int>{nz + 1, ntheta + 1, nr + 1}) << "\"/>\n";
+    write_points();
+  }
+
+  void operator()(const MeshCells& mesh) const {
+    out_ << "        <Topology TopologyType=\"Mixed\" NumberOfElements=\"" << mesh.volumes.size() << "\">\n"
+         << data_item(std::to_string(topology_), true, true, file_ + ":/grid/topology")
+         << "        </Topology>\n";
+    write_points();
+  }
+
+ private:
+  void write_points() const {
+    out_ << "        <Geometry GeometryType=\"XYZ\">\n"
+         << data_item(joined(points_), false, true, file_ + ":/grid/points") << "        </Geometry>\n";
+  }
+
+  std::ostream& out_;
+  std::string file_;
+  std::vector<hsize_t> points_;
+  hsize_t topology_;
+};
+
 /// A field of one window as a slab of the data set over all windows.
-void write_attribute(std::ostream& out, const BoxGrid& grid, const layout::Field& field,
-                     const std::string& file, std::size_t window, std::size_t windows) {
-  const std::string sizes = zyx(grid.shape()) + (field.vector ? " 3" : "");
-  const std::string zeros = field.vector ? " 0 0 0 0" : " 0 0 0", ones = field.vector ? " 1 1 1 1" : " 1 1 1";
+void write_attribute(std::ostream& out, const Grid& grid, const layout::Field& field,
+                     const std::string& data_set, std::size_t window, std::size_t windows) {
+  std::vector<std::size_t> shape = field_shape(grid);
+  if (field.vector) shape.push_back(3);
+  const std::string sizes = joined(shape);
+  const std::vector<int> zeros(shape.size(), 0), ones(shape.size(), 1);
   out << "        <Attribute Name=\"" << field.name << "\" Center=\"Cell\" AttributeType=\""
       << (field.vector ? "Vector" : "Scalar") << "\">\n"
       << "          <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << sizes << "\">\n"
-      << "            <DataItem Dimensions=\"3 " << (field.vector ? 5 : 4) << "\" Format=\"XML\">" << window
-      << zeros << "  1" << ones << "  1 " << sizes << "</DataItem>\n"
-      << "            <DataItem Dimensions=\"" << windows << ' ' << sizes
-      << "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">" << file << ":/" << field.name
-      << "</DataItem>\n"
+      << "            <DataItem Dimensions=\"3 " << shape.size() + 1 << "\" Format=\"XML\">" << window << ' '
+      << joined(zeros) << "  1 " << joined(ones) << "  1 " << sizes << "</DataItem>\n  "
+      << data_item(std::to_string(windows) + ' ' + sizes, false, true, data_set)
       << "          </DataItem>\n        </Attribute>\n";
 }
 
@@ -62,6 +105,17 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// Dimensions of /grid/points and length of /grid/topology, where they are there.
+std::pair<std::vector<hsize_t>, hsize_t> geometry_sizes(const std::filesystem::path& path, const Grid& grid) {
+  if (std::holds_alternative<BoxGrid>(grid)) return {};
+  return hdf5::naming_file<SolidsFileError>(path, [&]() -> std::pair<std::vector<hsize_t>, hsize_t> {
+    const hdf5::Handle file = hdf5::open_file(path);
+    const hdf5::Handle group = hdf5::open_group(file.get(), "grid");
+    return {hdf5::dimensions(group.get(), "points"),
+            std::holds_alternative<MeshCells>(grid) ? hdf5::dimensions(group.get(), "topology")[0] : 0};
+  });
+}
+
 }  // namespace
 
 std::filesystem::path xdmf_path(const std::filesystem::path& solids_file) {
@@ -77,6 +131,8 @@ std::filesystem::path xdmf_path(const std::filesystem::path& solids_file) {
 std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   std::filesystem::path path = xdmf_path(solids_file);
   const SolidsReader solids(solids_file);
+  const std::string file = escaped(solids_file.filename().string());
+  const auto [points, topology] = geometry_sizes(solids_file, solids.grid());
   std::ofstream out(path);
   out.precision(17);
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
@@ -85,9 +141,13 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   for (std::size_t w = 0; w < windows.size(); ++w) {
     out << "      <Grid Name=\"window " << w << "\" GridType=\"Uniform\">\n"
         << "        <Time Value=\"" << windows[w].begin << "\"/>\n";
-    write_geometry(out, solids.grid());
+    std::visit(Geometry(out, file, points, topology), solids.grid());
     for (const layout::Field& field : layout::fields) {
-      write_attribute(out, solids.grid(), field, escaped(solids_file.filename().string()), w, windows.size());
+      write_attribute(out, solids.grid(), field, file + ":/" + field.name, w, windows.size());
+    }
+    if (solids.header().inside_fractions) {
+      write_attribute(out, solids.grid(), layout::inside_fraction,
+                      file + ":/grid/" + layout::inside_fraction.name, w, windows.size());
     }
     out << "      </Grid>\n";
   }

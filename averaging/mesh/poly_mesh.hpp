@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -36,5 +37,8 @@ using MeshPoints = std::vector<Eigen::Vector3d>;  ///< [points], m
 /// of range, faces of fewer than three points, a neighbour not above its owner, cells of fewer than four
 /// faces, patches that do not cover the boundary faces in order.
 void check(const MeshTopology& topology);
+
+/// The pairs of cells that share an internal face, [internal faces], owner first.
+std::vector<std::array<int, 2>> neighbours(const MeshTopology& topology);
 
 }  // namespace millfoam::averaging

@@ -1,104 +1,240 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/average_run.hpp"
 
-#include <algorithm>
+#include <omp.h>
 
-#include "averaging/sharing/box_sampling.hpp"
-#include "averaging/dumps/dump_reader.hpp"
+#include <chrono>
+#include <exception>
+#include <utility>
+
 #include "averaging/dumps/dump_series.hpp"
-#include "averaging/statistics/time_windows.hpp"
-#include "averaging/statistics/window_average.hpp"
 #include "averaging/files/xdmf.hpp"
+#include "averaging/run/cell_setup.hpp"
+#include "averaging/run/checkpoint.hpp"
+#include "averaging/run/record_worker.hpp"
+#include "averaging/run/run_signature.hpp"
+#include "averaging/run/window_series.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
+/// Records in a block, at most: enough for merging to cost little beside the records themselves.
+constexpr std::size_t block_records = 16;
+
 /// The dumps of a run and how they are cut.
 struct Job {
   std::vector<DumpFile> dumps;
-  double timestep = 0;
-  WindowPlan plan;
+  RunSettings settings;
+  std::vector<WindowPlan> plans;  ///< for each series of windows
+  std::vector<RecordBlock> blocks;
 };
 
-Job prepare(const AverageRequest& request) {
+Job prepare(const AverageRequest& request, const AverageProgress& progress) {
   Job job;
   job.dumps = find_dumps(request.dumps);
   const std::optional<RunNotes> notes = read_run_notes(job.dumps.front().path.parent_path());
-  job.timestep = agreed_timestep(request.timestep, notes);
+  job.settings = {agreed_timestep(request.timestep, notes),
+                  agreed_angular_velocity(request.angular_velocity, notes)};
   std::vector<long long> steps;
   for (const DumpFile& dump : job.dumps) steps.push_back(dump.step);
-  job.plan = plan_windows(steps, {job.timestep, notes ? notes->interval : std::nullopt, request.window,
-                                  request.start, request.end});
+  for (const WindowsRequest& windows : request.windows) {
+    job.plans.push_back(plan_windows(steps, {job.settings.timestep, notes ? notes->interval : std::nullopt,
+                                             windows.length, request.start, request.end}));
+    for (const std::string& sentence : job.plans.back().notes) progress.note(sentence);
+  }
+  job.blocks = plan_blocks(job.plans, block_records);
   return job;
 }
 
-double non_zero(const std::vector<double>& values) {
-  return static_cast<double>(values.size()) -
-         static_cast<double>(std::count(values.begin(), values.end(), 0.0));
-}
+/// Rank 0's part: the blocks go into the windows, the windows into the files.
+class Collector {
+ public:
+  Collector(const AverageRequest& request, const AverageProgress& progress, const Job& job,
+            const CellSetup& setup)
+      : request_(request),
+        progress_(progress),
+        job_(job),
+        setup_(setup),
+        resume_(request.windows.front().output.string() + ".resume"),
+        signature_(signature(request, job.settings, job.dumps)) {
+    const std::size_t cells = cell_count(setup.grid);
+    std::optional<Checkpoint> earlier = read_checkpoint(resume_);
+    if (earlier && earlier->signature != signature_) {
+      progress.note("an unfinished run was of other dumps or settings: starting afresh");
+      earlier.reset();
+    }
+    for (std::size_t s = 0; s < job.plans.size(); ++s) {
+      series_.emplace_back(request.windows[s].output, job.plans[s], job.settings.timestep, setup.room, cells,
+                           earlier ? earlier->rows[s] : 0);
+      if (earlier) series_.back().restore(earlier->open[s]);
+    }
+    if (earlier) next_block_ = earlier->next_block;
+    for (std::size_t b = 0; b < job.blocks.size(); ++b) {
+      const std::size_t records = job.blocks[b].last - job.blocks[b].first;
+      total_ += records;
+      if (b < next_block_) done_ += records;
+    }
+    if (earlier) {
+      progress.note("taking up an unfinished run: " + std::to_string(done_) + " of " +
+                    std::to_string(total_) + " dumps are averaged already");
+    }
+  }
 
-/// Sums that become means once all windows are through.
-struct Tally {
-  double balls = 0;
-  double record_voxels = 0;  ///< occupied, over records
-  double solidity = 0;
-  double window_voxels = 0;  ///< occupied, over windows
+  std::size_t next_block() const { return next_block_; }
+
+  void add(const WindowMoments& moments) {
+    const RecordBlock& block = job_.blocks[next_block_++];
+    for (WindowSeries& series : series_) series.add(block, moments);
+    done_ += block.last - block.first;
+    progress_.records(done_, total_);
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - last_checkpoint_).count() < request_.checkpoint_interval) return;
+    save();
+    last_checkpoint_ = now;
+  }
+
+  std::vector<SolidsSummary> finish() {
+    save();
+    std::vector<SolidsSummary> summaries;
+    for (std::size_t s = 0; s < series_.size(); ++s) {
+      SolidsSummary summary{request_.windows[s].output, {}};
+      series_[s].write(setup_.grid, header(s), [&](const WindowAverage& window) {
+        summary.windows.push_back(
+            summarise(setup_.grid, window.time, window.ledger, window.balls_per_cell, window.mean));
+      });
+      summaries.push_back(std::move(summary));
+    }
+    for (const WindowSeries& series : series_) series.forget();
+    std::filesystem::remove(resume_);
+    return summaries;
+  }
+
+ private:
+  void save() {
+    Checkpoint checkpoint{signature_, next_block_, {}, {}};
+    for (WindowSeries& series : series_) {
+      series.sync();
+      checkpoint.rows.push_back(series.finished());
+      checkpoint.open.push_back(series.open_window().packed());
+    }
+    write_checkpoint(resume_, checkpoint);
+  }
+
+  SolidsHeader header(std::size_t s) const {
+    SolidsHeader header;
+    header.time0 = static_cast<double>(job_.plans[s].windows.front().begin) * job_.settings.timestep;
+    header.timestep = job_.settings.timestep;
+    header.whole_run = !request_.windows[s].length;
+    header.method = setup_.method;
+    header.angular_velocity = job_.settings.angular_velocity;
+    header.smoothing = setup_.smoothing;
+    header.solidity_cap = request_.solidity_cap;
+    header.inside_fractions = !setup_.room.volumes.empty();
+    return header;
+  }
+
+  const AverageRequest& request_;
+  const AverageProgress& progress_;
+  const Job& job_;
+  const CellSetup& setup_;
+  std::filesystem::path resume_;
+  std::string signature_;
+  std::vector<WindowSeries> series_;
+  std::size_t next_block_ = 0;
+  std::size_t done_ = 0;
+  std::size_t total_ = 0;
+  std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
 };
 
-WindowAverage average_window(const AverageRequest& request, const SphereTemplate& points, const Job& job,
-                             const WindowSpan& span, Tally& tally,
-                             const std::function<void()>& after_record) {
-  WindowAverager averager(request.grid);
-  for (std::size_t r = span.first_record; r < span.first_record + span.records; ++r) {
-    const RecordSums sums = sample_record(request.grid, points, read_dump(job.dumps[r].path));
-    averager.add(sums);
-    tally.balls += sums.balls;
-    tally.record_voxels += non_zero(sums.volume);
-    after_record();
-  }
-  WindowAverage window = averager.average();
-  window.time.begin = static_cast<double>(span.begin) * job.timestep;
-  window.time.end = static_cast<double>(span.end) * job.timestep;
-  return window;
-}
+/// Shares the blocks between the ranks and their threads, and hands the results to `collect` in order.
+class BlockLoop {
+ public:
+  BlockLoop(const Job& job, const CellSetup& setup, Team& team, int threads)
+      : job_(job), setup_(setup), team_(team), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
 
-void summarise(const WindowAverage& window, Tally& tally, AverageSummary& summary) {
-  summary.windows.push_back(window.time);
-  summary.ledgers.push_back(window.ledger);
-  for (const double solidity : window.mean.solidity) {
-    tally.solidity += solidity;
-    summary.largest_solidity = std::max(summary.largest_solidity, solidity);
+  /// @param collect  called on rank 0 with the moments of each block from `first` on, in order
+  /// Throws what reading, averaging or `collect` threw first.
+  void run(std::size_t first, const std::function<void(const WindowMoments&)>& collect) {
+    const std::size_t blocks = job_.blocks.size();
+#pragma omp parallel num_threads(threads_)
+    {
+      std::unique_ptr<RecordWorker> worker;
+      guarded([&] { worker = std::make_unique<RecordWorker>(setup_, job_.dumps, job_.settings.timestep); });
+#pragma omp for ordered schedule(dynamic, 1)
+      for (std::size_t b = first; b < blocks; ++b) {
+        const WindowMoments* moments = nullptr;
+        if (owner(b) == team_.rank()) guarded([&] { moments = &worker->process(job_.blocks[b]); });
+#pragma omp ordered
+        guarded([&] { deliver(b, moments, collect); });
+      }
+    }
+    if (failure_) std::rethrow_exception(failure_);
   }
-  tally.window_voxels += non_zero(window.mean.solidity);
-}
+
+ private:
+  int owner(std::size_t block) const {
+    return static_cast<int>(block % static_cast<std::size_t>(team_.size()));
+  }
+
+  void deliver(std::size_t block, const WindowMoments* moments,
+               const std::function<void(const WindowMoments&)>& collect) {
+    if (team_.rank() == 0 && moments != nullptr) {
+      collect(*moments);
+    } else if (team_.rank() == 0) {
+      std::vector<double> numbers(WindowMoments::packed_size(cell_count(setup_.grid)));
+      team_.receive(owner(block), numbers);
+      WindowMoments received(cell_count(setup_.grid));
+      received.unpack(numbers);
+      collect(received);
+    } else if (moments != nullptr) {
+      team_.send(moments->packed());
+    }
+  }
+
+  /// Nothing may be thrown out of a parallel region: the first exception is kept, and all that would follow
+  /// is left out.
+  template <typename Action>
+  void guarded(Action&& action) {
+    bool failed = false;
+#pragma omp atomic read
+    failed = failed_;
+    if (failed) return;
+    try {
+      action();
+    } catch (...) {
+#pragma omp critical(keep_failure)
+      {
+        if (!failure_) failure_ = std::current_exception();
+      }
+#pragma omp atomic write
+      failed_ = true;
+    }
+  }
+
+  const Job& job_;
+  const CellSetup& setup_;
+  Team& team_;
+  int threads_;
+  bool failed_ = false;
+  std::exception_ptr failure_;
+};
 
 }  // namespace
 
-AverageSummary average_run(const AverageRequest& request, const AverageProgress& progress) {
-  xdmf_path(request.output);  // a name that cannot be used is refused before the work, not after it
-  const SphereTemplate points(request.template_points);
-  const Job job = prepare(request);
-  for (const std::string& sentence : job.plan.notes) progress.note(sentence);
+std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,
+                                       Team& team) {
+  // A name that cannot be used is refused before the work, not after it.
+  for (const WindowsRequest& windows : request.windows) xdmf_path(windows.output);
+  const Job job = prepare(request, progress);
+  const CellSetup setup = set_up(request, job.settings, progress.note);
 
-  std::size_t total = 0;
-  for (const WindowSpan& span : job.plan.windows) total += span.records;
-  const SolidsHeader header{static_cast<double>(job.plan.windows.front().begin) * job.timestep, job.timestep,
-                            !request.window};
-  SolidsWriter writer(request.output, request.grid, header);
-  AverageSummary summary;
-  Tally tally;
-  for (const WindowSpan& span : job.plan.windows) {
-    const WindowAverage window =
-        average_window(request, points, job, span, tally, [&] { progress.records(++summary.dumps, total); });
-    summarise(window, tally, summary);
-    writer.append(window);
-  }
-  writer.finish();
-  write_xdmf(request.output);
-  if (tally.record_voxels > 0) summary.balls_per_occupied_voxel = tally.balls / tally.record_voxels;
-  if (tally.window_voxels > 0) summary.occupied_solidity = tally.solidity / tally.window_voxels;
-  return summary;
+  std::unique_ptr<Collector> collector;
+  if (team.rank() == 0) collector = std::make_unique<Collector>(request, progress, job, setup);
+  const long long first = team.from_first(collector ? static_cast<long long>(collector->next_block()) : 0);
+  BlockLoop loop(job, setup, team, request.threads);
+  loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });
+  return collector ? collector->finish() : std::vector<SolidsSummary>{};
 }
 
 }  // namespace millfoam::averaging

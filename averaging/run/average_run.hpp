@@ -5,47 +5,76 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "averaging/grids/box_grid.hpp"
-#include "averaging/files/solids_file.hpp"
+#include "averaging/grids/cylinder_grid.hpp"
+#include "averaging/run/solids_summary.hpp"
+#include "averaging/run/team.hpp"
 
 namespace millfoam::averaging {
 
-/// Everything that `millAverage` is told.
-struct AverageRequest {
-  std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
-  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.txt beside the dumps
-  BoxGrid grid;
-  std::optional<double> window;  ///< length, s; unless given, one window over the whole run
-  std::optional<double> start;   ///< DEM time, s
-  std::optional<double> end;     ///< DEM time, s
-  int template_points = 12;      ///< along a sphere's diameter
+/// The cells of a mesh file.
+struct MeshRequest {
+  std::filesystem::path file;
+  std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.txt
+  bool at_rest = false;             ///< no motion at all
+  std::optional<double> period_z;   ///< m; the mesh spans one period along z
+  double smoothing = 0;             ///< width of the conservative diffusion, m; 0: none
+};
+
+/// How balls are shared between cells.
+enum class SharingMethod {
+  exact,  ///< exact volumes of intersection
+  sample  ///< points of a template
+};
+
+/// What balls are shared between.
+using GridRequest = std::variant<BoxGrid, CylinderGrid, MeshRequest>;
+
+/// A series of windows of one length.
+struct WindowsRequest {
+  std::optional<double> length;  ///< s; unless given, one window over the whole run
   std::filesystem::path output;
 };
 
-/// What was averaged, for the report.
-struct AverageSummary {
-  std::size_t dumps = 0;  ///< records used
-  std::vector<TimeWindow> windows;
-  std::vector<Ledger> ledgers;   ///< per window
-  double occupied_solidity = 0;  ///< mean solidity over voxels and windows where it is not 0
-  double largest_solidity = 0;   ///< of any voxel in any window
-  double balls_per_occupied_voxel =
-      0;  ///< mean over the records of balls deposited / voxels that hold some of them
+/// Everything that `millAverage` is told.
+struct AverageRequest {
+  explicit AverageRequest(GridRequest cells) : grid(std::move(cells)) {}
+
+  std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
+  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.txt beside the dumps
+  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
+  GridRequest grid;
+  SharingMethod method = SharingMethod::exact;
+  int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics
+  std::vector<std::filesystem::path> walls;  ///< STL files, or a mesh file, within which voxels count
+  std::optional<double> solidity_cap;
+  std::vector<WindowsRequest> windows;  ///< all are averaged in one pass over the dumps
+  std::optional<double> start;          ///< DEM time, s
+  std::optional<double> end;            ///< DEM time, s
+  int threads = 0;                      ///< of this process; 0: as many as OpenMP gives
+  double checkpoint_interval = 10;      ///< s between notes of how far the run has come
 };
 
 /// What happens on the way.
 struct AverageProgress {
-  std::function<void(std::size_t done, std::size_t of)> records;  ///< after each record
+  std::function<void(std::size_t done, std::size_t of)> records;  ///< as records are averaged
   std::function<void(const std::string& sentence)> note;          ///< records left out, windows not full
 };
 
-/// Averages dumps into a solids file and its .xdmf. Holds one record and one window in memory.
-/// Throws DumpError, WindowError, SolidsFileError or std::invalid_argument.
-AverageSummary average_run(const AverageRequest& request, const AverageProgress& progress);
-
-/// The ledger and the summary as a table, ending with advice where the numbers call for it.
-std::string report(const AverageSummary& summary);
+/// Averages dumps into a solids file and its .xdmf for each series of windows, and returns a summary of each
+/// (of none on ranks other than the first). Holds one record and the moments of one run of records for each
+/// thread, and the windows under way.
+///
+/// A run that was killed is taken up where it was: beside each output lie its finished windows (`.journal`)
+/// and, beside the first, how far the run had come (`.resume`), as long as it is not finished. The files do
+/// not depend on the numbers of threads and ranks, nor on where a run was taken up.
+///
+/// Throws DumpError, WindowError, SolidsFileError, MeshFileError or std::invalid_argument.
+std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,
+                                       Team& team);
 
 }  // namespace millfoam::averaging

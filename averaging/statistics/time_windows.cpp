@@ -123,6 +123,13 @@ void note_windows_not_full(long long interval, double timestep, WindowPlan& plan
   }
 }
 
+void mark_late_and_short(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
+  for (WindowSpan& span : plan.windows) {
+    span.starts_late = steps[span.first_record] - span.begin >= interval;
+    span.ends_short = span.end - steps[span.first_record + span.records - 1] > interval;
+  }
+}
+
 /// A window that is not full ends with its last record's interval: what was not recorded is not claimed.
 void end_with_the_dumps(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
   WindowSpan& last = plan.windows.back();
@@ -143,6 +150,7 @@ WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest
   cut(steps, range, length, request.timestep, plan);
   drop_closing_record(steps, interval, request.timestep, plan);
   note_windows_not_full(interval, request.timestep, plan);
+  mark_late_and_short(steps, interval, plan);
   end_with_the_dumps(steps, interval, plan);
   return plan;
 }

@@ -28,6 +28,8 @@ struct WindowSpan {
   long long end = 0;
   std::size_t first_record = 0;
   std::size_t records = 0;
+  bool starts_late = false;  ///< a record or more is missing at its beginning
+  bool ends_short = false;   ///< or at its end, as it was asked for
 };
 
 /// A run cut into windows.
@@ -39,8 +41,8 @@ struct WindowPlan {
 /// Cuts records into the windows [start + w T, start + (w+1) T) by whole time-steps, so that no record
 /// changes window by rounding of times.
 ///
-/// A window that the records do not fill is kept, with a note. Only a last one that holds nothing but the
-/// record at its very beginning is left out, with a note: that record closes the window before. The last
+/// A window that the records do not fill is kept, marked, with a note. Only a last one that holds nothing but
+/// the record at its very beginning is left out, with a note: that record closes the window before. The last
 /// window and a whole run end at most one record interval after their last record, since each record stands
 /// for one interval: no time is claimed that was not recorded.
 ///

@@ -5,85 +5,103 @@
 #include <cassert>
 #include <cmath>
 
+#include "averaging/walls/solidity_cap.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
 
-void add_all(const std::vector<double>& from, std::vector<double>& to) {
-  std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+using Columns = RecordSums;
+
+/// Means over the records: [n][columns] extensive quantities and [n] room.
+struct Means {
+  std::vector<double> values;
+  std::vector<double> room;
+
+  double at(std::size_t cell, std::size_t column) const { return values[cell * Columns::columns + column]; }
+};
+
+Means means(const WindowMoments& moments) {
+  const auto records = static_cast<double>(moments.records());
+  Means result;
+  for (std::size_t c = 0; c < moments.cells(); ++c) {
+    for (std::size_t column = 0; column < Columns::columns; ++column) {
+      result.values.push_back(moments.sum(c, column) / records);
+    }
+    result.room.push_back(moments.cell_volume(c) / records);
+  }
+  return result;
+}
+
+/// How much of the balls' volume may stay in each cell. Cells that have no cap may take in as much as their
+/// room.
+std::vector<double> capacities(const Means& mean, const CellRoom& room) {
+  std::vector<double> result(mean.room.size());
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    const bool in_the_wall =
+        !room.volumes.empty() && mean.room[c] < smallest_inside_fraction * room.volumes[c];
+    if (in_the_wall) continue;
+    result[c] =
+        room.solidity_cap ? *room.solidity_cap * mean.room[c] : mean.at(c, Columns::volume) + mean.room[c];
+  }
+  return result;
+}
+
+void fill_means(const Means& mean, WindowAverage& result) {
+  SolidsWindow& fields = result.mean;
+  for (std::size_t c = 0; c < mean.room.size(); ++c) {
+    const double volume = mean.at(c, Columns::volume);
+    if (volume == 0) continue;
+    fields.solidity[c] = volume / mean.room[c];
+    fields.diameter[c] = volume / mean.at(c, Columns::volume_over_diameter);
+    fields.diameter43[c] = mean.at(c, Columns::volume_times_diameter) / volume;
+    result.number[c] = mean.at(c, Columns::balls);
+    double speed2 = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double u = mean.at(c, Columns::momentum + a) / volume;
+      fields.velocity[3 * c + a] = u;
+      speed2 += u * u;
+    }
+    const double mean_square = mean.at(c, Columns::volume_times_speed2) / volume;
+    // Equal velocities leave a difference of round-off, which must not become negative.
+    result.granular_temperature[c] = std::max(0.0, (mean_square - speed2) / 3);
+  }
 }
 
 }  // namespace
 
-WindowAverager::WindowAverager(const BoxGrid& grid)
-    : voxel_volume_(grid.voxel_volume()),
-      sums_(grid.size()),
-      mean_volume_(grid.size(), 0.0),
-      volume_squares_(grid.size(), 0.0),
-      mean_velocity_(3 * grid.size(), 0.0),
-      velocity_squares_(3 * grid.size(), 0.0) {}
-
-void WindowAverager::add_to_spread(const RecordSums& record, std::size_t voxel) {
-  const double volume = record.volume[voxel];
-  const double difference = volume - mean_volume_[voxel];
-  mean_volume_[voxel] += difference / static_cast<double>(records_);
-  volume_squares_[voxel] += difference * (volume - mean_volume_[voxel]);
-  if (volume == 0) return;
-  const double share = volume / sums_.volume[voxel];
-  for (std::size_t n = 3 * voxel; n < 3 * voxel + 3; ++n) {
-    const double velocity = record.momentum[n] / volume;
-    const double from_mean = velocity - mean_velocity_[n];
-    mean_velocity_[n] += share * from_mean;
-    velocity_squares_[n] += volume * from_mean * (velocity - mean_velocity_[n]);
-  }
-}
-
-void WindowAverager::add(const RecordSums& record) {
-  assert(record.volume.size() == sums_.volume.size());
-  ++records_;
-  add_all(record.volume, sums_.volume);
-  add_all(record.momentum, sums_.momentum);
-  add_all(record.volume_over_diameter, sums_.volume_over_diameter);
-  add_all(record.volume_times_diameter, sums_.volume_times_diameter);
-  add_all(record.volume_times_speed2, sums_.volume_times_speed2);
-  for (std::size_t voxel = 0; voxel < record.volume.size(); ++voxel) add_to_spread(record, voxel);
-  sums_.ledger.volume_in += record.ledger.volume_in;
-  sums_.ledger.deposited += record.ledger.deposited;
-  sums_.ledger.outside += record.ledger.outside;
-  sums_.ledger.clipped += record.ledger.clipped;
-}
-
-WindowAverage WindowAverager::average() const {
-  assert(records_ > 0);
-  const auto count = static_cast<double>(records_);
-  const std::size_t voxels = sums_.volume.size();
+WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
+  assert(moments.records() > 0);
+  const auto records = static_cast<double>(moments.records());
+  const std::size_t n = moments.cells();
   WindowAverage result;
-  result.time.records = records_;
-  result.ledger = {sums_.ledger.volume_in / count, sums_.ledger.deposited / count,
-                   sums_.ledger.outside / count, sums_.ledger.clipped / count};
-  SolidsWindow& mean = result.mean;
-  for (std::vector<double>* field : {&mean.solidity, &mean.diameter, &mean.diameter43,
-                                     &result.solidity_deviation, &result.granular_temperature}) {
-    field->assign(voxels, 0.0);
-  }
-  mean.velocity.assign(3 * voxels, 0.0);
-  result.velocity_deviation.assign(3 * voxels, 0.0);
+  result.time.records = moments.records();
+  const Ledger total = moments.ledger();
+  result.ledger = {total.volume_in / records, total.deposited / records, total.outside / records, 0};
 
-  for (std::size_t v = 0; v < voxels; ++v) {
-    const double volume = sums_.volume[v];
-    if (volume == 0) continue;
-    mean.solidity[v] = volume / (count * voxel_volume_);
-    mean.diameter[v] = volume / sums_.volume_over_diameter[v];
-    mean.diameter43[v] = sums_.volume_times_diameter[v] / volume;
-    result.solidity_deviation[v] = std::sqrt(volume_squares_[v] / count) / voxel_volume_;
-    double speed2 = 0;
-    for (std::size_t n = 3 * v; n < 3 * v + 3; ++n) {
-      mean.velocity[n] = sums_.momentum[n] / volume;
-      result.velocity_deviation[n] = std::sqrt(velocity_squares_[n] / volume);
-      speed2 += mean.velocity[n] * mean.velocity[n];
+  if (moments.occupied() > 0) result.balls_per_cell = moments.balls() / moments.occupied();
+  Means mean = means(moments);
+  if (room.solidity_cap || !room.volumes.empty()) {
+    result.ledger.clipped =
+        move_excess(mean.values, Columns::columns, capacities(mean, room), room.neighbours);
+  }
+  for (std::vector<double>* field :
+       {&result.mean.solidity, &result.mean.diameter, &result.mean.diameter43, &result.number,
+        &result.granular_temperature, &result.solidity_deviation}) {
+    field->assign(n, 0.0);
+  }
+  result.mean.velocity.assign(3 * n, 0.0);
+  result.velocity_deviation.assign(3 * n, 0.0);
+  fill_means(mean, result);
+  for (std::size_t c = 0; c < n; ++c) {
+    result.solidity_deviation[c] = std::sqrt(moments.solidity_variance(c));
+    for (std::size_t a = 0; a < 3; ++a) {
+      result.velocity_deviation[3 * c + a] = std::sqrt(moments.velocity_variance(c, a));
     }
-    // Rounding can leave a voxel in uniform motion just below zero.
-    result.granular_temperature[v] = std::max(0.0, (sums_.volume_times_speed2[v] / volume - speed2) / 3);
+    if (!room.volumes.empty()) {
+      // Round-off of the clipped triangles must not make a whole voxel more than whole.
+      result.mean.inside_fraction.push_back(std::clamp(mean.room[c] / room.volumes[c], 0.0, 1.0));
+    }
   }
   return result;
 }

@@ -102,6 +102,11 @@ class BoxCase:
             writeControl timeStep; writeInterval {write_interval};
             writeFormat ascii; writePrecision 15; timePrecision 12; runTimeModifiable no;""")
 
+    def decompose_into(self, x, y, z):
+        """decomposeParDict of x by y by z parts."""
+        self.write("system/decomposeParDict", f"numberOfSubdomains {x * y * z}; method simple;"
+                                              f" simpleCoeffs {{ n ({x} {y} {z}); delta 0.001; }}")
+
     def drag(self, entries):
         """The fvOption `bed` of type particleDrag, with the fluids and these entries."""
         self.write("constant/fvOptions", f"bed {{ type particleDrag; phase alpha.slurry; {FLUIDS} {entries} }}")
@@ -194,9 +199,9 @@ class OpenFoamTest(unittest.TestCase):
         self.assertEqual(result.code, 0, f"{result.program} failed:\n{result.tail()}")
         return result
 
-    def assert_refused(self, case, *words, program="millInterFoam"):
+    def assert_refused(self, case, *words, program="millInterFoam", options=(), ranks=1):
         """The program fails, and the message of its end holds every one of the words."""
-        result = case.run(program)
+        result = case.run(program, *options, ranks=ranks)
         self.assertNotEqual(result.code, 0, f"{result.program} was expected to refuse:\n{result.tail()}")
         at = result.log.find("FOAM FATAL")
         self.assertGreaterEqual(at, 0, f"no error sentence:\n{result.tail()}")

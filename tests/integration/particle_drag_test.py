@@ -91,8 +91,7 @@ class Decomposition(OpenFoamTest):
         solids.write(case.path / "solids.h5", self.lower, self.upper, solidity, velocity=(0.1, 0.05, -0.02),
                      window=0.006)
         case.drag('law Beetstra; solids "solids.h5"; interpolation linear;')
-        case.write("system/decomposeParDict", "numberOfSubdomains 2; method simple;"
-                                              " simpleCoeffs { n (2 1 1); delta 0.001; }")
+        case.decompose_into(2, 1, 1)
         if ranks > 1:
             self.assert_runs(case, "decomposePar")
         result = self.assert_runs(case, "millInterFoam", ranks=ranks)

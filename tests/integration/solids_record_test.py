@@ -125,6 +125,25 @@ class Interpolation(SolidsTest):
                             "linear")
 
 
+class Cylinder(OpenFoamTest):
+    """Cells with centres on the x axis at 5, 15, 25 and 35 mm in a cylinder of two voxels along its radius of 3 cm."""
+
+    def solidity(self, interpolation):
+        case = self.box(lower=(0, -0.01, 0), upper=(0.04, 0.01, 0.02), cells=(4, 1, 1), delta_t=STEP, end_time=STEP)
+        solids.write_cylinder(case.path / "solids.h5", (0, 0.03), (0, 0.02), [[[[0.2, 0.4]] * 3]])
+        case.drag(f'law Ergun; solids "solids.h5"; interpolation {interpolation};')
+        result = self.assert_runs(case, "millInterFoam")
+        self.assertIn("1 of 4 cells lie outside", result.log)
+        return case.field("solidity", STEP)
+
+    def test_cell_takes_the_voxel_that_holds_the_centre(self):
+        np.testing.assert_allclose(self.solidity("cell"), [0.2, 0.4, 0.4, 0], rtol=1e-14)
+
+    def test_linear_goes_straight_along_the_radius_between_voxel_centres(self):
+        # Centres at 7.5 and 22.5 mm
+        np.testing.assert_allclose(self.solidity("linear"), [0.2, 0.3, 0.4, 0], rtol=1e-13)
+
+
 class RefusedFile(SolidsTest):
     def changed(self, change, **options):
         """A case whose solids.h5 went through change(file)."""

@@ -51,8 +51,7 @@ millfoam::drag::Fluid Foam::fv::particleDrag::readFluid(const word& name) const
 Foam::label Foam::fv::particleDrag::sampleSolids()
 {
     const label uncovered = source_->sample(
-        mesh_.time().value(), mesh_.C().primitiveField(),
-        solidity_.primitiveFieldRef(), velocity_.primitiveFieldRef(),
+        mesh_, solidity_.primitiveFieldRef(), velocity_.primitiveFieldRef(),
         diameter_.primitiveFieldRef());
     solidity_.correctBoundaryConditions();
     velocity_.correctBoundaryConditions();
@@ -155,7 +154,7 @@ Foam::fv::particleDrag::particleDrag(
     applied_.setSize(1, false);
 
     read(dict);
-    source_ = solidsSource::New(coeffs_, mesh.time());
+    source_ = solidsSource::New(coeffs_, mesh);
 
     Info << "    drag law " << word(std::string(law_->name), false) << " ("
          << std::string(law_->reference).c_str() << "), "

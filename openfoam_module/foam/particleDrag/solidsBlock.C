@@ -5,6 +5,7 @@
 
 #include "solidsBlock.H"
 #include "OStringStream.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -40,12 +41,13 @@ Foam::solidsBlock::solidsBlock(const dictionary& dict)
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::label Foam::solidsBlock::sample(
-    const scalar, const UList<point>& at, scalarField& solidity,
-    vectorField& velocity, scalarField& diameter)
+    const fvMesh& mesh, scalarField& solidity, vectorField& velocity,
+    scalarField& diameter)
 {
-    forAll(at, i)
+    const vectorField& centres = mesh.C().primitiveField();
+    forAll(centres, i)
     {
-        const bool inside = box_.contains(at[i]);
+        const bool inside = box_.contains(centres[i]);
         solidity[i] = inside ? solidity_ : 0;
         velocity[i] = inside ? velocity_ : vector::zero;
         diameter[i] = inside ? diameter_ : 0;

@@ -10,7 +10,7 @@
 // * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
 
 Foam::autoPtr<Foam::solidsSource>
-Foam::solidsSource::New(const dictionary& dict, const Time& time)
+Foam::solidsSource::New(const dictionary& dict, const fvMesh& mesh)
 {
     const bool block = dict.isDict("block");
     if (block == dict.found("solids"))
@@ -26,7 +26,7 @@ Foam::solidsSource::New(const dictionary& dict, const Time& time)
     {
         return autoPtr<solidsSource>(new solidsBlock(dict.subDict("block")));
     }
-    return autoPtr<solidsSource>(new solidsRecord(dict, time));
+    return autoPtr<solidsSource>(new solidsRecord(dict, mesh));
 }
 
 

@@ -19,10 +19,12 @@ const BoxGrid grid({-1, -2, 0}, {1, 2, 3}, {2, 3, 4}, {false, false, true});
 WindowAverage window_number(int number) {
   const std::size_t n = grid.size();
   WindowAverage window;
-  window.time = {0.5 + 0.05 * number, 0.55 + 0.05 * number, 25 - number};
+  window.time = {0.5 + 0.05 * number, 0.55 + 0.05 * number, 25 - number, number == 0, number == 2};
+  window.balls_per_cell = 3.5 + number;
   window.ledger = {4.0, 2.5, 1.5, 0};
   window.mean = {std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n, 0.004),
-                 std::vector<double>(n, 0.005)};
+                 std::vector<double>(n, 0.005), std::vector<double>(n, 0.75)};
+  window.number.assign(n, 2.5);
   for (std::size_t v = 0; v < n; ++v) window.mean.solidity[v] = 0.01 * static_cast<double>(v) + 0.1 * number;
   for (std::size_t v = 0; v < 3 * n; ++v) window.mean.velocity[v] = static_cast<double>(v) - 5.0 * number;
   window.solidity_deviation.assign(n, 0.01);
@@ -39,7 +41,7 @@ struct SolidsFile : ::testing::Test {
   SolidsFile() { write(window_number(1)); }
 
   void write(const WindowAverage& second) const {
-    SolidsWriter writer(path, grid, {0.5, 1e-5, false});
+    SolidsWriter writer(path, grid, {0.5, 1e-5, false, "exact", -6.4, 0, 0.6, true});
     writer.append(window_number(0));
     writer.append(second);
     writer.append(window_number(2));
@@ -75,10 +77,15 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(reader.time0(), 0.5);
   EXPECT_EQ(reader.timestep(), 1e-5);
   EXPECT_FALSE(reader.whole_run());
-  EXPECT_EQ(reader.grid().lower(), grid.lower());
-  EXPECT_EQ(reader.grid().upper(), grid.upper());
-  EXPECT_EQ(reader.grid().shape(), grid.shape());
-  EXPECT_EQ(reader.grid().periodic(), grid.periodic());
+  EXPECT_EQ(reader.header().method, "exact");
+  EXPECT_EQ(reader.header().angular_velocity, -6.4);
+  EXPECT_EQ(reader.header().solidity_cap, 0.6);
+  const auto& box = std::get<BoxGrid>(reader.grid());
+  EXPECT_EQ(box.lower(), grid.lower());
+  EXPECT_EQ(box.upper(), grid.upper());
+  EXPECT_EQ(box.shape(), grid.shape());
+  EXPECT_EQ(box.periodic(), grid.periodic());
+  EXPECT_EQ(reader.read_balls_per_cell(), (std::vector<double>{3.5, 4.5, 5.5}));
   ASSERT_EQ(reader.windows().size(), 3U);
   for (int w = 0; w < 3; ++w) {
     const WindowAverage written = window_number(w);
@@ -86,10 +93,14 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].begin, written.time.begin);
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].end, written.time.end);
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].records, written.time.records);
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].starts_late, written.time.starts_late);
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].ends_short, written.time.ends_short);
+    EXPECT_EQ(reader.read_ledgers()[static_cast<std::size_t>(w)].outside, written.ledger.outside);
     EXPECT_EQ(read.solidity, written.mean.solidity);
     EXPECT_EQ(read.velocity, written.mean.velocity);
     EXPECT_EQ(read.diameter, written.mean.diameter);
     EXPECT_EQ(read.diameter43, written.mean.diameter43);
+    EXPECT_EQ(read.inside_fraction, written.mean.inside_fraction);
   }
 }
 
@@ -117,7 +128,7 @@ TEST_F(SolidsFile, WhoseRunDidNotFinishIsRefused) {
 
 TEST_F(SolidsFile, OfAnotherVersionIsRefusedWithBothVersions) {
   set_attribute("version", 7);
-  expect_named(refusal_to_open(), {path.string(), "is 7", "expected 1"});
+  expect_named(refusal_to_open(), {path.string(), "is 7", "expected 2"});
 }
 
 TEST_F(SolidsFile, ThatIsSomethingElseIsRefused) {
@@ -194,6 +205,52 @@ TEST_F(SolidsFile, IsToldToParaViewWindowByWindow) {
                       "window 2", "solids.h5:/granular_temperature", "Dimensions=\"3 4 3 2 3\""});
   expect_named(message_of<SolidsFileError>([&] { write_xdmf(folder / "solids.xdmf"); }),
                {"solids.xdmf", "ParaView"});
+}
+
+/// Writes one window of 0s on a grid and returns the grid as it is read back, and the text of the .xdmf.
+std::pair<Grid, std::string> written_and_read(const Grid& other) {
+  const TemporaryFolder folder;
+  const std::size_t n = cell_count(other);
+  WindowAverage window;
+  window.time = {0, 1, 1};
+  window.mean = {
+      std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n), std::vector<double>(n), {}};
+  window.number = window.solidity_deviation = window.granular_temperature = window.mean.solidity;
+  window.velocity_deviation = window.mean.velocity;
+  SolidsWriter writer(folder / "solids.h5", other, {});
+  writer.append(window);
+  writer.finish();
+  std::ifstream input(write_xdmf(folder / "solids.h5"));
+  return {SolidsReader(folder / "solids.h5").grid(),
+          {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()}};
+}
+
+TEST(SolidsFileOnACylinder, GivesTheGridBackAndShowsItAsACurvilinearOne) {
+  const CylinderGrid cylinder({0.1, 0.5}, {-1, 2}, {3, 8, 4}, true);
+  const auto [read, xdmf] = written_and_read(cylinder);
+  const auto& back = std::get<CylinderGrid>(read);
+  EXPECT_EQ(back.radii(), cylinder.radii());
+  EXPECT_EQ(back.ends(), cylinder.ends());
+  EXPECT_EQ(back.shape(), cylinder.shape());
+  EXPECT_TRUE(back.periodic_z());
+  expect_named(xdmf, {"3DSMesh\" Dimensions=\"5 9 4\"", "solids.h5:/grid/points", "Dimensions=\"5 9 4 3\""});
+}
+
+TEST(SolidsFileOnCells, GivesTheVolumesBackAndShowsPolyhedra) {
+  MeshCells mesh;
+  mesh.volumes = {1.0 / 6};
+  mesh.file = "mesh.h5";
+  mesh.motion = "rotation speed 2";
+  mesh.time = 0.25;
+  mesh.points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  mesh.topology = {16, 4, 3, 0, 2, 1, 3, 0, 1, 3, 3, 0, 3, 2, 3, 1, 2, 3};
+  const auto [read, xdmf] = written_and_read(mesh);
+  const auto& back = std::get<MeshCells>(read);
+  EXPECT_EQ(back.volumes, mesh.volumes);
+  EXPECT_EQ(back.file, mesh.file);
+  EXPECT_EQ(back.motion, mesh.motion);
+  EXPECT_EQ(back.time, mesh.time);
+  expect_named(xdmf, {"Mixed\" NumberOfElements=\"1\"", "Dimensions=\"18\"", "solids.h5:/grid/topology"});
 }
 
 }  // namespace

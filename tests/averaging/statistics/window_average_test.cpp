@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "averaging/sharing/box_exact.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -12,8 +13,11 @@ namespace {
 
 const BoxGrid unit_voxel({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
 
-void add(WindowAverager& averager, const std::vector<Particle>& particles) {
-  averager.add(sample_record(unit_voxel, SphereTemplate(), {0, particles}));
+void add(WindowMoments& moments, const std::vector<Particle>& particles) {
+  BoxExact sharing(unit_voxel);
+  RecordSums sums;
+  sum_record(sharing, {0, particles, {}}, 0, sums);
+  moments.add(sums);
 }
 
 /// One voxel of 1 m^3. With V the volume of a ball of radius 0.1 m, the records hold
@@ -23,17 +27,25 @@ struct ThreeRecords : ::testing::Test {
   WindowAverage window;
 
   ThreeRecords() {
-    WindowAverager averager(unit_voxel);
-    add(averager, {{1, {0.5, 0.5, 0.5}, {1, 0, 0}, 0.1}});
-    add(averager, {{2, {0.5, 0.5, 0.5}, {2, 0, 0}, 0.2}});
-    add(averager, {});
-    window = averager.average();
+    WindowMoments moments(1);
+    add(moments, {{1, {0.5, 0.5, 0.5}, {1, 0, 0}, 0.1}});
+    add(moments, {{2, {0.5, 0.5, 0.5}, {2, 0, 0}, 0.2}});
+    add(moments, {});
+    window = average(moments, {});
   }
 };
 
 TEST_F(ThreeRecords, MeanSolidityCountsTheEmptyRecord) {
   EXPECT_EQ(window.time.records, 3);
   EXPECT_NEAR(window.mean.solidity[0], (v + 8 * v + 0) / 3, 1e-15);
+}
+
+TEST_F(ThreeRecords, NumberOfBallsIsAMeanOverTheRecords) {
+  EXPECT_NEAR(window.number[0], 2.0 / 3, 1e-15);
+}
+
+TEST_F(ThreeRecords, BallsPerCellIsAMeanOverTheRecordsThatHaveAny) {
+  EXPECT_NEAR(window.balls_per_cell, 1, 1e-15);
 }
 
 TEST_F(ThreeRecords, MeanVelocityIsWeightedBySolidity) {
@@ -68,22 +80,76 @@ TEST_F(ThreeRecords, TheLedgerHoldsMeansOverTheRecords) {
   EXPECT_EQ(window.ledger.clipped, 0);
 }
 
-TEST(WindowAverager, OppositeVelocitiesInOneRecordAreTemperatureAndNotSpreadOfTheMean) {
-  WindowAverager averager(unit_voxel);
-  add(averager, {{1, {0.3, 0.5, 0.5}, {0, 3, 0}, 0.1}, {2, {0.7, 0.5, 0.5}, {0, -3, 0}, 0.1}});
-  const WindowAverage window = averager.average();
+TEST(WindowAverage, OppositeVelocitiesInOneRecordAreTemperatureAndNotSpreadOfTheMean) {
+  WindowMoments moments(1);
+  add(moments, {{1, {0.3, 0.5, 0.5}, {0, 3, 0}, 0.1}, {2, {0.7, 0.5, 0.5}, {0, -3, 0}, 0.1}});
+  const WindowAverage window = average(moments, {});
   EXPECT_NEAR(window.mean.velocity[1], 0, 1e-15);
   EXPECT_NEAR(window.granular_temperature[0], 9.0 / 3, 1e-14);
   EXPECT_NEAR(window.velocity_deviation[1], 0, 1e-15);
 }
 
-TEST(WindowAverager, UniformMotionHasNoSpread) {
-  WindowAverager averager(unit_voxel);
-  for (int record = 0; record < 50; ++record) add(averager, {{1, {0.4, 0.5, 0.6}, {0.1, 0.2, -0.3}, 0.1}});
-  const WindowAverage window = averager.average();
+TEST(WindowAverage, UniformMotionHasNoSpread) {
+  WindowMoments moments(1);
+  for (int record = 0; record < 50; ++record) add(moments, {{1, {0.4, 0.5, 0.6}, {0.1, 0.2, -0.3}, 0.1}});
+  const WindowAverage window = average(moments, {});
   EXPECT_NEAR(window.solidity_deviation[0], 0, 1e-15);
   EXPECT_NEAR(window.velocity_deviation[0], 0, 1e-15);
   EXPECT_NEAR(window.granular_temperature[0], 0, 1e-15);
+}
+
+/// Two voxels of 1 m^3 side by side, the first with 0.02 m^3 of balls at velocity 1, the second with 0.4 at
+/// velocity 0, of which the walls leave `inside` to the first.
+struct TwoVoxels : ::testing::Test {
+  CellRoom room{{1, 1}, {{0, 1}}, std::nullopt};
+
+  WindowAverage average_of(double inside) {
+    RecordSums sums;
+    sums.cell_volumes = {inside, 1};
+    sums.values.assign(2 * RecordSums::columns, 0.0);
+    const std::array<double, 2> volume{0.02, 0.4};
+    for (std::size_t cell = 0; cell < 2; ++cell) {
+      sums.at(cell, RecordSums::volume) = volume[cell];
+      sums.at(cell, RecordSums::momentum) = cell == 0 ? volume[cell] : 0;
+      sums.at(cell, RecordSums::volume_over_diameter) = volume[cell] / 0.1;
+      sums.at(cell, RecordSums::volume_times_diameter) = volume[cell] * 0.1;
+    }
+    sums.ledger = {0.42, 0.42, 0, 0};
+    WindowMoments moments(2);
+    moments.add(sums);
+    return average(moments, room);
+  }
+};
+
+TEST_F(TwoVoxels, CutByAWallDivideByTheirVolumeInside) {
+  const WindowAverage window = average_of(0.05);
+  EXPECT_NEAR(window.mean.solidity[0], 0.02 / 0.05, 1e-15);
+  EXPECT_NEAR(window.mean.inside_fraction[0], 0.05, 1e-15);
+  EXPECT_EQ(window.mean.inside_fraction[1], 1);
+  EXPECT_EQ(window.ledger.clipped, 0);
+}
+
+TEST_F(TwoVoxels, WithinTheWallGiveWhatReachesIntoThemToTheirNeighbours) {
+  const WindowAverage window = average_of(0.001);
+  EXPECT_EQ(window.mean.solidity[0], 0);
+  EXPECT_NEAR(window.mean.solidity[1], 0.42, 1e-15);
+  EXPECT_NEAR(window.mean.velocity[3], 0.02 / 0.42, 1e-15);
+  EXPECT_NEAR(window.ledger.clipped, 0.02, 1e-15);
+  EXPECT_NEAR(window.ledger.deposited, 0.42, 1e-15);
+}
+
+TEST_F(TwoVoxels, AboveACapGiveTheExcessToTheirNeighbours) {
+  room.solidity_cap = 0.3;
+  const WindowAverage window = average_of(1);
+  EXPECT_NEAR(window.mean.solidity[0], 0.12, 1e-15);
+  EXPECT_NEAR(window.mean.solidity[1], 0.3, 1e-15);
+  EXPECT_NEAR(window.mean.velocity[0], 0.02 / 0.12, 1e-15);
+  EXPECT_NEAR(window.ledger.clipped, 0.1, 1e-15);
+}
+
+TEST_F(TwoVoxels, ACapThatLeavesNoRoomIsRefused) {
+  room.solidity_cap = 0.2;
+  EXPECT_THROW(average_of(1), std::runtime_error);
 }
 
 }  // namespace

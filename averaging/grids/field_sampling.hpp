@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "averaging/grids/box_grid.hpp"
 #include "averaging/files/solids_file.hpp"
+#include "averaging/grids/grid.hpp"
 
 namespace millfoam::averaging {
 
@@ -17,16 +17,20 @@ struct LocalSolids {
 /// How a field on voxels is read at a point.
 enum class Interpolation {
   cell,   ///< the value of the voxel that holds the point
-  linear  ///< trilinear between the centres of voxels
+  linear  ///< trilinear between the centres of voxels, in the grid's own coordinates
 };
 
-/// Solids at `point` (m, lab frame) out of one window on `grid`.
+/// Solids at `point` (m, lab frame) out of one window on `grid`, a box or a cylinder.
 ///
 /// `linear` interpolates phi, phi*u and phi/d and divides afterwards, so that an empty voxel takes part with
 /// its lack of particles and not with a velocity of 0: beside it the velocity stays the particles' own.
 /// Within the outer half of the outermost voxels the values are those of their centres; along a periodic axis
-/// the last voxel is the first one's neighbour. The window's fields must have the grid's size.
+/// (the angle of a cylinder always is) the last voxel is the first one's neighbour. Where walls cut the
+/// voxels, each takes part in proportion to its share inside: what lies in the wall is not known, and not
+/// empty. The window's fields must have the grid's size.
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
+                   Interpolation interpolation);
+LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
 
 }  // namespace millfoam::averaging

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/grids/box_field.hpp"
+#include "averaging/grids/field_sampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,8 @@ namespace {
 
 SolidsWindow empty_window(const BoxGrid& grid) {
   const std::size_t n = grid.size();
-  return {std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n), std::vector<double>(n)};
+  return {
+      std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n), std::vector<double>(n), {}};
 }
 
 void fill(SolidsWindow& window, std::size_t n, double solidity, const Vector3& velocity, double diameter) {
@@ -74,7 +75,7 @@ TEST_F(LinearField, IsNothingOutsideTheGridAndSaysSo) {
   }
 }
 
-TEST(BoxField, TowardsAnEmptyVoxelTheVelocityStaysTheParticles) {
+TEST(FieldSampling, TowardsAnEmptyVoxelTheVelocityStaysTheParticles) {
   const BoxGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   SolidsWindow window = empty_window(grid);
   fill(window, 0, 0.6, {1, -2, 3}, 0.004);
@@ -85,7 +86,7 @@ TEST(BoxField, TowardsAnEmptyVoxelTheVelocityStaysTheParticles) {
   EXPECT_NEAR(local.diameter, 0.004, 1e-17);
 }
 
-TEST(BoxField, BetweenTwoSizesTheDiameterIsTheMixturesSauterMean) {
+TEST(FieldSampling, BetweenTwoSizesTheDiameterIsTheMixturesSauterMean) {
   const BoxGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   SolidsWindow window = empty_window(grid);
   fill(window, 0, 0.2, {}, 0.002);
@@ -94,7 +95,7 @@ TEST(BoxField, BetweenTwoSizesTheDiameterIsTheMixturesSauterMean) {
   EXPECT_NEAR(sample(grid, window, {1, 0.5, 0.5}, Interpolation::linear).diameter, 0.004, 1e-17);
 }
 
-TEST(BoxField, AlongAPeriodicAxisTheLastVoxelIsTheFirstOnesNeighbour) {
+TEST(FieldSampling, AlongAPeriodicAxisTheLastVoxelIsTheFirstOnesNeighbour) {
   const BoxGrid grid({0, 0, 0}, {1, 1, 4}, {1, 1, 4}, {false, false, true});
   SolidsWindow window = empty_window(grid);
   fill(window, 0, 0.1, {0, 0, 1}, 0.005);
@@ -103,6 +104,36 @@ TEST(BoxField, AlongAPeriodicAxisTheLastVoxelIsTheFirstOnesNeighbour) {
     EXPECT_NEAR(sample(grid, window, {0.5, 0.5, z}, Interpolation::linear).solidity, 0.3, 1e-15);
   }
   EXPECT_NEAR(sample(grid, window, {0.5, 0.5, 3.75}, Interpolation::linear).solidity, 0.4, 1e-15);
+}
+
+TEST(FieldSampling, AVoxelInTheWallIsUnknownAndNotEmpty) {
+  const BoxGrid grid({0, 0, 0}, {3, 1, 1}, {3, 1, 1});
+  SolidsWindow window = empty_window(grid);
+  fill(window, 0, 0.6, {1, 0, 0}, 0.005);
+  fill(window, 1, 0.4, {2, 0, 0}, 0.005);
+  window.inside_fraction = {1, 0.5, 0};
+  EXPECT_NEAR(sample(grid, window, {2.4, 0.5, 0.5}, Interpolation::linear).solidity, 0.4, 1e-15);
+  EXPECT_NEAR(sample(grid, window, {1, 0.5, 0.5}, Interpolation::linear).solidity, (0.6 + 0.5 * 0.4) / 1.5,
+              1e-15);
+  EXPECT_EQ(sample(grid, window, {2.9, 0.5, 0.5}, Interpolation::linear).solidity, 0);
+}
+
+TEST(FieldSampling, OnACylinderIsLinearInItsCoordinatesAndGoesRoundTheAngle) {
+  const CylinderGrid grid({0.5, 1.5}, {0, 1}, {2, 4, 1});
+  SolidsWindow window;
+  const std::size_t n = grid.size();
+  window = {std::vector<double>(n, 0.1),
+            std::vector<double>(3 * n),
+            std::vector<double>(n, 0.005),
+            std::vector<double>(n, 0.005),
+            {}};
+  window.solidity[grid.offset({0, 0, 0})] = 0.3;
+  window.solidity[grid.offset({0, 3, 0})] = 0.5;
+  // Half-way between the last and the first sector is the +x axis.
+  EXPECT_NEAR(sample(grid, window, {0.75, 0, 0.5}, Interpolation::linear).solidity, 0.4, 1e-14);
+  EXPECT_NEAR(sample(grid, window, {1.0, 0, 0.5}, Interpolation::linear).solidity, 0.25, 1e-14);
+  EXPECT_NEAR(sample(grid, window, {0.75, 0, 0.5}, Interpolation::cell).solidity, 0.3, 1e-15);
+  EXPECT_FALSE(sample(grid, window, {0.1, 0, 0.5}, Interpolation::cell).inside);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/dumps/text_lines.hpp"
+
+namespace millfoam::averaging {
+
+/// The box of a dump.
+struct DumpBox {
+  std::array<double, 3> lower{}, upper{};  ///< m
+  bool tilted = false;                     ///< not along x, y and z
+};
+
+/// What stands in a dump before its particles.
+struct DumpHeader {
+  std::optional<long long> step;   ///< DEM time-step
+  std::optional<long long> count;  ///< of particles
+  std::optional<DumpBox> box;
+  std::string columns;  ///< names, separated by blanks
+};
+
+/// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError for
+/// text that is no dump, an item that is there twice, a value that cannot be, or a missing time-step or number
+/// of atoms.
+DumpHeader read_header(TextLines& lines);
+
+/// Reads as far as the time-step only.
+long long read_step(TextLines& lines);
+
+/// The error that the text stops before what was expected.
+DumpError truncated(TextLines& lines, const std::string& expected);
+
+}  // namespace millfoam::averaging

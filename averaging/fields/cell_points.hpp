@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "averaging/grids/box_grid.hpp"
+#include "averaging/mesh/mesh_geometry.hpp"
+
+namespace millfoam::averaging {
+
+/// Sums over the parts of a flow's cells in each voxel of a grid of n voxels.
+struct VoxelSums {
+  std::size_t components = 1;
+  std::vector<double> volume;  ///< [n] of the cells' parts, m^3
+  std::vector<double> values;  ///< [n][components] sum of volume times value
+  double outside = 0;          ///< volume of the parts beyond the grid, m^3
+
+  VoxelSums(std::size_t voxels, std::size_t components_per_cell)
+      : components(components_per_cell), volume(voxels, 0.0), values(voxels * components_per_cell, 0.0) {}
+};
+
+/// The cells of a flow's mesh as points that carry volume, by which its fields come to a box grid of the lab
+/// frame, however the mesh is turned.
+///
+/// Each cell is cut into the tetrahedra over its centroid and the triangles of its faces, and each of these into
+/// m^3 of equal volume; a point is the centroid of one. Their volumes add up to the cell's, so that what is in
+/// the cells is in the voxels or outside. A voxel's face is met to the size of a small tetrahedron.
+class CellPoints {
+ public:
+  /// @param divisions  m of an edge of a tetrahedron. Throws std::invalid_argument unless it is 1 to 10.
+  explicit CellPoints(const MeshGeometry& mesh, int divisions = 2);
+
+  std::size_t cells() const { return begin_.size() - 1; }
+  std::size_t size() const { return points_.size(); }  ///< number of points
+
+  /// Adds a field to the sums over voxels; where the grid is periodic its images are one.
+  /// @param place   carries the mesh into the lab frame
+  /// @param values  [cells][sums.components]
+  void deposit(const BoxGrid& grid, const Eigen::Isometry3d& place, const std::vector<double>& values,
+               VoxelSums& sums) const;
+
+ private:
+  std::vector<std::size_t> begin_;  ///< [cells + 1] where a cell's points begin
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> volumes_;
+};
+
+}  // namespace millfoam::averaging

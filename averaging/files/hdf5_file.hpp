@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "averaging/files/hdf5_handle.hpp"
+
+/// Files that say what they are and whether they are whole. All functions throw hdf5::Error.
+namespace millfoam::averaging::hdf5 {
+
+/// Makes a new file, replacing an older one.
+Handle create_file(const std::filesystem::path& path);
+
+/// Opens a file to read it, without HDF5's locks, so that the ranks of a parallel flow can share it on any
+/// file system. Says so where only the unfinished file `path` + ".part" is there.
+Handle open_file(const std::filesystem::path& path);
+
+/// Throws unless the attributes `format`, `version` and `complete` of a file say that it is of this format
+/// and version and whole. `advice` ends the message about another version.
+void check_format(hid_t file, const std::string& format, int version, const std::string& advice);
+
+/// Pushes all that was written to the disk.
+void flush(hid_t file);
+
+/// Gives a finished file its name, replacing an older one.
+void rename_file(const std::filesystem::path& part, const std::filesystem::path& path);
+
+}  // namespace millfoam::averaging::hdf5

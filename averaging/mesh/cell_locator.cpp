@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/mesh/cell_locator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace millfoam::averaging {
+
+namespace {
+
+using Eigen::Array3i;
+using Eigen::Vector3d;
+
+std::size_t at(int number) {
+  return static_cast<std::size_t>(number);
+}
+
+/// Depth of a coarse voxel that some cells meet.
+int depth_for(std::size_t cells) {
+  constexpr std::size_t crowd = 40;
+  return cells > 8 * crowd ? 4 : cells > crowd ? 3 : 2;
+}
+
+}  // namespace
+
+struct CellLocator::Filling {
+  int first;                 ///< where the coarse voxel's codes begin
+  int depth;                 ///< of the coarse voxel
+  Array3i origin;            ///< of the coarse voxel, in smallest fine voxels
+  std::vector<int> lists{};  ///< places of the lists made for this coarse voxel
+};
+
+CellLocator::CellLocator(std::shared_ptr<const MeshGeometry> geometry)
+    : geometry_(std::move(geometry)), sides_(*geometry_) {
+  lay_grid();
+  list_cells();
+  voxels_.resize(voxel_begin_.size() - 1);
+  for (int k = 0; k < shape_[2]; ++k) {
+    for (int j = 0; j < shape_[1]; ++j) {
+      for (int i = 0; i < shape_[0]; ++i) fill_voxel({i, j, k});
+    }
+  }
+  codes_.shrink_to_fit();
+  lists_.shrink_to_fit();
+}
+
+void CellLocator::lay_grid() {
+  const Eigen::AlignedBox3d& box = geometry_->box();
+  const double room = 1e-9 * box.diagonal().norm();
+  lower_ = box.min().array() - room;
+  const Vector3d extent = box.sizes().array() + 2 * room;
+  const double edge = std::cbrt(extent.prod() / static_cast<double>(geometry_->cells()));
+  constexpr double most_along_an_axis = 1e5;
+  shape_ = (extent / edge).array().round().max(1).min(most_along_an_axis).cast<int>();
+  limit_ = shape_.cast<double>() * (1 << deepest);
+  per_metre_ = limit_ / extent.array();
+}
+
+void CellLocator::list_cells() {
+  const Vector3d size = double(1 << deepest) * per_metre_.cwiseInverse();
+  const Eigen::Vector3f half = (size / 2 * (1 + 1e-6)).cast<float>();
+  std::vector<std::array<int, 2>> found;  // coarse voxel, cell
+  for (int cell = 0; at(cell) < geometry_->cells(); ++cell) {
+    const Eigen::AlignedBox3d& box = geometry_->boxes()[at(cell)];
+    const Array3i low = ((box.min() - lower_).array() / size.array() - 1e-6).cast<int>().max(0);
+    const Array3i high = ((box.max() - lower_).array() / size.array() + 1e-6).cast<int>().min(shape_ - 1);
+    for (int k = low[2]; k <= high[2]; ++k) {
+      for (int j = low[1]; j <= high[1]; ++j) {
+        for (int i = low[0]; i <= high[0]; ++i) {
+          const Vector3d middle = lower_ + size.cwiseProduct(Vector3d(i + 0.5, j + 0.5, k + 0.5));
+          if (sides_.side_of_box(cell, sides_.local(middle), half) == CellSides::Side::outside) continue;
+          found.push_back({static_cast<int>(index({i, j, k})), cell});
+        }
+      }
+    }
+  }
+  voxel_begin_.assign(at(shape_.prod()) + 1, 0);
+  for (const auto& [voxel, cell] : found) ++voxel_begin_[at(voxel) + 1];
+  for (std::size_t v = 1; v < voxel_begin_.size(); ++v) voxel_begin_[v] += voxel_begin_[v - 1];
+  voxel_cells_.resize(found.size());
+  std::vector<int> next(voxel_begin_.begin(), voxel_begin_.end() - 1);
+  for (const auto& [voxel, cell] : found) voxel_cells_[at(next[at(voxel)]++)] = cell;
+}
+
+void CellLocator::fill_voxel(const Array3i& voxel) {
+  const std::size_t v = index(voxel);
+  const std::vector<int> cells(voxel_cells_.begin() + voxel_begin_[v], voxel_cells_.begin() + voxel_begin_[v + 1]);
+  if (cells.empty()) return;
+  const int depth = depth_for(cells.size());
+  const auto first = codes_.size();
+  codes_.resize(first + (std::size_t{1} << (3 * depth)), outside);
+  Filling filling{static_cast<int>(first), depth, voxel * (1 << deepest)};
+  fill(filling, filling.origin, deepest, cells);
+  const bool all_the_same = std::all_of(codes_.begin() + filling.first, codes_.end(), [&](int code) {
+    return code == codes_[first];
+  });
+  if (all_the_same) {
+    voxels_[v] = {codes_[first], 0};
+    codes_.resize(first);
+  } else {
+    voxels_[v] = {filling.first, depth};
+  }
+}
+
+/// Fills the cube of 2^level smallest fine voxels along an edge at `corner`.
+void CellLocator::fill(Filling& filling, const Array3i& corner, int level, const std::vector<int>& cells) {
+  const Vector3d half = per_metre_.cwiseInverse() * (double(1 << level) / 2);
+  const Vector3d middle = lower_ + corner.cast<double>().matrix().cwiseQuotient(per_metre_) + half;
+  const CellSides::Local local = sides_.local(middle);
+  const Eigen::Vector3f reach = (half * (1 + 1e-6)).cast<float>();
+  std::vector<int> meeting;
+  int code = outside;
+  for (const int cell : cells) {
+    const CellSides::Side side = sides_.side_of_box(cell, local, reach);
+    if (side == CellSides::Side::inside) code = cell;
+    if (side == CellSides::Side::unclear) meeting.push_back(cell);
+  }
+  const int finest = deepest - filling.depth;
+  const bool known = code != outside || meeting.empty();
+  if (!known && level > finest) {
+    const int step = 1 << (level - 1);
+    for (int child = 0; child < 8; ++child) {
+      fill(filling, corner + step * Array3i(child & 1, (child >> 1) & 1, child >> 2), level - 1, meeting);
+    }
+    return;
+  }
+  if (!known) code = list_code(filling, meeting);
+  const Array3i from = (corner - filling.origin) / (1 << finest);
+  const int count = 1 << (level - finest);
+  for (int k = from[2]; k < from[2] + count; ++k) {
+    for (int j = from[1]; j < from[1] + count; ++j) {
+      const int row = filling.first + (((k << filling.depth) + j) << filling.depth) + from[0];
+      std::fill_n(codes_.begin() + row, count, code);
+    }
+  }
+}
+
+int CellLocator::list_code(Filling& filling, const std::vector<int>& cells) {
+  const int count = static_cast<int>(cells.size());
+  for (const int place : filling.lists) {
+    if (lists_[at(place)] != count) continue;
+    if (std::equal(cells.begin(), cells.end(), lists_.begin() + place + 1)) return -2 - place;
+  }
+  const int place = static_cast<int>(lists_.size());
+  lists_.push_back(count);
+  lists_.insert(lists_.end(), cells.begin(), cells.end());
+  filling.lists.push_back(place);
+  return -2 - place;
+}
+
+int CellLocator::choose(const Vector3d& point, int hint, int list) const {
+  const CellSides::Local local = sides_.local(point);
+  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const int* begin = lists_.data() + list + 1;
+  const int* end = begin + begin[-1];
+  thread_local std::vector<int> unclear;
+  unclear.clear();
+  for (const int* cell = begin; cell != end; ++cell) {
+    if (*cell == hint) continue;
+    const CellSides::Side side = sides_.side(*cell, local);
+    if (side == CellSides::Side::inside) return *cell;
+    if (side == CellSides::Side::unclear) unclear.push_back(*cell);
+  }
+  if (hint >= 0 && std::binary_search(begin, end, hint)) {
+    unclear.insert(std::upper_bound(unclear.begin(), unclear.end(), hint), hint);
+  }
+  return unclear.empty() ? outside : sides_.settle(*geometry_, point, unclear);
+}
+
+void CellLocator::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {
+  cells.clear();
+  const Eigen::Array3d scale = per_metre_.array() / (1 << deepest);
+  const Eigen::Array3d low = ((box.min() - lower_).array() * scale).floor();
+  const Eigen::Array3d high = ((box.max() - lower_).array() * scale).floor();
+  const Eigen::Array3d last = shape_.cast<double>() - 1;
+  if (!((high >= 0).all() && (low <= last).all())) return;
+  const Array3i from = low.max(0).cast<int>(), to = high.min(last).cast<int>();
+  for (int k = from[2]; k <= to[2]; ++k) {
+    for (int j = from[1]; j <= to[1]; ++j) {
+      for (int i = from[0]; i <= to[0]; ++i) {
+        const std::size_t v = index({i, j, k});
+        cells.insert(cells.end(), voxel_cells_.begin() + voxel_begin_[v],
+                     voxel_cells_.begin() + voxel_begin_[v + 1]);
+      }
+    }
+  }
+}
+
+}  // namespace millfoam::averaging

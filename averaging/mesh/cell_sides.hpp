@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "averaging/mesh/mesh_geometry.hpp"
+
+namespace millfoam::averaging {
+
+/// Whether points and boxes are in cells.
+///
+/// For each face of a cell, with n the mean normal out of the cell, two planes are kept: n . x = low through
+/// the face's innermost point and n . x = high through the outermost point of the cell. What is beyond one
+/// `high` is outside; what is below every `low` sees all faces from inside and is inside, by the winding number,
+/// of convex and other cells alike. For a convex cell with flat faces low = high. The planes are kept in single
+/// precision, with what that may cost added to the room between them. Where they leave it unclear, the solid
+/// angles of the cell's facets decide (their sum is 4 pi inside and 0 outside).
+class CellSides {
+ public:
+  enum class Side { outside, inside, unclear };
+
+  /// A point, or the middle of a box, as the planes want it.
+  struct Local {
+    float x, y, z;
+  };
+
+  explicit CellSides(const MeshGeometry& geometry) { update(geometry); }
+
+  /// Follows a geometry that has moved.
+  void update(const MeshGeometry& geometry);
+
+  Local local(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3f p = (point - origin_).cast<float>();
+    return {p.x(), p.y(), p.z()};
+  }
+
+  /// By the planes alone.
+  Side side(int cell, const Local& point) const {
+    const auto c = static_cast<std::size_t>(cell);
+    Eigen::Array4f below = Eigen::Array4f::Constant(-1);
+    for (int b = begin_[c]; b < begin_[c + 1]; ++b) {
+      const Planes& planes = planes_[static_cast<std::size_t>(b)];
+      const Eigen::Array4f height = planes.nx * point.x + planes.ny * point.y + planes.nz * point.z;
+      if ((height - planes.high).maxCoeff() > 0) return Side::outside;
+      below = below.max(height - planes.low);
+    }
+    return below.maxCoeff() < 0 ? Side::inside : Side::unclear;
+  }
+
+  /// Of a whole box about a point: outside and inside are certain.
+  /// @param half  half its edges, m
+  Side side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const;
+
+  /// The lowest of the cells, given in rising order, that holds the point, or -1, by solid angles.
+  int settle(const MeshGeometry& geometry, const Eigen::Vector3d& point, const std::vector<int>& cells) const;
+
+ private:
+  /// Four faces.
+  struct Planes {
+    Eigen::Array4f nx = Eigen::Array4f::Zero();
+    Eigen::Array4f ny = Eigen::Array4f::Zero();
+    Eigen::Array4f nz = Eigen::Array4f::Zero();
+    Eigen::Array4f low = Eigen::Array4f::Constant(std::numeric_limits<float>::max());
+    Eigen::Array4f high = Eigen::Array4f::Constant(std::numeric_limits<float>::max());
+  };
+
+  void add_cell(const MeshGeometry& geometry, int cell, std::vector<Eigen::Vector3d>& corners);
+  double winding(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
+
+  Eigen::Vector3d origin_;
+  double slack_ = 0;  ///< by which single precision may be wrong, m
+  double flat_ = 0;   ///< by which a point may be off a facet and still lie on it, m
+  std::vector<int> begin_;
+  std::vector<Planes> planes_;
+};
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "averaging/grids/grid.hpp"
+#include "averaging/mesh/mesh_diffusion.hpp"
+#include "averaging/run/average_run.hpp"
+#include "averaging/run/voxel_room.hpp"
+#include "averaging/sharing/cell_sharing.hpp"
+#include "averaging/statistics/window_average.hpp"
+
+namespace millfoam::averaging {
+
+/// What the notes of the DEM run and the request agree on.
+struct RunSettings {
+  double timestep = 0;                     ///< of the DEM run, s
+  std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
+};
+
+/// What a request's grid, method and walls come to: prepared once, and shared by all threads.
+struct CellSetup {
+  Grid grid;
+  std::unique_ptr<const CellSharing> sharing;  ///< each thread has a clone of it
+  CellRoom room;
+  std::shared_ptr<const VoxelRoom> walls;          ///< null unless walls cut the cells
+  std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed
+  std::string method;                              ///< in words, for the solids file
+  double smoothing = 0;                            ///< width, m
+};
+
+/// Prepares all that does not depend on the records. `note` gets sentences on what was taken for granted.
+/// Throws std::invalid_argument for settings that do not go together, MeshFileError, SurfaceError.
+CellSetup set_up(const AverageRequest& request, const RunSettings& settings,
+                 const std::function<void(const std::string&)>& note);
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/record_worker.hpp"
+
+#include "averaging/dumps/dump_reader.hpp"
+
+namespace millfoam::averaging {
+
+RecordWorker::RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& dumps, double timestep)
+    : setup_(setup),
+      dumps_(dumps),
+      timestep_(timestep),
+      sharing_(setup.sharing->clone()),
+      moments_(cell_count(setup.grid)) {}
+
+const WindowMoments& RecordWorker::process(const RecordBlock& block) {
+  moments_.clear();
+  for (std::size_t r = block.first; r < block.last; ++r) {
+    const ParticleRecord record = read_dump(dumps_[r].path);
+    const double time = static_cast<double>(record.step) * timestep_;
+    sum_record(*sharing_, record, time, sums_);
+    if (setup_.walls) sums_.cell_volumes = setup_.walls->volumes(time);
+    if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
+    moments_.add(sums_);
+  }
+  return moments_;
+}
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "averaging/dumps/dump_series.hpp"
+#include "averaging/run/cell_setup.hpp"
+#include "averaging/run/record_blocks.hpp"
+#include "averaging/statistics/window_moments.hpp"
+
+namespace millfoam::averaging {
+
+/// Averages blocks of records in one thread.
+class RecordWorker {
+ public:
+  /// @param setup, dumps  must outlive the worker
+  RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& dumps, double timestep);
+
+  /// Reads the block's dumps and takes their moments; valid until the next call.
+  const WindowMoments& process(const RecordBlock& block);
+
+ private:
+  const CellSetup& setup_;
+  const std::vector<DumpFile>& dumps_;
+  double timestep_;
+  std::unique_ptr<CellSharing> sharing_;
+  RecordSums sums_;
+  WindowMoments moments_;
+};
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/solids_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace millfoam::averaging {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Numbers of balls per averaging volume in the simulations that the laws of drag come from.
+constexpr double fewest_balls = 8, most_balls = 64;
+
+/// The densest packing of equal spheres.
+constexpr double densest = 0.74;
+
+template <typename... Arguments>
+std::string formatted(const char* format, Arguments... arguments) {
+  char line[300];
+  std::snprintf(line, sizeof line, format, arguments...);
+  return line;
+}
+
+double share(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
+std::string ledger_row(std::size_t number, const WindowSummary& window) {
+  const Ledger& ledger = window.ledger;
+  const std::string marks = std::string(window.time.starts_late ? "  starts late" : "") +
+                            (window.time.ends_short ? "  ends short" : "");
+  return formatted("%6zu %10g %10g %8lld %14.6e %12.4f %12.4f %12.4f%s\n", number, window.time.begin,
+                   window.time.end, window.time.records, ledger.volume_in,
+                   100 * share(ledger.deposited, ledger.volume_in),
+                   100 * share(ledger.outside, ledger.volume_in),
+                   100 * share(ledger.clipped, ledger.volume_in), marks.c_str());
+}
+
+/// Of all windows together.
+WindowSummary overall(const SolidsSummary& summary) {
+  WindowSummary all;
+  for (const WindowSummary& window : summary.windows) {
+    all.balls_per_cell += window.balls_per_cell / static_cast<double>(summary.windows.size());
+    all.occupied_cells += window.occupied_cells;
+    all.small_cells += window.small_cells;
+    all.occupied_volume += window.occupied_volume;
+    all.mean_solidity += window.mean_solidity * static_cast<double>(window.occupied_cells);
+    all.largest_solidity = std::max(all.largest_solidity, window.largest_solidity);
+  }
+  if (all.occupied_cells > 0) all.mean_solidity /= static_cast<double>(all.occupied_cells);
+  return all;
+}
+
+/// Edge of a cube in which `balls` balls would be found, m.
+double edge_for(double balls, const WindowSummary& all) {
+  const double cell = all.occupied_volume / static_cast<double>(all.occupied_cells);
+  return std::cbrt(cell * balls / all.balls_per_cell);
+}
+
+/// What the laws of drag need of an averaging volume, where it is missed, and what to change.
+std::string advice(const WindowSummary& all) {
+  if (all.occupied_cells == 0)
+    return "warning: there are no balls in any cell: is the grid where they are?\n";
+  std::string text;
+  if (all.balls_per_cell < fewest_balls) {
+    text += formatted(
+        "advice: the drag laws were derived on %g to %g balls per averaging volume: take cells of %.2g m or "
+        "more, or on a mesh smooth over that width\n",
+        fewest_balls, most_balls, edge_for(fewest_balls, all));
+  } else if (all.balls_per_cell > most_balls) {
+    text += formatted(
+        "advice: more than the %g to %g balls per averaging volume that the drag laws were derived on: cells "
+        "down to %.2g m would show more\n",
+        fewest_balls, most_balls, edge_for(fewest_balls, all));
+  }
+  if (all.small_cells > 0) {
+    text += formatted(
+        "advice: %.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh "
+        "with smoothing, give fields on which a drag law means something\n",
+        100 * static_cast<double>(all.small_cells) / static_cast<double>(all.occupied_cells));
+  }
+  if (all.largest_solidity >= 1) {
+    text +=
+        "warning: the largest solidity leaves no room for the fluid, a flow will refuse it: use cells larger "
+        "than the balls, or a cap on the solidity\n";
+  } else if (all.largest_solidity > densest) {
+    text += formatted(
+        "advice: the largest solidity is above that of the densest packing of equal spheres, %g: the cells "
+        "are "
+        "small for the balls, or the balls overlap\n",
+        densest);
+  }
+  return text;
+}
+
+}  // namespace
+
+WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
+                        const SolidsWindow& fields) {
+  WindowSummary summary;
+  summary.time = time;
+  summary.ledger = ledger;
+  summary.balls_per_cell = balls_per_cell;
+  for (std::size_t c = 0; c < fields.solidity.size(); ++c) {
+    if (fields.solidity[c] == 0) continue;
+    const double d = fields.diameter[c], volume = cell_volume(grid, c);
+    ++summary.occupied_cells;
+    summary.occupied_volume += volume;
+    summary.mean_solidity += fields.solidity[c];
+    summary.largest_solidity = std::max(summary.largest_solidity, fields.solidity[c]);
+    if (volume < pi / 6 * d * d * d) ++summary.small_cells;
+  }
+  if (summary.occupied_cells > 0) summary.mean_solidity /= static_cast<double>(summary.occupied_cells);
+  return summary;
+}
+
+SolidsSummary summarise(const std::filesystem::path& file) {
+  const SolidsReader solids(file);
+  const std::vector<Ledger> ledgers = solids.read_ledgers();
+  const std::vector<double> balls = solids.read_balls_per_cell();
+  SolidsSummary summary{file, {}};
+  for (std::size_t w = 0; w < ledgers.size(); ++w) {
+    summary.windows.push_back(
+        summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_window(w)));
+  }
+  return summary;
+}
+
+std::string report(const SolidsSummary& summary) {
+  std::string text = summary.file.string() + "\n" +
+                     formatted("%6s %10s %10s %8s %14s %12s %12s %12s\n", "window", "begin, s", "end, s",
+                               "records", "volume in, m3", "deposited, %", "outside, %", "clipped, %");
+  for (std::size_t w = 0; w < summary.windows.size(); ++w) text += ledger_row(w, summary.windows[w]);
+  const WindowSummary all = overall(summary);
+  text += formatted("solidity of occupied cells: mean %.4f, largest %.4f\n", all.mean_solidity,
+                    all.largest_solidity);
+  text += formatted("balls per occupied cell: mean %.3g\n", all.balls_per_cell);
+  return text + advice(all);
+}
+
+std::vector<std::string> ledger_failures(const SolidsSummary& summary, double tolerance) {
+  std::vector<std::string> failures;
+  for (std::size_t w = 0; w < summary.windows.size(); ++w) {
+    const Ledger& ledger = summary.windows[w].ledger;
+    const auto fail = [&](const char* what, double part, double allowed) {
+      failures.push_back(
+          formatted("window %zu from %g s: %.3g %% of the particle volume %s, allowed are %.3g %%", w,
+                    summary.windows[w].time.begin, 100 * share(part, ledger.volume_in), what, 100 * allowed));
+    };
+    const auto above = [&](double part, double allowed) { return part > allowed * ledger.volume_in; };
+    constexpr double round_off = 1e-10;
+    const double missing = std::abs(ledger.volume_in - ledger.deposited - ledger.outside);
+    if (above(missing, round_off)) fail("is missing in the ledger", missing, round_off);
+    // Round-off of the shares leaves traces outside that are no loss.
+    if (above(ledger.outside, std::max(tolerance, round_off)))
+      fail("is outside the grid", ledger.outside, tolerance);
+    if (above(ledger.clipped, tolerance)) fail("was above the cap", ledger.clipped, tolerance);
+  }
+  return failures;
+}
+
+}  // namespace millfoam::averaging

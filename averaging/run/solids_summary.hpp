@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "averaging/files/solids_file.hpp"
+
+namespace millfoam::averaging {
+
+/// What a user should know of a window before trusting it.
+struct WindowSummary {
+  TimeWindow time;
+  Ledger ledger;
+  double balls_per_cell = 0;  ///< mean number of balls in a cell that holds some
+  std::size_t occupied_cells = 0;
+  std::size_t small_cells = 0;  ///< of the occupied ones: smaller than a ball of their Sauter diameter
+  double occupied_volume = 0;   ///< of the occupied cells, m^3
+  double mean_solidity = 0;     ///< over the occupied cells
+  double largest_solidity = 0;  ///< of any cell
+};
+
+/// A solids file in numbers.
+struct SolidsSummary {
+  std::filesystem::path file;
+  std::vector<WindowSummary> windows;
+};
+
+WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
+                        const SolidsWindow& fields);
+
+/// Reads a solids file through. Throws SolidsFileError.
+SolidsSummary summarise(const std::filesystem::path& file);
+
+/// The ledger window by window, the summary, and advice where the numbers call for it.
+std::string report(const SolidsSummary& summary);
+
+/// A sentence for each window whose ledger does not balance, or of whose particle volume a share above
+/// `tolerance` lies outside the grid or was moved by the cap; empty when all is well.
+std::vector<std::string> ledger_failures(const SolidsSummary& summary, double tolerance);
+
+}  // namespace millfoam::averaging

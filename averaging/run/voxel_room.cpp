@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/voxel_room.hpp"
+
+#include <utility>
+
+#include "averaging/walls/inside_fraction.hpp"
+
+namespace millfoam::averaging {
+
+namespace {
+
+std::vector<double> room(const std::variant<BoxGrid, CylinderGrid>& grid, const Surface& walls,
+                         const Eigen::Isometry3d& place) {
+  return std::visit([&](const auto& voxels) { return inside_volumes(voxels, walls, place); }, grid);
+}
+
+}  // namespace
+
+VoxelRoom::VoxelRoom(const std::variant<BoxGrid, CylinderGrid>& grid, const Surface& walls,
+                     std::shared_ptr<const Motion> motion, double walls_time)
+    : grid_(grid), walls_(walls), motion_(std::move(motion)), walls_time_(walls_time) {
+  if (!motion_) at_rest_ = room(grid_, walls_, Eigen::Isometry3d::Identity());
+}
+
+std::vector<double> VoxelRoom::volumes(double time) const {
+  if (!motion_) return at_rest_;
+  return room(grid_, walls_, motion_->place(time) * motion_->place(walls_time_).inverse());
+}
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/window_series.hpp"
+
+#include <utility>
+
+#include "averaging/files/xdmf.hpp"
+
+namespace millfoam::averaging {
+
+WindowSeries::WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep,
+                           const CellRoom& room, std::size_t cells, std::size_t rows)
+    : output_(output),
+      plan_(std::move(plan)),
+      timestep_(timestep),
+      room_(room),
+      open_(cells),
+      journal_(journal_path(output), cells, !room.volumes.empty(), rows) {}
+
+std::filesystem::path WindowSeries::journal_path(const std::filesystem::path& output) {
+  return output.string() + ".journal";
+}
+
+void WindowSeries::add(const RecordBlock& block, const WindowMoments& moments) {
+  const std::size_t window = journal_.rows();
+  if (window == plan_.windows.size() || block.first < plan_.windows[window].first_record) return;
+  const WindowSpan& span = plan_.windows[window];
+  open_.merge(moments);
+  if (block.last < span.first_record + span.records) return;
+  WindowAverage result = average(open_, room_);
+  result.time.begin = static_cast<double>(span.begin) * timestep_;
+  result.time.end = static_cast<double>(span.end) * timestep_;
+  result.time.starts_late = span.starts_late;
+  result.time.ends_short = span.ends_short;
+  journal_.append(result);
+  open_.clear();
+}
+
+void WindowSeries::write(const Grid& grid, const SolidsHeader& header,
+                         const std::function<void(const WindowAverage&)>& each) const {
+  SolidsWriter writer(output_, grid, header);
+  for (std::size_t row = 0; row < journal_.rows(); ++row) {
+    const WindowAverage window = journal_.read(row);
+    writer.append(window);
+    each(window);
+  }
+  writer.finish();
+  write_xdmf(output_);
+}
+
+void WindowSeries::forget() const {
+  std::filesystem::remove(journal_path(output_));
+}
+
+}  // namespace millfoam::averaging

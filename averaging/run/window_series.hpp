@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "averaging/files/window_journal.hpp"
+#include "averaging/run/record_blocks.hpp"
+#include "averaging/statistics/window_average.hpp"
+
+namespace millfoam::averaging {
+
+/// The windows of one length: takes in the blocks of records in order, closes each window when its last block
+/// is in, and writes the solids file when all are.
+class WindowSeries {
+ public:
+  /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
+  /// @param rows    finished windows of an earlier run that was killed
+  /// @param room    for `average`; must outlive the series
+  WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep, const CellRoom& room,
+               std::size_t cells, std::size_t rows);
+
+  /// Adds a block: the next one, or one that no window of this series holds.
+  void add(const RecordBlock& block, const WindowMoments& moments);
+
+  std::size_t finished() const { return journal_.rows(); }
+  const WindowMoments& open_window() const { return open_; }
+  void restore(const std::vector<double>& packed) { open_.unpack(packed); }
+
+  /// Waits until the finished windows are on the disk.
+  void sync() { journal_.sync(); }
+
+  /// Writes the solids file and its .xdmf, calling `each` with every window.
+  void write(const Grid& grid, const SolidsHeader& header,
+             const std::function<void(const WindowAverage&)>& each) const;
+
+  /// Removes the journal.
+  void forget() const;
+
+  static std::filesystem::path journal_path(const std::filesystem::path& output);
+
+ private:
+  std::filesystem::path output_;
+  WindowPlan plan_;
+  double timestep_;
+  const CellRoom& room_;
+  WindowMoments open_;
+  WindowJournal journal_;
+};
+
+}  // namespace millfoam::averaging

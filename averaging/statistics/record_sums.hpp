@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/sharing/cell_sharing.hpp"
+
+namespace millfoam::averaging {
+
+/// Where the particles' volume went, m^3: volume_in = deposited + outside.
+struct Ledger {
+  double volume_in = 0;  ///< of all particles
+  double deposited = 0;  ///< in the grid's cells
+  double outside = 0;    ///< beyond the grid
+  double clipped = 0;    ///< of the deposited: moved from cells above the cap on solidity to their neighbours
+};
+
+Ledger& operator+=(Ledger& ledger, const Ledger& other);
+
+/// Sums over the particles of one record, per cell of a grid of n cells. V is the part of a particle's volume
+/// in the cell, d the diameter of the sphere of the particle's volume, v its velocity.
+struct RecordSums {
+  /// The extensive quantities of a cell, side by side so that they can be smoothed and moved together.
+  enum Column : std::size_t {
+    volume,                               ///< sum V, m^3
+    momentum,                             ///< sum V v, three columns, m^4/s
+    volume_over_diameter = momentum + 3,  ///< sum V/d, m^2
+    volume_times_diameter,                ///< sum V d, m^4
+    volume_times_speed2,                  ///< sum V |v|^2, m^5/s^2
+    balls,                                ///< number of balls, a part of a ball counting as that part
+    columns
+  };
+
+  std::vector<double> values;        ///< [n][columns]
+  std::vector<double> cell_volumes;  ///< [n] room for balls and fluid in the cell at this time, m^3
+  Ledger ledger;
+
+  std::size_t cells() const { return cell_volumes.size(); }
+  double at(std::size_t cell, std::size_t column) const { return values[cell * columns + column]; }
+  double& at(std::size_t cell, std::size_t column) { return values[cell * columns + column]; }
+};
+
+/// Shares all particles of a record between the cells at a DEM time, s. `sums` is overwritten; its storage is
+/// used again.
+void sum_record(CellSharing& sharing, const ParticleRecord& record, double time, RecordSums& sums);
+
+}  // namespace millfoam::averaging

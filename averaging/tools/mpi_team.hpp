@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "averaging/run/team.hpp"
+
+namespace millfoam::averaging {
+
+/// The ranks of an MPI run. One thread of a rank calls it at a time.
+class MpiTeam : public Team {
+ public:
+  /// Whether a launcher (mpirun, srun) started this process as one of several.
+  static bool launched();
+
+  /// Starts and, at the end, ends MPI.
+  MpiTeam();
+  ~MpiTeam() override;
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  void send(const std::vector<double>& numbers) override;
+  void receive(int rank, std::vector<double>& numbers) override;
+  long long from_first(long long number) override;
+
+  /// Ends all ranks at once, after an error on this one.
+  [[noreturn]] static void abort();
+
+ private:
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+}  // namespace millfoam::averaging

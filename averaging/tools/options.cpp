@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/tools/options.hpp"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "averaging/dumps/text_lines.hpp"
+
+namespace millfoam::averaging {
+
+namespace {
+
+/// Seconds, or nothing for the whole run.
+std::optional<double> window_length(const std::string& text) {
+  if (text == "whole") return std::nullopt;
+  const std::optional<double> length = as_number<double>(text);
+  if (!length || !(*length >= 0)) {
+    throw std::invalid_argument("--window is '" + text + "', expected a time in s or 'whole'");
+  }
+  return *length == 0 ? std::nullopt : length;
+}
+
+/// The output itself for a single length; for several NAME_LENGTH.h5 of NAME.h5.
+std::vector<WindowsRequest> windows(const Options& options) {
+  std::vector<WindowsRequest> result;
+  for (const std::string& text : options.windows) {
+    std::filesystem::path output = options.output;
+    if (options.windows.size() > 1) {
+      output.replace_filename(output.stem().string() + '_' + text + output.extension().string());
+    }
+    result.push_back({window_length(text), output});
+    const auto same = [&](const WindowsRequest& other) { return other.output == result.back().output; };
+    if (std::count_if(result.begin(), result.end(), same) > 1) {
+      throw std::invalid_argument("--window has '" + text + "' twice");
+    }
+  }
+  return result;
+}
+
+std::array<bool, 3> periodic_axes(const Options& options) {
+  std::array<bool, 3> periodic{};
+  for (const std::string& axis : options.periodic) periodic[static_cast<std::size_t>(axis[0] - 'x')] = true;
+  return periodic;
+}
+
+void require_shape(const Options& options, const char* meaning) {
+  if (options.shape.size() == 3) return;
+  throw std::invalid_argument(std::string("--shape is missing, expected ") + meaning);
+}
+
+BoxGrid box_grid(const Options& options) {
+  require_shape(options, "numbers of voxels nx ny nz");
+  const std::vector<double>& b = options.box;
+  return {{b[0], b[1], b[2]},
+          {b[3], b[4], b[5]},
+          {options.shape[0], options.shape[1], options.shape[2]},
+          periodic_axes(options)};
+}
+
+CylinderGrid cylinder_grid(const Options& options) {
+  require_shape(options, "numbers of voxels nr ntheta nz");
+  const std::array<bool, 3> periodic = periodic_axes(options);
+  if (periodic[0] || periodic[1]) {
+    throw std::invalid_argument("--periodic is x or y, expected z: a cylinder repeats along its axis only");
+  }
+  const std::vector<double>& c = options.cylinder;
+  return {{c[0], c[1]}, {c[2], c[3]}, {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]};
+}
+
+MeshRequest mesh_request(const Options& options) {
+  if (!options.shape.empty() || !options.periodic.empty()) {
+    throw std::invalid_argument(
+        "--shape and --periodic are for --box and --cylinder; a mesh has its own cells, and --period LENGTH");
+  }
+  MeshRequest mesh;
+  mesh.file = options.mesh;
+  mesh.at_rest = options.motion == std::vector<std::string>{"none"};
+  if (!mesh.at_rest) mesh.motion = options.motion;
+  mesh.period_z = options.period;
+  mesh.smoothing = options.smoothing.value_or(0);
+  return mesh;
+}
+
+GridRequest grid(const Options& options) {
+  const int kinds =
+      (options.box.empty() ? 0 : 1) + (options.cylinder.empty() ? 0 : 1) + (options.mesh.empty() ? 0 : 1);
+  if (kinds != 1) {
+    throw std::invalid_argument(std::string(kinds == 0 ? "none" : "more than one") +
+                                " of --box, --cylinder and --mesh is there, expected one of them");
+  }
+  if (!options.mesh.empty()) return mesh_request(options);
+  if (!options.motion.empty() || options.period || options.smoothing) {
+    throw std::invalid_argument("--motion, --period and --smooth are for --mesh; voxels stay where they are");
+  }
+  if (!options.box.empty()) return box_grid(options);
+  return cylinder_grid(options);
+}
+
+/// The files that patterns match. A shell that has expanded a pattern already gives plain names.
+std::vector<std::filesystem::path> matching_files(const std::vector<std::string>& patterns) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& pattern : patterns) {
+    glob_t found{};
+    if (glob(pattern.c_str(), GLOB_TILDE, nullptr, &found) == 0) {
+      files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    } else {
+      globfree(&found);
+      throw std::invalid_argument("--inside '" + pattern + "' matches no file");
+    }
+    globfree(&found);
+  }
+  return files;
+}
+
+}  // namespace
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
+  app.add_option("--dt", options.timestep, "DEM time-step, s; unless given, out of run.txt beside the dumps");
+  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.txt");
+  app.add_option("-o,--output", options.output,
+                 "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
+
+  app.add_option("--box", options.box, "voxels of a box: two corners x0 y0 z0 x1 y1 z1, m")->expected(6);
+  app.add_option("--cylinder", options.cylinder,
+                 "voxels of a cylinder about z: radii r0 r1 and ends z0 z1, m")
+      ->expected(4);
+  app.add_option("--shape", options.shape, "numbers of voxels nx ny nz, or nr ntheta nz")->expected(3);
+  app.add_option("--periodic", options.periodic, "axes along which the grid repeats: x, y, z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option(
+      "--inside", options.walls,
+      "STL files of the mill's walls at DEM time 0, or a mesh file: voxels count by their volume inside");
+  app.add_option("--mesh", options.mesh, "cells of a mesh file, as foamMeshToH5 writes it");
+  app.add_option("--motion", options.motion,
+                 "of the mesh: 'rotation speed W', 'rotation table FILE', 'translation velocity X Y Z', "
+                 "'translation table FILE', 'none'; several are applied in turn [the mill's rotation]");
+  app.add_option("--period", options.period, "length along z after which the mesh repeats, m");
+  app.add_option("--smooth", options.smoothing,
+                 "width of the conservative diffusion on the mesh, m; 2 to 3 "
+                 "diameters of the balls where cells are smaller [none]");
+
+  app.add_option("--method", options.method, "how balls are shared between cells: exact or sample")
+      ->check(CLI::IsMember({"exact", "sample"}))
+      ->capture_default_str();
+  app.add_option("--template", options.template_points, "points along a sphere's diameter, to sample")
+      ->capture_default_str();
+  app.add_option("--cap", options.solidity_cap, "largest solidity: what is above moves to neighbours [none]");
+
+  app.add_option("--window", options.windows,
+                 "lengths of the time windows, s, or 'whole' for one over the run; several in one pass");
+  app.add_option("--start", options.start, "DEM time at which the first window begins, s [first dump]");
+  app.add_option("--end", options.end, "DEM time from which on dumps are left out, s [none]");
+
+  app.add_option("--threads", options.threads, "of this process [OMP_NUM_THREADS or all cores]")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--checkpoint", options.checkpoint_interval, "time between notes of how far the run is, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
+  app.add_option("--tolerance", options.tolerance,
+                 "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
+                 "--report, else none]")
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+AverageRequest as_request(const Options& options) {
+  const std::array<std::pair<const char*, bool>, 3> required{{{"--dumps", options.dumps.empty()},
+                                                              {"--window", options.windows.empty()},
+                                                              {"-o", options.output.empty()}}};
+  for (const auto& [name, missing] : required) {
+    if (missing) throw std::invalid_argument(std::string(name) + " is missing");
+  }
+  if (options.solidity_cap && !(*options.solidity_cap > 0 && *options.solidity_cap < 1)) {
+    throw std::invalid_argument("--cap is " + std::to_string(*options.solidity_cap) +
+                                ", expected a solidity between 0 and 1");
+  }
+  AverageRequest request(grid(options));
+  request.dumps = options.dumps;
+  request.timestep = options.timestep;
+  request.angular_velocity = options.speed;
+  request.method = options.method == "exact" ? SharingMethod::exact : SharingMethod::sample;
+  request.template_points = options.template_points;
+  request.walls = matching_files(options.walls);
+  request.solidity_cap = options.solidity_cap;
+  request.windows = windows(options);
+  request.start = options.start;
+  request.end = options.end;
+  request.threads = options.threads;
+  request.checkpoint_interval = options.checkpoint_interval;
+  return request;
+}
+
+}  // namespace millfoam::averaging

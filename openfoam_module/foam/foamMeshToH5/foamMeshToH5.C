@@ -1,0 +1,183 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Application
+    foamMeshToH5
+
+Description
+    Writes the mesh of a case to a mesh.h5, by which millAverage knows it.
+
+    Any of OpenFOAM's formats is read: ASCII, binary, compressed. A decomposed
+    mesh is put together from processor*, numbered as before it was decomposed,
+    if there is no constant/polyMesh or with -decomposed.
+
+Usage
+    \b foamMeshToH5 [OPTION]
+
+      - \par -o FILE
+        The file to write; mesh.h5 of the case unless given
+
+      - \par -times all|RANGES
+        For a mesh whose points move: those of all times, or of ranges such as
+        0.1:0.5,0.8, that have polyMesh/points; flow time 0 is that of constant.
+        Without it the points of constant alone are written
+
+      - \par -time0 T
+        DEM time, s, at flow time 0, where constant/millProperties has no
+        \c time0; 0 unless given
+
+      - \par -decomposed
+        Take the mesh from processor* although there is a constant/polyMesh
+
+\*---------------------------------------------------------------------------*/
+
+#include "argList.H"
+#include "meshAssembly.H"
+#include "polyMesh.H"
+#include "timeSelector.H"
+#include "untrapped.H"
+#include "averaging/mesh/mesh_file.hpp"
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+static void addOptions()
+{
+    argList::addNote("Write the mesh of a case to a mesh.h5 for millAverage");
+    argList::noParallel();
+    argList::noFunctionObjects();
+    argList::addOption("o", "file", "The file to write (default: mesh.h5)");
+    argList::addOption(
+        "times", "all|ranges",
+        "Points of all times, or of ranges such as 0.1:0.5,0.8, that have"
+        " polyMesh/points");
+    argList::addOption("time0", "s", "DEM time at flow time 0 (default: 0)");
+    argList::addBoolOption("decomposed", "Take the mesh from processor*");
+}
+
+
+//- The time of the case or, by its name, of a processor's part
+static autoPtr<Time> openTime(const argList& args, const word& part = "")
+{
+    return autoPtr<Time>::New(
+        Time::controlDictName, args.rootPath(), args.caseName() / part,
+        "system", "constant", false, false);
+}
+
+
+//- The case's mesh or, of a decomposed case, all its parts
+static PtrList<meshPart> openParts(const argList& args, const Time& time)
+{
+    const fileName lists(time.path() / time.constant() / polyMesh::meshSubDir);
+    const label n = fileHandler().nProcs(time.path());
+    const bool whole = isDir(lists) && !args.found("decomposed");
+    if (!whole && n == 0)
+    {
+        FatalErrorInFunction
+            << time.path() << " has neither constant/polyMesh nor processor*"
+            << " folders" << (args.found("decomposed") ? " (-decomposed)" : "")
+            << "; expected a mesh" << exit(FatalError);
+    }
+
+    PtrList<meshPart> parts(whole ? 1 : n);
+    forAll(parts, i)
+    {
+        const word part(whole ? word() : "processor" + Foam::name(i));
+        parts.set(i, new meshPart(openTime(args, part), !whole));
+    }
+    return parts;
+}
+
+
+//- DEM time at flow time 0
+static scalar findTime0(const argList& args, const Time& time)
+{
+    const IOdictionary mill(IOobject(
+        "millProperties", time.constant(), time, IOobject::READ_IF_PRESENT,
+        IOobject::NO_WRITE, false));
+
+    scalar time0 = 0;
+    const bool known = mill.readIfPresent("time0", time0);
+    const scalar asked = args.lookupOrDefault<scalar>("time0", time0);
+    if (known && asked != time0)
+    {
+        FatalErrorInFunction
+            << "-time0 is " << asked << " s but " << mill.objectPath()
+            << " says that the mesh was made for time0 " << time0
+            << " s; expected the same, or no -time0" << exit(FatalError);
+    }
+    return asked;
+}
+
+
+//- The times whose points are to be written
+static instantList chooseTimes(const argList& args, const meshAssembly& mesh)
+{
+    instantList times(mesh.times());
+    if (!args.found("times"))
+    {
+        return instantList(1, instant(0, "constant"));
+    }
+
+    const string ranges(args["times"]);
+    if (ranges != "all")
+    {
+        timeSelector(ranges).inplaceSelect(times);
+    }
+    if (times.empty())
+    {
+        FatalErrorInFunction
+            << "-times " << ranges.c_str() << " selects none of the times that have"
+            << " polyMesh/points: " << mesh.times() << exit(FatalError);
+    }
+    for (const instant& time : times)
+    {
+        mesh.checkTopology(time);
+    }
+    return times;
+}
+
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+int main(int argc, char* argv[])
+{
+    addOptions();
+    argList args(argc, argv);
+    const autoPtr<Time> time(openTime(args));
+    const scalar time0 = findTime0(args, *time);
+
+    const meshAssembly mesh(openParts(args, *time));
+    const instantList times(chooseTimes(args, mesh));
+    const fileName file(
+        args.lookupOrDefault<fileName>("o", time->path() / "mesh.h5"));
+
+    const auto topology = mesh.topology();
+    const auto failure = untrapped(
+        [&]()
+        {
+            millfoam::averaging::MeshWriter writer(
+                std::string(file), topology, time0);
+            for (const instant& t : times)
+            {
+                writer.append(t.value(), mesh.points(t));
+            }
+            writer.finish();
+        });
+    if (failure)
+    {
+        FatalErrorInFunction << *failure << exit(FatalError);
+    }
+
+    Info << file << ": " << label(topology.cells) << " cells, "
+         << label(topology.faces()) << " faces, " << label(topology.points)
+         << " points at " << times.size()
+         << (times.size() == 1 ? " time" : " times") << ", DEM time " << time0
+         << " s at flow time 0" << endl;
+    return 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/walls/solidity_cap.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+#include "averaging/grids/neighbours.hpp"
+#include "tests/averaging/test_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+/// Five cells in a row.
+const std::vector<std::array<int, 2>> row{{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+
+TEST(SolidityCap, LeavesWhatIsBelowAlone) {
+  std::vector<double> volumes{0.1, 0.5, 0.2, 0.5, 0};
+  const std::vector<double> before = volumes;
+  EXPECT_EQ(move_excess(volumes, 1, {0.5, 0.5, 0.5, 0.5, 0.5}, row), 0);
+  EXPECT_EQ(volumes, before);
+}
+
+TEST(SolidityCap, SharesTheExcessInProportionToTheFreeRoomBesideIt) {
+  std::vector<double> volumes{0, 0.4, 0.9, 0.2, 0};
+  EXPECT_NEAR(move_excess(volumes, 1, {0.5, 0.5, 0.6, 0.5, 0.5}, row), 0.3, 1e-15);
+  const std::vector<double> expected{0, 0.4 + 0.3 / 4, 0.6, 0.2 + 0.3 * 3 / 4, 0};
+  for (std::size_t c = 0; c < 5; ++c) EXPECT_NEAR(volumes[c], expected[c], 1e-15) << c;
+}
+
+TEST(SolidityCap, GoesOnToTheNextRingWhenTheNearestIsFull) {
+  std::vector<double> volumes{0, 0.45, 1.0, 0.5, 0};
+  EXPECT_NEAR(move_excess(volumes, 1, {0.5, 0.5, 0.6, 0.5, 0.5}, row), 0.4, 1e-15);
+  const std::vector<double> expected{0.175, 0.5, 0.6, 0.5, 0.175};
+  for (std::size_t c = 0; c < 5; ++c) EXPECT_NEAR(volumes[c], expected[c], 1e-15) << c;
+}
+
+TEST(SolidityCap, WhatBelongsToTheVolumeTravelsWithIt) {
+  std::vector<double> values{0, 0, 1.0, 3.0};
+  move_excess(values, 2, {0.5, 0.8}, {{0, 1}});
+  EXPECT_NEAR(values[0], 0.2, 1e-15);
+  EXPECT_NEAR(values[1], 0.6, 1e-15);
+  EXPECT_NEAR(values[3], 2.4, 1e-15);
+}
+
+TEST(SolidityCap, EmptiesACellWithoutCapacity) {
+  std::vector<double> values{0.1, 0.7, 0.2, 0.5};
+  EXPECT_EQ(move_excess(values, 2, {0, 0.5}, {{0, 1}}), 0.1);
+  EXPECT_EQ(values[0], 0);
+  EXPECT_EQ(values[1], 0);
+  EXPECT_NEAR(values[2], 0.3, 1e-15);
+  EXPECT_NEAR(values[3], 1.2, 1e-15);
+}
+
+TEST(SolidityCap, KeepsTheTotalsAndTheCapWhateverTheField) {
+  const BoxGrid grid({0, 0, 0}, {1, 1, 1}, {8, 7, 6}, {true, false, true});
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> number(0, 1);
+  std::vector<double> values, capacities;
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    values.insert(values.end(), {number(random), number(random) - 0.5});
+    capacities.push_back(number(random) < 0.1 ? 0 : 0.62);
+  }
+  const auto total = [&](std::size_t column) {
+    double sum = 0;
+    for (std::size_t c = 0; c < grid.size(); ++c) sum += values[2 * c + column];
+    return sum;
+  };
+  const double volume = total(0), other = total(1);
+  EXPECT_GT(move_excess(values, 2, capacities, neighbours(grid)), 0.1 * volume);
+  EXPECT_NEAR(total(0) / volume, 1, 1e-13);
+  EXPECT_NEAR(total(1), other, 1e-12);
+  for (std::size_t c = 0; c < grid.size(); ++c) EXPECT_LE(values[2 * c], capacities[c] * (1 + 1e-11)) << c;
+}
+
+TEST(SolidityCap, WithoutRoomForAllIsRefusedWithTheNumbers) {
+  std::vector<double> volumes{0.5, 0.9, 0.5, 0, 0};
+  const std::vector<std::array<int, 2>> apart{{0, 1}, {1, 2}, {3, 4}};
+  expect_named(message_of<std::runtime_error>([&] {
+                 move_excess(volumes, 1, {0.5, 0.5, 0.6, 0.5, 0.5}, apart);
+               }),
+               {"cell 1", "0.3 m3", "0.5 m3", "larger cap"});
+}
+
+}  // namespace
+}  // namespace millfoam::averaging
