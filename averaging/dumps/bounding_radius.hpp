@@ -5,7 +5,8 @@
 
 namespace millfoam::averaging {
 
-/// Radius, m, of the smallest sphere about a superquadric's centre that holds it, for blockiness of 2 or more:
+/// Radius, m, of the smallest sphere about a superquadric's centre that holds it, for blockiness of 2 or
+/// more:
 ///
 ///     R(u, v; n) = (u^q + v^q)^(1/q),  q = 2n/(n-2);   max(u, v) for n = 2
 ///     radius = R(R(a, b; n2), c; n1)

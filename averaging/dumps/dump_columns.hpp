@@ -25,10 +25,10 @@ enum Quantity : int {
 
 /// The columns of a dump: which are read, and what they mean together.
 struct DumpColumns {
-  std::string names;          ///< as in the file, separated by blanks
-  std::vector<int> quantity;  ///< [columns] what each one holds; -1 when it is passed over
-  bool scaled = false;        ///< positions are parts of the box: x = xlo + xs (xhi - xlo)
-  bool shapes = false;        ///< the particles are superquadrics
+  std::string names;                         ///< as in the file, separated by blanks
+  std::vector<int> quantity;                 ///< [columns] what each one holds; -1 when it is passed over
+  bool scaled = false;                       ///< positions are parts of the box: x = xlo + xs (xhi - xlo)
+  bool shapes = false;                       ///< the particles are superquadrics
   std::array<std::string, quantities> name;  ///< of each quantity's column, empty without one
 };
 

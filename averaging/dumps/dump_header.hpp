@@ -24,9 +24,9 @@ struct DumpHeader {
   std::string columns;  ///< names, separated by blanks
 };
 
-/// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError for
-/// text that is no dump, an item that is there twice, a value that cannot be, or a missing time-step or number
-/// of atoms.
+/// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError
+/// for text that is no dump, an item that is there twice, a value that cannot be, or a missing time-step or
+/// number of atoms.
 DumpHeader read_header(TextLines& lines);
 
 /// Reads as far as the time-step only.

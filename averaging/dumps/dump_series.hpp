@@ -20,15 +20,15 @@ std::vector<DumpFile> find_dumps(const std::string& pattern);
 
 /// What the DEM driver notes in `run.txt` beside its dumps: lines "key value"; other keys are allowed.
 struct RunNotes {
-  std::filesystem::path file;         ///< where it was read
-  std::optional<double> timestep;     ///< key `timestep`, s
-  std::optional<long long> interval;  ///< key `interval`, time-steps between dumps
+  std::filesystem::path file;              ///< where it was read
+  std::optional<double> timestep;          ///< key `timestep`, s
+  std::optional<long long> interval;       ///< key `interval`, time-steps between dumps
   std::optional<double> angular_velocity;  ///< key `angular_velocity`, of the mill about z, rad/s
 };
 
 /// Reads `run.txt` in a folder; nothing when there is none.
-/// Throws DumpError for a `timestep` or `interval` that is not a positive number, and an `angular_velocity` that
-/// is not a finite one.
+/// Throws DumpError for a `timestep` or `interval` that is not a positive number, and an `angular_velocity`
+/// that is not a finite one.
 std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder);
 
 /// The DEM time-step, s: `given`, or else the notes'.

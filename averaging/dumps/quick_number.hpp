@@ -10,8 +10,8 @@ namespace millfoam::averaging {
 
 /// Reads numbers as they mostly are in dumps, fast. The functions begin at `text` and return where the number
 /// stops, or null when it is not one of the easy ones: no number at all, too many digits, an exponent out of
-/// range, or within eight bytes of `end`. `as_number` then decides; for an easy number both give the same value
-/// to the last bit. A line end must stand before `end`.
+/// range, or within eight bytes of `end`. `as_number` then decides; for an easy number both give the same
+/// value to the last bit. A line end must stand before `end`.
 class QuickNumber {
  public:
   /// A decimal number with or without minus, point and exponent: m 10^e with m <= 2^53 and |e| <= 22. Both m

@@ -20,8 +20,8 @@ class WholeText {
 };
 
 /// Decompresses a gzip file by libdeflate, about twice as fast as zlib does, where the build has it. Nothing
-/// for all that zlib should decide: a file that is not gzip, is damaged or made of several gzip streams, holds
-/// more than 1 GiB of text, or cannot be read; and always without libdeflate.
+/// for all that zlib should decide: a file that is not gzip, is damaged or made of several gzip streams,
+/// holds more than 1 GiB of text, or cannot be read; and always without libdeflate.
 std::optional<WholeText> inflate_whole(const std::filesystem::path& file);
 
 }  // namespace millfoam::averaging

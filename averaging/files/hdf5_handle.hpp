@@ -4,6 +4,7 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -69,9 +70,17 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
-/// Runs `action` with HDF5 silent and turns its Error into an `Exception` that begins with the file's name.
+/// The HDF5 library serves one thread at a time.
+inline std::recursive_mutex& library_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
+/// Runs `action` with HDF5 silent and for this thread alone, and turns its Error into an `Exception` that begins
+/// with the file's name.
 template <typename Exception, typename Action>
 auto naming_file(const std::filesystem::path& path, Action&& action) {
+  const std::lock_guard<std::recursive_mutex> alone(library_mutex());
   const QuietErrors quiet;
   try {
     return action();

@@ -43,41 +43,48 @@ void CellSides::update(const MeshGeometry& geometry) {
   // Rounding of the point, the normal and the sum, each 6e-8, bounded by 7 of them.
   slack_ = 5e-7 * geometry.box().diagonal().norm() / 2;
   flat_ = 1e-14 * reach.maxCoeff();
+  slabs_.resize(geometry.topology().faces());
+  for (std::size_t face = 0; face < slabs_.size(); ++face) measure_face(geometry, face);
   begin_.assign(1, 0);
+  star_.clear();
   planes_.clear();
-  std::vector<Vector3d> corners;
   for (int cell = 0; at(cell) < geometry.cells(); ++cell) {
-    add_cell(geometry, cell, corners);
+    add_cell(geometry, cell);
     begin_.push_back(static_cast<int>(planes_.size()));
+    star_.push_back(is_star(geometry, cell) ? 1 : 0);
   }
 }
 
-void CellSides::add_cell(const MeshGeometry& geometry, int cell, std::vector<Vector3d>& corners) {
+void CellSides::measure_face(const MeshGeometry& geometry, std::size_t face) {
   const MeshTopology& topology = geometry.topology();
-  corners.clear();
-  const auto [first_facet, last_facet] = geometry.facets_of(cell);
-  for (const int* f = first_facet; f != last_facet; ++f) {
-    const Facet& facet = geometry.facets()[at(*f)];
-    for (int i = 0; i < facet.corner_count; ++i) {
-      corners.push_back(geometry.points()[at(facet.corners[at(i)])] - origin_);
-    }
+  Slab& slab = slabs_[face];
+  slab.normal = area_vector(geometry, face);
+  const double length = slab.normal.norm();
+  // A face without area has no normal, and no point is above it.
+  if (length > 0) slab.normal /= length;
+  slab.low = std::numeric_limits<double>::max();
+  slab.high = std::numeric_limits<double>::lowest();
+  for (int i = topology.face_begin[face]; i < topology.face_begin[face + 1]; ++i) {
+    const double height = slab.normal.dot(geometry.points()[at(topology.face_points[at(i)])] - origin_);
+    slab.low = std::min(slab.low, height);
+    slab.high = std::max(slab.high, height);
   }
-  const auto [first_face, last_face] = geometry.faces_of(cell);
+}
+
+void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
+  const MeshTopology& topology = geometry.topology();
+  const auto [first, last] = geometry.faces_of(cell);
   Eigen::Index lane = 4;
-  for (const int* face = first_face; face != last_face; ++face) {
-    const double sign = topology.owner[at(*face)] == cell ? 1 : -1;
-    const Vector3d area = sign * area_vector(geometry, at(*face));
-    const double length = area.norm();
-    if (!(length > 0)) continue;
-    const Vector3d normal = area / length;
-    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-    for (int f = geometry.first_facet(at(*face)); f < geometry.first_facet(at(*face) + 1); ++f) {
-      const Facet& facet = geometry.facets()[at(f)];
-      for (int i = 0; i < facet.corner_count; ++i) {
-        low = std::min(low, normal.dot(geometry.points()[at(facet.corners[at(i)])] - origin_));
+  for (const int* face = first; face != last; ++face) {
+    const Slab& slab = slabs_[at(*face)];
+    const bool owned = topology.owner[at(*face)] == cell;
+    const Vector3d normal = owned ? slab.normal : Vector3d(-slab.normal);
+    double high = std::numeric_limits<double>::lowest();
+    for (const int* other = first; other != last; ++other) {
+      for (int i = topology.face_begin[at(*other)]; i < topology.face_begin[at(*other) + 1]; ++i) {
+        high = std::max(high, normal.dot(geometry.points()[at(topology.face_points[at(i)])]));
       }
     }
-    for (const Vector3d& corner : corners) high = std::max(high, normal.dot(corner));
     if (lane == 4) {
       planes_.emplace_back();
       lane = 0;
@@ -86,10 +93,63 @@ void CellSides::add_cell(const MeshGeometry& geometry, int cell, std::vector<Vec
     planes.nx[lane] = static_cast<float>(normal.x());
     planes.ny[lane] = static_cast<float>(normal.y());
     planes.nz[lane] = static_cast<float>(normal.z());
-    planes.low[lane] = static_cast<float>(low - slack_);
-    planes.high[lane] = static_cast<float>(high + slack_);
+    planes.low[lane] = static_cast<float>((owned ? slab.low : -slab.high) - slack_);
+    planes.high[lane] = static_cast<float>(high - normal.dot(origin_) + slack_);
+    if (normal.isZero()) planes.low[lane] = planes.high[lane] = std::numeric_limits<float>::max();
     ++lane;
   }
+}
+
+bool CellSides::is_star(const MeshGeometry& geometry, int cell) const {
+  const Vector3d& centre = geometry.centres()[at(cell)];
+  const double room = 1e-6 * std::cbrt(geometry.volumes()[at(cell)]);
+  const auto [begin, end] = geometry.facets_of(cell);
+  return std::all_of(begin, end, [&](int f) {
+    const Facet& facet = geometry.facets()[at(f)];
+    const double height = facet.offset - facet.normal.dot(centre);
+    return (facet.owner == cell ? height : -height) > room;
+  });
+}
+
+/// Of a cell that is star-shaped about its centroid; unclear where the point is about on a facet.
+CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vector3d& point, int cell) const {
+  const Local place = local(point);
+  const auto [begin, end] = geometry.faces_of(cell);
+  for (const int* face = begin; face != end; ++face) {
+    const auto number = static_cast<std::size_t>(face - begin);
+    const Planes& planes = planes_[at(begin_[at(cell)]) + number / 4];
+    const auto lane = static_cast<Eigen::Index>(number % 4);
+    const float height =
+        planes.nx[lane] * place.x + planes.ny[lane] * place.y + planes.nz[lane] * place.z;
+    if (height < planes.low[lane]) continue;
+    const Side side = side_of_face(geometry, point, cell, *face);
+    if (side != Side::inside) return side;
+  }
+  return Side::inside;
+}
+
+/// Inside also when the ray from the centroid through the point does not go through this face.
+CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vector3d& point, int cell,
+                                        int face) const {
+  const Vector3d& centre = geometry.centres()[at(cell)];
+  const Vector3d ray = point - centre;
+  for (int f = geometry.first_facet(at(face)); f < geometry.first_facet(at(face) + 1); ++f) {
+    const Facet& facet = geometry.facets()[at(f)];
+    const double sign = facet.owner == cell ? 1 : -1;
+    bool is_met = true;
+    for (int i = 0; is_met && i < facet.corner_count; ++i) {
+      const Vector3d from = geometry.points()[at(facet.corners[at(i)])] - centre;
+      const Vector3d to = geometry.points()[at(facet.corners[at((i + 1) % facet.corner_count)])] - centre;
+      const double turn = sign * ray.dot(from.cross(to));
+      // A ray through an edge may be said to meet both facets, never none.
+      is_met = turn >= 0 || turn * turn <= 1e-24 * ray.squaredNorm() * from.squaredNorm() * to.squaredNorm();
+    }
+    if (!is_met) continue;
+    const double above = sign * (facet.normal.dot(point) - facet.offset);
+    if (std::abs(above) <= 1e3 * flat_) return Side::unclear;
+    if (above > 0) return Side::outside;
+  }
+  return Side::inside;
 }
 
 CellSides::Side CellSides::side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const {
@@ -126,7 +186,9 @@ double CellSides::winding(const MeshGeometry& geometry, const Vector3d& point, i
 int CellSides::settle(const MeshGeometry& geometry, const Vector3d& point, const std::vector<int>& cells) const {
   constexpr double seen_from_outside = 1e-6;
   for (const int cell : cells) {
-    if (winding(geometry, point, cell) > seen_from_outside) return cell;
+    const Side side = star_[at(cell)] != 0 ? side_of_star(geometry, point, cell) : Side::unclear;
+    if (side == Side::inside) return cell;
+    if (side == Side::unclear && winding(geometry, point, cell) > seen_from_outside) return cell;
   }
   return -1;
 }

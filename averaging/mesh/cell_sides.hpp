@@ -16,8 +16,12 @@ namespace millfoam::averaging {
 /// the face's innermost point and n . x = high through the outermost point of the cell. What is beyond one
 /// `high` is outside; what is below every `low` sees all faces from inside and is inside, by the winding number,
 /// of convex and other cells alike. For a convex cell with flat faces low = high. The planes are kept in single
-/// precision, with what that may cost added to the room between them. Where they leave it unclear, the solid
-/// angles of the cell's facets decide (their sum is 4 pi inside and 0 outside).
+/// precision, with what that may cost added to the room between them.
+///
+/// Where the planes leave it unclear, it is settled by the facets. The ray from the centroid of a cell that is
+/// star-shaped about it leaves the cell once; if that is through a face whose plane left it unclear, the facet
+/// that the ray goes through decides. For other cells, and for points on a facet, the sum of the facets' solid
+/// angles does: 4 pi inside and 0 outside.
 class CellSides {
  public:
   enum class Side { outside, inside, unclear };
@@ -67,12 +71,25 @@ class CellSides {
     Eigen::Array4f high = Eigen::Array4f::Constant(std::numeric_limits<float>::max());
   };
 
-  void add_cell(const MeshGeometry& geometry, int cell, std::vector<Eigen::Vector3d>& corners);
+  /// A face's mean normal out of its owner and how far its points reach along it, from the origin.
+  struct Slab {
+    Eigen::Vector3d normal;
+    double low;
+    double high;
+  };
+
+  void measure_face(const MeshGeometry& geometry, std::size_t face);
+  void add_cell(const MeshGeometry& geometry, int cell);
+  bool is_star(const MeshGeometry& geometry, int cell) const;
+  Side side_of_star(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
+  Side side_of_face(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell, int face) const;
   double winding(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
 
   Eigen::Vector3d origin_;
   double slack_ = 0;  ///< by which single precision may be wrong, m
   double flat_ = 0;   ///< by which a point may be off a facet and still lie on it, m
+  std::vector<Slab> slabs_;  ///< [faces]
+  std::vector<char> star_;   ///< [cells] whether star-shaped about the centroid
   std::vector<int> begin_;
   std::vector<Planes> planes_;
 };

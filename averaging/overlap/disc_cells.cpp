@@ -109,14 +109,16 @@ void DiscCells::add_rays(double rho, std::vector<double>& result) {
 void DiscCells::add_edge(double rho, std::vector<double>& result) {
   const auto by_angle = [](const Crossing& a, const Crossing& b) { return a.angle < b.angle; };
   std::sort(crossings_.begin(), crossings_.end(), by_angle);
-  // At psi = -pi the edge is in the ring of its point nearest to the origin, and in the sector that the last
-  // crossing of a ray leads into.
-  std::size_t ring = 0, sector = ahead_;
+  // At psi = -pi the edge is at its point nearest to the origin or, with the origin in the disc, at phi =
+  // -pi. In front of the origin it is in the sector that the last crossing of a ray leads into.
+  std::size_t ring = 0, sector = rho > distance_ ? 0 : ahead_;
   for (const Circle& circle : circles_) {
     if (circle.beyond <= -rho || circle.radius + distance_ <= rho) ++ring;
   }
-  for (const Crossing& crossing : crossings_) {
-    if (crossing.sector >= 0) sector = static_cast<std::size_t>(crossing.sector);
+  if (rho <= distance_) {
+    for (const Crossing& crossing : crossings_) {
+      if (crossing.sector >= 0) sector = static_cast<std::size_t>(crossing.sector);
+    }
   }
   double angle = -pi;
   const auto add_until = [&](double end) {

@@ -87,11 +87,12 @@ class Collector {
     const RecordBlock& block = job_.blocks[next_block_++];
     for (WindowSeries& series : series_) series.add(block, moments);
     done_ += block.last - block.first;
-    progress_.records(done_, total_);
     const auto now = std::chrono::steady_clock::now();
-    if (std::chrono::duration<double>(now - last_checkpoint_).count() < request_.checkpoint_interval) return;
-    save();
-    last_checkpoint_ = now;
+    if (std::chrono::duration<double>(now - last_checkpoint_).count() >= request_.checkpoint_interval) {
+      save();
+      last_checkpoint_ = now;
+    }
+    progress_.records(done_, total_);
   }
 
   std::vector<SolidsSummary> finish() {

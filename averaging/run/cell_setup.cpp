@@ -1,29 +1,184 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/cell_setup.hpp"
 
+#include <sstream>
 #include <stdexcept>
 
 #include "averaging/grids/neighbours.hpp"
+#include "averaging/mesh/deforming_mesh.hpp"
+#include "averaging/mesh/mesh_cells.hpp"
+#include "averaging/mesh/mesh_file.hpp"
+#include "averaging/mesh/moving_mesh.hpp"
+#include "averaging/mesh/periodic_faces.hpp"
 #include "averaging/sharing/box_exact.hpp"
 #include "averaging/sharing/box_sampling.hpp"
+#include "averaging/sharing/cylinder_exact.hpp"
+#include "averaging/sharing/cylinder_sampling.hpp"
+#include "averaging/sharing/mesh_sharing.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
-std::unique_ptr<CellSharing> sharing(const BoxGrid& grid, SharingMethod method, int points) {
-  if (method == SharingMethod::exact) return std::make_unique<BoxExact>(grid, points);
-  return std::make_unique<BoxSampling>(grid, points);
+using Note = std::function<void(const std::string&)>;
+
+std::string method_in_words(const AverageRequest& request) {
+  if (request.method == SharingMethod::exact) return "exact";
+  return "sample, " + std::to_string(request.template_points) + " points along a diameter";
+}
+
+std::string rotation(double angular_velocity) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "rotation speed " << angular_velocity;
+  return text.str();
+}
+
+/// One of two classes for the same cells, by the method asked for.
+template <typename Exact, typename Sampling, typename... Arguments>
+std::unique_ptr<CellSharing> by_method(SharingMethod method, Arguments&&... arguments) {
+  if (method == SharingMethod::exact) return std::make_unique<Exact>(std::forward<Arguments>(arguments)...);
+  return std::make_unique<Sampling>(std::forward<Arguments>(arguments)...);
+}
+
+std::vector<double> voxel_volumes(const Grid& grid) {
+  std::vector<double> volumes(cell_count(grid));
+  for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = cell_volume(grid, c);
+  return volumes;
+}
+
+/// The walls that cut the voxels, turning with the mill.
+std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
+                                              const AverageRequest& request, const RunSettings& settings,
+                                              const Note& note) {
+  Surface surface;
+  double time = 0;
+  if (request.walls.size() == 1 && request.walls[0].extension() == ".h5") {
+    const MeshReader mesh(request.walls[0]);
+    surface = boundary_surface(MeshGeometry(mesh.topology(), mesh.read_points(0)));
+    time = mesh.time0() + mesh.times().front();
+  } else {
+    surface = read_surface(request.walls);
+  }
+  std::shared_ptr<const Motion> motion;
+  if (settings.angular_velocity.value_or(0) != 0) {
+    motion = parse_motion({rotation(*settings.angular_velocity)});
+  } else if (!settings.angular_velocity) {
+    note("the walls are taken to be at rest: neither --speed nor run.txt gives the mill's angular velocity");
+  }
+  return std::make_shared<VoxelRoom>(grid, surface, motion, time);
+}
+
+/// What boxes and cylinders have in common.
+template <typename Exact, typename Sampling, typename Voxels>
+CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const RunSettings& settings,
+                        const Note& note) {
+  CellSetup setup{
+      grid, by_method<Exact, Sampling>(request.method, grid, request.template_points), {}, nullptr, nullptr,
+      method_in_words(request), 0};
+  setup.room.solidity_cap = request.solidity_cap;
+  if (!request.walls.empty()) {
+    setup.walls = moving_walls(grid, request, settings, note);
+    setup.room.volumes = voxel_volumes(setup.grid);
+  }
+  setup.room.neighbours = neighbours(grid);
+  return setup;
+}
+
+CellSetup set_up_cells(const BoxGrid& grid, const AverageRequest& request, const RunSettings& settings,
+                       const Note& note) {
+  return set_up_voxels<BoxExact, BoxSampling>(grid, request, settings, note);
+}
+
+CellSetup set_up_cells(const CylinderGrid& grid, const AverageRequest& request, const RunSettings& settings,
+                       const Note& note) {
+  return set_up_voxels<CylinderExact, CylinderSampling>(grid, request, settings, note);
+}
+
+/// How a mesh that keeps its shape moves, in the words of `parse_motion`; empty at rest.
+std::vector<std::string> motion_of(const MeshRequest& mesh, const RunSettings& settings, const Note& note) {
+  if (mesh.at_rest) return {};
+  if (!mesh.motion.empty()) return mesh.motion;
+  if (!settings.angular_velocity) {
+    note("the mesh is taken to be at rest: neither --motion, --speed nor run.txt says how it moves");
+    return {};
+  }
+  note("the mesh turns with the mill: " + rotation(*settings.angular_velocity) + " rad/s");
+  return {rotation(*settings.angular_velocity)};
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string result;
+  for (const std::string& text : texts) result += (result.empty() ? "" : "; ") + text;
+  return result.empty() ? "at rest" : result;
+}
+
+std::vector<std::array<int, 2>> neighbours(const MeshGeometry& mesh, std::optional<double> period) {
+  std::vector<std::array<int, 2>> pairs = averaging::neighbours(mesh.topology());
+  if (!period) return pairs;
+  for (const auto& [low, high] : periodic_faces(mesh, *period)) {
+    const int a = mesh.topology().owner[static_cast<std::size_t>(low)];
+    const int b = mesh.topology().owner[static_cast<std::size_t>(high)];
+    if (a != b) pairs.push_back({a, b});
+  }
+  return pairs;
+}
+
+void require_fitting(const MeshRequest& mesh, const AverageRequest& request, bool deforms) {
+  if (!request.walls.empty()) {
+    throw std::invalid_argument("--inside is for voxels that walls cut; the cells of a mesh lie inside already");
+  }
+  if (!deforms) return;
+  if (!mesh.motion.empty() || mesh.at_rest) {
+    throw std::invalid_argument("--motion is there, but " + mesh.file.string() +
+                                " gives points at several times, which say how it moves; expected one of them");
+  }
+  if (mesh.smoothing > 0) {
+    throw std::invalid_argument("--smooth needs a mesh that keeps its shape, and " + mesh.file.string() +
+                                " gives points at several times");
+  }
+}
+
+CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, const RunSettings& settings,
+                       const Note& note) {
+  const MeshReader file(request.file);
+  const bool deforms = file.times().size() > 1;
+  require_fitting(request, whole, deforms);
+
+  std::unique_ptr<MovingMesh> mesh;
+  MeshCells cells;
+  const double time = file.time0() + file.times().front();
+  if (deforms) {
+    mesh = std::make_unique<DeformingMesh>(std::make_shared<MeshSeries>(request.file));
+    mesh->begin_record(time);
+    cells = mesh_cells(mesh->geometry());
+    cells.motion = "points over time";
+  } else {
+    const std::vector<std::string> motion = motion_of(request, settings, note);
+    mesh = std::make_unique<RigidMesh>(prepare(file.topology(), file.read_points(0)), parse_motion(motion), time);
+    cells = mesh_cells(mesh->geometry());
+    cells.motion = joined(motion);
+  }
+  cells.file = request.file.filename().string();
+  cells.time = time;
+
+  CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), request.smoothing};
+  setup.room.solidity_cap = whole.solidity_cap;
+  setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
+  if (request.smoothing > 0) {
+    setup.diffusion =
+        std::make_shared<MeshDiffusion>(mesh->geometry(), request.smoothing, request.period_z);
+  }
+  setup.sharing = by_method<MeshExact, MeshSampling>(whole.method, std::move(mesh), whole.template_points,
+                                                     request.period_z);
+  return setup;
 }
 
 }  // namespace
 
-CellSetup set_up(const AverageRequest& request, const RunSettings&,
-                 const std::function<void(const std::string&)>&) {
-  const auto& grid = std::get<BoxGrid>(request.grid);
-  CellSetup setup{grid, sharing(grid, request.method, request.template_points), {}, nullptr, nullptr, {}, 0};
-  setup.room.neighbours = neighbours(grid);
-  return setup;
+CellSetup set_up(const AverageRequest& request, const RunSettings& settings, const Note& note) {
+  return std::visit([&](const auto& grid) { return set_up_cells(grid, request, settings, note); },
+                    request.grid);
 }
 
 }  // namespace millfoam::averaging

@@ -24,7 +24,7 @@ struct RunSettings {
 /// What a request's grid, method and walls come to: prepared once, and shared by all threads.
 struct CellSetup {
   Grid grid;
-  std::unique_ptr<const CellSharing> sharing;  ///< each thread has a clone of it
+  std::unique_ptr<CellSharing> sharing;  ///< each thread has a clone of it
   CellRoom room;
   std::shared_ptr<const VoxelRoom> walls;          ///< null unless walls cut the cells
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed

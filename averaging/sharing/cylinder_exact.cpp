@@ -9,7 +9,6 @@ namespace millfoam::averaging {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int nodes = 32;
 
 /// A rounding of the sphere's volume; less than that is no share.
 constexpr double nothing = 1e-15;
@@ -23,7 +22,10 @@ double wrapped_angle(double angle) {
 
 CylinderExact::CylinderExact(const CylinderGrid& grid, int template_points)
     : CylinderSharing(grid, template_points),
-      rule_(std::make_shared<const std::vector<QuadratureNode>>(gauss_legendre_with_roots(nodes))) {}
+      rules_(std::make_shared<const std::array<std::vector<QuadratureNode>, 3>>(
+          std::array<std::vector<QuadratureNode>, 3>{
+              gauss_legendre_with_roots(20), gauss_legendre_with_roots(40), gauss_legendre_with_roots(64)})) {
+}
 
 void CylinderExact::share(const Particle& sphere, std::vector<Share>& shares) {
   shares.clear();
@@ -32,10 +34,15 @@ void CylinderExact::share(const Particle& sphere, std::vector<Share>& shares) {
   z_axis().cut(centre[2], radius, sphere.id, layers_, planes_);
   place_circles(distance, radius);
   place_rays(distance, std::atan2(centre[1], centre[0]), radius);
+  const double volume = 4.0 / 3.0 * pi * radius * radius * radius;
   discs_.place(distance, circles_, rays_);
-  find_breaks(distance, radius);
-  integrate(radius);
-  collect(4.0 / 3.0 * pi * radius * radius * radius, shares);
+  if (layers_.size() * discs_.rings() * discs_.sectors() == 1) {
+    volumes_met_.assign(1, volume);
+  } else {
+    find_breaks(distance, radius);
+    integrate(radius);
+  }
+  collect(volume, shares);
 }
 
 void CylinderExact::place_circles(double distance, double radius) {
@@ -107,7 +114,8 @@ void CylinderExact::integrate(double radius) {
 void CylinderExact::integrate_between(double from, double to, double radius) {
   const double middle = (from + to) / 2, half = (to - from) / 2;
   slab_.assign(discs_.rings() * discs_.sectors(), 0.0);
-  for (const auto& [place, weight] : *rule_) {
+  const std::size_t rule = half < 0.01 * radius ? 0 : (half < 0.1 * radius ? 1 : 2);
+  for (const auto& [place, weight] : (*rules_)[rule]) {
     const double height = middle + half * place;
     discs_.areas(std::sqrt((radius - height) * (radius + height)), areas_);
     for (std::size_t cell = 0; cell < slab_.size(); ++cell) slab_[cell] += weight * half * areas_[cell];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -36,7 +37,8 @@ class CylinderExact : public CylinderSharing {
   void integrate_between(double from, double to, double radius);
   void collect(double sphere_volume, std::vector<Share>& shares) const;
 
-  std::shared_ptr<const std::vector<QuadratureNode>> rule_;
+  std::shared_ptr<const std::array<std::vector<QuadratureNode>, 3>>
+      rules_;  ///< for short, middling, long pieces
   DiscCells discs_;
   int first_ring_ = 0;           ///< of the grid, within the first circle; -1 in front of the inner radius
   std::vector<double> circles_;  ///< radii that the sphere meets

@@ -14,8 +14,17 @@ namespace millfoam::averaging {
 class ClippedPolygon {
  public:
   ClippedPolygon() = default;
-  ClippedPolygon(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
-      : corners_{a, b, c}, size_(3) {}
+  ClippedPolygon(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) : size_(3) {
+    corners_[0] = a;
+    corners_[1] = b;
+    corners_[2] = c;
+  }
+  ClippedPolygon(const ClippedPolygon& other) { *this = other; }
+  ClippedPolygon& operator=(const ClippedPolygon& other) {
+    size_ = other.size_;
+    std::copy(other.begin(), other.end(), corners_.begin());
+    return *this;
+  }
 
   std::size_t size() const { return size_; }
   const Eigen::Vector3d& operator[](std::size_t corner) const { return corners_[corner]; }
@@ -57,11 +66,12 @@ void divide(const ClippedPolygon& polygon, Height&& height, ClippedPolygon& belo
   }
 }
 
-/// Cuts a polygon into the equal slabs between lower + i spacing and lower + (i+1) spacing of an axis and calls
-/// `visit` with the slab i, from 0 to count - 1, and the part in it; what lies below has i = -1 and what lies
-/// above has i = count.
+/// Cuts a polygon into the equal slabs between lower + i spacing and lower + (i+1) spacing of an axis and
+/// calls `visit` with the slab i, from 0 to count - 1, and the part in it; what lies below has i = -1 and
+/// what lies above has i = count.
 template <typename Visit>
-void for_each_slab(const ClippedPolygon& polygon, int axis, double lower, double spacing, int count, Visit&& visit) {
+void for_each_slab(const ClippedPolygon& polygon, int axis, double lower, double spacing, int count,
+                   Visit&& visit) {
   double least = polygon[0][axis], most = least;
   for (const Eigen::Vector3d& corner : polygon) {
     least = std::min(least, corner[axis]);
@@ -78,7 +88,8 @@ void for_each_slab(const ClippedPolygon& polygon, int axis, double lower, double
   ClippedPolygon rest = polygon, below, above;
   for (int slab = first; slab < last; ++slab) {
     const double plane = lower + (slab + 1) * spacing;
-    divide(rest, [&](const Eigen::Vector3d& p) { return p[axis] - plane; }, below, above);
+    divide(
+        rest, [&](const Eigen::Vector3d& p) { return p[axis] - plane; }, below, above);
     if (below.size() > 2) visit(slab, below);
     if (above.size() < 3) return;
     rest = above;

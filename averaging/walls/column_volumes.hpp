@@ -11,12 +11,12 @@ class ColumnVolumes {
  public:
   /// @param columns  number of columns
   /// @param slabs    in each of them
-  ColumnVolumes(std::size_t columns, std::size_t slabs)
-      : slabs_(slabs), pieces_(columns * (slabs + 1)) {}
+  ColumnVolumes(std::size_t columns, std::size_t slabs) : slabs_(slabs), pieces_(columns * (slabs + 1)) {}
 
   /// Adds a piece that lies in slab number `slab`, or beyond the last one.
   /// @param area    of its projection along the column, m^2, positive where the surface looks upwards
-  /// @param volume  between it and the bottom of the slab, m^3, with the area's sign; of no use beyond the last
+  /// @param volume  between it and the bottom of the slab, m^3, with the area's sign; of no use beyond the
+  /// last
   void add(std::size_t column, std::size_t slab, double area, double volume) {
     Piece& sum = pieces_[column * (slabs_ + 1) + slab];
     sum.area += area;

@@ -66,7 +66,8 @@ class BoxVolumes {
 
 }  // namespace
 
-std::vector<double> inside_volumes(const BoxGrid& grid, const Surface& walls, const Eigen::Isometry3d& place) {
+std::vector<double> inside_volumes(const BoxGrid& grid, const Surface& walls,
+                                   const Eigen::Isometry3d& place) {
   std::vector<Vector3d> points(walls.points.size());
   std::transform(walls.points.begin(), walls.points.end(), points.begin(),
                  [&](const Vector3d& point) { return place * point; });

@@ -16,14 +16,15 @@ namespace millfoam::averaging {
 ///
 ///     V = sum sign(n_x) Int clamp(x - x_i, 0, dx) dy dz
 ///
-/// where the integral runs over the triangle's part within the voxel's range of y and z. The triangles are cut
-/// by the planes between voxels, so that the integrands are linear. What differs from an empty or a whole voxel
-/// by less than 1e-12 of it is made so.
+/// where the integral runs over the triangle's part within the voxel's range of y and z. The triangles are
+/// cut by the planes between voxels, so that the integrands are linear. What differs from an empty or a whole
+/// voxel by less than 1e-12 of it is made so.
 /// @param place  carries the walls to where they are; along periodic axes they are not repeated
 std::vector<double> inside_volumes(const BoxGrid& grid, const Surface& walls, const Eigen::Isometry3d& place);
 
-/// The same for a cylinder, exact too: along z, with triangles cut by the planes between steps of z and theta;
-/// between steps of r the integrals of linear functions over polygons cut by a circle are in closed form.
+/// The same for a cylinder, exact too: along z, with triangles cut by the planes between steps of z and
+/// theta; between steps of r the integrals of linear functions over polygons cut by a circle are in closed
+/// form.
 std::vector<double> inside_volumes(const CylinderGrid& grid, const Surface& walls,
                                    const Eigen::Isometry3d& place);
 

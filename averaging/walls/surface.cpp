@@ -53,9 +53,11 @@ SurfaceError not_closed(const Surface& surface, const Edges& edges, const Edges:
   const bool turned = std::abs(edge.second) > 1;
   return SurfaceError(
       files + ": the walls are not a closed surface: at the edge from " +
-      in_words(point_of(surface, edge.first.first)) + " to " + in_words(point_of(surface, edge.first.second)) +
+      in_words(point_of(surface, edge.first.first)) + " to " +
+      in_words(point_of(surface, edge.first.second)) +
       (turned ? " triangles do not agree on which side is outside" : " a triangle has no neighbour") + " (" +
-      std::to_string(edges.size()) + " such edges); expected all parts of the wall, open at most at its ends along z");
+      std::to_string(edges.size()) +
+      " such edges); expected all parts of the wall, open at most at its ends along z");
 }
 
 /// Closes what is open at the lowest and the highest z: each open edge makes a triangle with a point of that
@@ -74,7 +76,8 @@ void close_ends(Surface& surface, double tolerance, const std::string& files) {
     const auto is_at = [&](double z) {
       return std::abs(a.z() - z) <= tolerance && std::abs(b.z() - z) <= tolerance;
     };
-    if (std::abs(net) > 1 || !(is_at(ends[0]) || is_at(ends[1]))) throw not_closed(surface, edges, edge, files);
+    if (std::abs(net) > 1 || !(is_at(ends[0]) || is_at(ends[1])))
+      throw not_closed(surface, edges, edge, files);
   }
   const auto first = static_cast<int>(surface.points.size());
   const Vector3d middle = [&] {

@@ -28,12 +28,11 @@ struct Surface {
 /// Reads STL files, ASCII or binary, that together make one closed surface: shell, lifters and ends in files
 /// of their own.
 ///
-/// Points nearer to each other than 1e-6 of the surface's size are one. Where the surface is open at its lowest
-/// or highest z, as that of a slice of a long mill, it is closed by a flat end. Its triangles must agree on
-/// which side is outside, and are all turned when that is the side inside; a body within the mill must then be
-/// turned inside out against the wall around it.
-/// Throws SurfaceError for files that `read_stl` refuses, and for a surface that is not closed, naming the
-/// first open edge.
+/// Points nearer to each other than 1e-6 of the surface's size are one. Where the surface is open at its
+/// lowest or highest z, as that of a slice of a long mill, it is closed by a flat end. Its triangles must
+/// agree on which side is outside, and are all turned when that is the side inside; a body within the mill
+/// must then be turned inside out against the wall around it. Throws SurfaceError for files that `read_stl`
+/// refuses, and for a surface that is not closed, naming the first open edge.
 Surface read_surface(const std::vector<std::filesystem::path>& files);
 
 /// The boundary of a mesh, all patches together. Faces are cut into triangles as for the cells' volumes, so

@@ -11,8 +11,6 @@
 #include "untrapped.H"
 #include "averaging/mesh/mesh_geometry.hpp"
 
-#include <cmath>
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -27,16 +25,18 @@ static IOobject meshIO(const word& name, const fvMesh& mesh)
 }
 
 
-//- The cells when the points are those that the faces were written with; by
-//  averaging's own measure, which differs from OpenFOAM's on warped faces
-static millfoam::averaging::MeshGeometry
-writtenGeometry(const fvMesh& mesh, const pointField& points)
+//- Volumes of the cells when the points are those that the faces were written
+//  with; by averaging's own measure, which differs from OpenFOAM's on warped
+//  faces
+static std::vector<double> writtenVolumes(const fvMesh& mesh)
 {
-    return millfoam::averaging::MeshGeometry(
+    const pointIOField points(meshIO("points", mesh));
+    const millfoam::averaging::MeshGeometry geometry(
         averagingTopology(
             mesh.nPoints(), mesh.nCells(), mesh.faces(), mesh.faceOwner(),
             mesh.faceNeighbour()),
         averagingPoints(points));
+    return geometry.volumes();
 }
 
 } // End namespace Foam
@@ -72,43 +72,30 @@ void Foam::solidsCells::checkNumber(
 void Foam::solidsCells::checkVolumes(
     const fvMesh& mesh, const std::vector<double>& expected) const
 {
-    const pointIOField points(meshIO("points", mesh));
-
-    // What the last written digit moves a point by, m
-    const scalar digit = gMax(mag(points)()) *
-        std::pow(scalar(10), -scalar(IOstream::defaultPrecision()));
-
-    label first = labelMax;
-    scalar volume = 0;
-    const auto failure = untrapped(
-        [&]()
-        {
-            const auto geometry = writtenGeometry(mesh, points);
-            forAll(labels_, celli)
-            {
-                const label label = labels_[celli];
-                const Eigen::Vector3d edge = geometry.boxes()[celli].sizes();
-                const scalar area = 2 *
-                    (edge[0] * edge[1] + edge[1] * edge[2] + edge[2] * edge[0]);
-                const scalar found = geometry.volumes()[celli];
-                if (label < first &&
-                    mag(found - expected[label]) >
-                        1e-6 * expected[label] + digit * area)
-                {
-                    first = label;
-                    volume = found;
-                }
-            }
-        });
+    std::vector<double> found;
+    const auto failure = untrapped([&]() { found = writtenVolumes(mesh); });
     if (failure)
     {
         FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
     }
 
+    label first = labelMax;
+    scalar volume = 0;
+    forAll(labels_, celli)
+    {
+        const label i = labels_[celli];
+        if (i < first && mag(found[celli] - expected[i]) > 1e-6 * expected[i])
+        {
+            first = i;
+            volume = found[celli];
+        }
+    }
+
     const label firstOfAll = returnReduce(first, minOp<label>());
     if (firstOfAll != labelMax)
     {
-        reduce(volume = first == firstOfAll ? volume : 0, sumOp<scalar>());
+        volume = first == firstOfAll ? volume : 0;
+        reduce(volume, sumOp<scalar>());
         FatalIOErrorInFunction(dict_)
             << file_ << " holds solids on a mesh whose cell " << firstOfAll
             << " has the volume " << scalar(expected[firstOfAll])

@@ -9,19 +9,14 @@
 namespace millfoam::averaging {
 namespace {
 
+constexpr double inside = 4.0 / 3.0 * pi * 1e-3, outside = 4.0 / 3.0 * pi * 1.25e-4;
+
 /// Dumps every 100 steps of 1e-4 s, from 0 on: a ball of 0.1 m that moves at 1 m/s along x from (0.2, 0.5,
 /// 0.5) in the box [0, 2) x [0, 1) x [0, 1) of two voxels, and a ball far outside.
 struct AverageRun : ::testing::Test {
   TemporaryFolder folder;
   std::vector<std::string> notes;
-  AverageRequest request{(folder / "dump*.txt").string(),
-                         1e-4,
-                         BoxGrid({0, 0, 0}, {2, 1, 1}, {2, 1, 1}),
-                         0.05,
-                         {},
-                         {},
-                         12,
-                         folder / "solids.h5"};
+  AverageRequest request{BoxGrid({0, 0, 0}, {2, 1, 1}, {2, 1, 1})};
 
   AverageRun() {
     for (int r = 0; r <= 150; ++r) {
@@ -29,61 +24,181 @@ struct AverageRun : ::testing::Test {
       folder.write("dump" + std::to_string(100 * r) + ".txt",
                    dump_text(100 * r, {{1, {x, 0.5, 0.5}, {1, 0, 0}, 0.1}, {2, {0, 5, 0}, {}, 0.05}}));
     }
+    request.dumps = (folder / "dump*.txt").string();
+    request.timestep = 1e-4;
+    request.windows = {{0.05, folder / "solids.h5"}};
   }
 
-  AverageSummary run() {
-    return average_run(
-        request, {[](std::size_t, std::size_t) {}, [this](const std::string& s) { notes.push_back(s); }});
+  const std::filesystem::path& output() const { return request.windows[0].output; }
+
+  SolidsSummary run() {
+    Team alone;
+    return average_run(request,
+                       {[](std::size_t, std::size_t) {}, [this](const std::string& s) { notes.push_back(s); }},
+                       alone)[0];
+  }
+
+  /// Runs until `dumps` are averaged and stops there, as a run that is killed would.
+  void run_and_stop(std::size_t dumps) {
+    Team alone;
+    const auto stop = [dumps](std::size_t done, std::size_t) {
+      if (done >= dumps) throw std::runtime_error("stopped");
+    };
+    EXPECT_THROW(average_run(request, {stop, [](const std::string&) {}}, alone), std::runtime_error);
+  }
+
+  std::string bytes(const std::filesystem::path& file) const {
+    std::ifstream input(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
   }
 };
 
 TEST_F(AverageRun, WritesWindowsWithTheVolumeWhereTheBallIs) {
-  const AverageSummary summary = run();
-  const SolidsReader solids(request.output);
+  run();
+  const SolidsReader solids(output());
   ASSERT_EQ(solids.windows().size(), 30U);
-  EXPECT_EQ(summary.dumps, 150U);
   EXPECT_EQ(solids.windows()[3].records, 5);
   EXPECT_NEAR(solids.windows()[3].begin, 0.15, 1e-15);
+  EXPECT_FALSE(solids.windows()[3].starts_late || solids.windows()[3].ends_short);
   const SolidsWindow first = solids.read_window(0), last = solids.read_window(29);
-  EXPECT_NEAR(first.solidity[0] / sphere_volume(0.1), 1, 1e-13);
+  EXPECT_NEAR(first.solidity[0] / inside, 1, 1e-13);
   EXPECT_EQ(first.solidity[1], 0);
-  EXPECT_NEAR(last.solidity[1] / sphere_volume(0.1), 1, 1e-13);
+  EXPECT_NEAR(last.solidity[1] / inside, 1, 1e-13);
   EXPECT_NEAR(last.velocity[3], 1, 1e-14);
   EXPECT_NEAR(last.diameter[1], 0.2, 1e-15);
   ASSERT_EQ(notes.size(), 1U);
   expect_named(notes[0], {"1.5 s", "not used"});
 }
 
+TEST_F(AverageRun, SamplingAgreesWithExactVolumesToTheTemplatesError) {
+  run();
+  const SolidsWindow exact = SolidsReader(output()).read_window(15);
+  request.method = SharingMethod::sample;
+  run();
+  const SolidsWindow sampled = SolidsReader(output()).read_window(15);
+  EXPECT_EQ(SolidsReader(output()).header().method, "sample, 12 points along a diameter");
+  EXPECT_GT(exact.solidity[0], 0);
+  EXPECT_GT(exact.solidity[1], 0);
+  // `SphereTemplate`: at most 6.2 % of the ball.
+  EXPECT_NEAR(sampled.solidity[0] / inside, exact.solidity[0] / inside, 0.062);
+}
+
 TEST_F(AverageRun, ReportsWhereTheVolumeWent) {
-  const AverageSummary summary = run();
-  const double inside = sphere_volume(0.1), outside = sphere_volume(0.05);
-  for (const Ledger& ledger : summary.ledgers) {
-    EXPECT_NEAR(ledger.volume_in / (inside + outside), 1, 1e-12);
-    EXPECT_NEAR(ledger.deposited / inside, 1, 1e-12);
-    EXPECT_NEAR(ledger.outside / outside, 1, 1e-12);
+  const SolidsSummary summary = run();
+  for (const WindowSummary& window : summary.windows) {
+    EXPECT_NEAR(window.ledger.volume_in / (inside + outside), 1, 1e-12);
+    EXPECT_NEAR(window.ledger.deposited / inside, 1, 1e-12);
+    EXPECT_NEAR(window.ledger.outside / outside, 1, 1e-12);
   }
-  expect_named(report(summary), {"volume_in", "deposited", "88.8889", "outside", "11.1111", "clipped",
-                                 "150 records in 30 windows", "8 to 64 balls"});
+  expect_named(report(summary), {"solids.h5", "volume in", "88.8889", "11.1111", "8 to 64 balls"});
+  EXPECT_EQ(report(summarise(output())), report(summary));
+}
+
+TEST_F(AverageRun, FailsTheLedgerOnlyAboveTheTolerance) {
+  const SolidsSummary summary = run();
+  EXPECT_TRUE(ledger_failures(summary, 0.12).empty());
+  const std::vector<std::string> failures = ledger_failures(summary, 0.1);
+  ASSERT_EQ(failures.size(), 30U);
+  expect_named(failures[2], {"window 2 from 0.1 s", "11.1 %", "outside the grid", "10 %"});
 }
 
 TEST_F(AverageRun, OverTheWholeRunIsOneWindowToBeHeld) {
-  request.window.reset();
+  request.windows[0].length.reset();
   request.start = 0.5;
   run();
-  const SolidsReader solids(request.output);
+  const SolidsReader solids(output());
   EXPECT_TRUE(solids.whole_run());
   ASSERT_EQ(solids.windows().size(), 1U);
   EXPECT_EQ(solids.windows()[0].records, 101);
   EXPECT_NEAR(solids.time0(), 0.5, 1e-15);
   const SolidsWindow whole = solids.read_window(0);
-  EXPECT_NEAR((whole.solidity[0] + whole.solidity[1]) / sphere_volume(0.1), 1, 1e-12);
+  EXPECT_NEAR((whole.solidity[0] + whole.solidity[1]) / inside, 1, 1e-12);
+}
+
+TEST_F(AverageRun, SeveralWindowLengthsInOnePassAreThoseOfRunsOfTheirOwn) {
+  const std::vector<std::optional<double>> lengths{0.05, 0.12, std::nullopt};
+  std::vector<std::string> apart;
+  for (const auto& length : lengths) {
+    request.windows = {{length, folder / "solids.h5"}};
+    run();
+    apart.push_back(bytes(output()));
+  }
+  request.windows.clear();
+  for (std::size_t n = 0; n < lengths.size(); ++n) {
+    request.windows.push_back({lengths[n], folder / ("together" + std::to_string(n) + ".h5")});
+  }
+  run();
+  for (std::size_t n = 0; n < lengths.size(); ++n) {
+    const SolidsReader one(request.windows[n].output);
+    // Blocks are cut at all windows' ends, so the last bits of sums may differ.
+    const SolidsReader other(folder.write("apart.h5", apart[n]));
+    ASSERT_EQ(one.windows().size(), other.windows().size());
+    for (std::size_t w = 0; w < one.windows().size(); ++w) {
+      EXPECT_NEAR(one.read_window(w).solidity[0], other.read_window(w).solidity[0], 1e-15);
+    }
+  }
+}
+
+TEST_F(AverageRun, GivesTheSameFileWhateverTheNumberOfThreads) {
+  request.threads = 1;
+  run();
+  const std::string alone = bytes(output());
+  for (const int threads : {2, 5}) {
+    request.threads = threads;
+    run();
+    EXPECT_EQ(bytes(output()), alone) << threads;
+  }
+}
+
+TEST_F(AverageRun, StoppedAnywhereIsTakenUpAndGivesTheSameFile) {
+  request.windows = {{0.05, folder / "solids.h5"}, {std::nullopt, folder / "whole.h5"}};
+  run();
+  const std::string windows = bytes(folder / "solids.h5"), whole = bytes(folder / "whole.h5");
+  request.checkpoint_interval = 0;
+  for (const std::size_t dumps : {5U, 62U, 148U}) {
+    std::filesystem::remove(folder / "solids.h5");
+    run_and_stop(dumps);
+    EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5"));
+    notes.clear();
+    run();
+    expect_named(notes.back(), {"taking up"});
+    EXPECT_EQ(bytes(folder / "solids.h5"), windows) << dumps;
+    EXPECT_EQ(bytes(folder / "whole.h5"), whole) << dumps;
+    for (const char* left : {"solids.h5.journal", "whole.h5.journal", "solids.h5.resume", "solids.h5.part"}) {
+      EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;
+    }
+  }
+}
+
+TEST_F(AverageRun, AStoppedRunOfOtherSettingsIsNotTakenUp) {
+  run();
+  const std::string fresh = bytes(output());
+  request.checkpoint_interval = 0;
+  request.method = SharingMethod::sample;
+  run_and_stop(60);
+  request.method = SharingMethod::exact;
+  run();
+  expect_named(notes.back(), {"other dumps or settings"});
+  EXPECT_EQ(bytes(output()), fresh);
+}
+
+TEST_F(AverageRun, ADamagedNoteOfHowFarItWasStartsAfresh) {
+  run();
+  const std::string fresh = bytes(output());
+  request.checkpoint_interval = 0;
+  run_and_stop(60);
+  const std::string note = bytes(folder / "solids.h5.resume");
+  folder.write("solids.h5.resume", note.substr(0, note.size() - 9));
+  run();
+  EXPECT_EQ(bytes(output()), fresh);
 }
 
 TEST_F(AverageRun, TakesTheTimestepFromTheNotesBesideTheDumps) {
   folder.write("run.txt", "timestep 1e-4\ninterval 100\nangular_velocity -6.4\n");
   request.timestep.reset();
   run();
-  EXPECT_EQ(SolidsReader(request.output).timestep(), 1e-4);
+  EXPECT_EQ(SolidsReader(output()).timestep(), 1e-4);
+  EXPECT_EQ(SolidsReader(output()).header().angular_velocity, -6.4);
   request.timestep = 2e-4;
   expect_named(message_of<DumpError>([&] { run(); }), {"0.0002", "0.0001", "run.txt"});
 }
@@ -91,19 +206,20 @@ TEST_F(AverageRun, TakesTheTimestepFromTheNotesBesideTheDumps) {
 TEST_F(AverageRun, ABrokenDumpLeavesNoSolidsFile) {
   folder.write("dump9000.txt", dump_text(9000, {{1, {0, 0, 0}, {0, 0, 0}, 0.1}}).substr(0, 150));
   expect_named(message_of<DumpError>([&] { run(); }), {"dump9000.txt:10", "truncated"});
-  EXPECT_FALSE(std::filesystem::exists(request.output));
+  EXPECT_FALSE(std::filesystem::exists(output()));
 }
 
 TEST_F(AverageRun, RefusesTheNameThatTheFileForParaViewNeeds) {
-  request.output = folder / "solids.xdmf";
+  request.windows[0].output = folder / "solids.xdmf";
   expect_named(message_of<SolidsFileError>([&] { run(); }), {"solids.xdmf", "solids.h5"});
 }
 
-TEST_F(AverageRun, WarnsOfVoxelsSmallerThanTheBalls) {
+TEST_F(AverageRun, AdvisesOnVoxelsSmallerThanTheBalls) {
   request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {50, 25, 25});
-  const AverageSummary summary = run();
-  EXPECT_GT(summary.largest_solidity, 0.74);
-  expect_named(report(summary), {"largest solidity"});
+  const SolidsSummary summary = run();
+  EXPECT_GT(summary.windows[0].largest_solidity, 0.74);
+  EXPECT_EQ(summary.windows[0].small_cells, summary.windows[0].occupied_cells);
+  expect_named(report(summary), {"largest solidity", "100.0 % of the occupied cells are smaller than a ball"});
 }
 
 }  // namespace

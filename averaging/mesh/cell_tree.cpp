@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/mesh/cell_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace millfoam::averaging {
+
+namespace {
+
+using Eigen::Array3f;
+using Eigen::Vector3d;
+
+constexpr std::size_t cells_per_leaf = 4;
+
+/// Boxes that overlap so much more than when the tree was built are worth a new tree.
+constexpr double worn = 1.5;
+
+std::size_t at(int number) {
+  return static_cast<std::size_t>(number);
+}
+
+Array3f as_array(const CellSides::Local& point) {
+  return {point.x, point.y, point.z};
+}
+
+}  // namespace
+
+CellTree::CellTree(const MeshGeometry& geometry) : geometry_(geometry), sides_(geometry) {
+  build();
+}
+
+void CellTree::update() {
+  sides_.update(geometry_);
+  if (fit() > worn * cost_) build();
+}
+
+void CellTree::build() {
+  order_.resize(geometry_.cells());
+  std::iota(order_.begin(), order_.end(), 0);
+  nodes_.clear();
+  build_node(0, order_.size());
+  cost_ = fit();
+  ++builds_;
+}
+
+void CellTree::build_node(std::size_t first, std::size_t last) {
+  const std::size_t number = nodes_.size();
+  nodes_.emplace_back();
+  if (last - first <= cells_per_leaf) {
+    nodes_[number].first = static_cast<int>(first);
+    nodes_[number].count = static_cast<int>(last - first);
+  } else {
+    Eigen::AlignedBox3d centres;
+    for (std::size_t i = first; i < last; ++i) centres.extend(geometry_.boxes()[at(order_[i])].center());
+    Eigen::Index axis = 0;
+    centres.sizes().maxCoeff(&axis);
+    const std::size_t middle = (first + last) / 2;
+    const auto begin = order_.begin();
+    std::nth_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
+                     begin + static_cast<std::ptrdiff_t>(last), [&](int a, int b) {
+                       const auto& boxes = geometry_.boxes();
+                       return boxes[at(a)].min()[axis] + boxes[at(a)].max()[axis] <
+                              boxes[at(b)].min()[axis] + boxes[at(b)].max()[axis];
+                     });
+    build_node(first, middle);
+    build_node(middle, last);
+  }
+  nodes_[number].skip = static_cast<int>(nodes_.size());
+}
+
+void CellTree::fit_leaf(Node& node) const {
+  Eigen::AlignedBox3d box;
+  for (int i = node.first; i < node.first + node.count; ++i) box.extend(geometry_.boxes()[at(order_[at(i)])]);
+  // More than single precision loses, so that no point on the boundary is missed.
+  const double room = 1e-6 * geometry_.box().diagonal().norm();
+  node.low = as_array(sides_.local(box.min() - Vector3d::Constant(room)));
+  node.high = as_array(sides_.local(box.max() + Vector3d::Constant(room)));
+}
+
+/// Fits all boxes and returns their surface over that of the root.
+double CellTree::fit() {
+  double surface = 0, last = 0;
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    if (node.count > 0) {
+      fit_leaf(node);
+    } else {
+      const Node& left = nodes_[n + 1];
+      const Node& right = nodes_[at(left.skip)];
+      node.low = left.low.min(right.low);
+      node.high = left.high.max(right.high);
+    }
+    const Array3f size = node.high - node.low;
+    last = static_cast<double>(size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+    surface += last;
+  }
+  return surface / last;
+}
+
+int CellTree::locate(const Vector3d& point, int hint) const {
+  const CellSides::Local local = sides_.local(point);
+  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const Array3f place = as_array(local);
+  thread_local std::vector<int> unclear;
+  unclear.clear();
+  for (std::size_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    if (!node.contains(place)) {
+      n = at(node.skip);
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      const int cell = order_[at(i)];
+      const CellSides::Side side = sides_.side(cell, local);
+      if (side == CellSides::Side::inside) return cell;
+      if (side == CellSides::Side::unclear) unclear.push_back(cell);
+    }
+    ++n;
+  }
+  if (unclear.empty()) return -1;
+  std::sort(unclear.begin(), unclear.end());
+  return sides_.settle(geometry_, point, unclear);
+}
+
+void CellTree::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {
+  cells.clear();
+  const Array3f low = as_array(sides_.local(box.min())), high = as_array(sides_.local(box.max()));
+  for (std::size_t n = 0; n < nodes_.size();) {
+    const Node& node = nodes_[n];
+    if (!((high >= node.low).all() && (low <= node.high).all())) {
+      n = at(node.skip);
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) cells.push_back(order_[at(i)]);
+    ++n;
+  }
+}
+
+}  // namespace millfoam::averaging
