@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,7 +11,8 @@
 
 namespace millfoam::averaging {
 
-/// Sums over the parts of a flow's cells in each voxel of a grid of n voxels.
+/// Sums over the parts of a flow's cells in each voxel of a grid of n voxels. Those of several meshes (the
+/// parts of a decomposed one) or times may be added up, entry by entry.
 struct VoxelSums {
   std::size_t components = 1;
   std::vector<double> volume;  ///< [n] of the cells' parts, m^3
@@ -24,16 +26,18 @@ struct VoxelSums {
 /// The cells of a flow's mesh as points that carry volume, by which its fields come to a box grid of the lab
 /// frame, however the mesh is turned.
 ///
-/// Each cell is cut into the tetrahedra over its centroid and the triangles of its faces, and each of these into
-/// m^3 of equal volume; a point is the centroid of one. Their volumes add up to the cell's, so that what is in
-/// the cells is in the voxels or outside. A voxel's face is met to the size of a small tetrahedron.
+/// Each cell is cut into the tetrahedra over its centroid and the triangles of its faces. One with all
+/// corners in a voxel belongs there. Any other is cut into m^3 of equal volume, and each of those belongs to
+/// the voxel that holds its centroid. The volumes add up to the cell's, so that what is in the cells is in
+/// the voxels or outside; a voxel's face is met to the size of a small tetrahedron. A tetrahedron that lies
+/// outside its cell, because a face is seen from the centroid from behind, counts negative.
 class CellPoints {
  public:
   /// @param divisions  m of an edge of a tetrahedron. Throws std::invalid_argument unless it is 1 to 10.
   explicit CellPoints(const MeshGeometry& mesh, int divisions = 2);
 
   std::size_t cells() const { return begin_.size() - 1; }
-  std::size_t size() const { return points_.size(); }  ///< number of points
+  std::size_t size() const { return tetrahedra_.size() * parts_.size(); }  ///< number of points, at most
 
   /// Adds a field to the sums over voxels; where the grid is periodic its images are one.
   /// @param place   carries the mesh into the lab frame
@@ -42,9 +46,20 @@ class CellPoints {
                VoxelSums& sums) const;
 
  private:
-  std::vector<std::size_t> begin_;  ///< [cells + 1] where a cell's points begin
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<double> volumes_;
+  struct Tetrahedron {
+    std::array<int, 3> corners;  ///< in points_; the fourth is the cell's centroid
+    double volume;               ///< m^3
+  };
+  class Voxels;
+
+  void deposit_cell(std::size_t cell, const std::vector<Eigen::Vector3d>& points,
+                    const Eigen::Vector3d& centroid, Voxels& voxels) const;
+
+  std::vector<Eigen::Vector3d> points_;     ///< of the mesh and in its faces
+  std::vector<Eigen::Vector3d> centroids_;  ///< [cells]
+  std::vector<std::size_t> begin_;          ///< [cells + 1] where a cell's tetrahedra begin
+  std::vector<Tetrahedron> tetrahedra_;
+  std::vector<std::array<double, 3>> parts_;  ///< [m^3] centroids, as weights of a tetrahedron's corners
 };
 
 }  // namespace millfoam::averaging

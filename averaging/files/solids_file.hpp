@@ -115,6 +115,9 @@ class SolidsReader {
   /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which cell.
   SolidsWindow read_window(std::size_t number) const;
 
+  /// The same as they are, whatever their values: to look at a file that a flow would refuse.
+  SolidsWindow read_unchecked(std::size_t number) const;
+
   /// Where the particles' volume went, per window. Throws SolidsFileError.
   std::vector<Ledger> read_ledgers() const;
 

@@ -168,6 +168,12 @@ const SolidsHeader& SolidsReader::header() const {
 }
 
 SolidsWindow SolidsReader::read_window(std::size_t number) const {
+  SolidsWindow window = read_unchecked(number);
+  hdf5::naming_file<SolidsFileError>(path_, [&] { check_window(open_->grid, number, window); });
+  return window;
+}
+
+SolidsWindow SolidsReader::read_unchecked(std::size_t number) const {
   return hdf5::naming_file<SolidsFileError>(path_, [&] {
     if (number >= open_->windows.size()) {
       throw hdf5::Error("there is no window " + std::to_string(number) + ", only " +
@@ -183,7 +189,6 @@ SolidsWindow SolidsReader::read_window(std::size_t number) const {
       const hdf5::Handle group = hdf5::open_group(file, "grid");
       window.inside_fraction = hdf5::read_row(group.get(), layout::inside_fraction.name, number);
     }
-    check_window(open_->grid, number, window);
     return window;
   });
 }

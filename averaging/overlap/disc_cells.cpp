@@ -35,8 +35,9 @@ void DiscCells::place(double distance, const std::vector<double>& circles, const
   rays_.clear();
   for (const double angle : rays) {
     const double half = std::sin(angle / 2);
-    rays_.push_back(
-        {angle, distance * std::sin(angle), -2 * distance * half * half, std::abs(angle) < pi / 2});
+    // A ray at 0 counts as one below it also where the sign of its offset decides.
+    const double offset = std::copysign(distance * std::sin(angle), angle > 0 ? 1.0 : -1.0);
+    rays_.push_back({angle, offset, -2 * distance * half * half, std::abs(angle) < pi / 2});
   }
   ahead_ = static_cast<std::size_t>(std::upper_bound(rays.begin(), rays.end(), 0.0) - rays.begin());
 }
@@ -59,8 +60,8 @@ void DiscCells::add_circles(double rho, std::vector<double>& result) {
       // The same half angle, seen from the disc's centre.
       const double psi = 2 * std::atan2(root((rho - beyond) * (distance_ + rho + radius)),
                                         root((rho + beyond) * (radius + distance_ - rho)));
-      crossings_.push_back({-psi, 1, -1});
-      crossings_.push_back({psi, -1, -1});
+      crossings_.push_back({-psi, 1, 0});
+      crossings_.push_back({psi, -1, 0});
     } else if (radius + distance_ <= rho) {
       add_circle(n, pi, result);
     }
@@ -89,11 +90,11 @@ void DiscCells::add_rays(double rho, std::vector<double>& result) {
     if (std::abs(ray.offset) >= rho || (!ray.ahead && rho <= distance_)) continue;
     const double half = std::sqrt((rho - ray.offset) * (rho + ray.offset));
     const double last = ray.foot + half, origin = -distance_;
-    crossings_.push_back({ray.angle + std::atan2(ray.offset, half), 0, static_cast<int>(m) + 1});
+    crossings_.push_back({ray.angle + std::atan2(ray.offset, half), 0, 1});
     double first = origin;
     if (rho <= distance_) {
       first = std::max(origin, ray.foot - half);
-      crossings_.push_back({ray.angle + std::atan2(ray.offset, -half), 0, static_cast<int>(m)});
+      crossings_.push_back({ray.angle + std::atan2(ray.offset, -half), 0, -1});
     }
     for (std::size_t n = 0; n < rings() && first < last; ++n) {
       const double end = n < circles_.size() ? std::min(circles_[n].beyond, last) : last;
@@ -110,25 +111,20 @@ void DiscCells::add_edge(double rho, std::vector<double>& result) {
   const auto by_angle = [](const Crossing& a, const Crossing& b) { return a.angle < b.angle; };
   std::sort(crossings_.begin(), crossings_.end(), by_angle);
   // At psi = -pi the edge is at its point nearest to the origin or, with the origin in the disc, at phi =
-  // -pi. In front of the origin it is in the sector that the last crossing of a ray leads into.
+  // -pi.
   std::size_t ring = 0, sector = rho > distance_ ? 0 : ahead_;
   for (const Circle& circle : circles_) {
     if (circle.beyond <= -rho || circle.radius + distance_ <= rho) ++ring;
   }
-  if (rho <= distance_) {
-    for (const Crossing& crossing : crossings_) {
-      if (crossing.sector >= 0) sector = static_cast<std::size_t>(crossing.sector);
-    }
-  }
   double angle = -pi;
   const auto add_until = [&](double end) {
-    result[ring * sectors() + sector] += rho * rho / 2 * (end - angle);
+    if (end != angle) result[ring * sectors() + sector] += rho * rho / 2 * (end - angle);
     angle = end;
   };
   for (const Crossing& crossing : crossings_) {
     add_until(crossing.angle);
     ring += static_cast<std::size_t>(crossing.ring);
-    if (crossing.sector >= 0) sector = static_cast<std::size_t>(crossing.sector);
+    sector += static_cast<std::size_t>(crossing.sector);
   }
   add_until(pi);
 }

@@ -48,8 +48,8 @@ class DiscCells {
   /// Where the disc's edge enters another ring or sector, anticlockwise.
   struct Crossing {
     double angle;  ///< psi
-    int ring;      ///< step of the ring's number: 1, -1 or 0
-    int sector;    ///< entered, or -1
+    int ring;      ///< step of the ring's number
+    int sector;    ///< step of the sector's
   };
 
   void add_circles(double rho, std::vector<double>& result);

@@ -124,7 +124,7 @@ SolidsSummary summarise(const std::filesystem::path& file) {
   SolidsSummary summary{file, {}};
   for (std::size_t w = 0; w < ledgers.size(); ++w) {
     summary.windows.push_back(
-        summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_window(w)));
+        summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_unchecked(w)));
   }
   return summary;
 }

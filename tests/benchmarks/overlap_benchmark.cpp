@@ -4,6 +4,7 @@
 // name says so, a point.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "averaging/overlap/sphere_triangle.hpp"
 #include "averaging/sharing/box_exact.hpp"
 #include "averaging/sharing/box_sampling.hpp"
+#include "averaging/sharing/cylinder_exact.hpp"
+#include "averaging/sharing/cylinder_sampling.hpp"
 
 namespace millfoam::averaging {
 namespace {
@@ -33,8 +36,8 @@ double ratio(const benchmark::State& state) {
   return static_cast<double>(state.range(0)) / 100;
 }
 
-void share_all(benchmark::State& state, CellSharing& sharing, double diameter, int items_per_ball = 1) {
-  const std::vector<Particle> all = balls(diameter);
+void share_all(benchmark::State& state, CellSharing& sharing, const std::vector<Particle>& all,
+               int items_per_ball = 1) {
   std::vector<Share> shares;
   for (auto _ : state) {
     for (const Particle& ball : all) {
@@ -47,7 +50,7 @@ void share_all(benchmark::State& state, CellSharing& sharing, double diameter, i
 
 void box_exact(benchmark::State& state) {
   BoxExact sharing(box());
-  share_all(state, sharing, ratio(state) * box().spacing()[0]);
+  share_all(state, sharing, balls(ratio(state) * box().spacing()[0]));
 }
 BENCHMARK(box_exact)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
 
@@ -100,12 +103,13 @@ BENCHMARK(box_exact_baseline_voxel_by_voxel)->Arg(50)->Arg(100)->Arg(200)->Arg(4
 
 void box_sampling_points(benchmark::State& state) {
   BoxSampling sharing(box(), 12);
-  share_all(state, sharing, ratio(state) * box().spacing()[0], SphereTemplate(12).size());
+  share_all(state, sharing, balls(ratio(state) * box().spacing()[0]), SphereTemplate(12).size());
 }
 BENCHMARK(box_sampling_points)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
 
-void box_sampling_points_baseline_locate_each(benchmark::State& state) {
-  const BoxGrid grid = box();
+/// Sampling without any table: every point of the template is placed and located.
+template <typename Grid>
+void locate_each(benchmark::State& state, const Grid& grid, const std::vector<Particle>& all, double radius) {
   const SphereTemplate lattice(12);
   std::vector<Vector3> points;
   for (int n = 0; n < 12 * 12 * 12; ++n) {
@@ -113,8 +117,6 @@ void box_sampling_points_baseline_locate_each(benchmark::State& state) {
     if (!lattice.contains(i, j, k)) continue;
     points.push_back({lattice.coordinate(i), lattice.coordinate(j), lattice.coordinate(k)});
   }
-  const double radius = ratio(state) * grid.spacing()[0] / 2;
-  const std::vector<Particle> all = balls(2 * radius);
   const double part = 4 * pi / 3 * radius * radius * radius / lattice.size();
   std::vector<double> volume(grid.size());
   for (auto _ : state) {
@@ -129,7 +131,45 @@ void box_sampling_points_baseline_locate_each(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<long long>(all.size()) * lattice.size());
 }
+
+void box_sampling_points_baseline_locate_each(benchmark::State& state) {
+  const double diameter = ratio(state) * box().spacing()[0];
+  locate_each(state, box(), balls(diameter), diameter / 2);
+}
 BENCHMARK(box_sampling_points_baseline_locate_each)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
+
+/// Voxels of about the box's size.
+CylinderGrid cylinder() {
+  return CylinderGrid({0, 1.1}, {-1, 1}, {22, 80, 40}, true);
+}
+
+std::vector<Particle> balls_in_cylinder(double diameter) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-1, 1);
+  std::vector<Particle> result;
+  while (result.size() < 4096) {
+    const Vector3 position{place(random), place(random), place(random)};
+    if (std::hypot(position[0], position[1]) < 1) result.push_back({0, position, {}, diameter / 2});
+  }
+  return result;
+}
+
+void cylinder_exact(benchmark::State& state) {
+  CylinderExact sharing(cylinder());
+  share_all(state, sharing, balls_in_cylinder(ratio(state) * 0.05));
+}
+BENCHMARK(cylinder_exact)->Arg(50)->Arg(100)->Arg(200);
+
+void cylinder_sampling_points(benchmark::State& state) {
+  CylinderSampling sharing(cylinder(), 12);
+  share_all(state, sharing, balls_in_cylinder(ratio(state) * 0.05), SphereTemplate(12).size());
+}
+BENCHMARK(cylinder_sampling_points)->Arg(50)->Arg(100)->Arg(200);
+
+void cylinder_sampling_points_baseline_locate_each(benchmark::State& state) {
+  locate_each(state, cylinder(), balls_in_cylinder(ratio(state) * 0.05), ratio(state) * 0.025);
+}
+BENCHMARK(cylinder_sampling_points_baseline_locate_each)->Arg(50)->Arg(100)->Arg(200);
 
 }  // namespace
 }  // namespace millfoam::averaging

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
+import os
+import resource
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+RECORDS, BALLS = 60, 400
+BOX = ["--box", "-1", "-1", "0", "1", "1", "1", "--shape", "9", "8", "3", "--periodic", "z"]
+
+
+def write_dumps(folder):
+    """Balls that turn about the z axis at 2 rad/s: every 100 steps of 1e-4 s."""
+    random = np.random.default_rng(1)
+    radius, angle = random.uniform(0, 0.85, BALLS), random.uniform(0, 2 * np.pi, BALLS)
+    z, size = random.uniform(0, 1, BALLS), random.uniform(0.03, 0.12, BALLS)
+    for record in range(RECORDS):
+        turned = angle + 2 * 0.01 * record
+        x, y = radius * np.cos(turned), radius * np.sin(turned)
+        rows = np.column_stack([np.arange(1, BALLS + 1), x, y, z, -2 * y, 2 * x, 0 * x, size])
+        text = "\n".join(f"{int(r[0])} 1 " + " ".join(repr(float(v)) for v in r[1:]) for r in rows)
+        (folder / f"dump.{100 * record}.txt").write_text(
+            f"ITEM: TIMESTEP\n{100 * record}\nITEM: NUMBER OF ATOMS\n{BALLS}\nITEM: BOX BOUNDS ff ff pp\n"
+            f"-1 1\n-1 1\n0 1\nITEM: ATOMS id type x y z vx vy vz radius\n{text}\n")
+    (folder / "run.txt").write_text("timestep 1e-4\ninterval 100\nangular_velocity 2\n")
+
+
+class MillAverage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.dumps = tempfile.TemporaryDirectory()
+        write_dumps(Path(cls.dumps.name))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.dumps.cleanup()
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def command(self, *options, output="solids.h5", window=("0.1",), grid=BOX):
+        return ["millAverage", "--dumps", f"{self.dumps.name}/dump.*.txt", *grid, "--window", *window, "-o", output,
+                *options]
+
+    def run_in_folder(self, command, **arguments):
+        return subprocess.run(command, cwd=self.folder, text=True, capture_output=True, timeout=120, **arguments)
+
+    def average(self, *options, launcher=(), **arguments):
+        result = self.run_in_folder([*launcher, *self.command(*options, **arguments)])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def refused(self, command, *words):
+        result = self.run_in_folder(command)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def bytes(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_ranks_and_threads_give_the_same_file_to_the_last_bit(self):
+        self.average("--threads", "1", output="one.h5", window=("0.1", "whole"))
+        for ranks, threads in ((1, 2), (2, 1), (3, 2)):
+            launcher = ("mpirun", "--oversubscribe", "-np", str(ranks))
+            self.average("--threads", str(threads), output="many.h5", window=("0.1", "whole"), launcher=launcher)
+            for window in ("0.1", "whole"):
+                self.assertEqual(self.bytes(f"many_{window}.h5"), self.bytes(f"one_{window}.h5"), (ranks, threads))
+
+    def test_an_error_on_one_rank_ends_all(self):
+        broken = self.folder / "dumps"
+        broken.mkdir()
+        for dump in Path(self.dumps.name).iterdir():
+            (broken / dump.name).write_bytes(dump.read_bytes())
+        (broken / "dump.3500.txt").write_text((broken / "dump.3500.txt").read_text()[:2000])
+        command = ["millAverage", "--dumps", "dumps/dump.*.txt", *BOX, "--window", "0.1", "-o", "solids.h5"]
+        result = self.run_in_folder(["mpirun", "--oversubscribe", "-np", "2", *command])
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("dump.3500.txt", result.stderr)
+        self.assertFalse((self.folder / "solids.h5").exists())
+
+    def test_killed_at_any_moment_the_next_run_gives_the_same_file(self):
+        self.average(output="whole_run.h5")
+        kills = 0
+        for delay in (0.02, 0.04, 0.06, 0.09):
+            process = subprocess.Popen(self.command("--checkpoint", "0", "--threads", "1"), cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(delay)
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+            if kills and process.returncode == -signal.SIGKILL:
+                self.assertFalse((self.folder / "solids.h5").exists())
+        self.assertGreater(kills, 0, "each run ended before it was killed")
+        self.average("--checkpoint", "0")
+        self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["solids.h5", "solids.xdmf", "whole_run.h5", "whole_run.xdmf"])
+
+    def test_a_full_disk_is_told_and_leaves_nothing_that_looks_whole(self):
+        self.average(output="whole_run.h5")
+        size = (self.folder / "whole_run.h5").stat().st_size
+
+        def limit(kilobytes):
+            def apply():
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (kilobytes * 1024, kilobytes * 1024))
+            return apply
+
+        for part in (0.01, 0.3, 0.9):
+            result = self.run_in_folder(self.command(), preexec_fn=limit(int(part * size / 1024)))
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn("solids.h5", result.stderr)
+            self.assertFalse((self.folder / "solids.h5").exists())
+        self.average()
+        self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
+
+    def test_report_fails_above_the_tolerance_only(self):
+        grid = ["--box", "-0.5", "-1", "0", "1", "1", "1", "--shape", "6", "8", "3", "--periodic", "z"]
+        self.average(grid=grid)
+        with h5py.File(self.folder / "solids.h5") as solids:
+            ledger = solids["ledger"]
+            share = np.max(ledger["outside"][:] / ledger["volume_in"][:])
+        self.assertGreater(share, 0.05)
+        self.refused(["millAverage", "--report", "solids.h5"], "outside the grid", "window 0")
+        above = self.run_in_folder(["millAverage", "--report", "solids.h5", "--tolerance", str(share * 1.01)])
+        self.assertEqual(above.returncode, 0, above.stderr)
+        self.assertIn("outside, %", above.stdout)
+        self.refused(self.command("--tolerance", str(share * 0.99), grid=grid), "outside the grid")
+
+    def test_windows_that_the_dumps_do_not_fill_are_marked(self):
+        self.average("--start", "-0.05", window=("0.25",))
+        with h5py.File(self.folder / "solids.h5") as solids:
+            self.assertEqual(list(solids["window/starts_late"]), [1, 0, 0])
+            self.assertEqual(list(solids["window/ends_short"]), [0, 0, 1])
+
+    def test_walls_turn_with_the_mill(self):
+        """A square mill of 1 x 1 m^2 that turns by 45 degrees within the window."""
+        corners = np.array([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]])
+        facets = []
+        for a, b in zip(corners, np.roll(corners, -1, axis=0)):
+            low, high = (*a, 0), (*b, 0)
+            facets += [(low, high, (*b, 1)), (low, (*b, 1), (*a, 1))]
+        text = "solid walls\n" + "".join(
+            "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in facet) +
+            "endloop\nendfacet\n" for facet in facets) + "endsolid walls\n"
+        (self.folder / "walls.stl").write_text(text)
+        grid = ["--box", "-0.8", "-0.8", "0", "0.8", "0.8", "1", "--shape", "16", "16", "1"]
+        self.average("--inside", "walls.stl", grid=grid, window=("whole",))
+        with h5py.File(self.folder / "solids.h5") as solids:
+            inside = solids["grid/insideFraction"][0, 0]
+        self.assertAlmostEqual(inside.sum() * 0.01, 1.0, places=9)
+        self.assertTrue(0 < inside[8, 14] < 1, "a corner of the mill passes x = 0.65 m")
+        self.assertEqual(inside[8, 10], 1)
+
+    def test_options_that_do_not_go_together_are_refused_by_name(self):
+        self.refused(["millAverage", "--dumps", "x", "--window", "0.1", "-o", "a.h5"], "none of --box")
+        self.refused(self.command("--cylinder", "0", "1", "0", "1"), "more than one of --box")
+        self.refused(self.command(window=("0.1", "0.1")), "--window has '0.1' twice")
+        self.refused(self.command(window=("soon",)), "--window is 'soon'", "whole")
+        self.refused(self.command("--cap", "1.5"), "--cap is 1.5", "between 0 and 1")
+        self.refused(self.command("--smooth", "0.1"), "--smooth", "--mesh")
+        self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.txt", "2 rad/s")
+        self.refused(self.command("--inside", "no*.stl"), "--inside 'no*.stl' matches no file")
+        self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape", "a mesh has its own")
+        self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")
+        self.refused(self.command(grid=BOX[:7]), "--shape is missing", "nx ny nz")
+
+
+if __name__ == "__main__":
+    unittest.main()
