@@ -94,7 +94,7 @@ class Matcher {
         refuse("columns '" + std::string(position_) + "' and '" + std::string(name) +
                "' are two kinds of position, expected one of 'x y z', 'xs ys zs', 'xu yu zu'");
       }
-      position_ = name;
+      if (position_.empty()) position_ = name;
       columns_.scaled = name.size() > 1 && name[1] == 's';
     }
     if (!earlier.empty()) refuse("column '" + std::string(name) + "' is there twice");

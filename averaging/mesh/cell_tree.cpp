@@ -14,10 +14,14 @@ using Eigen::Vector3d;
 constexpr std::size_t cells_per_leaf = 4;
 
 /// Boxes that overlap so much more than when the tree was built are worth a new tree.
-constexpr double worn = 1.5;
+constexpr double worn = 1.15;
 
 std::size_t at(int number) {
   return static_cast<std::size_t>(number);
+}
+
+double half_surface(const Vector3d& size) {
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
 Array3f as_array(const CellSides::Local& point) {
@@ -78,9 +82,10 @@ void CellTree::fit_leaf(Node& node) const {
   node.high = as_array(sides_.local(box.max() + Vector3d::Constant(room)));
 }
 
-/// Fits all boxes and returns their surface over that of the root.
+/// Fits all boxes and returns their surface over that of the cells' own boxes.
 double CellTree::fit() {
-  double surface = 0, last = 0;
+  double surface = 0, cells = 0;
+  for (const Eigen::AlignedBox3d& box : geometry_.boxes()) cells += half_surface(box.sizes());
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
     if (node.count > 0) {
@@ -91,11 +96,9 @@ double CellTree::fit() {
       node.low = left.low.min(right.low);
       node.high = left.high.max(right.high);
     }
-    const Array3f size = node.high - node.low;
-    last = static_cast<double>(size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
-    surface += last;
+    surface += half_surface((node.high - node.low).matrix().cast<double>());
   }
-  return surface / last;
+  return surface / cells;
 }
 
 int CellTree::locate(const Vector3d& point, int hint) const {

@@ -52,7 +52,7 @@ class CellTree : public CellSearch {
   CellSides sides_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
-  double cost_ = 0;  ///< surface of all boxes over that of the root when the tree was built
+  double cost_ = 0;  ///< surface of all boxes over that of the cells' boxes when the tree was built
   int builds_ = 0;
 };
 

@@ -1,159 +1,129 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/mesh/mesh_diffusion.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <map>
-#include <sstream>
 #include <stdexcept>
+#include <string>
+
+#include "averaging/mesh/periodic_faces.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
-using Eigen::Vector3d;
+/// Largest part of a cell's total that may leave it in a step. Below 1 nothing becomes negative; about half
+/// also leaves no pattern of the steps behind.
+constexpr double largest_part = 0.6;
 
-constexpr int steps = 4;
+/// Of the sums over a record's particles.
+constexpr std::size_t usual_components = 8;
 
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
+/// Two cells and how much passes between them per time and difference of density, m.
+struct Link {
+  std::size_t a;
+  std::size_t b;
+  double conductance;
+};
 
-Vector3d area(const MeshGeometry& geometry, std::size_t face) {
-  Vector3d sum = Vector3d::Zero();
-  for (int f = geometry.first_facet(face); f < geometry.first_facet(face + 1); ++f) {
-    const Facet& facet = geometry.facets()[at(f)];
-    const Vector3d& a = geometry.points()[at(facet.corners[0])];
+double area(const MeshGeometry& mesh, std::size_t face) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int f = mesh.first_facet(face); f < mesh.first_facet(face + 1); ++f) {
+    const Facet& facet = mesh.facets()[static_cast<std::size_t>(f)];
+    const auto corner = [&](int i) {
+      return mesh.points()[static_cast<std::size_t>(facet.corners[static_cast<std::size_t>(i)])];
+    };
     for (int i = 2; i < facet.corner_count; ++i) {
-      const Vector3d& b = geometry.points()[at(facet.corners[at(i - 1)])];
-      sum += (b - a).cross(geometry.points()[at(facet.corners[at(i)])] - a) / 2;
+      sum += (corner(i - 1) - corner(0)).cross(corner(i) - corner(0)) / 2;
     }
   }
-  return sum;
+  return sum.norm();
 }
 
-Vector3d middle(const MeshGeometry& geometry, std::size_t face) {
-  const MeshTopology& topology = geometry.topology();
-  Vector3d sum = Vector3d::Zero();
-  for (int i = topology.face_begin[face]; i < topology.face_begin[face + 1]; ++i) {
-    sum += geometry.points()[at(topology.face_points[at(i)])];
+std::vector<Link> links(const MeshGeometry& mesh, std::optional<double> period) {
+  const MeshTopology& topology = mesh.topology();
+  std::vector<Link> result;
+  const auto join = [&](int first, int second, std::size_t face, const Eigen::Vector3d& shift) {
+    const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
+    // One cell that spans the period is its own neighbour: nothing passes.
+    if (a != b)
+      result.push_back({a, b, area(mesh, face) / (mesh.centres()[a] - mesh.centres()[b] + shift).norm()});
+  };
+  for (std::size_t face = 0; face < topology.internal_faces(); ++face) {
+    join(topology.owner[face], topology.neighbour[face], face, Eigen::Vector3d::Zero());
   }
-  return sum / (topology.face_begin[face + 1] - topology.face_begin[face]);
-}
-
-/// Boundary faces across z at one end of the mesh.
-std::vector<std::size_t> faces_at(const MeshGeometry& geometry, double z, double tolerance) {
-  std::vector<std::size_t> found;
-  for (std::size_t f = geometry.topology().internal_faces(); f < geometry.topology().faces(); ++f) {
-    const Vector3d normal = area(geometry, f).normalized();
-    if (std::abs(normal.z()) > 0.99 && std::abs(middle(geometry, f).z() - z) <= tolerance) found.push_back(f);
+  if (!period) return result;
+  for (const auto& [low, high] : periodic_faces(mesh, *period)) {
+    const auto face = static_cast<std::size_t>(low);
+    join(topology.owner[face], topology.owner[static_cast<std::size_t>(high)], face, {0, 0, *period});
   }
-  return found;
-}
-
-[[noreturn]] void refuse_face(std::size_t face, double period) {
-  std::ostringstream message;
-  message << "mesh: face " << face << " at an end of the mesh has no counterpart " << period
-          << " m away along z: the mesh does not repeat";
-  throw std::invalid_argument(message.str());
+  return result;
 }
 
 }  // namespace
 
-MeshDiffusion::MeshDiffusion(const MeshGeometry& geometry, double width, std::optional<double> period_z)
-    : volumes_(geometry.volumes()) {
-  if (!(width > 0 && std::isfinite(width))) {
-    throw std::invalid_argument("the width of smoothing is " + std::to_string(width) +
-                                " m, expected a positive number");
+MeshDiffusion::MeshDiffusion(const MeshGeometry& mesh, double width, std::optional<double> period) {
+  if (!(width > 0) || !std::isfinite(width)) {
+    throw std::invalid_argument("the smoothing width is " + std::to_string(width) +
+                                " m, expected a length above 0");
   }
-  const double step = width * width / 4 / steps;
-  const MeshTopology& topology = geometry.topology();
-  for (std::size_t face = 0; face < topology.internal_faces(); ++face) {
-    const int owner = topology.owner[face], neighbour = topology.neighbour[face];
-    const double distance = (geometry.centres()[at(neighbour)] - geometry.centres()[at(owner)]).norm();
-    links_.push_back({owner, neighbour, step * area(geometry, face).norm() / distance});
-  }
-  if (period_z) join_ends(geometry, *period_z, step);
-  build_matrix();
-}
-
-void MeshDiffusion::join_ends(const MeshGeometry& geometry, double period, double step) {
-  const double tolerance = 1e-6 * geometry.box().diagonal().norm();
-  const std::vector<int>& owner = geometry.topology().owner;
-  const auto lower = faces_at(geometry, geometry.box().min().z(), tolerance);
-  const auto upper = faces_at(geometry, geometry.box().max().z(), tolerance);
-  std::multimap<double, std::size_t> upper_by_x;
-  for (const std::size_t face : upper) upper_by_x.emplace(middle(geometry, face).x(), face);
-  for (const std::size_t face : lower) {
-    const Vector3d sought = middle(geometry, face) + Vector3d(0, 0, period);
-    const auto last = upper_by_x.upper_bound(sought.x() + tolerance);
-    const auto found =
-        std::find_if(upper_by_x.lower_bound(sought.x() - tolerance), last, [&](const auto& entry) {
-          return (middle(geometry, entry.second) - sought).norm() <= 2 * tolerance;
-        });
-    if (found == last) refuse_face(face, period);
-    const int below = owner[face], above = owner[found->second];
-    upper_by_x.erase(found);
-    // A cell that is its own neighbour has nothing to give to itself.
-    if (below == above) continue;
-    const Vector3d image = geometry.centres()[at(below)] + Vector3d(0, 0, period);
-    const double distance = (image - geometry.centres()[at(above)]).norm();
-    links_.push_back({above, below, step * area(geometry, face).norm() / distance});
-  }
-  if (!upper_by_x.empty()) refuse_face(upper_by_x.begin()->second, -period);
-}
-
-void MeshDiffusion::build_matrix() {
-  std::vector<Eigen::Triplet<double>> entries;
-  const int cells = static_cast<int>(volumes_.size());
-  for (int cell = 0; cell < cells; ++cell) entries.emplace_back(cell, cell, volumes_[at(cell)]);
-  for (const auto& [owner, neighbour, conductance] : links_) {
-    entries.emplace_back(owner, owner, conductance);
-    entries.emplace_back(neighbour, neighbour, conductance);
-    entries.emplace_back(owner, neighbour, -conductance);
-    entries.emplace_back(neighbour, owner, -conductance);
-  }
-  matrix_.resize(cells, cells);
-  matrix_.setFromTriplets(entries.begin(), entries.end());
-}
-
-void MeshDiffusion::step(Eigen::VectorXd& totals) const {
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(1e-14);
-  solver.setMaxIterations(10000);
-  solver.compute(matrix_);
-  const Eigen::VectorXd before =
-      totals.cwiseQuotient(Eigen::VectorXd::Map(volumes_.data(), static_cast<Eigen::Index>(volumes_.size())));
-  const Eigen::VectorXd after = solver.solveWithGuess(totals, before);
-  // What one cell loses the other gains, to the last bit, whatever the solver left over.
-  for (const auto& [owner, neighbour, conductance] : links_) {
-    const double flux = conductance * (after[neighbour] - after[owner]);
-    totals[owner] += flux;
-    totals[neighbour] -= flux;
-  }
-}
-
-void MeshDiffusion::apply(std::vector<double>& totals, int components) const {
-  const auto cells = static_cast<Eigen::Index>(volumes_.size());
-  assert(totals.size() == volumes_.size() * at(components));
-  for (int c = 0; c < components; ++c) {
-    Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>> component(totals.data() + c, cells,
-                                                                   Eigen::InnerStride<>(components));
-    Eigen::VectorXd values = component;
-    const bool had_negative = values.minCoeff() < 0;
-    if (values.isZero(0)) continue;
-    for (int s = 0; s < steps; ++s) step(values);
-    if (!had_negative) {
-      // Only rounding makes values below 0; what it took too much goes back to where there is most.
-      Eigen::Index largest = 0;
-      values.maxCoeff(&largest);
-      const double too_much = values.cwiseMin(0).sum();
-      values = values.cwiseMax(0);
-      values[largest] += too_much;
+  const std::vector<Link> all = links(mesh, period);
+  std::vector<double> rate(mesh.cells(), 0.0);  // part of the total that leaves per unit of width^2
+  begin_.assign(mesh.cells() + 1, 0);
+  for (const Link& link : all) {
+    for (const std::size_t cell : {link.a, link.b}) {
+      rate[cell] += link.conductance / mesh.volumes()[cell];
+      ++begin_[cell + 1];
     }
-    component = values;
+  }
+  const double duration = width * width / 4;
+  const double fastest = *std::max_element(rate.begin(), rate.end());
+  steps_ = std::max(1, static_cast<int>(std::ceil(duration * fastest / largest_part)));
+  const double step = duration / steps_;
+
+  for (std::size_t c = 0; c < mesh.cells(); ++c) {
+    begin_[c + 1] += begin_[c];
+    kept_.push_back(1 - step * rate[c]);
+  }
+  source_.resize(begin_.back());
+  part_.resize(begin_.back());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  const auto add = [&](std::size_t to, std::size_t from, double conductance) {
+    source_[next[to]] = from;
+    part_[next[to]++] = step * conductance / mesh.volumes()[from];
+  };
+  for (const Link& link : all) {
+    add(link.a, link.b, link.conductance);
+    add(link.b, link.a, link.conductance);
+  }
+}
+
+template <std::size_t Components>
+void MeshDiffusion::step(const std::vector<double>& from, std::vector<double>& to, std::size_t some) const {
+  // Known to the compiler, the number of components lets it keep a cell's sums in registers.
+  const std::size_t components = Components > 0 ? Components : some;
+  for (std::size_t cell = 0; cell < kept_.size(); ++cell) {
+    double* const sum = &to[cell * components];
+    const double* const own = &from[cell * components];
+    for (std::size_t k = 0; k < components; ++k) sum[k] = kept_[cell] * own[k];
+    for (std::size_t s = begin_[cell]; s < begin_[cell + 1]; ++s) {
+      const double* const source = &from[source_[s] * components];
+      for (std::size_t k = 0; k < components; ++k) sum[k] += part_[s] * source[k];
+    }
+  }
+}
+
+void MeshDiffusion::apply(std::vector<double>& totals, std::size_t components) const {
+  assert(totals.size() == kept_.size() * components);
+  std::vector<double> other(totals.size());
+  for (int n = 0; n < steps_; ++n) {
+    if (components == usual_components) {
+      step<usual_components>(totals, other, components);
+    } else {
+      step<0>(totals, other, components);
+    }
+    totals.swap(other);
   }
 }
 

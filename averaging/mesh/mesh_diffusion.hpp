@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/SparseCore>
-#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -10,45 +9,38 @@
 
 namespace millfoam::averaging {
 
-/// Smooths fields on a mesh by diffusion, so that balls larger than cells give fields on which the laws of drag
-/// mean something. What a cell holds spreads as by the kernel exp(-r^2/b^2), b being the width: with c = total /
-/// volume,
+/// Spreads fields of a mesh over a width, by diffusion with no flux through the walls: in free space a point
+/// becomes the kernel exp(-r^2/b^2) of the bandwidth b, with the variance b^2/2 along each axis.
 ///
-///     dc/dt = D div grad c   for a time T with D T = b^2/4,   no flux through the boundary,
+/// It is done in explicit steps, short enough that each only moves parts of a cell's total to its neighbours:
+/// nothing becomes negative, the total is kept to round-off, and ratios such as the velocity (momentum over
+/// volume) stay between those of the cells that were mixed, however little came. The flux through a face is
+/// its area times the difference of the densities over the distance of the cells' centres; what a skew of
+/// that line against the face would add is left out, so on skewed meshes the width is met to the order of the
+/// skew.
 ///
-/// which gives a point's cloud the variance b^2/2 along each axis. It is solved in four steps of implicit Euler,
-/// which keep that variance, sums and signs, with two-point fluxes |S|/d (c_n - c_o) between cells whose centres
-/// are d apart; that the line between centres may lean against the face is neglected.
-///
-/// Source: Sun & Xiao 2015, Int J Multiphase Flow 77:112.
+/// Source: Sun & Xiao 2015, Int J Multiph Flow 77:142 (diffusion-based coarse graining).
 class MeshDiffusion {
  public:
-  /// @param width     b, m, positive
-  /// @param period_z  length after which the mesh repeats along z, m: its faces at both ends are joined.
-  /// Throws std::invalid_argument for a width that is not positive, or when the faces at both ends do not match,
-  /// naming the face.
-  MeshDiffusion(const MeshGeometry& geometry, double width, std::optional<double> period_z = std::nullopt);
+  /// @param width   bandwidth b, m
+  /// @param period  length of the mesh along z where it repeats, m
+  /// Throws std::invalid_argument for a width that is not positive, and as `periodic_faces`.
+  MeshDiffusion(const MeshGeometry& mesh, double width, std::optional<double> period = std::nullopt);
 
-  /// Smooths totals per cell, [cells][components], of any unit: volumes, momenta, numbers. Each component's sum
-  /// over the cells is kept to rounding, and none that had no negative value gets one. May be called from
-  /// several threads.
-  void apply(std::vector<double>& totals, int components) const;
+  int steps() const { return steps_; }
+
+  /// Spreads totals per cell, [cells][components].
+  void apply(std::vector<double>& totals, std::size_t components) const;
 
  private:
-  /// Two cells between which there is a flux of `conductance` times the difference of c in one step, m^3.
-  struct Link {
-    int owner;
-    int neighbour;
-    double conductance;
-  };
+  template <std::size_t Components>
+  void step(const std::vector<double>& from, std::vector<double>& to, std::size_t some) const;
 
-  void join_ends(const MeshGeometry& geometry, double period, double step);
-  void build_matrix();
-  void step(Eigen::VectorXd& totals) const;
-
-  std::vector<double> volumes_;
-  std::vector<Link> links_;
-  Eigen::SparseMatrix<double> matrix_;
+  int steps_ = 0;
+  std::vector<double> kept_;         ///< [cells] the part of a cell's total that stays in a step
+  std::vector<std::size_t> begin_;   ///< [cells + 1] where a cell's sources begin
+  std::vector<std::size_t> source_;  ///< cells it gets something from
+  std::vector<double> part_;         ///< and the part of their total
 };
 
 }  // namespace millfoam::averaging

@@ -99,7 +99,7 @@ class Collector {
     save();
     std::vector<SolidsSummary> summaries;
     for (std::size_t s = 0; s < series_.size(); ++s) {
-      SolidsSummary summary{request_.windows[s].output, {}};
+      SolidsSummary summary{request_.windows[s].output, setup_.smoothing, {}};
       series_[s].write(setup_.grid, header(s), [&](const WindowAverage& window) {
         summary.windows.push_back(
             summarise(setup_.grid, window.time, window.ledger, window.balls_per_cell, window.mean));

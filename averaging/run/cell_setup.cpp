@@ -73,9 +73,10 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
 template <typename Exact, typename Sampling, typename Voxels>
 CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const RunSettings& settings,
                         const Note& note) {
-  CellSetup setup{
-      grid, by_method<Exact, Sampling>(request.method, grid, request.template_points), {}, nullptr, nullptr,
-      method_in_words(request), 0};
+  CellSetup setup{grid,    by_method<Exact, Sampling>(request.method, grid, request.template_points),
+                  {},      nullptr,
+                  nullptr, method_in_words(request),
+                  0};
   setup.room.solidity_cap = request.solidity_cap;
   if (!request.walls.empty()) {
     setup.walls = moving_walls(grid, request, settings, note);
@@ -126,12 +127,14 @@ std::vector<std::array<int, 2>> neighbours(const MeshGeometry& mesh, std::option
 
 void require_fitting(const MeshRequest& mesh, const AverageRequest& request, bool deforms) {
   if (!request.walls.empty()) {
-    throw std::invalid_argument("--inside is for voxels that walls cut; the cells of a mesh lie inside already");
+    throw std::invalid_argument(
+        "--inside is for voxels that walls cut; the cells of a mesh lie inside already");
   }
   if (!deforms) return;
   if (!mesh.motion.empty() || mesh.at_rest) {
-    throw std::invalid_argument("--motion is there, but " + mesh.file.string() +
-                                " gives points at several times, which say how it moves; expected one of them");
+    throw std::invalid_argument(
+        "--motion is there, but " + mesh.file.string() +
+        " gives points at several times, which say how it moves; expected one of them");
   }
   if (mesh.smoothing > 0) {
     throw std::invalid_argument("--smooth needs a mesh that keeps its shape, and " + mesh.file.string() +
@@ -155,7 +158,8 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
     cells.motion = "points over time";
   } else {
     const std::vector<std::string> motion = motion_of(request, settings, note);
-    mesh = std::make_unique<RigidMesh>(prepare(file.topology(), file.read_points(0)), parse_motion(motion), time);
+    mesh = std::make_unique<RigidMesh>(prepare(file.topology(), file.read_points(0)), parse_motion(motion),
+                                       time);
     cells = mesh_cells(mesh->geometry());
     cells.motion = joined(motion);
   }
@@ -166,8 +170,7 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   setup.room.solidity_cap = whole.solidity_cap;
   setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
   if (request.smoothing > 0) {
-    setup.diffusion =
-        std::make_shared<MeshDiffusion>(mesh->geometry(), request.smoothing, request.period_z);
+    setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), request.smoothing, request.period_z);
   }
   setup.sharing = by_method<MeshExact, MeshSampling>(whole.method, std::move(mesh), whole.template_points,
                                                      request.period_z);

@@ -42,50 +42,62 @@ std::string ledger_row(std::size_t number, const WindowSummary& window) {
 /// Of all windows together.
 WindowSummary overall(const SolidsSummary& summary) {
   WindowSummary all;
+  double balls = 0;
   for (const WindowSummary& window : summary.windows) {
     all.balls_per_cell += window.balls_per_cell / static_cast<double>(summary.windows.size());
     all.occupied_cells += window.occupied_cells;
     all.small_cells += window.small_cells;
     all.occupied_volume += window.occupied_volume;
+    balls += window.ball_density * window.occupied_volume;
     all.mean_solidity += window.mean_solidity * static_cast<double>(window.occupied_cells);
     all.largest_solidity = std::max(all.largest_solidity, window.largest_solidity);
   }
-  if (all.occupied_cells > 0) all.mean_solidity /= static_cast<double>(all.occupied_cells);
+  if (all.occupied_cells > 0) {
+    all.mean_solidity /= static_cast<double>(all.occupied_cells);
+    all.ball_density = balls / all.occupied_volume;
+  }
   return all;
 }
 
-/// Edge of a cube in which `balls` balls would be found, m.
-double edge_for(double balls, const WindowSummary& all) {
+/// The volume over which fields are averaged: a cell or, when they are smoothed over a width b and that is
+/// more, the space that the kernel exp(-r^2/b^2) fills, pi^(3/2) b^3.
+double averaging_volume(const WindowSummary& all, double smoothing) {
   const double cell = all.occupied_volume / static_cast<double>(all.occupied_cells);
-  return std::cbrt(cell * balls / all.balls_per_cell);
+  return std::max(cell, std::pow(pi, 1.5) * smoothing * smoothing * smoothing);
 }
 
 /// What the laws of drag need of an averaging volume, where it is missed, and what to change.
-std::string advice(const WindowSummary& all) {
+std::string advice(const WindowSummary& all, double smoothing) {
   if (all.occupied_cells == 0)
     return "warning: there are no balls in any cell: is the grid where they are?\n";
   std::string text;
-  if (all.balls_per_cell < fewest_balls) {
+  const double volume = averaging_volume(all, smoothing);
+  const double per_volume = all.ball_density * volume;
+  const double edge = std::cbrt(fewest_balls / all.ball_density);
+  if (per_volume < fewest_balls) {
     text += formatted(
-        "advice: the drag laws were derived on %g to %g balls per averaging volume: take cells of %.2g m or "
-        "more, or on a mesh smooth over that width\n",
-        fewest_balls, most_balls, edge_for(fewest_balls, all));
-  } else if (all.balls_per_cell > most_balls) {
+        "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: take cells of "
+        "%.2g "
+        "m or more, or on a mesh --smooth %.2g\n",
+        per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
+  } else if (per_volume > most_balls) {
     text += formatted(
-        "advice: more than the %g to %g balls per averaging volume that the drag laws were derived on: cells "
-        "down to %.2g m would show more\n",
-        fewest_balls, most_balls, edge_for(fewest_balls, all));
+        "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: cells down to "
+        "%.2g m, "
+        "or on a mesh --smooth down to %.2g, would show more\n",
+        per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
   }
-  if (all.small_cells > 0) {
+  if (all.small_cells > 0 && smoothing == 0) {
     text += formatted(
-        "advice: %.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh "
-        "with smoothing, give fields on which a drag law means something\n",
+        "advice: %.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh with "
+        "--smooth "
+        "of 2 to 3 diameters, give fields on which a drag law means something\n",
         100 * static_cast<double>(all.small_cells) / static_cast<double>(all.occupied_cells));
   }
   if (all.largest_solidity >= 1) {
     text +=
         "warning: the largest solidity leaves no room for the fluid, a flow will refuse it: use cells larger "
-        "than the balls, or a cap on the solidity\n";
+        "than the balls, or --cap\n";
   } else if (all.largest_solidity > densest) {
     text += formatted(
         "advice: the largest solidity is above that of the densest packing of equal spheres, %g: the cells "
@@ -104,6 +116,7 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
   summary.time = time;
   summary.ledger = ledger;
   summary.balls_per_cell = balls_per_cell;
+  double balls = 0;
   for (std::size_t c = 0; c < fields.solidity.size(); ++c) {
     if (fields.solidity[c] == 0) continue;
     const double d = fields.diameter[c], volume = cell_volume(grid, c);
@@ -112,8 +125,12 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
     summary.mean_solidity += fields.solidity[c];
     summary.largest_solidity = std::max(summary.largest_solidity, fields.solidity[c]);
     if (volume < pi / 6 * d * d * d) ++summary.small_cells;
+    balls += fields.solidity[c] * volume / (pi / 6 * d * d * d);
   }
-  if (summary.occupied_cells > 0) summary.mean_solidity /= static_cast<double>(summary.occupied_cells);
+  if (summary.occupied_cells > 0) {
+    summary.mean_solidity /= static_cast<double>(summary.occupied_cells);
+    summary.ball_density = balls / summary.occupied_volume;
+  }
   return summary;
 }
 
@@ -121,7 +138,7 @@ SolidsSummary summarise(const std::filesystem::path& file) {
   const SolidsReader solids(file);
   const std::vector<Ledger> ledgers = solids.read_ledgers();
   const std::vector<double> balls = solids.read_balls_per_cell();
-  SolidsSummary summary{file, {}};
+  SolidsSummary summary{file, solids.header().smoothing, {}};
   for (std::size_t w = 0; w < ledgers.size(); ++w) {
     summary.windows.push_back(
         summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_unchecked(w)));
@@ -138,7 +155,7 @@ std::string report(const SolidsSummary& summary) {
   text += formatted("solidity of occupied cells: mean %.4f, largest %.4f\n", all.mean_solidity,
                     all.largest_solidity);
   text += formatted("balls per occupied cell: mean %.3g\n", all.balls_per_cell);
-  return text + advice(all);
+  return text + advice(all, summary.smoothing);
 }
 
 std::vector<std::string> ledger_failures(const SolidsSummary& summary, double tolerance) {

@@ -17,6 +17,7 @@ struct WindowSummary {
   std::size_t occupied_cells = 0;
   std::size_t small_cells = 0;  ///< of the occupied ones: smaller than a ball of their Sauter diameter
   double occupied_volume = 0;   ///< of the occupied cells, m^3
+  double ball_density = 0;      ///< balls of the Sauter diameter per volume of the occupied cells, 1/m^3
   double mean_solidity = 0;     ///< over the occupied cells
   double largest_solidity = 0;  ///< of any cell
 };
@@ -24,6 +25,7 @@ struct WindowSummary {
 /// A solids file in numbers.
 struct SolidsSummary {
   std::filesystem::path file;
+  double smoothing = 0;  ///< width of the diffusion on the mesh, m; 0: none
   std::vector<WindowSummary> windows;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// vtk_location_benchmark MESH.h5 [BALLS]: locates the same points by VTK's static cell locator and by averaging's
-// CellLocator in a mesh of hexahedra.
+// vtk_location_benchmark MESH.h5 [BALLS]: locates the same points by VTK's static cell locator and by
+// averaging's CellLocator in a mesh of hexahedra.
 #include <vtkCellArray.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
@@ -53,7 +53,8 @@ vtkIdType point_over(int point, const Quadrangle& base, const std::vector<Quadra
 vtkNew<vtkUnstructuredGrid> grid_of(const MeshGeometry& geometry) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (std::size_t p = 0; p < geometry.topology().points; ++p) points->InsertNextPoint(geometry.points()[p].data());
+  for (std::size_t p = 0; p < geometry.topology().points; ++p)
+    points->InsertNextPoint(geometry.points()[p].data());
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
   for (int cell = 0; cell < static_cast<int>(geometry.cells()); ++cell) {
@@ -71,7 +72,8 @@ vtkNew<vtkUnstructuredGrid> grid_of(const MeshGeometry& geometry) {
 }
 
 /// @param cells_per_bin  of the locator's grid; VTK takes 10 unless told
-Located locate_by_vtk(vtkUnstructuredGrid* grid, const std::vector<Eigen::Vector3d>& points, int cells_per_bin) {
+Located locate_by_vtk(vtkUnstructuredGrid* grid, const std::vector<Eigen::Vector3d>& points,
+                      int cells_per_bin) {
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(grid);
   locator->SetNumberOfCellsPerNode(cells_per_bin);

@@ -65,7 +65,8 @@ void require_promises(const ParticleRecord& record, std::size_t bytes) {
   }
   require(record.step >= 0, "a step is not negative");
   require(2 * record.particles.size() <= bytes, "a particle takes some text");
-  require(record.shapes.empty() || record.shapes.size() == record.particles.size(), "all or none have shapes");
+  require(record.shapes.empty() || record.shapes.size() == record.particles.size(),
+          "all or none have shapes");
   for (std::size_t s = 0; s < record.shapes.size(); ++s) {
     const Superquadric& shape = record.shapes[s];
     for (const double axis : shape.half_axes) {
@@ -81,8 +82,9 @@ void require_promises(const ParticleRecord& record, std::size_t bytes) {
 std::string written(const ParticleRecord& record) {
   std::ostringstream text;
   text.precision(17);
-  text << "ITEM: TIMESTEP\n" << record.step << "\nITEM: NUMBER OF ATOMS\n" << record.particles.size()
-       << "\nITEM: ATOMS vx vy vz x y z radius id";
+  text << "ITEM: TIMESTEP\n"
+       << record.step << "\nITEM: NUMBER OF ATOMS\n"
+       << record.particles.size() << "\nITEM: ATOMS vx vy vz x y z radius id";
   const bool shapes = !record.shapes.empty();
   if (shapes) text << " quat1 quat2 quat3 quat4 shapex shapey shapez blockiness1 blockiness2";
   text << '\n';
@@ -114,7 +116,8 @@ bool same(const ParticleRecord& a, const ParticleRecord& b, double rounding) {
            std::equal(p.quaternion.begin(), p.quaternion.end(), q.quaternion.begin(), near);
   };
   return a.step == b.step &&
-         std::equal(a.particles.begin(), a.particles.end(), b.particles.begin(), b.particles.end(), particle) &&
+         std::equal(a.particles.begin(), a.particles.end(), b.particles.begin(), b.particles.end(),
+                    particle) &&
          std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(), shape);
 }
 

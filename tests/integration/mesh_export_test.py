@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""foamMeshToH5: the same mesh.h5 whatever the format and decomposition, moving points, and the input that it refuses."""
+"""foamMeshToH5: the same mesh.h5 whatever the format and decomposition, moving points, refused input."""
 import gzip
 import re
 import shutil

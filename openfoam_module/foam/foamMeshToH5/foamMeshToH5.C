@@ -128,9 +128,10 @@ static instantList chooseTimes(const argList& args, const meshAssembly& mesh)
     }
     if (times.empty())
     {
-        FatalErrorInFunction
-            << "-times " << ranges.c_str() << " selects none of the times that have"
-            << " polyMesh/points: " << mesh.times() << exit(FatalError);
+        FatalErrorInFunction << "-times " << ranges.c_str()
+                             << " selects none of the times that have"
+                             << " polyMesh/points: " << mesh.times()
+                             << exit(FatalError);
     }
     for (const instant& time : times)
     {

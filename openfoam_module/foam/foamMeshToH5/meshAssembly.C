@@ -56,8 +56,8 @@ void Foam::meshAssembly::addFaces(const meshPart& part)
         }
         if (!turned)
         {
-            faces_[facei] = face(labelList(UIndirectList<label>(
-                part.pointLabels(), part.faces()[i])));
+            faces_[facei] = face(labelList(
+                UIndirectList<label>(part.pointLabels(), part.faces()[i])));
         }
     }
 }
@@ -134,8 +134,8 @@ millfoam::averaging::MeshTopology Foam::meshAssembly::topology() const
     int first = int(nInternal());
     forAll(patchNames_, patchi)
     {
-        const int size = int(std::count(
-            patchOf_.begin() + nInternal(), patchOf_.end(), patchi));
+        const int size = int(
+            std::count(patchOf_.begin() + nInternal(), patchOf_.end(), patchi));
         result.patches.push_back({patchNames_[patchi], first, size});
         first += size;
     }
@@ -149,8 +149,7 @@ Foam::instantList Foam::meshAssembly::times() const
     result.append(instant(0));
     for (const instant& time : parts_.first().time().times())
     {
-        const bool constant =
-            time.name() == parts_.first().time().constant();
+        const bool constant = time.name() == parts_.first().time().constant();
         if (constant || !parts_.first().hasPoints(time.name()))
         {
             continue;

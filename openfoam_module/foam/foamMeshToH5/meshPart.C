@@ -113,10 +113,10 @@ void Foam::meshPart::checkSize(
 {
     if (list.size() != expected)
     {
-        FatalErrorInFunction
-            << listIO(name, time_->constant()).objectPath() << " has "
-            << list.size() << " entries; expected " << expected
-            << " for the mesh beside it" << exit(FatalError);
+        FatalErrorInFunction << listIO(name, time_->constant()).objectPath()
+                             << " has " << list.size() << " entries; expected "
+                             << expected << " for the mesh beside it"
+                             << exit(FatalError);
     }
 }
 
@@ -128,10 +128,10 @@ void Foam::meshPart::checkRange(
     {
         if (i < 0 || i >= end)
         {
-            FatalErrorInFunction
-                << listIO(name, time_->constant()).objectPath()
-                << " holds the label " << i << "; expected 0 to " << end - 1
-                << exit(FatalError);
+            FatalErrorInFunction << listIO(name, time_->constant()).objectPath()
+                                 << " holds the label " << i
+                                 << "; expected 0 to " << end - 1
+                                 << exit(FatalError);
         }
     }
 }
@@ -198,8 +198,7 @@ void Foam::meshPart::checkTopology(const word& instance) const
             << " owner or neighbour of "
             << listIO("faces", instance).objectPath().path()
             << " differ from those of " << time_->constant()
-            << "; expected a mesh whose points alone move"
-            << exit(FatalError);
+            << "; expected a mesh whose points alone move" << exit(FatalError);
     }
 }
 

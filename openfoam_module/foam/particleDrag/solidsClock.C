@@ -36,8 +36,8 @@ void Foam::solidsClock::checkTime0() const
             << "time0 is " << time0 << " s but " << file_
             << " begins at DEM time " << time0_ << " s: the mesh would be"
             << " turned against the solids. Make the mesh with"
-            << " millMesh --at-time " << time0_
-            << " or average from --start " << time0 << exit(FatalIOError);
+            << " millMesh --at-time " << time0_ << " or average from --start "
+            << time0 << exit(FatalIOError);
     }
 }
 
@@ -128,9 +128,9 @@ void Foam::solidsClock::checkSpan(const Time& time) const
 Foam::string Foam::solidsClock::description() const
 {
     OStringStream text;
-    text << label(windows_.size()) << " windows of " << file_
-         << ", DEM times " << time0_ << " to " << windows_.back().end
-         << " s, " << rangeNames_[outOfRange_] << " beyond";
+    text << label(windows_.size()) << " windows of " << file_ << ", DEM times "
+         << time0_ << " to " << windows_.back().end << " s, "
+         << rangeNames_[outOfRange_] << " beyond";
     return text.str();
 }
 

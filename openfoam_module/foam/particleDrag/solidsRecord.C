@@ -31,8 +31,7 @@ struct pointSampler
     const point& p;
     millfoam::averaging::Interpolation interpolation;
 
-    template<class Grid>
-    LocalSolids operator()(const Grid& grid) const
+    template <class Grid> LocalSolids operator()(const Grid& grid) const
     {
         return millfoam::averaging::sample(
             grid, window, {p.x(), p.y(), p.z()}, interpolation);
@@ -148,8 +147,7 @@ Foam::label Foam::solidsRecord::sample(
     forAll(centres, i)
     {
         const LocalSolids solids = std::visit(
-            pointSampler{window_, centres[i], interpolation_},
-            reader_->grid());
+            pointSampler{window_, centres[i], interpolation_}, reader_->grid());
         solidity[i] = solids.solidity;
         velocity[i] =
             vector(solids.velocity[0], solids.velocity[1], solids.velocity[2]);
@@ -163,9 +161,9 @@ Foam::label Foam::solidsRecord::sample(
 Foam::string Foam::solidsRecord::description() const
 {
     return clock_->description() + ", " +
-        (cells_.valid() ? "on the mesh's cells"
-                        : interpolationNames_[interpolation_] +
-                 " interpolation");
+           (cells_.valid()
+                ? "on the mesh's cells"
+                : interpolationNames_[interpolation_] + " interpolation");
 }
 
 

@@ -163,7 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
                       NamedMesh{"WarpedHexagons", warped(honeycomb_mesh(4, 3, 3, 0.1), 0.008)},
                       NamedMesh{"JoinedCells", joined_drum()},
                       NamedMesh{"FarFromTheOrigin", box_mesh({1000, 0, 0}, {1001, 1, 1}, {4, 4, 4})}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(CellSearch, GivesCommonPointsOfBoxesToTheLowestCell) {
   const std::array<int, 3> n{4, 3, 2};
@@ -198,29 +198,28 @@ TEST(CellLocator, SettlesCrowdedCornersOfAGradedMesh) {
 }
 
 TEST(CellTree, IsFittedToSmallMovesAndBuiltAnewForLargeOnes) {
-  const TestMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1}, {8, 8, 8});
+  const TestMesh mesh = box_mesh({-1, -1, 0}, {1, 1, 0.1}, {48, 48, 1});
   MeshGeometry geometry(mesh.topology, mesh.points);
   CellTree tree(geometry);
-  const auto turned = [&](double per_length) {
+  // A vortex: the sheet is wound up.
+  const auto wound = [&](double turn) {
     MeshPoints points = mesh.points;
-    for (Vector3d& p : points) p = Eigen::AngleAxisd(per_length * p.z(), Vector3d::UnitZ()) * p;
+    for (Vector3d& p : points) p = Eigen::AngleAxisd(turn * p.head<2>().norm(), Vector3d::UnitZ()) * p;
     return points;
   };
   const auto finds_its_cells = [&] {
-    for (int cell = 0; cell < 512; ++cell) {
+    for (int cell = 0; cell < 48 * 48; ++cell) {
       if (tree.locate(geometry.centres()[static_cast<std::size_t>(cell)]) != cell) return false;
     }
     return true;
   };
-  geometry.move(turned(0.05));
+  geometry.move(wound(0.05));
   tree.update();
   EXPECT_TRUE(finds_its_cells());
   EXPECT_EQ(tree.builds(), 1);
-  for (const double twist : {0.5, 1.0, 1.5, 2.0, 2.5}) {
-    geometry.move(turned(twist));
-    tree.update();
-    EXPECT_TRUE(finds_its_cells());
-  }
+  geometry.move(wound(3));
+  tree.update();
+  EXPECT_TRUE(finds_its_cells());
   EXPECT_GT(tree.builds(), 1);
 }
 

@@ -41,7 +41,8 @@ TEST(MeshGeometry, OfADrumFillsItsPolygon) {
 }
 
 TEST(MeshGeometry, OfHexagonalPrismsHasTheirVolume) {
-  for (const double volume : geometry_of(honeycomb_mesh(3, 3, 2, 0.1)).volumes()) {
+  const MeshGeometry geometry = geometry_of(honeycomb_mesh(3, 3, 2, 0.1));
+  for (const double volume : geometry.volumes()) {
     EXPECT_NEAR(volume, 1.5 * std::sqrt(3.0) * 0.001, 1e-15);
   }
 }
@@ -73,7 +74,9 @@ TEST(MeshGeometry, ANearlyFlatQuadrangleIsCutFromItsLowestPoint) {
   ASSERT_EQ(geometry.facets().size(), 5U + 2U);
   EXPECT_EQ(geometry.points().size(), 8U);
   for (const Facet& facet : geometry.facets()) {
-    if (facet.corner_count == 3) EXPECT_EQ(facet.corners[0], 4);
+    if (facet.corner_count == 3) {
+      EXPECT_EQ(facet.corners[0], 4);
+    }
   }
 }
 

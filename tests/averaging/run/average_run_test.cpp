@@ -33,9 +33,9 @@ struct AverageRun : ::testing::Test {
 
   SolidsSummary run() {
     Team alone;
-    return average_run(request,
-                       {[](std::size_t, std::size_t) {}, [this](const std::string& s) { notes.push_back(s); }},
-                       alone)[0];
+    return average_run(
+        request, {[](std::size_t, std::size_t) {}, [this](const std::string& s) { notes.push_back(s); }},
+        alone)[0];
   }
 
   /// Runs until `dumps` are averaged and stops there, as a run that is killed would.
@@ -90,7 +90,7 @@ TEST_F(AverageRun, ReportsWhereTheVolumeWent) {
     EXPECT_NEAR(window.ledger.deposited / inside, 1, 1e-12);
     EXPECT_NEAR(window.ledger.outside / outside, 1, 1e-12);
   }
-  expect_named(report(summary), {"solids.h5", "volume in", "88.8889", "11.1111", "8 to 64 balls"});
+  expect_named(report(summary), {"solids.h5", "volume in", "88.8889", "11.1111", "derived on 8 to 64"});
   EXPECT_EQ(report(summarise(output())), report(summary));
 }
 
@@ -219,7 +219,8 @@ TEST_F(AverageRun, AdvisesOnVoxelsSmallerThanTheBalls) {
   const SolidsSummary summary = run();
   EXPECT_GT(summary.windows[0].largest_solidity, 0.74);
   EXPECT_EQ(summary.windows[0].small_cells, summary.windows[0].occupied_cells);
-  expect_named(report(summary), {"largest solidity", "100.0 % of the occupied cells are smaller than a ball"});
+  expect_named(report(summary),
+               {"largest solidity", "100.0 % of the occupied cells are smaller than a ball"});
 }
 
 }  // namespace

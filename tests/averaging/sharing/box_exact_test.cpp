@@ -67,7 +67,7 @@ TEST(BoxExact, AnEverRepeatingSphereLargerThanThePeriodLosesNothing) {
   EXPECT_NEAR(sum(shared(sharing, {1, {0, 0, 0.1}, {}, 1.7})) / sphere_volume(1.7), 1, 1e-14);
 }
 
-TEST(BoxExact, IsWhatSamplingTendsToAsTheSquareRootOfTheVolumeOfItsStep) {
+TEST(BoxExact, IsWhatSamplingTendsToAtFirstOrderOrFaster) {
   // Over random places the template's error has no bias; its root mean square at a plane falls as 1/n or
   // faster
   // (`sphere_template.hpp` has 2.6 % at n = 12 and 1.3 % at 24).

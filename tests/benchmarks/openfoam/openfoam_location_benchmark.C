@@ -35,10 +35,8 @@ static Located search(
     engine.findCell(point(points[0][0], points[0][1], points[0][2]));
     return locate_all(
         name, points, 3,
-        [&](const Eigen::Vector3d& p, const int last)
-        {
-            return engine.findCell(
-                point(p[0], p[1], p[2]), seeded ? last : -1);
+        [&](const Eigen::Vector3d& p, const int last) {
+            return engine.findCell(point(p[0], p[1], p[2]), seeded ? last : -1);
         });
 }
 
@@ -70,9 +68,12 @@ int main(int argc, char* argv[])
             print_comparison(
                 geometry, ours,
                 {search("meshSearch, octree (tetrahedra)", tets, false, points),
-                 search("meshSearch, walk from the last cell", tets, true, points),
-                 search("meshSearch, octree, face planes", planes, false, points),
-                 search("meshSearch, walk, face planes", planes, true, points)});
+                 search(
+                     "meshSearch, walk from the last cell", tets, true, points),
+                 search(
+                     "meshSearch, octree, face planes", planes, false, points),
+                 search(
+                     "meshSearch, walk, face planes", planes, true, points)});
         });
     if (failure)
     {
@@ -80,6 +81,5 @@ int main(int argc, char* argv[])
     }
     return 0;
 }
-
 
 // ************************************************************************* //
