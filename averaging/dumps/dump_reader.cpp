@@ -17,7 +17,8 @@ ParticleRecord parse_dump(std::string_view text, const std::string& name) {
 }
 
 ParticleRecord read_dump(const std::filesystem::path& file) {
-  if (const auto whole = inflate_whole(file)) return parse_dump(whole->view(), file.string());
+  thread_local WholeGzip gzip;
+  if (const auto text = gzip.inflate(file)) return parse_dump(*text, file.string());
   DumpInput input(file);
   TextLines lines = input.lines();
   std::error_code unknown;

@@ -2,6 +2,7 @@
 #include "averaging/dumps/dump_rows.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -26,6 +27,12 @@ const char* pass_blanks(const char* text) {
 const char* pass_word(const char* text) {
   while (!is_blank(*text) && *text != '\n' && *text != '\r') ++text;
   return text;
+}
+
+/// Any finite number, as `as_number` reads it; null when none begins here.
+const char* read_long_number(const char* word, const char* end, double& value) {
+  const auto [stopped, failure] = std::from_chars(word, end, value);
+  return failure == std::errc{} && std::isfinite(value) ? stopped : nullptr;
 }
 
 std::string exact(double value) {
@@ -92,12 +99,14 @@ const char* DumpRows::read_quickly(const char* text, const char* end) {
     text = pass_blanks(text);
     const char* const word = text;
     if (quantity < 0) {
-      text = pass_word(text);
+      text = pass_word(word);
       if (text == word) return nullptr;
     } else if (quantity == quantity_id) {
-      text = QuickNumber::read(text, end, row_.id);
+      text = QuickNumber::read(word, end, row_.id);
     } else {
-      text = QuickNumber::read(text, end, row_.values[static_cast<std::size_t>(quantity)]);
+      double& value = row_.values[static_cast<std::size_t>(quantity)];
+      text = QuickNumber::read(word, end, value);
+      if (text == nullptr) text = read_long_number(word, end, value);
     }
     if (text == nullptr || !(is_blank(*text) || *text == '\n' || *text == '\r')) return nullptr;
   }

@@ -30,8 +30,8 @@ class DumpRows {
     std::array<double, quantities> values{};
   };
 
-  /// Reads a row of easy numbers that begins at `text`; returns the next row, or null when this row must be
-  /// read carefully. `row_` may be overwritten even then.
+  /// Reads a row that begins at `text`; returns the next row, or null when this one must be read carefully.
+  /// `row_` may be overwritten even then.
   const char* read_quickly(const char* text, const char* end);
   void read_quick_rows(ParticleRecord& record);
 

@@ -76,8 +76,8 @@ inline std::recursive_mutex& library_mutex() {
   return mutex;
 }
 
-/// Runs `action` with HDF5 silent and for this thread alone, and turns its Error into an `Exception` that begins
-/// with the file's name.
+/// Runs `action` with HDF5 silent and for this thread alone, and turns its Error into an `Exception` that
+/// begins with the file's name.
 template <typename Exception, typename Action>
 auto naming_file(const std::filesystem::path& path, Action&& action) {
   const std::lock_guard<std::recursive_mutex> alone(library_mutex());

@@ -10,8 +10,8 @@
 namespace millfoam::averaging {
 
 /// A cylinder about the lab's z axis (x = y = 0), or the shell between two radii, cut into equal steps of r,
-/// theta and z. theta goes from +x towards +y, from 0 to 2 pi. A voxel holds its lower faces and not its upper
-/// ones. Along z the cylinder may repeat for ever.
+/// theta and z. theta goes from +x towards +y, from 0 to 2 pi. A voxel holds its lower faces and not its
+/// upper ones. Along z the cylinder may repeat for ever.
 ///
 /// Fields on it are stored in C order [z][theta][r]: the voxel (i, j, k) along r, theta, z is entry
 /// (k*ntheta + j)*nr + i.
@@ -20,8 +20,8 @@ class CylinderGrid {
   /// @param radii  inner, 0 or more, and outer, m
   /// @param ends   lower and upper z, m
   /// @param shape  voxels along r, theta, z
-  /// Throws std::invalid_argument for radii or ends that are not finite or not rising, a negative radius, or a
-  /// shape that is not positive.
+  /// Throws std::invalid_argument for radii or ends that are not finite or not rising, a negative radius, or
+  /// a shape that is not positive.
   CylinderGrid(const std::array<double, 2>& radii, const std::array<double, 2>& ends, const VoxelIndex& shape,
                bool periodic_z = false);
 
@@ -31,7 +31,7 @@ class CylinderGrid {
   bool periodic_z() const { return periodic_z_; }
   const Vector3& spacing() const { return spacing_; }  ///< steps of r, theta, z: m, rad, m
 
-  std::size_t size() const;                             ///< number of voxels
+  std::size_t size() const;                            ///< number of voxels
   double voxel_volume(const VoxelIndex& voxel) const;  ///< m^3
 
   /// Position of a voxel in a field.

@@ -14,9 +14,10 @@ namespace millfoam::averaging {
 /// Finds cells of a mesh whose points do not move, in a time that hardly depends on their number.
 ///
 /// A coarse grid of about as many voxels as there are cells is laid over the mesh; each lists the cells that
-/// meet it. A voxel that is not wholly in one cell or outside is cut into 4^3, or where cells crowd up to 16^3,
-/// fine voxels, which know the cell that they lie in wholly, or that they are outside, or the few cells that
-/// meet them. Most points are answered by the fine voxel, or by one test of the cell that held the last one
+/// meet it. A voxel that is not wholly in one cell or outside is cut into 2^3, or where cells crowd up to
+/// 16^3, fine voxels, which know the cell that they lie in wholly, or that they are outside, or the few cells
+/// that meet them. Most points are answered by the fine voxel, or by one test of the cell that held the last
+/// one
 /// (`hint`).
 class CellLocator : public CellSearch {
  public:
@@ -50,9 +51,10 @@ class CellLocator : public CellSearch {
   int code_at(const Eigen::Array3i& place) const {
     const Voxel& voxel = voxels_[index(place / (1 << deepest))];
     if (voxel.depth == 0) return voxel.first;
-    const Eigen::Array3i fine = (place - place / (1 << deepest) * (1 << deepest)) / (1 << (deepest - voxel.depth));
-    return codes_[static_cast<std::size_t>(voxel.first + (((fine[2] << voxel.depth) + fine[1]) << voxel.depth) +
-                                           fine[0])];
+    const Eigen::Array3i fine =
+        (place - place / (1 << deepest) * (1 << deepest)) / (1 << (deepest - voxel.depth));
+    return codes_[static_cast<std::size_t>(voxel.first +
+                                           (((fine[2] << voxel.depth) + fine[1]) << voxel.depth) + fine[0])];
   }
 
   std::size_t index(const Eigen::Array3i& voxel) const {

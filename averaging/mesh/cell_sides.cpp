@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace millfoam::averaging {
 
@@ -37,6 +39,15 @@ double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 }  // namespace
 
+CellSides::CellSides(const MeshGeometry& geometry, std::vector<int> order) : order_(std::move(order)) {
+  update(geometry);
+}
+
+CellSides::CellSides(const MeshGeometry& geometry) : order_(geometry.cells()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  update(geometry);
+}
+
 void CellSides::update(const MeshGeometry& geometry) {
   origin_ = geometry.box().center();
   const Vector3d reach = geometry.box().max().cwiseAbs().cwiseMax(geometry.box().min().cwiseAbs());
@@ -45,13 +56,14 @@ void CellSides::update(const MeshGeometry& geometry) {
   flat_ = 1e-14 * reach.maxCoeff();
   slabs_.resize(geometry.topology().faces());
   for (std::size_t face = 0; face < slabs_.size(); ++face) measure_face(geometry, face);
-  begin_.assign(1, 0);
-  star_.clear();
+  ranges_.resize(geometry.cells());
+  star_.resize(geometry.cells());
   planes_.clear();
-  for (int cell = 0; at(cell) < geometry.cells(); ++cell) {
+  for (const int cell : order_) {
+    const auto begin = static_cast<int>(planes_.size());
     add_cell(geometry, cell);
-    begin_.push_back(static_cast<int>(planes_.size()));
-    star_.push_back(is_star(geometry, cell) ? 1 : 0);
+    ranges_[at(cell)] = {begin, static_cast<int>(planes_.size())};
+    star_[at(cell)] = is_star(geometry, cell) ? 1 : 0;
   }
 }
 
@@ -117,10 +129,9 @@ CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vect
   const auto [begin, end] = geometry.faces_of(cell);
   for (const int* face = begin; face != end; ++face) {
     const auto number = static_cast<std::size_t>(face - begin);
-    const Planes& planes = planes_[at(begin_[at(cell)]) + number / 4];
+    const Planes& planes = planes_[at(ranges_[at(cell)].begin) + number / 4];
     const auto lane = static_cast<Eigen::Index>(number % 4);
-    const float height =
-        planes.nx[lane] * place.x + planes.ny[lane] * place.y + planes.nz[lane] * place.z;
+    const float height = planes.nx[lane] * place.x + planes.ny[lane] * place.y + planes.nz[lane] * place.z;
     if (height < planes.low[lane]) continue;
     const Side side = side_of_face(geometry, point, cell, *face);
     if (side != Side::inside) return side;
@@ -154,7 +165,7 @@ CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vect
 
 CellSides::Side CellSides::side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const {
   Eigen::Array4f below = Eigen::Array4f::Constant(-1);
-  for (int b = begin_[at(cell)]; b < begin_[at(cell) + 1]; ++b) {
+  for (int b = ranges_[at(cell)].begin; b < ranges_[at(cell)].end; ++b) {
     const Planes& planes = planes_[at(b)];
     const Eigen::Array4f height = planes.nx * middle.x + planes.ny * middle.y + planes.nz * middle.z;
     const Eigen::Array4f reach =
@@ -183,7 +194,8 @@ double CellSides::winding(const MeshGeometry& geometry, const Vector3d& point, i
   return sum / (4 * pi);
 }
 
-int CellSides::settle(const MeshGeometry& geometry, const Vector3d& point, const std::vector<int>& cells) const {
+int CellSides::settle(const MeshGeometry& geometry, const Vector3d& point,
+                      const std::vector<int>& cells) const {
   constexpr double seen_from_outside = 1e-6;
   for (const int cell : cells) {
     const Side side = star_[at(cell)] != 0 ? side_of_star(geometry, point, cell) : Side::unclear;

@@ -14,14 +14,14 @@ namespace millfoam::averaging {
 ///
 /// For each face of a cell, with n the mean normal out of the cell, two planes are kept: n . x = low through
 /// the face's innermost point and n . x = high through the outermost point of the cell. What is beyond one
-/// `high` is outside; what is below every `low` sees all faces from inside and is inside, by the winding number,
-/// of convex and other cells alike. For a convex cell with flat faces low = high. The planes are kept in single
-/// precision, with what that may cost added to the room between them.
+/// `high` is outside; what is below every `low` sees all faces from inside and is inside, by the winding
+/// number, of convex and other cells alike. For a convex cell with flat faces low = high. The planes are kept
+/// in single precision, with what that may cost added to the room between them.
 ///
-/// Where the planes leave it unclear, it is settled by the facets. The ray from the centroid of a cell that is
-/// star-shaped about it leaves the cell once; if that is through a face whose plane left it unclear, the facet
-/// that the ray goes through decides. For other cells, and for points on a facet, the sum of the facets' solid
-/// angles does: 4 pi inside and 0 outside.
+/// Where the planes leave it unclear, it is settled by the facets. The ray from the centroid of a cell that
+/// is star-shaped about it leaves the cell once; if that is through a face whose plane left it unclear, the
+/// facet that the ray goes through decides. For other cells, and for points on a facet, the sum of the
+/// facets' solid angles does: 4 pi inside and 0 outside.
 class CellSides {
  public:
   enum class Side { outside, inside, unclear };
@@ -31,7 +31,11 @@ class CellSides {
     float x, y, z;
   };
 
-  explicit CellSides(const MeshGeometry& geometry) { update(geometry); }
+  /// Of cells whose planes lie in memory in the order of their numbers.
+  explicit CellSides(const MeshGeometry& geometry);
+
+  /// Of cells whose planes lie in memory in a given order of all their numbers.
+  CellSides(const MeshGeometry& geometry, std::vector<int> order);
 
   /// Follows a geometry that has moved.
   void update(const MeshGeometry& geometry);
@@ -43,9 +47,9 @@ class CellSides {
 
   /// By the planes alone.
   Side side(int cell, const Local& point) const {
-    const auto c = static_cast<std::size_t>(cell);
+    const Range range = ranges_[static_cast<std::size_t>(cell)];
     Eigen::Array4f below = Eigen::Array4f::Constant(-1);
-    for (int b = begin_[c]; b < begin_[c + 1]; ++b) {
+    for (int b = range.begin; b < range.end; ++b) {
       const Planes& planes = planes_[static_cast<std::size_t>(b)];
       const Eigen::Array4f height = planes.nx * point.x + planes.ny * point.y + planes.nz * point.z;
       if ((height - planes.high).maxCoeff() > 0) return Side::outside;
@@ -71,6 +75,12 @@ class CellSides {
     Eigen::Array4f high = Eigen::Array4f::Constant(std::numeric_limits<float>::max());
   };
 
+  /// Where a cell's planes are.
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+
   /// A face's mean normal out of its owner and how far its points reach along it, from the origin.
   struct Slab {
     Eigen::Vector3d normal;
@@ -86,11 +96,12 @@ class CellSides {
   double winding(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
 
   Eigen::Vector3d origin_;
-  double slack_ = 0;  ///< by which single precision may be wrong, m
-  double flat_ = 0;   ///< by which a point may be off a facet and still lie on it, m
+  double slack_ = 0;         ///< by which single precision may be wrong, m
+  double flat_ = 0;          ///< by which a point may be off a facet and still lie on it, m
   std::vector<Slab> slabs_;  ///< [faces]
   std::vector<char> star_;   ///< [cells] whether star-shaped about the centroid
-  std::vector<int> begin_;
+  std::vector<int> order_;
+  std::vector<Range> ranges_;  ///< [cells]
   std::vector<Planes> planes_;
 };
 

@@ -11,10 +11,10 @@
 
 namespace millfoam::averaging {
 
-/// Finds cells of a mesh whose points move: a binary tree of boxes, each around the boxes of some cells, split
-/// at the median of the cells' centres along the longest axis. When the mesh has moved the boxes are fitted
-/// anew from the leaves up; only when they have come to overlap much is the tree built anew. A point costs
-/// of the order of log(cells).
+/// Finds cells of a mesh whose points move: a binary tree of boxes, each around the boxes of some cells,
+/// split at the median of the cells' centres along the longest axis. When the mesh has moved the boxes are
+/// fitted anew from the leaves up; only when they have come to overlap much is the tree built anew. A point
+/// costs of the order of log(cells).
 class CellTree : public CellSearch {
  public:
   /// Follows `geometry`, which must outlive the tree.
@@ -32,15 +32,13 @@ class CellTree : public CellSearch {
  private:
   /// In depth-first order: the first child of a node that is not a leaf comes next.
   struct Node {
-    Eigen::Array3f low;   ///< corners from the origin of `sides_`, rounded outwards
+    Eigen::Array3f low;  ///< corners from the origin of `sides_`, rounded outwards
     Eigen::Array3f high;
-    int skip = 0;         ///< the node after all below this one
-    int first = 0;        ///< of a leaf: where its cells begin in `order_`
-    int count = 0;        ///< of a leaf: its number of cells; 0 for others
+    int skip = 0;   ///< the node after all below this one
+    int first = 0;  ///< of a leaf: where its cells begin in `order_`
+    int count = 0;  ///< of a leaf: its number of cells; 0 for others
 
-    bool contains(const Eigen::Array3f& point) const {
-      return (point >= low).all() && (point <= high).all();
-    }
+    bool contains(const Eigen::Array3f& point) const { return (point >= low).all() && (point <= high).all(); }
   };
 
   void build();

@@ -13,8 +13,8 @@
 
 namespace millfoam::averaging {
 
-/// The points of a mesh file over time, linear between the file's times. It keeps the points of two times, and
-/// may be used by several threads.
+/// The points of a mesh file over time, linear between the file's times. It keeps the points of two times,
+/// and may be used by several threads.
 class MeshSeries {
  public:
   /// Throws as MeshReader.
@@ -24,8 +24,8 @@ class MeshSeries {
   double begin() const { return reader_.time0() + reader_.times().front(); }  ///< DEM time, s
   double end() const { return reader_.time0() + reader_.times().back(); }     ///< DEM time, s
 
-  /// Points at a DEM time, s. Throws std::out_of_range, naming the file and the time, outside [begin, end], and
-  /// MeshFileError.
+  /// Points at a DEM time, s. Throws std::out_of_range, naming the file and the time, outside [begin, end],
+  /// and MeshFileError.
   MeshPoints points_at(double time) const;
 
  private:

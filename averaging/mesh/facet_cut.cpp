@@ -21,7 +21,8 @@ double cut_off(double radius, double h, double p, double from, double to) {
   const double d2 = h * h + p * p;
   const double w_from = std::sqrt(d2 + from * from), w_to = std::sqrt(d2 + to * to);
   const double angle = std::atan2(p * (to - from), p * p + from * to);
-  const double bent = std::atan2(p * h * (to * w_from - from * w_to), p * p * w_from * w_to + h * h * from * to);
+  const double bent =
+      std::atan2(p * h * (to * w_from - from * w_to), p * p * w_from * w_to + h * h * from * to);
   const double r2 = radius * radius;
   return r2 * radius * bent - h * (3 * r2 - h * h) / 2 * angle + h * p * (to - from) / 2;
 }
@@ -35,7 +36,8 @@ FacetCut cut_facet(const Facet& facet, const MeshPoints& points, const Vector3d&
   const auto count = static_cast<std::size_t>(facet.corner_count);
   const Vector3d foot = centre + height * facet.normal;
   std::array<Vector3d, 5> corners;
-  for (std::size_t i = 0; i < count; ++i) corners[i] = points[static_cast<std::size_t>(facet.corners[i])] - foot;
+  for (std::size_t i = 0; i < count; ++i)
+    corners[i] = points[static_cast<std::size_t>(facet.corners[i])] - foot;
   // The corners are put into one plane through the foot, so that neighbouring edges see one corner.
   for (std::size_t i = 0; i < count; ++i) corners[i] -= facet.normal.dot(corners[i]) * facet.normal;
   corners[count] = corners[0];

@@ -24,9 +24,10 @@ struct FacetCut {
 ///
 ///     V = [centre in the cell] 4/3 pi R^3  -  sum over the cell's facets of  +- beyond     (+ for its owner)
 ///
-/// and facets that do not meet the sphere need not be looked at. With h the distance of the facet's plane and,
-/// for each edge, p the distance of its line from the foot of the perpendicular from the centre (positive
-/// inside), s the coordinate along the line from the point nearest to the foot, both ends cut to the sphere:
+/// and facets that do not meet the sphere need not be looked at. With h the distance of the facet's plane
+/// and, for each edge, p the distance of its line from the foot of the perpendicular from the centre
+/// (positive inside), s the coordinate along the line from the point nearest to the foot, both ends cut to
+/// the sphere:
 ///
 ///     beyond = [foot in facet] pi/3 (R - h)^2 (2R + h)  -  sum over edges K
 ///     K = 1/3 [ R^3 atan(h s/(p w)) - h (3R^2 - h^2)/2 atan(s/p) + h p s/2 ]   between both ends,
@@ -38,6 +39,7 @@ struct FacetCut {
 ///
 /// Delicate are planes nearer than 1e-6 R and edges nearer than 1e-3 R to the centre: for them the sum of
 /// `sphere_triangle_volume` over the cell's triangles, which is robust everywhere, should be taken.
-FacetCut cut_facet(const Facet& facet, const MeshPoints& points, const Eigen::Vector3d& centre, double radius);
+FacetCut cut_facet(const Facet& facet, const MeshPoints& points, const Eigen::Vector3d& centre,
+                   double radius);
 
 }  // namespace millfoam::averaging

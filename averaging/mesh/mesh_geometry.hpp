@@ -13,8 +13,9 @@ namespace millfoam::averaging {
 /// A flat and convex piece of a face, a triangle or a quadrangle. Both cells of the face have the same
 /// facets, so that between them nothing is counted twice or lost, however warped the face is.
 struct Facet {
-  std::array<int, 4> corners{};  ///< in `MeshGeometry::points`; by the right-hand rule they point out of `owner`
-  int corner_count = 3;          ///< 3 or 4
+  std::array<int, 4>
+      corners{};         ///< in `MeshGeometry::points`; by the right-hand rule they point out of `owner`
+  int corner_count = 3;  ///< 3 or 4
   int owner = 0;
   int neighbour = -1;  ///< -1 on the boundary
 
@@ -33,8 +34,8 @@ struct Facet {
 /// points. Of a quadrangle such a fan encloses the same volume as the bilinear surface through its points.
 class MeshGeometry {
  public:
-  /// `topology` must have passed `check`. Throws std::invalid_argument, naming the cell, when its faces do not
-  /// enclose it or its volume is not positive.
+  /// `topology` must have passed `check`. Throws std::invalid_argument, naming the cell, when its faces do
+  /// not enclose it or its volume is not positive.
   MeshGeometry(MeshTopology topology, const MeshPoints& points);
 
   /// The same mesh with its points at other places. Throws as the constructor.
@@ -45,10 +46,10 @@ class MeshGeometry {
 
   const MeshPoints& points() const { return points_; }  ///< of the mesh, then the middles of fans, m
   const std::vector<Facet>& facets() const { return facets_; }
-  const std::vector<double>& volumes() const { return volumes_; }                 ///< [cells], m^3
-  const std::vector<Eigen::Vector3d>& centres() const { return centres_; }        ///< [cells], centroids, m
-  const std::vector<Eigen::AlignedBox3d>& boxes() const { return boxes_; }        ///< [cells], m
-  const Eigen::AlignedBox3d& box() const { return box_; }                         ///< of the mesh, m
+  const std::vector<double>& volumes() const { return volumes_; }           ///< [cells], m^3
+  const std::vector<Eigen::Vector3d>& centres() const { return centres_; }  ///< [cells], centroids, m
+  const std::vector<Eigen::AlignedBox3d>& boxes() const { return boxes_; }  ///< [cells], m
+  const Eigen::AlignedBox3d& box() const { return box_; }                   ///< of the mesh, m
 
   /// Facets of face f: [first_facet(f), first_facet(f + 1)).
   int first_facet(std::size_t face) const { return face_facets_[face]; }

@@ -76,8 +76,8 @@ class TableTranslation : public Motion {
  public:
   explicit TableTranslation(std::array<TimeTable, 3> path) : path_(std::move(path)) {}
   Isometry3d place(double time) const override {
-    return Isometry3d(Eigen::Translation3d(value_at(path_[0], time), value_at(path_[1], time),
-                                           value_at(path_[2], time)));
+    return Isometry3d(
+        Eigen::Translation3d(value_at(path_[0], time), value_at(path_[1], time), value_at(path_[2], time)));
   }
 
  private:
@@ -136,7 +136,8 @@ std::vector<TimeTable> read_tables(const std::string& path, std::size_t columns)
       tables[c].values.push_back(row[c + 1]);
     }
   }
-  if (tables[0].times.size() < 2) throw std::invalid_argument(path + ": expected two or more lines of numbers");
+  if (tables[0].times.size() < 2)
+    throw std::invalid_argument(path + ": expected two or more lines of numbers");
   return tables;
 }
 

@@ -10,8 +10,8 @@
 
 namespace millfoam::averaging {
 
-/// A mesh whose place is known at every time. It has a frame of its own: a point of the lab is carried into it
-/// to be located. One object serves one thread.
+/// A mesh whose place is known at every time. It has a frame of its own: a point of the lab is carried into
+/// it to be located. One object serves one thread.
 class MovingMesh {
  public:
   virtual ~MovingMesh() = default;
@@ -22,9 +22,9 @@ class MovingMesh {
   /// Brings the mesh to its place at a DEM time, s. Throws std::out_of_range when that is not known.
   virtual void begin_record(double time) = 0;
 
-  virtual const MeshGeometry& geometry() const = 0;             ///< in the mesh's frame
-  virtual const CellSearch& search() const = 0;                 ///< in the mesh's frame
-  virtual const Eigen::Isometry3d& into_mesh() const = 0;       ///< from the lab's frame
+  virtual const MeshGeometry& geometry() const = 0;        ///< in the mesh's frame
+  virtual const CellSearch& search() const = 0;            ///< in the mesh's frame
+  virtual const Eigen::Isometry3d& into_mesh() const = 0;  ///< from the lab's frame
 
  protected:
   MovingMesh() = default;

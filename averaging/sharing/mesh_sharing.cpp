@@ -16,7 +16,8 @@ void check_period(const Eigen::AlignedBox3d& box, double period) {
   const double extent = box.sizes().z();
   if (std::abs(extent - period) <= 1e-6 * extent) return;
   std::ostringstream message;
-  message << "the mesh reaches over " << extent << " m along z, expected exactly one period of " << period << " m";
+  message << "the mesh reaches over " << extent << " m along z, expected exactly one period of " << period
+          << " m";
   throw std::invalid_argument(message.str());
 }
 

@@ -120,8 +120,8 @@ inline TestMesh drum_mesh(double radius, double length, int n, int rings, int la
   std::map<std::pair<long, long>, int> numbers;
   const auto number = [&](const Eigen::Vector2d& p) {
     const double grain = 1e-7 * radius;
-    const auto [entry, is_new] = numbers.try_emplace(
-        {std::lround(p.x() / grain), std::lround(p.y() / grain)}, static_cast<int>(plane.size()));
+    const auto [entry, is_new] = numbers.try_emplace({std::lround(p.x() / grain), std::lround(p.y() / grain)},
+                                                     static_cast<int>(plane.size()));
     if (is_new) plane.push_back(p);
     return entry->second;
   };
@@ -162,8 +162,8 @@ inline TestMesh drum_mesh(double radius, double length, int n, int rings, int la
   for (int k = 0; k < layers; ++k) {
     for (const auto& q : quads) {
       const int b = k * per_layer, t = b + per_layer;
-      cells.push_back(hexahedron(
-          {b + q[0], b + q[1], b + q[2], b + q[3], t + q[0], t + q[1], t + q[2], t + q[3]}));
+      cells.push_back(
+          hexahedron({b + q[0], b + q[1], b + q[2], b + q[3], t + q[0], t + q[1], t + q[2], t + q[3]}));
     }
   }
   return assemble(points, cells, [=](const Eigen::Vector3d& p) -> std::string {
@@ -225,7 +225,8 @@ inline TestMesh warped(TestMesh mesh, double most, unsigned seed = 1) {
   return mesh;
 }
 
-/// The mesh with cells joined: `into[cell]` is the number, from 0, of the joined cell that it becomes a part of.
+/// The mesh with cells joined: `into[cell]` is the number, from 0, of the joined cell that it becomes a part
+/// of.
 inline TestMesh joined(const TestMesh& mesh, const std::vector<int>& into) {
   const MeshTopology& old = mesh.topology;
   std::vector<std::vector<TestFace>> cells(

@@ -29,11 +29,12 @@ def write_cylinder(path, radii, ends, solidity, **options):
     _write(path, grid, solidity, voxel, **options)
 
 
-def write_cells(path, volumes, solidity, *, time0=0.0, **options):
+def write_cells(path, volumes, solidity, *, mesh_time=0.0, motion="rotation speed -20", **options):
     """Solids on the cells of a mesh; volumes: [cell], m^3, solidity: [window][cell]."""
     solidity, volumes = np.asarray(solidity, dtype=float), np.asarray(volumes, dtype=float)
-    grid = {"kind": "cells", "cells": np.int32(len(volumes)), "mesh": "mesh.h5", "motion": "none", "mesh_time": time0}
-    _write(path, grid, solidity, volumes, time0=time0, **options)
+    grid = {"kind": "cells", "cells": np.int32(len(volumes)), "mesh": "mesh.h5", "motion": motion,
+            "mesh_time": mesh_time}
+    _write(path, grid, solidity, volumes, **options)
     with h5py.File(path, "r+") as file:
         _data(file, "grid/volume", volumes, "m3")
 

@@ -92,6 +92,27 @@ class Values(CellsTest):
         self.assertIn("on the mesh's cells", self.assert_runs(self.cells_case(), "millInterFoam").log)
 
 
+class MeshTime(CellsTest):
+    """The mesh must be turned to the time at which the solids begin."""
+
+    warning = "the flow's mesh is not where the solids' was"
+
+    def log(self, **options):
+        # OpenFOAM breaks long lines at will
+        return " ".join(self.assert_runs(self.cells_case(time0=1.5, **options), "millInterFoam").log.split())
+
+    def test_another_one_is_warned_of(self):
+        log = self.log(mesh_time=1.0)
+        self.assertIn(self.warning, log)
+        self.assertIn("millMesh --at-time 1.5", log)
+
+    def test_the_same_gives_no_warning(self):
+        self.assertNotIn(self.warning, self.log(mesh_time=1.5))
+
+    def test_of_a_mesh_at_rest_does_not_matter(self):
+        self.assertNotIn(self.warning, self.log(mesh_time=1.0, motion=""))
+
+
 class Refused(CellsTest):
     def test_interpolation_linear(self):
         self.assert_refused(self.cells_case("interpolation linear;"), "interpolation is linear", "solids.h5",

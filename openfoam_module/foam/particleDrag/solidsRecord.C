@@ -69,6 +69,23 @@ void Foam::solidsRecord::open(const Time& time)
 }
 
 
+void Foam::solidsRecord::checkMeshTime(const MeshCells& cells) const
+{
+    if (!cells.motion.empty() &&
+        mag(cells.time - reader_->time0()) > reader_->timestep())
+    {
+        WarningInFunction
+            << file_ << ": the mesh " << cells.file.c_str()
+            << " holds for DEM time " << scalar(cells.time)
+            << " s but the solids begin at " << reader_->time0()
+            << " s, which is flow time 0: the flow's mesh is not where the"
+            << " solids' was. Make the mesh with millMesh --at-time "
+            << reader_->time0() << " or average from --start "
+            << scalar(cells.time) << endl;
+    }
+}
+
+
 void Foam::solidsRecord::readInterpolation()
 {
     using millfoam::averaging::Interpolation;
@@ -124,6 +141,7 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
     if (const auto* cells = std::get_if<MeshCells>(&reader_->grid()))
     {
         cells_.reset(new solidsCells(dict, file_, mesh, *cells));
+        checkMeshTime(*cells);
     }
     readInterpolation();
 }

@@ -35,8 +35,8 @@ struct Searches {
   }
 };
 
-/// How often a ray from the point crosses the facets of a cell: odd inside. It knows nothing of planes with room
-/// between them, grids or solid angles.
+/// How often a ray from the point crosses the facets of a cell: odd inside. It knows nothing of planes with
+/// room between them, grids or solid angles.
 bool is_inside_by_ray(const MeshGeometry& geometry, int cell, const Vector3d& point) {
   const Vector3d along(0.36, 0.48, 0.8);
   int crossings = 0;
@@ -45,7 +45,8 @@ bool is_inside_by_ray(const MeshGeometry& geometry, int cell, const Vector3d& po
     const Facet& facet = geometry.facets()[static_cast<std::size_t>(*f)];
     for (int i = 2; i < facet.corner_count; ++i) {
       const auto corner = [&](int c) -> Vector3d {
-        return geometry.points()[static_cast<std::size_t>(facet.corners[static_cast<std::size_t>(c)])] - point;
+        return geometry.points()[static_cast<std::size_t>(facet.corners[static_cast<std::size_t>(c)])] -
+               point;
       };
       const Vector3d a = corner(0), b = corner(i - 1), c = corner(i);
       const bool left = along.dot(a.cross(b)) > 0;
@@ -182,8 +183,9 @@ TEST(CellSearch, GivesCommonPointsOfBoxesToTheLowestCell) {
 TEST(CellSearch, FindsNothingOutsideOrForWhatIsNotANumber) {
   const Searches searches(drum_mesh(0.06, 0.024, 4, 2, 3));
   const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
-  for (const Vector3d& point : {Vector3d(0.0599, 0.01, 0.01), Vector3d(0, 0, -1e-6), Vector3d(0, 0, 0.0240001),
-                                Vector3d(1e300, 0, 0), Vector3d(none, 0, 0), Vector3d(0, far, 0.01)}) {
+  for (const Vector3d& point :
+       {Vector3d(0.0599, 0.01, 0.01), Vector3d(0, 0, -1e-6), Vector3d(0, 0, 0.0240001), Vector3d(1e300, 0, 0),
+        Vector3d(none, 0, 0), Vector3d(0, far, 0.01)}) {
     EXPECT_EQ(searches.locate(point), -1) << point.transpose();
   }
 }

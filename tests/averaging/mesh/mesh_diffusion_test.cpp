@@ -64,7 +64,8 @@ TEST(MeshDiffusion, SpreadsAPointToTheVarianceOfItsKernel) {
     square += totals[c] * offset.cwiseAbs2();
   }
   EXPECT_LT(mean.norm(), 1e-12);
-  // Implicit Euler's clouds decay as exp(-4 r/b): 8 widths away some 1e-13 is left to be turned back by the wall.
+  // Implicit Euler's clouds decay as exp(-4 r/b): 8 widths away some 1e-13 is left to be turned back by the
+  // wall.
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(square[axis], width * width / 2, 1e-7 * width * width);
   }
@@ -139,7 +140,8 @@ TEST(MeshDiffusion, MixesVelocitiesWithinTheirRangeHoweverLittleComes) {
 
 TEST(MeshDiffusion, RefusesWhatItCannotDo) {
   const MeshGeometry box = geometry_of(box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 2}));
-  expect_named(message_of<std::invalid_argument>([&] { MeshDiffusion(box, 0); }), {"width", "0.0", "above 0"});
+  expect_named(message_of<std::invalid_argument>([&] { MeshDiffusion(box, 0); }),
+               {"width", "0.0", "above 0"});
   expect_named(message_of<std::invalid_argument>([&] { MeshDiffusion(box, 0.1, 0.7); }),
                {"period is 0.7 m", "1 m"});
 }

@@ -36,11 +36,13 @@ TEST(Motion, RotationLeavesItsAxisWhereItIs) {
 }
 
 TEST(Motion, TranslationGoesItsVelocityTimesTheTime) {
-  expect_near(parse_motion({"translation velocity 1 -2 0.5"})->place(2) * Vector3d(1, 1, 1), Vector3d(3, -3, 2));
+  expect_near(parse_motion({"translation velocity 1 -2 0.5"})->place(2) * Vector3d(1, 1, 1),
+              Vector3d(3, -3, 2));
 }
 
 TEST(Motion, TheFirstOfSeveralIsAppliedFirst) {
-  const std::string quarter = "rotation speed " + std::to_string(pi / 2), shift = "translation velocity 1 0 0";
+  const std::string quarter = "rotation speed " + std::to_string(pi / 2),
+                    shift = "translation velocity 1 0 0";
   EXPECT_LT((parse_motion({quarter, shift})->place(1) * Vector3d(1, 0, 0) - Vector3d(1, 1, 0)).norm(), 1e-6);
   EXPECT_LT((parse_motion({shift, quarter})->place(1) * Vector3d(1, 0, 0) - Vector3d(0, 2, 0)).norm(), 1e-6);
 }

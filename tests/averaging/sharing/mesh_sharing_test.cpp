@@ -38,16 +38,17 @@ TestMesh warped_drum() {
 
 template <typename Sharing>
 Sharing at_rest(const TestMesh& mesh, int points = 12, std::optional<double> period = std::nullopt) {
-  Sharing sharing(std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points), parse_motion({}), 0.0), points,
-                  period);
+  Sharing sharing(std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points), parse_motion({}), 0.0),
+                  points, period);
   sharing.begin_record(0);
   return sharing;
 }
 
 template <typename Sharing>
-Sharing turning(const TestMesh& mesh, const std::vector<std::string>& motion, double reference_time, double time) {
-  Sharing sharing(std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points), parse_motion(motion),
-                                              reference_time));
+Sharing turning(const TestMesh& mesh, const std::vector<std::string>& motion, double reference_time,
+                double time) {
+  Sharing sharing(
+      std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points), parse_motion(motion), reference_time));
   sharing.begin_record(time);
   return sharing;
 }
@@ -111,9 +112,10 @@ TEST_P(MeshExactOn, BallsOnFacesEdgesAndCornersSharesTheirVolume) {
     };
     const double u = part(random), v = (1 - u) * part(random);
     const Vector3d on_edge = corner(0) + u * (corner(1) - corner(0));
-    for (const Vector3d& centre :
-         {corner(0), on_edge, Vector3d(on_edge + v * (corner(2) - corner(0))), Vector3d(on_edge + 1e-12 * on_edge)}) {
-      const double wall = std::min({0.97 * radius - centre.head<2>().norm(), centre.z(), length - centre.z()});
+    for (const Vector3d& centre : {corner(0), on_edge, Vector3d(on_edge + v * (corner(2) - corner(0))),
+                                   Vector3d(on_edge + 1e-12 * on_edge)}) {
+      const double wall =
+          std::min({0.97 * radius - centre.head<2>().norm(), centre.z(), length - centre.z()});
       for (const double r : {1e-8, 1e-4, 0.002, 0.006, 0.011}) {
         if (r < wall) expect_whole(sharing, ball_at(centre, r));
       }
@@ -190,7 +192,8 @@ TEST(MeshExact, OutsideTheMeshLiesWhatAFlatEndCutsOff) {
   MeshExact sharing = at_rest<MeshExact>(drum());
   for (const double z : {0.001, -0.001}) {
     const double r = 0.002, above = r + z;
-    EXPECT_NEAR(sum(shared(sharing, ball_at({0.01, 0.02, z}, r))), pi * above * above * (3 * r - above) / 3, 1e-20);
+    EXPECT_NEAR(sum(shared(sharing, ball_at({0.01, 0.02, z}, r))), pi * above * above * (3 * r - above) / 3,
+                1e-20);
   }
   EXPECT_EQ(sum(shared(sharing, ball_at({0.1, 0, 0.01}, 0.002))), 0);
 }
@@ -226,7 +229,8 @@ using Both = ::testing::Types<MeshExact, MeshSampling>;
 TYPED_TEST_SUITE(MeshSharingBy, Both);
 
 TYPED_TEST(MeshSharingBy, AveragesInTheTurnedFrameAsTheTurnedBallsInTheFixedOne) {
-  const std::vector<std::string> motion{"rotation speed -7 origin 0.01 0 0", "translation velocity 0.1 0.2 0"};
+  const std::vector<std::string> motion{"rotation speed -7 origin 0.01 0 0",
+                                        "translation velocity 0.1 0.2 0"};
   const double time = 0.31, reference = 0.12;
   TypeParam moving = turning<TypeParam>(warped_drum(), motion, reference, time);
   TypeParam fixed = at_rest<TypeParam>(warped_drum());
@@ -307,11 +311,12 @@ TEST(MeshSampling, ConvergesToTheExactShares) {
     MeshSampling sampling = at_rest<MeshSampling>(warped_drum(), level == 0 ? 8 : 32);
     for (const Particle& ball : balls) {
       const std::vector<double> a = shared(exact, ball), b = shared(sampling, ball);
-      for (std::size_t c = 0; c < a.size(); ++c) error[level] += std::abs(a[c] - b[c]) / sphere_volume(ball.radius);
+      for (std::size_t c = 0; c < a.size(); ++c)
+        error[level] += std::abs(a[c] - b[c]) / sphere_volume(ball.radius);
     }
   }
-  // Points that a face of random lean tells apart err as the lattice's spacing at worst, and to its power 2 on
-  // average over many: four times as many along a diameter give 1/4 to 1/16.
+  // Points that a face of random lean tells apart err as the lattice's spacing at worst, and to its power 2
+  // on average over many: four times as many along a diameter give 1/4 to 1/16.
   EXPECT_LT(error[1], error[0] / 4);
   EXPECT_GT(error[1], error[0] / 64);
 }
