@@ -72,8 +72,9 @@ def plot_maps(flow, solids, begin, out):
     xs, ys = (solids.x[1:] + solids.x[:-1]) / 2, (solids.y[1:] + solids.y[:-1]) / 2
     edges = np.linspace(-1e3 * flow.radius, 1e3 * flow.radius, PIXELS + 1)
     masked_speed = np.where(solids.solidity > 0.005, ball_speed, np.nan)
+    charge = np.where(solids.inside > 0.01, solids.solidity, np.nan)
     panels = [
-        (1e3 * solids.x, 1e3 * solids.y, solids.solidity, SOLIDITY, (0, 0.65), "charge: solidity, –"),
+        (1e3 * solids.x, 1e3 * solids.y, charge, SOLIDITY, (0, 0.65), "charge: solidity, –"),
         (1e3 * solids.x, 1e3 * solids.y, masked_speed, SPEED, (0, top), "charge: speed, m/s"),
         (edges, edges, share, SLURRY, (0, 1), "slurry: share of the volume, –"),
         (edges, edges, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),

@@ -10,10 +10,12 @@ import numpy as np
 class SolidsMap:
     """Charge averaged over the axis and over windows, on the box's x-y voxels.
 
-    x, y: voxel edges [nx + 1], [ny + 1] (m); solidity [ny, nx]; velocity [ny, nx, 3] (m/s), NaN where there are no
-    balls; begin, end: DEM time covered (s)."""
+    x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill's walls (1 where
+    they were not told); solidity [ny, nx], of that share; velocity [ny, nx, 3] (m/s), NaN where there are no balls;
+    begin, end: DEM time covered (s)."""
     x: np.ndarray
     y: np.ndarray
+    inside: np.ndarray
     solidity: np.ndarray
     velocity: np.ndarray
     begin: float
@@ -22,8 +24,8 @@ class SolidsMap:
     def centroid(self):
         """Centre (x, y) of the balls' volume, m."""
         x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
-        total = self.solidity.sum()
-        return float((self.solidity.sum(axis=0) * x).sum() / total), float((self.solidity.sum(axis=1) * y).sum() / total)
+        balls = self.solidity * self.inside
+        return float((balls.sum(axis=0) * x).sum() / balls.sum()), float((balls.sum(axis=1) * y).sum() / balls.sum())
 
 
 def read_map(path, begin=-np.inf, end=np.inf):
@@ -38,12 +40,15 @@ def read_map(path, begin=-np.inf, end=np.inf):
         chosen = np.flatnonzero((ends > begin + tolerance) & (begins < end - tolerance))
         if len(chosen) == 0:
             raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
-        solidity, flux = 0.0, 0.0
+        inside, balls, flux = 0.0, 0.0, 0.0
         for window in chosen:
             phi = file["solidity"][window]
-            solidity = solidity + phi.mean(axis=0)
-            flux = flux + (phi[..., None] * file["velocity"][window]).mean(axis=0)
+            room = file["grid/insideFraction"][window] if "insideFraction" in file["grid"] else np.ones_like(phi)
+            inside = inside + room.mean(axis=0) / len(chosen)
+            balls = balls + (room * phi).mean(axis=0) / len(chosen)
+            flux = flux + ((room * phi)[..., None] * file["velocity"][window]).mean(axis=0) / len(chosen)
     with np.errstate(invalid="ignore", divide="ignore"):
-        velocity = np.where(solidity[..., None] > 1e-6, flux / solidity[..., None], np.nan)
+        velocity = np.where(balls[..., None] > 1e-6, flux / balls[..., None], np.nan)
+        solidity = np.where(inside > 0, balls / inside, 0.0)
     edges = [np.linspace(lower[axis], upper[axis], int(shape[axis]) + 1) for axis in (0, 1)]
-    return SolidsMap(*edges, solidity / len(chosen), velocity, float(begins[chosen[0]]), float(ends[chosen[-1]]))
+    return SolidsMap(*edges, inside, solidity, velocity, float(begins[chosen[0]]), float(ends[chosen[-1]]))

@@ -46,7 +46,8 @@ class MillRun(unittest.TestCase):
         run(charge, "millDem", "mill.yaml", "--case", ".")
         length = foam.read_dictionary(charge / "constant" / "millProperties")["length"]
         run(charge, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.066, -0.066, 0, 0.066, 0.066, length,
-            "--shape", 12, 12, 2, "--start", START, "--window", 0.05, "--periodic", "z", "-o", "solids.h5")
+            "--shape", 12, 12, 2, "--periodic", "z", "--inside", "walls/*.stl", "--start", START, "--window", 0.05,
+            "-o", "solids.h5")
         shutil.copytree(charge / "0.orig", charge / "0")
         run(charge, "setAlphaField")
         cls.flows = {name: cls.flow(charge, name, multiplier) for name, multiplier in DRAGS.items()}
