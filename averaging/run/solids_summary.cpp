@@ -77,14 +77,14 @@ std::string advice(const WindowSummary& all, double smoothing) {
   if (per_volume < fewest_balls) {
     text += formatted(
         "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: take cells of "
-        "%.2g "
-        "m or more, or on a mesh --smooth %.2g\n",
+        "%.2g m "
+        "or more (on a mesh: --smooth %.2g)\n",
         per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
   } else if (per_volume > most_balls) {
     text += formatted(
         "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: cells down to "
-        "%.2g m, "
-        "or on a mesh --smooth down to %.2g, would show more\n",
+        "%.2g m "
+        "(on a mesh: --smooth %.2g) would show more\n",
         per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
   }
   if (all.small_cells > 0 && smoothing == 0) {
