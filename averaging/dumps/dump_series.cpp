@@ -69,7 +69,9 @@ std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder) {
   notes.file = folder / "run.txt";
   std::ifstream input(notes.file);
   if (!input) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+  std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
+  // Written by hand, it may lack its last line end.
+  text += '\n';
   TextLines lines(text, notes.file.string());
   for (auto line = lines.next(); line; line = lines.next()) {
     const std::string_view key = take_word(*line);

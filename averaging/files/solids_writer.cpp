@@ -109,9 +109,6 @@ struct SolidsWriter::Open {
 
 SolidsWriter::SolidsWriter(const std::filesystem::path& path, const Grid& grid, const SolidsHeader& header)
     : path_(path), part_(path.string() + ".part"), cells_(cell_count(grid)) {
-  // Where a full disk kept a file from being flushed, HDF5 1.10's handler at exit crashes on what is left of
-  // it. All that is opened here is closed by its handle, so that the handler has no work.
-  H5dont_atexit();
   hdf5::naming_file<SolidsFileError>(part_, [&] { open_ = std::make_unique<Open>(part_, grid, header); });
 }
 

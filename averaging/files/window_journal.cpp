@@ -6,7 +6,7 @@
 #include <zlib.h>
 
 #include <cerrno>
-#include <cstring>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -45,7 +45,20 @@ std::vector<double> pack(const WindowAverage& window, bool inside_fractions) {
   return numbers;
 }
 
-WindowAverage unpack(const std::vector<double>& numbers, std::size_t cells, bool inside_fractions) {
+/// Bytes of a row with its checksum.
+std::size_t row_size(std::size_t cells, bool inside_fractions) {
+  constexpr std::size_t numbers_per_cell = 12;
+  return sizeof(double) * (single_numbers + cells * (numbers_per_cell + (inside_fractions ? 1 : 0)) + 1);
+}
+
+/// Where a row begins: behind the run's id and the rows before.
+std::size_t place(std::size_t row, std::size_t row_bytes) {
+  return sizeof(std::size_t) + row * row_bytes;
+}
+
+WindowAverage unpack(const std::vector<double>& numbers, bool inside_fractions) {
+  const std::size_t per_cell = inside_fractions ? 13 : 12;
+  const std::size_t cells = (numbers.size() - single_numbers) / per_cell;
   WindowAverage window;
   window.time.records = static_cast<long long>(numbers[0]);
   window.time.starts_late = numbers[1] != 0;
@@ -73,16 +86,25 @@ SolidsFileError failure(const std::filesystem::path& path, const char* action) {
 
 }  // namespace
 
-WindowJournal::WindowJournal(const std::filesystem::path& path, std::size_t cells, bool inside_fractions,
-                             std::size_t rows)
-    : path_(path), cells_(cells), inside_fractions_(inside_fractions) {
-  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+bool WindowJournal::holds(const std::filesystem::path& path, std::size_t id, std::size_t cells,
+                          bool inside_fractions, std::size_t rows) {
+  std::ifstream input(path, std::ios::binary);
+  std::size_t found = 0;
+  if (!input.read(reinterpret_cast<char*>(&found), sizeof found) || found != id) return false;
+  input.seekg(0, std::ios::end);
+  return static_cast<std::size_t>(input.tellg()) >= place(rows, row_size(cells, inside_fractions));
+}
+
+WindowJournal::WindowJournal(const std::filesystem::path& path, std::size_t id, std::size_t cells,
+                             bool inside_fractions, std::size_t rows)
+    : path_(path), inside_fractions_(inside_fractions), row_bytes_(row_size(cells, inside_fractions)) {
+  const int begin_anew = rows == 0 ? O_TRUNC : 0;
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | begin_anew, 0666);
   if (file_ < 0) throw failure(path_, "create the file (is the folder there and writable?)");
-  const auto kept = static_cast<off_t>(rows * row_bytes());
-  if (lseek(file_, 0, SEEK_END) < kept) {
-    throw SolidsFileError(path_.string() + ": holds fewer than " + std::to_string(rows) + " windows");
+  if (rows == 0) write_all(&id, sizeof id);
+  if (ftruncate(file_, static_cast<off_t>(place(rows, row_bytes_))) != 0 || lseek(file_, 0, SEEK_END) < 0) {
+    throw failure(path_, "shorten the file");
   }
-  if (ftruncate(file_, kept) != 0 || lseek(file_, 0, SEEK_END) < 0) throw failure(path_, "shorten the file");
   rows_ = rows;
 }
 
@@ -92,31 +114,29 @@ WindowJournal::~WindowJournal() {
 
 WindowJournal::WindowJournal(WindowJournal&& other) noexcept
     : path_(std::move(other.path_)),
-      cells_(other.cells_),
       inside_fractions_(other.inside_fractions_),
+      row_bytes_(other.row_bytes_),
       file_(std::exchange(other.file_, -1)),
       rows_(other.rows_) {}
 
-std::size_t WindowJournal::row_bytes() const {
-  constexpr std::size_t numbers_per_cell = 12;
-  return sizeof(double) *
-         (single_numbers + cells_ * (numbers_per_cell + (inside_fractions_ ? 1 : 0)) + 1 /* checksum */);
+void WindowJournal::write_all(const void* data, std::size_t size) {
+  const char* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(file_, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw failure(path_, "write (is the disk full?)");
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
 }
 
 void WindowJournal::append(const WindowAverage& window) {
   std::vector<double> numbers = pack(window, inside_fractions_);
   numbers.push_back(checksum(numbers));
-  if (numbers.size() * sizeof(double) != row_bytes()) {
+  if (numbers.size() * sizeof(double) != row_bytes_) {
     throw SolidsFileError(path_.string() + ": a window of another number of cells");
   }
-  const char* bytes = reinterpret_cast<const char*>(numbers.data());
-  for (std::size_t left = row_bytes(); left > 0;) {
-    const ssize_t written = write(file_, bytes, left);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw failure(path_, "write (is the disk full?)");
-    bytes += written;
-    left -= static_cast<std::size_t>(written);
-  }
+  write_all(numbers.data(), row_bytes_);
   ++rows_;
 }
 
@@ -125,15 +145,15 @@ void WindowJournal::sync() {
 }
 
 WindowAverage WindowJournal::read(std::size_t row) const {
-  std::vector<double> numbers(row_bytes() / sizeof(double));
-  const auto got = pread(file_, numbers.data(), row_bytes(), static_cast<off_t>(row * row_bytes()));
+  std::vector<double> numbers(row_bytes_ / sizeof(double));
+  const auto got = pread(file_, numbers.data(), row_bytes_, static_cast<off_t>(place(row, row_bytes_)));
   const double expected = numbers.back();
   numbers.pop_back();
-  if (got != static_cast<ssize_t>(row_bytes()) || checksum(numbers) != expected) {
+  if (got != static_cast<ssize_t>(row_bytes_) || checksum(numbers) != expected) {
     throw SolidsFileError(path_.string() + ": window " + std::to_string(row) +
-                          " is damaged; remove the file");
+                          " is damaged; remove the file and average again");
   }
-  return unpack(numbers, cells_, inside_fractions_);
+  return unpack(numbers, inside_fractions_);
 }
 
 }  // namespace millfoam::averaging

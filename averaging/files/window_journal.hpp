@@ -10,12 +10,17 @@ namespace millfoam::averaging {
 
 /// Finished windows on their way to a solids file: a plain file to which rows are only ever appended, each
 /// with its own checksum. Unlike an HDF5 file it stays readable whenever the program that writes it is
-/// killed; rows that were cut are dropped when it is opened again. All members throw SolidsFileError.
+/// killed. All members throw SolidsFileError.
 class WindowJournal {
  public:
-  /// Opens a journal for windows of `cells` cells, keeping up to `rows` whole rows that are there; the file
-  /// is made when it is not there. Throws when fewer than `rows` whole rows are there.
-  WindowJournal(const std::filesystem::path& path, std::size_t cells, bool inside_fractions,
+  /// Whether a journal of the run `id` is there with at least `rows` rows for windows of `cells` cells.
+  static bool holds(const std::filesystem::path& path, std::size_t id, std::size_t cells,
+                    bool inside_fractions, std::size_t rows);
+
+  /// Opens a journal, keeping its first `rows` rows and dropping others. With no rows a new one is begun,
+  /// whatever was there; with some, it must hold them (`holds`).
+  /// @param id  of the run, so that no other run's windows are taken for its own
+  WindowJournal(const std::filesystem::path& path, std::size_t id, std::size_t cells, bool inside_fractions,
                 std::size_t rows);
   ~WindowJournal();
   WindowJournal(WindowJournal&& other) noexcept;
@@ -35,11 +40,11 @@ class WindowJournal {
   WindowAverage read(std::size_t row) const;
 
  private:
-  std::size_t row_bytes() const;
+  void write_all(const void* data, std::size_t size);
 
   std::filesystem::path path_;
-  std::size_t cells_;
   bool inside_fractions_;
+  std::size_t row_bytes_;
   int file_ = -1;
   std::size_t rows_ = 0;
 };

@@ -133,7 +133,8 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   const SolidsReader solids(solids_file);
   const std::string file = escaped(solids_file.filename().string());
   const auto [points, topology] = geometry_sizes(solids_file, solids.grid());
-  std::ofstream out(path);
+  const std::filesystem::path part = path.string() + ".part";
+  std::ofstream out(part);
   out.precision(17);
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
       << "    <Grid Name=\"solids\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -153,7 +154,13 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   }
   out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
   out.close();
-  if (!out) throw SolidsFileError(path.string() + ": cannot write this file");
+  std::error_code failed;
+  if (out) std::filesystem::rename(part, path, failed);
+  if (!out || failed) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    throw SolidsFileError(path.string() + ": cannot write this file (is the disk full?)");
+  }
   return path;
 }
 

@@ -11,6 +11,7 @@ namespace millfoam::averaging {
 MeshSeries::MeshSeries(const std::filesystem::path& path) : path_(path), reader_(path) {}
 
 MeshSeries::Shared MeshSeries::read(std::size_t number) const {
+  const std::lock_guard lock(mutex_);
   for (const auto& [known, points] : kept_) {
     if (points && known == number) return points;
   }
@@ -30,7 +31,6 @@ MeshPoints MeshSeries::points_at(double time) const {
             << begin() << " to " << end() << " s";
     throw std::out_of_range(message.str());
   }
-  const std::lock_guard lock(mutex_);
   const auto above = std::upper_bound(times.begin(), times.end(), flow_time);
   const auto next = static_cast<std::size_t>(above - times.begin());
   if (next == 0) return *read(0);

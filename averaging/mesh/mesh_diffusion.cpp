@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,9 @@ namespace {
 /// Largest part of a cell's total that may leave it in a step. Below 1 nothing becomes negative; about half
 /// also leaves no pattern of the steps behind.
 constexpr double largest_part = 0.6;
+
+/// Above, smoothing a record takes longer than anyone wants to wait.
+constexpr double most_steps = 1e5;
 
 /// Of the sums over a record's particles.
 constexpr std::size_t usual_components = 8;
@@ -79,7 +83,16 @@ MeshDiffusion::MeshDiffusion(const MeshGeometry& mesh, double width, std::option
   }
   const double duration = width * width / 4;
   const double fastest = *std::max_element(rate.begin(), rate.end());
-  steps_ = std::max(1, static_cast<int>(std::ceil(duration * fastest / largest_part)));
+  const double steps = std::max(1.0, std::ceil(duration * fastest / largest_part));
+  if (steps > most_steps) {
+    const auto cell = std::max_element(rate.begin(), rate.end()) - rate.begin();
+    std::ostringstream message;
+    message << "smoothing over " << width << " m takes " << steps << " steps because of the small cell "
+            << cell << "; expected at most " << most_steps
+            << ": take a smaller width or a mesh without such cells";
+    throw std::invalid_argument(message.str());
+  }
+  steps_ = static_cast<int>(steps);
   const double step = duration / steps_;
 
   for (std::size_t c = 0; c < mesh.cells(); ++c) {

@@ -138,9 +138,6 @@ struct MeshWriter::Open {
 
 MeshWriter::MeshWriter(const std::filesystem::path& path, const MeshTopology& topology, double time0)
     : path_(path), part_(path.string() + ".part") {
-  // Where a full disk kept a file from being flushed, HDF5 1.10's handler at exit crashes on what is left of
-  // it. All that is opened here is closed by its handle, so that the handler has no work.
-  H5dont_atexit();
   hdf5::naming_file<MeshFileError>(part_, [&] {
     check_topology(topology);
     if (!std::isfinite(time0)) throw hdf5::Error("time0 is not a finite number");

@@ -3,12 +3,16 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <utility>
 
+#include "averaging/dumps/dump_reader.hpp"
 #include "averaging/dumps/dump_series.hpp"
 #include "averaging/files/xdmf.hpp"
+#include "averaging/overlap/superquadric.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/checkpoint.hpp"
 #include "averaging/run/record_worker.hpp"
@@ -19,8 +23,15 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Records in a block, at most: enough for merging to cost little beside the records themselves.
-constexpr std::size_t block_records = 16;
+/// Records in a block: as many as let merging cost little beside the records themselves, but few enough to
+/// give work to many threads and ranks. Of the run alone, so that the result does not depend on these.
+std::size_t block_size(const std::vector<WindowPlan>& plans) {
+  std::size_t records = 0;
+  for (const WindowPlan& plan : plans) {
+    for (const WindowSpan& span : plan.windows) records = std::max(records, span.first_record + span.records);
+  }
+  return std::clamp<std::size_t>(records / 64, 1, 16);
+}
 
 /// The dumps of a run and how they are cut.
 struct Job {
@@ -30,12 +41,24 @@ struct Job {
   std::vector<RecordBlock> blocks;
 };
 
+/// sum d^3 / sum d^2; 0 of no balls.
+double sauter_diameter(const ParticleRecord& record) {
+  double volume = 0, area = 0;
+  for (std::size_t p = 0; p < record.particles.size(); ++p) {
+    const double d =
+        record.shapes.empty() ? 2 * record.particles[p].radius : volume_equivalent_diameter(record.shapes[p]);
+    volume += d * d * d;
+    area += d * d;
+  }
+  return area > 0 ? volume / area : 0;
+}
+
 Job prepare(const AverageRequest& request, const AverageProgress& progress) {
   Job job;
   job.dumps = find_dumps(request.dumps);
   const std::optional<RunNotes> notes = read_run_notes(job.dumps.front().path.parent_path());
-  job.settings = {agreed_timestep(request.timestep, notes),
-                  agreed_angular_velocity(request.angular_velocity, notes)};
+  job.settings.timestep = agreed_timestep(request.timestep, notes);
+  job.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, notes);
   std::vector<long long> steps;
   for (const DumpFile& dump : job.dumps) steps.push_back(dump.step);
   for (const WindowsRequest& windows : request.windows) {
@@ -43,7 +66,9 @@ Job prepare(const AverageRequest& request, const AverageProgress& progress) {
                                              windows.length, request.start, request.end}));
     for (const std::string& sentence : job.plans.back().notes) progress.note(sentence);
   }
-  job.blocks = plan_blocks(job.plans, block_records);
+  job.settings.sauter_diameter =
+      sauter_diameter(read_dump(job.dumps[job.plans[0].windows[0].first_record].path));
+  job.blocks = plan_blocks(job.plans, block_size(job.plans));
   return job;
 }
 
@@ -57,16 +82,15 @@ class Collector {
         job_(job),
         setup_(setup),
         resume_(request.windows.front().output.string() + ".resume"),
-        signature_(signature(request, job.settings, job.dumps)) {
+        signature_(signature(request, job.settings, job.plans, job.dumps)) {
     const std::size_t cells = cell_count(setup.grid);
-    std::optional<Checkpoint> earlier = read_checkpoint(resume_);
-    if (earlier && earlier->signature != signature_) {
-      progress.note("an unfinished run was of other dumps or settings: starting afresh");
-      earlier.reset();
-    }
+    const std::size_t id = std::hash<std::string>()(signature_);
+    const std::optional<Checkpoint> earlier = usable_checkpoint(id, cells);
+    // Journals are begun anew only when no note of an earlier run can lead to them.
+    if (!earlier) std::filesystem::remove(resume_);
     for (std::size_t s = 0; s < job.plans.size(); ++s) {
       series_.emplace_back(request.windows[s].output, job.plans[s], job.settings.timestep, setup.room, cells,
-                           earlier ? earlier->rows[s] : 0);
+                           id, earlier ? earlier->rows[s] : 0);
       if (earlier) series_.back().restore(earlier->open[s]);
     }
     if (earlier) next_block_ = earlier->next_block;
@@ -106,12 +130,31 @@ class Collector {
       });
       summaries.push_back(std::move(summary));
     }
-    for (const WindowSeries& series : series_) series.forget();
+    // First the note, so that a kill in between leaves none without its journals.
     std::filesystem::remove(resume_);
+    for (const WindowSeries& series : series_) series.forget();
     return summaries;
   }
 
  private:
+  /// How far an earlier run of the same dumps and settings has come, if its windows are all there.
+  std::optional<Checkpoint> usable_checkpoint(std::size_t id, std::size_t cells) const {
+    std::optional<Checkpoint> earlier = read_checkpoint(resume_);
+    if (!earlier) return std::nullopt;
+    if (earlier->signature != signature_) {
+      progress_.note("an unfinished run was of other dumps or settings: starting afresh");
+      return std::nullopt;
+    }
+    for (std::size_t s = 0; s < earlier->rows.size(); ++s) {
+      const std::filesystem::path journal = WindowSeries::journal_path(request_.windows[s].output);
+      if (WindowJournal::holds(journal, id, cells, !setup_.room.volumes.empty(), earlier->rows[s])) continue;
+      progress_.note("the finished windows in " + journal.string() +
+                     " are not those of the unfinished run: starting afresh");
+      return std::nullopt;
+    }
+    return earlier;
+  }
+
   void save() {
     Checkpoint checkpoint{signature_, next_block_, {}, {}};
     for (WindowSeries& series : series_) {
@@ -152,7 +195,11 @@ class Collector {
 class BlockLoop {
  public:
   BlockLoop(const Job& job, const CellSetup& setup, Team& team, int threads)
-      : job_(job), setup_(setup), team_(team), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+      : job_(job),
+        setup_(setup),
+        team_(team),
+        threads_(threads > 0 ? threads : omp_get_max_threads()),
+        run_length_(static_cast<std::size_t>(team.from_first(threads_))) {}
 
   /// @param collect  called on rank 0 with the moments of each block from `first` on, in order
   /// Throws what reading, averaging or `collect` threw first.
@@ -174,8 +221,9 @@ class BlockLoop {
   }
 
  private:
+  /// Ranks take turns with as many blocks as they have threads.
   int owner(std::size_t block) const {
-    return static_cast<int>(block % static_cast<std::size_t>(team_.size()));
+    return static_cast<int>(block / run_length_ % static_cast<std::size_t>(team_.size()));
   }
 
   void deliver(std::size_t block, const WindowMoments* moments,
@@ -217,6 +265,7 @@ class BlockLoop {
   const CellSetup& setup_;
   Team& team_;
   int threads_;
+  std::size_t run_length_;
   bool failed_ = false;
   std::exception_ptr failure_;
 };

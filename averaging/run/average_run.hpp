@@ -16,13 +16,17 @@
 
 namespace millfoam::averaging {
 
+/// Widths of smoothing in Sauter diameters, where none is given.
+inline constexpr double usual_smoothing = 2.5;
+
 /// The cells of a mesh file.
 struct MeshRequest {
   std::filesystem::path file;
   std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.txt
   bool at_rest = false;             ///< no motion at all
   std::optional<double> period_z;   ///< m; the mesh spans one period along z
-  double smoothing = 0;             ///< width of the conservative diffusion, m; 0: none
+  bool smoothed = false;            ///< by conservative diffusion
+  double smoothing = 0;             ///< its width, m; 0: `usual_smoothing` Sauter diameters of the first dump
 };
 
 /// How balls are shared between cells.

@@ -23,8 +23,14 @@ namespace {
 using Note = std::function<void(const std::string&)>;
 
 std::string method_in_words(const AverageRequest& request) {
-  if (request.method == SharingMethod::exact) return "exact";
-  return "sample, " + std::to_string(request.template_points) + " points along a diameter";
+  const std::string points = std::to_string(request.template_points) + " points along a diameter";
+  return request.method == SharingMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
+}
+
+std::string in_words(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
 }
 
 std::string rotation(double angular_velocity) {
@@ -82,7 +88,7 @@ CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const
     setup.walls = moving_walls(grid, request, settings, note);
     setup.room.volumes = voxel_volumes(setup.grid);
   }
-  setup.room.neighbours = neighbours(grid);
+  if (request.solidity_cap || setup.walls) setup.room.neighbours = neighbours(grid);
   return setup;
 }
 
@@ -136,7 +142,7 @@ void require_fitting(const MeshRequest& mesh, const AverageRequest& request, boo
         "--motion is there, but " + mesh.file.string() +
         " gives points at several times, which say how it moves; expected one of them");
   }
-  if (mesh.smoothing > 0) {
+  if (mesh.smoothed) {
     throw std::invalid_argument("--smooth needs a mesh that keeps its shape, and " + mesh.file.string() +
                                 " gives points at several times");
   }
@@ -166,11 +172,13 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   cells.file = request.file.filename().string();
   cells.time = time;
 
-  CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), request.smoothing};
+  CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0};
   setup.room.solidity_cap = whole.solidity_cap;
-  setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
-  if (request.smoothing > 0) {
-    setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), request.smoothing, request.period_z);
+  if (whole.solidity_cap) setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
+  if (request.smoothed) {
+    setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
+    setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
+    note("smoothing over a width of " + in_words(setup.smoothing) + " m");
   }
   setup.sharing = by_method<MeshExact, MeshSampling>(whole.method, std::move(mesh), whole.template_points,
                                                      request.period_z);

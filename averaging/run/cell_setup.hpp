@@ -19,6 +19,7 @@ namespace millfoam::averaging {
 struct RunSettings {
   double timestep = 0;                     ///< of the DEM run, s
   std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
+  double sauter_diameter = 0;              ///< of the balls in the first dump that is used, m
 };
 
 /// What a request's grid, method and walls come to: prepared once, and shared by all threads.

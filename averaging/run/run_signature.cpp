@@ -40,14 +40,19 @@ void put(std::ostream& out, const CylinderGrid& grid) {
 void put(std::ostream& out, const MeshRequest& mesh) {
   out << "mesh ";
   put_file(out, mesh.file);
-  for (const std::string& text : mesh.motion) out << '\'' << text << "' ";
-  out << mesh.at_rest << ' ' << mesh.period_z << ' ' << mesh.smoothing;
+  for (const std::string& text : mesh.motion) {
+    out << '\'' << text << "' ";
+    std::istringstream words(text);
+    std::string kind, source, file;
+    if (words >> kind >> source >> file && source == "table") put_file(out, file);
+  }
+  out << mesh.at_rest << ' ' << mesh.period_z << ' ' << mesh.smoothed << ' ' << mesh.smoothing;
 }
 
 }  // namespace
 
 std::string signature(const AverageRequest& request, const RunSettings& settings,
-                      const std::vector<DumpFile>& dumps) {
+                      const std::vector<WindowPlan>& plans, const std::vector<DumpFile>& dumps) {
   std::ostringstream out;
   out.precision(17);
   out << "millfoam " << solids_version << '\n'
@@ -59,6 +64,12 @@ std::string signature(const AverageRequest& request, const RunSettings& settings
   for (const std::filesystem::path& file : request.walls) put_file(out, file);
   for (const WindowsRequest& windows : request.windows)
     out << windows.length << ' ' << windows.output << '\n';
+  for (const WindowPlan& plan : plans) {
+    for (const WindowSpan& span : plan.windows) {
+      out << span.begin << ' ' << span.end << ' ' << span.first_record << ' ' << span.records << ' ';
+    }
+    out << '\n';
+  }
   for (const DumpFile& dump : dumps) {
     out << dump.step << ' ';
     put_file(out, dump.path);

@@ -174,7 +174,8 @@ std::vector<std::string> ledger_failures(const SolidsSummary& summary, double to
     // Round-off of the shares leaves traces outside that are no loss.
     if (above(ledger.outside, std::max(tolerance, round_off)))
       fail("is outside the grid", ledger.outside, tolerance);
-    if (above(ledger.clipped, tolerance)) fail("was above the cap", ledger.clipped, tolerance);
+    if (above(ledger.clipped, tolerance))
+      fail("was moved to neighbours, from within walls or above a cap", ledger.clipped, tolerance);
   }
   return failures;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/voxel_room.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "averaging/walls/inside_fraction.hpp"
@@ -19,7 +20,12 @@ std::vector<double> room(const std::variant<BoxGrid, CylinderGrid>& grid, const 
 VoxelRoom::VoxelRoom(const std::variant<BoxGrid, CylinderGrid>& grid, const Surface& walls,
                      std::shared_ptr<const Motion> motion, double walls_time)
     : grid_(grid), walls_(walls), motion_(std::move(motion)), walls_time_(walls_time) {
-  if (!motion_) at_rest_ = room(grid_, walls_, Eigen::Isometry3d::Identity());
+  const std::vector<double> now = room(grid_, walls_, Eigen::Isometry3d::Identity());
+  if (std::all_of(now.begin(), now.end(), [](double volume) { return volume == 0; })) {
+    throw SurfaceError(
+        "the walls and the grid have no space in common; expected walls in m, in the lab's frame");
+  }
+  if (!motion_) at_rest_ = now;
 }
 
 std::vector<double> VoxelRoom::volumes(double time) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/window_series.hpp"
 
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "averaging/files/xdmf.hpp"
@@ -8,13 +10,13 @@
 namespace millfoam::averaging {
 
 WindowSeries::WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep,
-                           const CellRoom& room, std::size_t cells, std::size_t rows)
+                           const CellRoom& room, std::size_t cells, std::size_t id, std::size_t rows)
     : output_(output),
       plan_(std::move(plan)),
       timestep_(timestep),
       room_(room),
       open_(cells),
-      journal_(journal_path(output), cells, !room.volumes.empty(), rows) {}
+      journal_(journal_path(output), id, cells, !room.volumes.empty(), rows) {}
 
 std::filesystem::path WindowSeries::journal_path(const std::filesystem::path& output) {
   return output.string() + ".journal";
@@ -26,13 +28,24 @@ void WindowSeries::add(const RecordBlock& block, const WindowMoments& moments) {
   const WindowSpan& span = plan_.windows[window];
   open_.merge(moments);
   if (block.last < span.first_record + span.records) return;
-  WindowAverage result = average(open_, room_);
-  result.time.begin = static_cast<double>(span.begin) * timestep_;
+  const double begin = static_cast<double>(span.begin) * timestep_;
+  WindowAverage result = average_of_window(begin);
+  result.time.begin = begin;
   result.time.end = static_cast<double>(span.end) * timestep_;
   result.time.starts_late = span.starts_late;
   result.time.ends_short = span.ends_short;
   journal_.append(result);
   open_.clear();
+}
+
+WindowAverage WindowSeries::average_of_window(double begin) const {
+  try {
+    return average(open_, room_);
+  } catch (const std::runtime_error& error) {
+    std::ostringstream message;
+    message << "window from " << begin << " s: " << error.what();
+    throw std::runtime_error(message.str());
+  }
 }
 
 void WindowSeries::write(const Grid& grid, const SolidsHeader& header,

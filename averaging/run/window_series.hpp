@@ -15,10 +15,11 @@ namespace millfoam::averaging {
 class WindowSeries {
  public:
   /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
+  /// @param id      of the run, for the journal
   /// @param rows    finished windows of an earlier run that was killed
   /// @param room    for `average`; must outlive the series
   WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep, const CellRoom& room,
-               std::size_t cells, std::size_t rows);
+               std::size_t cells, std::size_t id, std::size_t rows);
 
   /// Adds a block: the next one, or one that no window of this series holds.
   void add(const RecordBlock& block, const WindowMoments& moments);
@@ -40,6 +41,8 @@ class WindowSeries {
   static std::filesystem::path journal_path(const std::filesystem::path& output);
 
  private:
+  WindowAverage average_of_window(double begin) const;
+
   std::filesystem::path output_;
   WindowPlan plan_;
   double timestep_;

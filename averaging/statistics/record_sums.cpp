@@ -56,7 +56,7 @@ void sum_record(CellSharing& sharing, const ParticleRecord& record, double time,
       sharing.share(particle, shares);
     } else {
       particle_volume = superquadric_volume(record.shapes[p]);
-      diameter = std::cbrt(6 * particle_volume / pi);
+      diameter = volume_equivalent_diameter(record.shapes[p]);
       sharing.share(particle, record.shapes[p], shares);
     }
     const double deposited = add_shares(particle, diameter, particle_volume, shares, sums);

@@ -13,7 +13,7 @@ struct Ledger {
   double volume_in = 0;  ///< of all particles
   double deposited = 0;  ///< in the grid's cells
   double outside = 0;    ///< beyond the grid
-  double clipped = 0;    ///< of the deposited: moved from cells above the cap on solidity to their neighbours
+  double clipped = 0;    ///< of the deposited: moved to neighbours, from within walls or above a cap
 };
 
 Ledger& operator+=(Ledger& ledger, const Ledger& other);

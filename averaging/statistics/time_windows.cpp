@@ -29,15 +29,15 @@ long long whole_steps(double time, double timestep, const char* what) {
   return static_cast<long long>(steps);
 }
 
-/// The smallest number of steps between two records; 1 when there is only one.
-long long smallest_interval(const std::vector<long long>& steps) {
-  long long interval = 0;
-  for (std::size_t r = 1; r < steps.size(); ++r) {
-    const long long between = steps[r] - steps[r - 1];
-    assert(between > 0);
-    interval = interval == 0 ? between : std::min(interval, between);
-  }
-  return std::max(interval, 1LL);
+/// The median of the numbers of steps between two records, which an odd dump or a gap does not change; 1 when
+/// there is only one record.
+long long usual_interval(const std::vector<long long>& steps) {
+  if (steps.size() < 2) return 1;
+  std::vector<long long> between;
+  for (std::size_t r = 1; r < steps.size(); ++r) between.push_back(steps[r] - steps[r - 1]);
+  const auto middle = between.begin() + static_cast<std::ptrdiff_t>((between.size() - 1) / 2);
+  std::nth_element(between.begin(), middle, between.end());
+  return *middle;
 }
 
 long long window_length(const WindowRequest& request, long long interval) {
@@ -141,7 +141,7 @@ void end_with_the_dumps(const std::vector<long long>& steps, long long interval,
 WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request) {
   if (steps.empty()) throw WindowError("there are no records");
   assert(request.timestep > 0);
-  const long long interval = request.interval.value_or(smallest_interval(steps));
+  const long long interval = request.interval.value_or(usual_interval(steps));
   const Range range = used_range(steps, request, interval);
   const long long length = request.length ? window_length(request, interval) : range.end - range.start;
 

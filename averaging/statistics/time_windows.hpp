@@ -16,7 +16,7 @@ class WindowError : public std::runtime_error {
 /// How a run is to be cut into windows. Times are rounded to whole time-steps.
 struct WindowRequest {
   double timestep = 0;                ///< of the DEM run, s
-  std::optional<long long> interval;  ///< time-steps between records; unless known, the smallest between two
+  std::optional<long long> interval;  ///< time-steps between records; unless known, the median between two
   std::optional<double> length;       ///< s; unless given, one window over the whole run
   std::optional<double> start;        ///< DEM time, s; unless given, that of the first record
   std::optional<double> end;          ///< DEM time, s, not included; unless given, all records are used

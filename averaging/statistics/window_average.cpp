@@ -33,18 +33,22 @@ Means means(const WindowMoments& moments) {
   return result;
 }
 
-/// How much of the balls' volume may stay in each cell. Cells that have no cap may take in as much as their
-/// room.
-std::vector<double> capacities(const Means& mean, const CellRoom& room) {
-  std::vector<double> result(mean.room.size());
-  for (std::size_t c = 0; c < result.size(); ++c) {
-    const bool in_the_wall =
-        !room.volumes.empty() && mean.room[c] < smallest_inside_fraction * room.volumes[c];
-    if (in_the_wall) continue;
-    result[c] =
-        room.solidity_cap ? *room.solidity_cap * mean.room[c] : mean.at(c, Columns::volume) + mean.room[c];
+/// Takes the solids out of cells within walls, whose room becomes 0, and what is above the cap out of others.
+void move_to_neighbours(const CellRoom& room, Means& mean, Ledger& ledger) {
+  if (!room.volumes.empty()) {
+    for (std::size_t c = 0; c < mean.room.size(); ++c) {
+      if (mean.room[c] < smallest_inside_fraction * room.volumes[c]) mean.room[c] = 0;
+    }
+    const HandedOver walls = empty_walls(mean.values, Columns::columns, mean.room, room.neighbours);
+    ledger.clipped += walls.moved;
+    ledger.deposited -= walls.lost;
+    ledger.outside += walls.lost;
   }
-  return result;
+  if (!room.solidity_cap) return;
+  std::vector<double> capacities(mean.room.size());
+  std::transform(mean.room.begin(), mean.room.end(), capacities.begin(),
+                 [&](double volume) { return *room.solidity_cap * volume; });
+  ledger.clipped += move_excess(mean.values, Columns::columns, capacities, room.neighbours);
 }
 
 void fill_means(const Means& mean, WindowAverage& result) {
@@ -81,10 +85,7 @@ WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
 
   if (moments.occupied() > 0) result.balls_per_cell = moments.balls() / moments.occupied();
   Means mean = means(moments);
-  if (room.solidity_cap || !room.volumes.empty()) {
-    result.ledger.clipped =
-        move_excess(mean.values, Columns::columns, capacities(mean, room), room.neighbours);
-  }
+  move_to_neighbours(room, mean, result.ledger);
   for (std::vector<double>* field :
        {&result.mean.solidity, &result.mean.diameter, &result.mean.diameter43, &result.number,
         &result.granular_temperature, &result.solidity_deviation}) {
@@ -94,13 +95,15 @@ WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
   result.velocity_deviation.assign(3 * n, 0.0);
   fill_means(mean, result);
   for (std::size_t c = 0; c < n; ++c) {
+    if (!room.volumes.empty()) {
+      // Round-off of the clipped triangles must not make a whole voxel more than whole.
+      const double inside = moments.cell_volume(c) / records;
+      result.mean.inside_fraction.push_back(std::clamp(inside / room.volumes[c], 0.0, 1.0));
+    }
+    if (result.mean.solidity[c] == 0) continue;
     result.solidity_deviation[c] = std::sqrt(moments.solidity_variance(c));
     for (std::size_t a = 0; a < 3; ++a) {
       result.velocity_deviation[3 * c + a] = std::sqrt(moments.velocity_variance(c, a));
-    }
-    if (!room.volumes.empty()) {
-      // Round-off of the clipped triangles must not make a whole voxel more than whole.
-      result.mean.inside_fraction.push_back(std::clamp(mean.room[c] / room.volumes[c], 0.0, 1.0));
     }
   }
   return result;

@@ -29,16 +29,17 @@ struct CellRoom {
 ///     diameter, diameter43    d32 = sum V / sum (V/d),  d43 = sum (V d) / sum V
 ///     number                  sum over particles of their part in the cell, / K
 ///     solidity_deviation      sqrt(sum_k (phi_k - mean phi_k)^2 / K)
-///     velocity_deviation      sqrt(sum_k phi_k (u_k - u)^2 / sum_k phi_k), per component
+///     velocity_deviation      sqrt(sum_k V_k (u_k - u)^2 / sum_k V_k), per component
 ///     granular_temperature    sum V |v - u|^2 / (3 sum V)
 ///     inside_fraction         sum W / (K whole volume), where walls cut the cells
 ///
 /// The temperature is about the window's mean velocity, so it holds the motion of single balls and the drift
 /// of the mean within the window; the drift's part is the mean square of velocity_deviation's components.
 ///
-/// With a cap on solidity, and for cells of which less than `smallest_inside_fraction` is inside, the volume
-/// above moves to neighbours, with its momentum and all else that the means are made of, and is counted in
-/// the ledger's `clipped`; deviations are those before it moved.
+/// V_k is the volume of balls in the cell in record k. Cells of which less than `smallest_inside_fraction` is
+/// inside are emptied into their neighbours (`empty_walls`), and what is above a cap on solidity moves on
+/// (`move_excess`), with its momentum and all else that the means are made of; both are counted in the
+/// ledger's `clipped`. Deviations are those before anything moved.
 ///
 /// The moments must hold a record. `time.records` is filled in, the window's times are the caller's.
 /// Throws std::runtime_error when the cap leaves no room for the balls.

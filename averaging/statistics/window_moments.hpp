@@ -13,8 +13,7 @@ namespace millfoam::averaging {
 /// where the runs are cut, not on who made them.
 ///
 /// Means and sums of squared differences from them are kept as Welford 1962 (Technometrics 4:419), West 1979
-/// (Comm ACM 22:532) and, merged, Chan, Golub & LeVeque 1983 (Am Stat 37:242): no difference of large squares
-/// is taken.
+/// (Comm ACM 22:532) and, merged, Chan, Golub & LeVeque 1983 (Am Stat 37:242).
 class WindowMoments {
  public:
   explicit WindowMoments(std::size_t cells);
@@ -44,7 +43,7 @@ class WindowMoments {
   double cell_volume(std::size_t cell) const { return spread(cell)[room]; }
   /// Mean square deviation of the records' solidities from their mean.
   double solidity_variance(std::size_t cell) const;
-  /// The same of the records' mean velocities, weighted by solidity; component 0 to 2, m^2/s^2.
+  /// The same of the records' mean velocities, weighted by the balls' volume; component 0 to 2, m^2/s^2.
   double velocity_variance(std::size_t cell, std::size_t component) const;
 
   /// Everything as plain numbers, to be sent or stored and read back; `packed_size` of them.

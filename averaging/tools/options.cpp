@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "averaging/dumps/text_lines.hpp"
@@ -32,7 +33,7 @@ std::vector<WindowsRequest> windows(const Options& options) {
       output.replace_filename(output.stem().string() + '_' + text + output.extension().string());
     }
     result.push_back({window_length(text), output});
-    const auto same = [&](const WindowsRequest& other) { return other.output == result.back().output; };
+    const auto same = [&](const WindowsRequest& other) { return other.length == result.back().length; };
     if (std::count_if(result.begin(), result.end(), same) > 1) {
       throw std::invalid_argument("--window has '" + text + "' twice");
     }
@@ -70,6 +71,16 @@ CylinderGrid cylinder_grid(const Options& options) {
   return {{c[0], c[1]}, {c[2], c[3]}, {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]};
 }
 
+/// Metres, or 0 for the usual width.
+double smoothing_width(const std::string& text) {
+  if (text.empty()) return 0;
+  const std::optional<double> width = as_number<double>(text);
+  if (!width || !(*width > 0) || !std::isfinite(*width)) {
+    throw std::invalid_argument("--smooth is '" + text + "', expected a length above 0 in m, or none");
+  }
+  return *width;
+}
+
 MeshRequest mesh_request(const Options& options) {
   if (!options.shape.empty() || !options.periodic.empty()) {
     throw std::invalid_argument(
@@ -80,7 +91,10 @@ MeshRequest mesh_request(const Options& options) {
   mesh.at_rest = options.motion == std::vector<std::string>{"none"};
   if (!mesh.at_rest) mesh.motion = options.motion;
   mesh.period_z = options.period;
-  mesh.smoothing = options.smoothing.value_or(0);
+  if (options.smoothing) {
+    mesh.smoothed = true;
+    mesh.smoothing = smoothing_width(*options.smoothing);
+  }
   return mesh;
 }
 
@@ -139,9 +153,11 @@ void declare(CLI::App& app, Options& options) {
                  "of the mesh: 'rotation speed W', 'rotation table FILE', 'translation velocity X Y Z', "
                  "'translation table FILE', 'none'; several are applied in turn [the mill's rotation]");
   app.add_option("--period", options.period, "length along z after which the mesh repeats, m");
-  app.add_option("--smooth", options.smoothing,
-                 "width of the conservative diffusion on the mesh, m; 2 to 3 "
-                 "diameters of the balls where cells are smaller [none]");
+  app.add_option(
+         "--smooth", options.smoothing,
+         "width of the conservative diffusion on the mesh, m; without a number 2.5 Sauter diameters of the "
+         "balls [no smoothing]")
+      ->expected(0, 1);
 
   app.add_option("--method", options.method, "how balls are shared between cells: exact or sample")
       ->check(CLI::IsMember({"exact", "sample"}))
@@ -177,6 +193,10 @@ AverageRequest as_request(const Options& options) {
   if (options.solidity_cap && !(*options.solidity_cap > 0 && *options.solidity_cap < 1)) {
     throw std::invalid_argument("--cap is " + std::to_string(*options.solidity_cap) +
                                 ", expected a solidity between 0 and 1");
+  }
+  if (options.template_points < 2 || options.template_points > 200) {
+    throw std::invalid_argument("--template is " + std::to_string(options.template_points) +
+                                ", expected 2 to 200 points along a diameter");
   }
   AverageRequest request(grid(options));
   request.dumps = options.dumps;

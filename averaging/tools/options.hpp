@@ -23,7 +23,7 @@ struct Options {
   std::vector<std::string> periodic;
   std::vector<std::string> motion;
   std::optional<double> period;
-  std::optional<double> smoothing;
+  std::optional<std::string> smoothing;
   std::string method = "exact";
   int template_points = 12;
   std::vector<std::string> walls;

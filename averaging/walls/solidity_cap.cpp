@@ -81,7 +81,6 @@ void move_from(std::size_t cell, double excess, std::size_t columns, const std::
     left = moved == left ? 0 : left - moved;
   }
   for (std::size_t k = 0; k < columns; ++k) values[cell * columns + k] -= excess * per_volume[k];
-  if (capacities[cell] == 0) std::fill_n(&values[cell * columns], columns, 0.0);
 }
 
 }  // namespace
@@ -99,6 +98,31 @@ double move_excess(std::vector<double>& values, std::size_t columns, const std::
     moved += excess;
   }
   return moved;
+}
+
+HandedOver empty_walls(std::vector<double>& values, std::size_t columns, const std::vector<double>& room,
+                       const std::vector<std::array<int, 2>>& neighbours) {
+  assert(values.size() == room.size() * columns);
+  constexpr int furthest = 3;
+  Rings rings(room.size(), neighbours);
+  HandedOver result;
+  for (std::size_t cell = 0; cell < room.size(); ++cell) {
+    double* const own = &values[cell * columns];
+    if (room[cell] > 0 || own[0] == 0) continue;
+    double taken = 0;
+    auto ring = rings.start(cell);
+    for (int n = 0; n < furthest && taken == 0; ++n) {
+      ring = rings.next(ring);
+      for (const std::size_t other : ring) taken += room[other];
+    }
+    (taken > 0 ? result.moved : result.lost) += own[0];
+    for (const std::size_t other : ring) {
+      const double part = taken > 0 ? room[other] / taken : 0;
+      for (std::size_t k = 0; k < columns; ++k) values[other * columns + k] += part * own[k];
+    }
+    std::fill_n(own, columns, 0.0);
+  }
+  return result;
 }
 
 }  // namespace millfoam::averaging

@@ -34,7 +34,9 @@ def run_google(program, results):
     rates = {}
     for row in json.loads(out.read_text())["benchmarks"]:
         if row["run_type"] == "iteration":
-            rate = row.get("items_per_second", row.get("bytes_per_second"))
+            # What counts no items is one item a time.
+            once = 1 / (row["real_time"] * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1}[row["time_unit"]])
+            rate = row.get("items_per_second", row.get("bytes_per_second", once))
             rates.setdefault(row["run_name"], []).append((rate, row))
     return rates
 

@@ -91,17 +91,20 @@ class MillAverage(unittest.TestCase):
 
     def test_killed_at_any_moment_the_next_run_gives_the_same_file(self):
         self.average(output="whole_run.h5")
-        kills = 0
-        for delay in (0.02, 0.04, 0.06, 0.09):
+        note, sizes = self.folder / "solids.h5.resume", []
+        for _ in range(3):
             process = subprocess.Popen(self.command("--checkpoint", "0", "--threads", "1"), cwd=self.folder,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(delay)
+            seen = note.stat().st_mtime_ns if note.exists() else 0
+            while process.poll() is None and (not note.exists() or note.stat().st_mtime_ns == seen):
+                time.sleep(0.001)
             process.send_signal(signal.SIGKILL)
-            kills += process.wait() == -signal.SIGKILL
-            if kills and process.returncode == -signal.SIGKILL:
-                self.assertFalse((self.folder / "solids.h5").exists())
-        self.assertGreater(kills, 0, "each run ended before it was killed")
-        self.average("--checkpoint", "0")
+            self.assertEqual(process.wait(), -signal.SIGKILL, "the run ended before it was killed")
+            self.assertFalse((self.folder / "solids.h5").exists())
+            sizes.append((self.folder / "solids.h5.journal").stat().st_size)
+        self.assertEqual(sizes, sorted(sizes), "a later run goes on where the one before was killed")
+        last = self.average("--checkpoint", "0")
+        self.assertIn("taking up an unfinished run", last.stderr)
         self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
                          ["solids.h5", "solids.xdmf", "whole_run.h5", "whole_run.xdmf"])

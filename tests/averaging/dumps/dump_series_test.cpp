@@ -69,5 +69,23 @@ TEST(RunNotes, AValueThatCannotBeIsRefusedWithItsLine) {
                {"run.txt:2", "timestep", "'zero'"});
 }
 
+TEST(RunNotes, MayLackTheLastLineEnd) {
+  const TemporaryFolder folder;
+  const auto notes =
+      read_run_notes(folder.write("run.txt", "timestep 1e-3\nangular_velocity -6.4").parent_path());
+  ASSERT_TRUE(notes.has_value());
+  EXPECT_EQ(notes->angular_velocity, -6.4);
+}
+
+TEST(RunNotes, AnAngularVelocityThatContradictsTheOptionIsRefused) {
+  const TemporaryFolder folder;
+  const auto notes = read_run_notes(folder.write("run.txt", "angular_velocity -6.4\n").parent_path());
+  EXPECT_EQ(agreed_angular_velocity(std::nullopt, notes), -6.4);
+  EXPECT_EQ(agreed_angular_velocity(-6.4, notes), -6.4);
+  EXPECT_EQ(agreed_angular_velocity(3.0, std::nullopt), 3.0);
+  EXPECT_EQ(agreed_angular_velocity(std::nullopt, std::nullopt), std::nullopt);
+  expect_named(message_of<DumpError>([&] { agreed_angular_velocity(3.0, notes); }), {"--speed", "3", "-6.4"});
+}
+
 }  // namespace
 }  // namespace millfoam::averaging

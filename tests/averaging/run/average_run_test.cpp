@@ -182,6 +182,31 @@ TEST_F(AverageRun, AStoppedRunOfOtherSettingsIsNotTakenUp) {
   EXPECT_EQ(bytes(output()), fresh);
 }
 
+TEST_F(AverageRun, WindowsOfAnotherStoppedRunInBetweenAreNotTakenForItsOwn) {
+  run();
+  const std::string fresh = bytes(output());
+  request.checkpoint_interval = 0;
+  run_and_stop(60);
+  request.method = SharingMethod::sample;
+  request.checkpoint_interval = 1000;
+  run_and_stop(100);
+  request.method = SharingMethod::exact;
+  run();
+  EXPECT_EQ(bytes(output()), fresh);
+}
+
+TEST_F(AverageRun, AStoppedRunWhoseWindowsAreGoneStartsAfresh) {
+  run();
+  const std::string fresh = bytes(output());
+  request.checkpoint_interval = 0;
+  run_and_stop(60);
+  std::filesystem::remove(folder / "solids.h5.journal");
+  notes.clear();
+  run();
+  expect_named(notes.back(), {"solids.h5.journal", "starting afresh"});
+  EXPECT_EQ(bytes(output()), fresh);
+}
+
 TEST_F(AverageRun, ADamagedNoteOfHowFarItWasStartsAfresh) {
   run();
   const std::string fresh = bytes(output());

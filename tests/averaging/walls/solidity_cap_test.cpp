@@ -44,13 +44,21 @@ TEST(SolidityCap, WhatBelongsToTheVolumeTravelsWithIt) {
   EXPECT_NEAR(values[3], 2.4, 1e-15);
 }
 
-TEST(SolidityCap, EmptiesACellWithoutCapacity) {
-  std::vector<double> values{0.1, 0.7, 0.2, 0.5};
-  EXPECT_EQ(move_excess(values, 2, {0, 0.5}, {{0, 1}}), 0.1);
-  EXPECT_EQ(values[0], 0);
-  EXPECT_EQ(values[1], 0);
-  EXPECT_NEAR(values[2], 0.3, 1e-15);
-  EXPECT_NEAR(values[3], 1.2, 1e-15);
+TEST(Walls, AreEmptiedIntoTheNearestRoomInProportionToIt) {
+  std::vector<double> values{0.1, 1, 0.2, 2, 0, 0, 0.1, 1, 0.3, 3};
+  const HandedOver result = empty_walls(values, 2, {0, 0, 0.5, 0, 1.5}, row);
+  const std::vector<double> expected{0, 0, 0, 0, 0.1 + 0.2 + 0.025, 3.25, 0, 0, 0.375, 3.75};
+  for (std::size_t n = 0; n < 10; ++n) EXPECT_NEAR(values[n], expected[n], 1e-15) << n;
+  EXPECT_NEAR(result.moved, 0.4, 1e-15);
+  EXPECT_EQ(result.lost, 0);
+}
+
+TEST(Walls, DoNotGiveBackWhatIsFarFromTheMill) {
+  std::vector<double> volumes{0.1, 0, 0, 0, 0.3};
+  const HandedOver result = empty_walls(volumes, 1, {0, 0, 0, 0, 1}, row);
+  EXPECT_EQ(result.moved, 0);
+  EXPECT_EQ(result.lost, 0.1);
+  EXPECT_EQ(volumes, (std::vector<double>{0, 0, 0, 0, 0.3}));
 }
 
 TEST(SolidityCap, KeepsTheTotalsAndTheCapWhateverTheField) {
@@ -60,7 +68,7 @@ TEST(SolidityCap, KeepsTheTotalsAndTheCapWhateverTheField) {
   std::vector<double> values, capacities;
   for (std::size_t c = 0; c < grid.size(); ++c) {
     values.insert(values.end(), {number(random), number(random) - 0.5});
-    capacities.push_back(number(random) < 0.1 ? 0 : 0.62);
+    capacities.push_back(0.5 + 0.2 * number(random));
   }
   const auto total = [&](std::size_t column) {
     double sum = 0;
