@@ -7,10 +7,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "averaging/dumps/dump_reader.hpp"
@@ -39,7 +41,7 @@ std::string dump_of(std::size_t balls, int digits) {
   return text.str();
 }
 
-/// The same dump as text, as a file and as a compressed file, for the time of one benchmark.
+/// The same dump as text, as a file and as a compressed file, for the time of the program.
 class Dump {
  public:
   Dump(std::size_t balls, int digits) : text_(dump_of(balls, digits)) {
@@ -64,9 +66,17 @@ class Dump {
   std::filesystem::path folder_;
 };
 
+/// Each dump is made once: that takes longer than to read it many times.
+const Dump& dump_for(const benchmark::State& state) {
+  static std::map<std::pair<std::int64_t, std::int64_t>, Dump> made;
+  const auto [balls, digits] = std::make_pair(state.range(0), state.range(1));
+  return made.try_emplace({balls, digits}, static_cast<std::size_t>(balls), static_cast<int>(digits))
+      .first->second;
+}
+
 template <typename Action>
 void time_dump(benchmark::State& state, Action&& action) {
-  const Dump dump(static_cast<std::size_t>(state.range(0)), static_cast<int>(state.range(1)));
+  const Dump& dump = dump_for(state);
   for (auto _ : state) action(dump);
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(dump.text().size()));
 }

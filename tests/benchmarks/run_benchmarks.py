@@ -43,7 +43,7 @@ def run_google(program, results):
 
 def google_table(rates, unit):
     lines = [f"| benchmark | {unit} | range |", "|---|---|---|"]
-    for name, rows in rates.items():
+    for name, rows in sorted(rates.items()):
         values = [rate for rate, _ in rows]
         lines.append(f"| {name} | {statistics.median(values):.3g} | {min(values):.3g} to {max(values):.3g} |")
     return lines
@@ -63,7 +63,8 @@ def plot_location(rates, path):
     axes.set_ylabel("time per point, ns")
     axes.set_title("Finding the cell of a point, one core")
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend()
+    axes.set_ylim(10, 3e4)
+    axes.legend(loc="upper left", fontsize="small")
     figure.tight_layout()
     figure.savefig(path, dpi=110)
 
@@ -103,6 +104,14 @@ def write_dumps(folder, records, balls):
     (folder / "run.txt").write_text("timestep 1e-5\ninterval 100\nangular_velocity -6.4\n")
 
 
+def repeat_dumps(folder, there, wanted):
+    """The same records again at later time-steps."""
+    for record in range(there, wanted):
+        text = (folder / f"dump.{100 * (record % there)}.txt").read_text()
+        begin = text.index("\n") + 1
+        (folder / f"dump.{100 * record}.txt").write_text(f"{text[:begin]}{100 * record}{text[text.index(chr(10), begin):]}")
+
+
 def timed(command, folder):
     """Wall time, s, and peak resident memory, kB, of a command."""
     begin = time.monotonic()
@@ -125,13 +134,14 @@ def cores(results):
     times, files = {name: [] for name in variants}, set()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        write_dumps(folder, 200, 20000)
-        for _ in range(REPETITIONS):
+        write_dumps(folder, 100, 20000)
+        repeat_dumps(folder, 100, 600)
+        for _ in range(3):
             for variant, (launcher, threads) in variants.items():
                 times[variant].append(timed([*launcher, *average(folder, "--threads", threads)], folder)[0])
                 files.add((folder / "out.h5").read_bytes())
     median = {variant: statistics.median(values) for variant, values in times.items()}
-    lines = ["| 200 dumps of 20 000 balls, 33 x 33 x 8 voxels | time, s | times faster |", "|---|---|---|"]
+    lines = ["| 600 dumps of 20 000 balls, 33 x 33 x 8 voxels | time, s | times faster |", "|---|---|---|"]
     for variant, values in times.items():
         base = median["1 rank" if "rank" in variant else "1 thread"]
         lines.append(f"| {variant} | {median[variant]:.2f} ({min(values):.2f} to {max(values):.2f}) | {base / median[variant]:.2f} |")
@@ -145,12 +155,7 @@ def memory(results):
         folder = Path(name)
         write_dumps(folder, 100, 20000)
         lines.append(f"| 100 | {timed(average(folder, '--threads', '2'), folder)[1] / 1024:.1f} |")
-        # The same records again at later time-steps.
-        for record in range(100, 1000):
-            text = (folder / f"dump.{100 * (record % 100)}.txt").read_text()
-            begin = text.index("\n") + 1
-            (folder / f"dump.{100 * record}.txt").write_text(
-                f"{text[:begin]}{100 * record}{text[text.index(chr(10), begin):]}")
+        repeat_dumps(folder, 100, 1000)
         lines.append(f"| 1000 | {timed(average(folder, '--threads', '2'), folder)[1] / 1024:.1f} |")
     return lines
 
