@@ -22,8 +22,11 @@ std::vector<RecordBlock> plan_blocks(const std::vector<WindowPlan>& plans, std::
   std::vector<RecordBlock> blocks;
   for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut) {
     if (!used[*cut]) continue;
-    for (std::size_t first = *cut; first < *std::next(cut); first += largest) {
-      blocks.push_back({first, std::min(first + largest, *std::next(cut))});
+    const std::size_t records = *std::next(cut) - *cut;
+    // Of equal length, so that those who share them wait for each other as little as may be.
+    const std::size_t parts = (records + largest - 1) / largest;
+    for (std::size_t n = 0; n < parts; ++n) {
+      blocks.push_back({*cut + n * records / parts, *cut + (n + 1) * records / parts});
     }
   }
   return blocks;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/tools/mpi_team.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -41,12 +39,23 @@ MpiTeam::MpiTeam() {
 }
 
 MpiTeam::~MpiTeam() {
+  wait_until_sent();
   MPI_Finalize();
 }
 
 void MpiTeam::send(const std::vector<double>& numbers) {
-  in_pieces(numbers,
-            [](const double* first, int count) { MPI_Send(first, count, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD); });
+  wait_until_sent();
+  under_way_ = numbers;
+  in_pieces(under_way_, [this](const double* first, int count) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(first, count, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD, &request);
+    requests_.push_back(request);
+  });
+}
+
+void MpiTeam::wait_until_sent() {
+  MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  requests_.clear();
 }
 
 void MpiTeam::receive(int rank, std::vector<double>& numbers) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <mpi.h>
+
+#include <vector>
+
 #include "averaging/run/team.hpp"
 
 namespace millfoam::averaging {
@@ -25,6 +29,11 @@ class MpiTeam : public Team {
   [[noreturn]] static void abort();
 
  private:
+  void wait_until_sent();
+
+  /// What is on its way to rank 0 while this rank goes on.
+  std::vector<double> under_way_;
+  std::vector<MPI_Request> requests_;
   int rank_ = 0;
   int size_ = 1;
 };

@@ -24,8 +24,8 @@ TEST(RecordBlocks, AreCutWhereAnyWindowBeginsOrEnds) {
   EXPECT_EQ(cut({plan({{0, 4}, {4, 4}}), plan({{2, 6}})}, 100), (Pairs{{0, 2}, {2, 4}, {4, 8}}));
 }
 
-TEST(RecordBlocks, AreNoLargerThanAsked) {
-  EXPECT_EQ(cut({plan({{3, 7}})}, 3), (Pairs{{3, 6}, {6, 9}, {9, 10}}));
+TEST(RecordBlocks, AreNoLargerThanAskedAndAboutEqual) {
+  EXPECT_EQ(cut({plan({{3, 7}})}, 3), (Pairs{{3, 5}, {5, 7}, {7, 10}}));
 }
 
 TEST(RecordBlocks, LeaveOutRecordsThatNoWindowHolds) {
