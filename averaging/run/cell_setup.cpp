@@ -61,9 +61,18 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
   double time = 0;
   if (request.walls.size() == 1 && request.walls[0].extension() == ".h5") {
     const MeshReader mesh(request.walls[0]);
+    if (mesh.times().size() > 1) {
+      throw std::invalid_argument("--inside " + request.walls[0].string() +
+                                  " gives points at several times, expected walls that keep their shape");
+    }
     surface = boundary_surface(MeshGeometry(mesh.topology(), mesh.read_points(0)));
     time = mesh.time0() + mesh.times().front();
   } else {
+    for (const std::filesystem::path& file : request.walls) {
+      if (file.extension() != ".h5") continue;
+      throw std::invalid_argument("--inside: the mesh file " + file.string() +
+                                  " is one of several files, expected it alone, or STL files");
+    }
     surface = read_surface(request.walls);
   }
   std::shared_ptr<const Motion> motion;

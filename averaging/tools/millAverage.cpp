@@ -36,10 +36,11 @@ int run(const Options& options, Team& team) {
   const auto note = [&](const std::string& sentence) {
     if (team.rank() == 0) std::cerr << "millAverage: " << sentence << '\n';
   };
+  const double allowed = tolerance(options, 1);
   int code = 0;
   for (const SolidsSummary& summary : average_run(as_request(options), {show_progress, note}, team)) {
     std::cout << report(summary);
-    code = std::max(code, verdict(summary, options.tolerance.value_or(1)));
+    code = std::max(code, verdict(summary, allowed));
   }
   return code;
 }
@@ -48,7 +49,7 @@ int report_file(const Options& options) {
   constexpr double usual_tolerance = 0.01;
   const SolidsSummary summary = summarise(options.report);
   std::cout << report(summary);
-  return verdict(summary, options.tolerance.value_or(usual_tolerance));
+  return verdict(summary, tolerance(options, usual_tolerance));
 }
 
 }  // namespace

@@ -32,6 +32,9 @@ std::vector<WindowsRequest> windows(const Options& options) {
     if (options.windows.size() > 1) {
       output.replace_filename(output.stem().string() + '_' + text + output.extension().string());
     }
+    if (std::filesystem::is_directory(output)) {
+      throw std::invalid_argument("-o: '" + output.string() + "' is a folder, expected the name of a file");
+    }
     result.push_back({window_length(text), output});
     const auto same = [&](const WindowsRequest& other) { return other.length == result.back().length; };
     if (std::count_if(result.begin(), result.end(), same) > 1) {
@@ -172,15 +175,20 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--end", options.end, "DEM time from which on dumps are left out, s [none]");
 
   app.add_option("--threads", options.threads, "of this process [OMP_NUM_THREADS or all cores]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1024));
   app.add_option("--checkpoint", options.checkpoint_interval, "time between notes of how far the run is, s")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
   app.add_option("--tolerance", options.tolerance,
                  "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
-                 "--report, else none]")
-      ->check(CLI::Range(0.0, 1.0));
+                 "--report, else none]");
+}
+
+double tolerance(const Options& options, double usual) {
+  const double value = options.tolerance.value_or(usual);
+  if (value >= 0 && value <= 1) return value;
+  throw std::invalid_argument("--tolerance is " + std::to_string(value) +
+                              ", expected a share between 0 and 1");
 }
 
 AverageRequest as_request(const Options& options) {
@@ -197,6 +205,10 @@ AverageRequest as_request(const Options& options) {
   if (options.template_points < 2 || options.template_points > 200) {
     throw std::invalid_argument("--template is " + std::to_string(options.template_points) +
                                 ", expected 2 to 200 points along a diameter");
+  }
+  if (!(options.checkpoint_interval >= 0)) {
+    throw std::invalid_argument("--checkpoint is " + std::to_string(options.checkpoint_interval) +
+                                ", expected a time in s");
   }
   AverageRequest request(grid(options));
   request.dumps = options.dumps;

@@ -41,6 +41,9 @@ struct Options {
 /// Declares them, with their help.
 void declare(CLI::App& app, Options& options);
 
+/// The share that --tolerance gives, or the usual one. Throws as `as_request`.
+double tolerance(const Options& options, double usual);
+
 /// Checks that they go together. Throws std::invalid_argument naming the option, its value and what was
 /// expected.
 AverageRequest as_request(const Options& options);
