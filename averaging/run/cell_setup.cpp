@@ -74,6 +74,7 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
                                   " is one of several files, expected it alone, or STL files");
     }
     surface = read_surface(request.walls);
+    if (surface.caps > 0) note("the walls are open at an end across z, and taken to be closed flat there");
   }
   std::shared_ptr<const Motion> motion;
   if (settings.angular_velocity.value_or(0) != 0) {

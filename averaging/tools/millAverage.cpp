@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <new>
 
 #include "averaging/tools/mpi_team.hpp"
 #include "averaging/tools/options.hpp"
@@ -67,7 +68,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForHelp& help) {
     return app.exit(help);
   } catch (const std::exception& error) {
-    std::cerr << "millAverage: error: " << error.what() << '\n';
+    const bool full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    std::cerr << "millAverage: error: "
+              << (full ? "not enough memory: take fewer cells (--shape) or --threads" : error.what()) << '\n';
     // The other ranks wait for this one.
     if (team && team->size() > 1) MpiTeam::abort();
     return 1;
