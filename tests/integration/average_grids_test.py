@@ -11,6 +11,7 @@ import h5py
 import numpy as np
 
 import mesh
+from average_test import MPIRUN
 
 DT, INTERVAL, OMEGA = 1e-3, 100, 2.0  # s, steps, rad/s
 LOWER, UPPER = np.array([-1.0, -1, 0]), np.array([1.0, 1, 1])
@@ -346,7 +347,7 @@ class Parallel(AverageTest):
                         (*BOX, "--periodic", "z", "--inside", "walls.stl")):
             self.average(*options, "--threads", "1", window="0.2", output="one.h5")
             for ranks, threads in ((1, 2), (2, 1), (2, 2)):
-                launcher = ("mpirun", "--oversubscribe", "-np", str(ranks)) if ranks > 1 else ()
+                launcher = (*MPIRUN, str(ranks)) if ranks > 1 else ()
                 self.average(*options, "--threads", str(threads), window="0.2", output="many.h5", launcher=launcher)
                 self.assertEqual(self.bytes("many.h5"), self.bytes("one.h5"), (options, ranks, threads))
 
