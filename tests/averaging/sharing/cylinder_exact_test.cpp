@@ -174,17 +174,7 @@ TEST(CylinderExact, IsWhatSamplingTendsTo) {
   std::vector<double> errors;
   for (const int n : {6, 12, 24, 48}) {
     CylinderSampling sampling(grid, n);
-    double squares = 0;
-    int count = 0;
-    for (const Particle& ball : random_balls(200, 0.5, 0.3)) {
-      const std::vector<double> a = shared(exact, ball), b = shared(sampling, ball);
-      for (std::size_t v = 0; v < a.size(); ++v) {
-        if (a[v] == 0) continue;
-        squares += std::pow((a[v] - b[v]) / sphere_volume(ball.radius), 2);
-        ++count;
-      }
-    }
-    errors.push_back(std::sqrt(squares / count));
+    errors.push_back(root_mean_square_difference(exact, sampling, random_balls(200, 0.5, 0.3)));
   }
   EXPECT_LT(errors[1], 0.026);  // at 12 points, as at a plane (`sphere_template.hpp`)
   for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i] / errors[i - 1], 0.6) << i;

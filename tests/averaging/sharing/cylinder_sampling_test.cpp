@@ -16,16 +16,7 @@ TEST(CylinderSampling, AgreesWithLocatingEveryPointOfTheTemplate) {
   const SphereTemplate points(10);
   CylinderSampling sharing(grid, 10);
   for (const Particle& ball : random_balls(200, 0.9, 0.4)) {
-    std::vector<double> visited(grid.size());
-    for (int n = 0; n < 1000; ++n) {
-      const std::array<int, 3> l{n % 10, n / 10 % 10, n / 100};
-      if (!points.contains(l[0], l[1], l[2])) continue;
-      Vector3 point = grid.wrapped(ball.position);
-      for (std::size_t a = 0; a < 3; ++a) point[a] += ball.radius * points.coordinate(l[a]);
-      if (const auto voxel = grid.locate(point)) {
-        visited[grid.offset(*voxel)] += sphere_volume(ball.radius) / points.size();
-      }
-    }
+    const std::vector<double> visited = by_visiting(grid, points, ball);
     const std::vector<double> cells = shared(sharing, ball);
     for (std::size_t v = 0; v < visited.size(); ++v) ASSERT_NEAR(cells[v], visited[v], 1e-13);
   }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "averaging/overlap/sphere_template.hpp"
 #include "averaging/sharing/cell_sharing.hpp"
 #include "tests/averaging/test_support.hpp"
 
@@ -42,6 +45,39 @@ inline std::vector<Particle> random_balls(int count, double reach, double larges
     balls.push_back({p + 1, position, {}, radius(random)});
   }
   return balls;
+}
+
+/// What a ball gives to each voxel when every point of its template is placed and located.
+template <typename Grid>
+std::vector<double> by_visiting(const Grid& grid, const SphereTemplate& points, const Particle& ball) {
+  std::vector<double> visited(grid.size());
+  const int n = points.points_per_diameter();
+  for (int k = 0; k < n * n * n; ++k) {
+    const std::array<int, 3> layer{k % n, k / n % n, k / (n * n)};
+    if (!points.contains(layer[0], layer[1], layer[2])) continue;
+    Vector3 point = grid.wrapped(ball.position);
+    for (std::size_t a = 0; a < 3; ++a) point[a] += ball.radius * points.coordinate(layer[a]);
+    if (const auto voxel = grid.locate(point)) {
+      visited[grid.offset(*voxel)] += sphere_volume(ball.radius) / points.size();
+    }
+  }
+  return visited;
+}
+
+/// Between two ways of sharing, over the cells that `exact` gives something, in volumes of the ball.
+inline double root_mean_square_difference(CellSharing& exact, CellSharing& other,
+                                          const std::vector<Particle>& balls) {
+  double squares = 0;
+  int count = 0;
+  for (const Particle& ball : balls) {
+    const std::vector<double> a = shared(exact, ball), b = shared(other, ball);
+    for (std::size_t v = 0; v < a.size(); ++v) {
+      if (a[v] == 0) continue;
+      squares += std::pow((a[v] - b[v]) / sphere_volume(ball.radius), 2);
+      ++count;
+    }
+  }
+  return std::sqrt(squares / count);
 }
 
 }  // namespace millfoam::averaging
