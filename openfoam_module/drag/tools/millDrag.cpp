@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// millDrag: tabulates the drag laws.
+// millDrag: tabulates the drag laws and their ranges.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
 
 #include "openfoam_module/drag/drag_laws.hpp"
+#include "openfoam_module/drag/pore_viscosity.hpp"
 
 namespace drag = millfoam::drag;
 
@@ -12,31 +13,98 @@ namespace {
 
 struct Options {
   std::string law = "all";
+  bool ranges = false;
   std::vector<double> phi;
   std::vector<double> re;
+  std::vector<double> superficial;
   double viscosity = 1e-3;
+  double yield_stress = 0;
+  double viscosity_ratio = 1000;
   double density = 1000;
   double diameter = 5e-3;
   std::string format = "csv";
 };
 
-void print_row(const drag::Law& law, double phi, double re, const Options& options) {
+std::vector<drag::Law> chosen_laws(const Options& options) {
+  if (options.law == "all") return drag::laws();
+  return {drag::find_law(options.law)};
+}
+
+void print_ranges(const Options& options) {
+  std::puts("law,phi_min,phi_max,Re_min,Re_max,reference");
+  for (const drag::Law& law : chosen_laws(options)) {
+    const drag::Range& range = law.range;
+    std::printf("%s,%g,%g,%g,%g,\"%s\"\n", std::string(law.name).c_str(), range.phi_min, range.phi_max,
+                range.re_min, range.re_max, std::string(law.reference).c_str());
+  }
+}
+
+void print_factor(const drag::Law& law, double phi, double re, const Options& options) {
   const double factor = law.factor(phi, re);
   const double beta = drag::exchange_from_factor(phi, options.diameter, options.viscosity, factor);
   std::printf("%s,%.12g,%.12g,%.12g,%.12g\n", std::string(law.name).c_str(), phi, re, factor, beta);
 }
 
+void print_gradient(const drag::Law& law, double phi, double superficial, const Options& options) {
+  const double slip = superficial / (1 - phi);
+  const double rate = drag::pore_shear_rate(phi, slip, options.diameter);
+  const double mu = drag::pore_viscosity({options.yield_stress, options.viscosity}, rate,
+                                         options.viscosity_ratio * options.viscosity);
+  const drag::Fluid fluid{options.density, mu};
+  const double re = drag::reynolds(phi, slip, options.diameter, fluid);
+  const double beta = drag::exchange_coefficient(law, phi, slip, options.diameter, fluid);
+  std::printf("%s,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", std::string(law.name).c_str(), phi, re,
+              law.factor(phi, re), beta, superficial, mu, beta * slip / (1 - phi));
+}
+
 void print_table(const Options& options) {
-  std::vector<drag::Law> chosen;
-  if (options.law == "all") {
-    chosen = drag::laws();
-  } else {
-    chosen = {drag::find_law(options.law)};
-  }
-  std::puts("law,phi,Re,F,beta");
-  for (const drag::Law& law : chosen)
-    for (double phi : options.phi)
-      for (double re : options.re) print_row(law, phi, re, options);
+  const bool gradients = !options.superficial.empty();
+  std::puts(gradients ? "law,phi,Re,F,beta,U,mu,dpdx" : "law,phi,Re,F,beta");
+  for (const drag::Law& law : chosen_laws(options))
+    for (double phi : options.phi) {
+      for (double re : options.re) print_factor(law, phi, re, options);
+      for (double superficial : options.superficial) print_gradient(law, phi, superficial, options);
+    }
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("--law", options.law, "name of a law, or all")->capture_default_str();
+  app.add_flag("--ranges", options.ranges, "list the laws with their ranges and references instead");
+  app.add_option("--phi", options.phi, "solidities, separated by commas or blanks")
+      ->delimiter(',')
+      ->check(CLI::Range(0.0, 0.999));
+  auto* re = app.add_option("--re", options.re, "Reynolds numbers rho e v d/mu")
+                 ->delimiter(',')
+                 ->check(CLI::NonNegativeNumber);
+  auto* superficial =
+      app.add_option("--superficial", options.superficial,
+                     "superficial velocities e v, m/s, in place of --re: adds the viscosity mu and the "
+                     "pressure gradient dpdx, Pa/m")
+          ->delimiter(',')
+          ->check(CLI::NonNegativeNumber)
+          ->excludes(re);
+  app.add_option("--mu", options.viscosity, "viscosity, Pa s; of a Bingham slurry its plastic viscosity")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--tau0", options.yield_stress,
+                 "yield stress, Pa: the viscosity is the apparent one in the pores")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber)
+      ->needs(superficial);
+  app.add_option("--viscosity-ratio", options.viscosity_ratio, "cap of the apparent viscosity over mu")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 1e12))
+      ->needs(superficial);
+  app.add_option("--rho", options.density, "density, kg/m^3; F and beta at given Re do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(CLI::PositiveNumber);
+  app.add_option("--format", options.format)->check(CLI::IsMember({"csv"}))->capture_default_str();
+  app.callback([&options] {
+    if (options.ranges) return;
+    if (options.phi.empty()) throw CLI::RequiredError("--phi");
+    if (options.re.empty() && options.superficial.empty()) throw CLI::RequiredError("--re or --superficial");
+  });
 }
 
 }  // namespace
@@ -45,26 +113,14 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app{
       "Tabulates drag laws: F = total force / (3 pi mu d e v) and the exchange coefficient beta (kg/m^3/s)"};
-  app.add_option("--law", options.law, "name of a law, or all")->capture_default_str();
-  app.add_option("--phi", options.phi, "solidities, separated by commas or blanks")
-      ->required()
-      ->delimiter(',')
-      ->check(CLI::Range(0.0, 0.999));
-  app.add_option("--re", options.re, "Reynolds numbers rho e v d/mu")
-      ->required()
-      ->delimiter(',')
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--mu", options.viscosity, "viscosity, Pa s")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--rho", options.density, "density, kg/m^3; F and beta at given Re do not depend on it")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(CLI::PositiveNumber);
-  app.add_option("--format", options.format)->check(CLI::IsMember({"csv"}))->capture_default_str();
+  add_options(app, options);
   CLI11_PARSE(app, argc, argv);
   try {
-    print_table(options);
+    if (options.ranges) {
+      print_ranges(options);
+    } else {
+      print_table(options);
+    }
   } catch (const std::exception& error) {
     std::cerr << "millDrag: error: " << error.what() << '\n';
     return 1;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "openfoam_module/drag/nonspherical.hpp"
+
+#include <cassert>
+#include <cmath>
+
+#include "openfoam_module/drag/drag_laws.hpp"
+
+namespace millfoam::drag {
+
+namespace {
+
+/// C_D Re/24 of a single ball: Hölzer & Sommerfeld's drag over Stokes's.
+double single_ball(double re, const Shape& shape) {
+  const double laminar = 8 / std::sqrt(shape.crosswise_sphericity) + 16 / std::sqrt(shape.sphericity);
+  const double transition = 3 * std::sqrt(re) / std::pow(shape.sphericity, 0.75);
+  const double logarithm = -std::log10(shape.sphericity);
+  const double turbulent = 0.42 * std::pow(10.0, 0.4 * std::pow(logarithm, 0.2)) / shape.crosswise_sphericity;
+  return (laminar + transition + turbulent * re) / 24;
+}
+
+}  // namespace
+
+double hoelzer_sommerfeld(double phi, double re, const Shape& shape) {
+  assert(shape.sphericity > 0 && shape.sphericity <= 1 && shape.crosswise_sphericity > 0);
+  // Di Felice's law is a single sphere's drag times his function of the voidage.
+  return single_ball(re, shape) * di_felice(phi, re) / di_felice(0, re);
+}
+
+}  // namespace millfoam::drag

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Drag of a bed of balls that are not spheres. It needs their shape, so it is not one of the table's laws.
+namespace millfoam::drag {
+
+/// Both ratios have the cross-section or surface of the sphere of equal volume above the line; 1 for a
+/// sphere.
+struct Shape {
+  double sphericity;            ///< surface of the sphere over the ball's surface, in (0, 1]
+  double crosswise_sphericity;  ///< cross-section of the sphere over the ball's area projected along the flow
+};
+
+/// F(phi, Re) as in drag_laws.hpp with the diameter of the sphere of equal volume in F and Re: the single
+/// ball's drag coefficient of Hölzer & Sommerfeld 2008, Powder Technol. 184:361, times Di Felice's function
+/// of the voidage. Stokes drag for a lone slow sphere; for
+/// spheres it lies up to 23 % below Di Felice's law (at Re 55), who takes Dallavalle's single sphere.
+double hoelzer_sommerfeld(double phi, double re, const Shape& shape);
+
+}  // namespace millfoam::drag

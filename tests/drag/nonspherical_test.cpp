@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "openfoam_module/drag/nonspherical.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "openfoam_module/drag/drag_laws.hpp"
+
+namespace drag = millfoam::drag;
+
+TEST(Nonspherical, ALoneSlowSphereFeelsStokesDrag) {
+  EXPECT_NEAR(drag::hoelzer_sommerfeld(0, 0, {1, 1}), 1, 1e-14);
+}
+
+TEST(Nonspherical, ALoneSphereHasHoelzerAndSommerfeldsDragCoefficient) {
+  for (double re : {0.1, 10.0, 1e3, 1e5}) {
+    const double drag_coefficient = 24 / re + 3 / std::sqrt(re) + 0.42;
+    EXPECT_NEAR(drag::hoelzer_sommerfeld(0, re, {1, 1}) / (drag_coefficient * re / 24), 1, 1e-13) << re;
+  }
+}
+
+TEST(Nonspherical, ValuesComputedApart) {
+  // By a few lines of another language, to 12 digits
+  EXPECT_NEAR(drag::hoelzer_sommerfeld(0, 100, {0.806, 0.806}) / 6.43637213808, 1, 1e-10);
+  EXPECT_NEAR(drag::hoelzer_sommerfeld(0.45, 100, {0.806, 0.9}) / 70.8804108574, 1, 1e-10);
+}
+
+TEST(Nonspherical, SpheresInABedFeelAtMost23PerCentLessThanDiFelices) {
+  double smallest = 1;
+  for (double re = 1e-4; re < 1e4; re *= 1.05)
+    for (double phi : {0.0, 0.3, 0.6}) {
+      const double ratio = drag::hoelzer_sommerfeld(phi, re, {1, 1}) / drag::di_felice(phi, re);
+      EXPECT_LT(ratio, 1.042) << re;
+      smallest = std::min(smallest, ratio);
+    }
+  EXPECT_NEAR(smallest, 0.773, 0.0005);
+}
