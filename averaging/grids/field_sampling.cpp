@@ -56,12 +56,13 @@ Neighbours neighbours(const Axis& axis, double coordinate) {
   return {{valid(lower), valid(lower + 1)}, {1 - (place - floor), place - floor}};
 }
 
-/// Sums of phi, phi*u and phi/d with weights.
+/// Sums of phi, phi*u, phi/d32 and phi*d43 with weights.
 struct Blend {
   double weights = 0;
   double solidity = 0;
   Vector3 flux{};
   double solidity_over_diameter = 0;
+  double solidity_times_diameter = 0;
 
   void add(const SolidsWindow& window, std::size_t n, double weight) {
     if (!window.inside_fraction.empty()) weight *= window.inside_fraction[n];
@@ -71,6 +72,7 @@ struct Blend {
     solidity += share;
     for (std::size_t a = 0; a < 3; ++a) flux[a] += share * window.velocity[3 * n + a];
     solidity_over_diameter += share / window.diameter[n];
+    solidity_times_diameter += share * window.diameter43[n];
   }
 
   LocalSolids divided() const {
@@ -80,6 +82,7 @@ struct Blend {
     local.solidity = solidity / weights;
     for (std::size_t a = 0; a < 3; ++a) local.velocity[a] = flux[a] / solidity;
     local.diameter = solidity / solidity_over_diameter;
+    local.diameter43 = solidity_times_diameter / solidity;
     return local;
   }
 };
@@ -106,6 +109,7 @@ LocalSolids sample_cell(const SolidsWindow& window, std::size_t n) {
   return {window.solidity[n],
           {window.velocity[3 * n], window.velocity[3 * n + 1], window.velocity[3 * n + 2]},
           window.diameter[n],
+          window.diameter43[n],
           true};
 }
 

@@ -9,9 +9,10 @@ namespace millfoam::averaging {
 /// The solids at one point.
 struct LocalSolids {
   double solidity = 0;
-  Vector3 velocity{};   ///< of the particles, lab frame, m/s; 0 where there are none
-  double diameter = 0;  ///< Sauter mean, m; 0 where there are no particles
-  bool inside = false;  ///< whether the point lies in the grid; outside there are no solids
+  Vector3 velocity{};     ///< of the particles, lab frame, m/s; 0 where there are none
+  double diameter = 0;    ///< Sauter mean, m; 0 where there are no particles
+  double diameter43 = 0;  ///< m; 0 where there are no particles
+  bool inside = false;    ///< whether the point lies in the grid; outside there are no solids
 };
 
 /// How a field on voxels is read at a point.
@@ -22,10 +23,10 @@ enum class Interpolation {
 
 /// Solids at `point` (m, lab frame) out of one window on `grid`, a box or a cylinder.
 ///
-/// `linear` interpolates phi, phi*u and phi/d and divides afterwards, so that an empty voxel takes part with
-/// its lack of particles and not with a velocity of 0: beside it the velocity stays the particles' own.
-/// Within the outer half of the outermost voxels the values are those of their centres; along a periodic axis
-/// (the angle of a cylinder always is) the last voxel is the first one's neighbour. Where walls cut the
+/// `linear` interpolates phi, phi*u, phi/d32 and phi*d43 and divides afterwards, so that an empty voxel takes
+/// part with its lack of particles and not with a velocity of 0: beside it the velocity stays the particles'
+/// own. Within the outer half of the outermost voxels the values are those of their centres; along a periodic
+/// axis (the angle of a cylinder always is) the last voxel is the first one's neighbour. Where walls cut the
 /// voxels, each takes part in proportion to its share inside: what lies in the wall is not known, and not
 /// empty. The window's fields must have the grid's size.
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,

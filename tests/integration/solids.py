@@ -40,10 +40,11 @@ def write_cells(path, volumes, solidity, *, mesh_time=0.0, motion="rotation spee
 
 
 def _write(path, grid, solidity, volumes, *, velocity=(0, 0, 0), diameter=DIAMETER, time0=0.0, window=0.01,
-           timestep=1e-5, whole_run=False):
+           timestep=1e-5, whole_run=False, deposited=None):
     """One window of `window` seconds after another from `time0` on, without gaps.
 
-    velocity and diameter are the same everywhere, or full arrays like solidity."""
+    velocity and diameter are the same everywhere, or full arrays like solidity; deposited: what the ledger says, m^3 per
+    window, unless it is the solids' volume."""
     windows = len(solidity)
     with h5py.File(path, "w") as file:
         file.attrs.update(format="millfoam-solids", version=np.int32(2), complete=np.int32(1), time0=time0,
@@ -62,7 +63,7 @@ def _write(path, grid, solidity, volumes, *, velocity=(0, 0, 0), diameter=DIAMET
                 ("number", 0 * scalar, "1"), ("solidity_deviation", 0 * scalar, "1"),
                 ("velocity_deviation", 0 * vector, "m/s"), ("granular_temperature", 0 * scalar, "m2/s2")):
             _data(file, name, values, units)
-        volume = (solidity * volumes).reshape(windows, -1).sum(axis=1)
+        volume = (solidity * volumes).reshape(windows, -1).sum(axis=1) if deposited is None else deposited
         for name, values in (("volume_in", volume), ("deposited", volume), ("outside", 0 * volume),
                              ("clipped", 0 * volume)):
             _data(file, f"ledger/{name}", values, "m3")

@@ -5,11 +5,8 @@
 
 #include "particleDrag.H"
 #include "addToRunTimeSelectionTable.H"
-#include "extrapolatedCalculatedFvPatchFields.H"
 #include "fvMatrices.H"
 #include "fvmSup.H"
-
-#include <stdexcept>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -25,106 +22,41 @@ addToRunTimeSelectionTable(option, particleDrag, dictionary);
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::IOobject Foam::fv::particleDrag::fieldIO(const word& name) const
+Foam::dictionary Foam::fv::particleDrag::bedEntries(dictionary dict)
 {
-    return IOobject(
-        name, mesh_.time().timeName(), mesh_, IOobject::NO_READ,
-        IOobject::AUTO_WRITE);
-}
-
-
-millfoam::drag::Fluid Foam::fv::particleDrag::readFluid(const word& name) const
-{
-    const dictionary& dict = coeffs_.subDict(name);
-    const millfoam::drag::Fluid fluid{
-        dict.get<scalar>("rho"), dict.get<scalar>("mu")};
-    if (!(fluid.density > 0 && fluid.viscosity > 0))
+    // add() leaves an entry that is there as it is, but not without a warning
+    const auto byDefault = [&dict](const word& key, const word& value)
     {
-        FatalIOErrorInFunction(dict)
-            << "rho is " << fluid.density << " and mu is " << fluid.viscosity
-            << "; expected both above zero" << exit(FatalIOError);
-    }
-    return fluid;
-}
-
-
-Foam::label Foam::fv::particleDrag::sampleSolids()
-{
-    const label uncovered = source_->sample(
-        mesh_, solidity_.primitiveFieldRef(), velocity_.primitiveFieldRef(),
-        diameter_.primitiveFieldRef());
-    solidity_.correctBoundaryConditions();
-    velocity_.correctBoundaryConditions();
-    diameter_.correctBoundaryConditions();
-
-    return returnReduce(uncovered, sumOp<label>());
-}
-
-
-Foam::tmp<Foam::volScalarField::Internal>
-Foam::fv::particleDrag::exchange(const volVectorField& U) const
-{
-    using millfoam::drag::exchange_coefficient;
-
-    auto tresult = tmp<volScalarField::Internal>::New(
-        IOobject(name_ + ":exchange", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimDensity / dimTime, Zero));
-    volScalarField::Internal& result = tresult.ref();
-
-    const volScalarField& alpha =
-        mesh_.lookupObject<volScalarField>(phaseName_);
-
-    forAll(result, celli)
-    {
-        const scalar phi = solidity_[celli];
-        if (phi <= 0)
-            continue;
-
-        const scalar slip = mag(velocity_[celli] - U[celli]);
-        const scalar d = diameter_[celli];
-        const scalar share = max(scalar(0), min(alpha[celli], scalar(1)));
-        const scalar beta =
-            share * exchange_coefficient(*law_, phi, slip, d, slurry_) +
-            (1 - share) * exchange_coefficient(*law_, phi, slip, d, air_);
-        result[celli] = multiplier_ * beta / (1 - phi);
-    }
-    return tresult;
-}
-
-
-void Foam::fv::particleDrag::report(
-    const volVectorField& U, const volScalarField::Internal& exchange) const
-{
-    const volScalarField& alpha =
-        mesh_.lookupObject<volScalarField>(phaseName_);
-    const scalarField& volume = mesh_.V();
-
-    scalar largestRe = 0;
-    vector force(Zero);
-    scalar solids = 0;
-    forAll(exchange, celli)
-    {
-        const scalar phi = solidity_[celli];
-        if (phi <= 0)
-            continue;
-
-        const vector slip(velocity_[celli] - U[celli]);
-        if (alpha[celli] > 0.5)
+        if (!dict.found(key))
         {
-            largestRe =
-                max(largestRe, millfoam::drag::reynolds(
-                                   phi, mag(slip), diameter_[celli], slurry_));
+            dict.add(key, value);
         }
-        force += exchange[celli] * slip * volume[celli];
-        solids += phi * volume[celli];
-    }
-    reduce(largestRe, maxOp<scalar>());
-    reduce(force, sumOp<vector>());
-    reduce(solids, sumOp<scalar>());
+    };
+    byDefault("inTime", "window");
+    byDefault("ledgerCorrection", "no");
+    byDefault("uncovered", "warn");
+    return dict;
+}
 
-    Info << type() << " " << name_ << ": solids " << solids
-         << " m3, largest particle Re in slurry " << largestRe
-         << ", force on the fluid " << force << " N" << endl;
+
+Foam::string Foam::fv::particleDrag::who() const
+{
+    return typeName + " " + name_;
+}
+
+
+const Foam::volScalarField& Foam::fv::particleDrag::phase() const
+{
+    return mesh_.lookupObject<volScalarField>(phaseName_);
+}
+
+
+Foam::vector Foam::fv::particleDrag::force(
+    const volVectorField& U, const volScalarField::Internal& coefficient) const
+{
+    const vectorField& balls = bed_.velocity().primitiveField();
+    return gSum(
+        coefficient.field() * (balls - U.primitiveField()) * mesh_.V().field());
 }
 
 
@@ -134,40 +66,33 @@ Foam::fv::particleDrag::particleDrag(
     const word& name, const word& modelType, const dictionary& dict,
     const fvMesh& mesh)
 : option(name, modelType, dict, mesh),
-  law_(nullptr),
+  drag_(),
+  bed_(bedEntries(coeffs_), mesh),
   phaseName_(),
-  slurry_(),
-  air_(),
-  multiplier_(1),
-  solidity_(
-      fieldIO("solidity"), mesh, dimensionedScalar(dimless, Zero),
-      extrapolatedCalculatedFvPatchScalarField::typeName),
-  velocity_(
-      fieldIO("solidsVelocity"), mesh, dimensionedVector(dimVelocity, Zero),
-      extrapolatedCalculatedFvPatchVectorField::typeName),
-  diameter_(
-      fieldIO("solidsDiameter"), mesh, dimensionedScalar(dimLength, Zero),
-      extrapolatedCalculatedFvPatchScalarField::typeName),
-  sampledIndex_(-1)
+  reported_(-1)
 {
     fieldNames_.setSize(1, coeffs_.lookupOrDefault<word>("U", "U"));
     applied_.setSize(1, false);
 
     read(dict);
-    source_ = solidsSource::New(coeffs_, mesh);
-
-    Info << "    drag law " << word(std::string(law_->name), false) << " ("
-         << std::string(law_->reference).c_str() << "), "
-         << source_->description().c_str() << endl;
-
-    const label uncovered = sampleSolids();
-    if (uncovered)
+    if (bed_.empty())
     {
-        WarningInFunction
-            << name << ": " << uncovered << " of "
-            << returnReduce(mesh.nCells(), sumOp<label>())
-            << " cells lie outside the solids' grid and feel no drag" << endl;
+        FatalIOErrorInFunction(coeffs_)
+            << "neither of the entries 'solids' (the name of a solids.h5) and"
+            << " 'block' (a uniform bed) is there; expected one of them"
+            << exit(FatalIOError);
     }
+
+    Info << "    " << drag_->description().c_str() << ", "
+         << bed_.description().c_str() << endl;
+}
+
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::fv::particleDrag::~particleDrag()
+{
+    drag_->summary(who());
 }
 
 
@@ -178,21 +103,20 @@ void Foam::fv::particleDrag::addSup(
 {
     const volVectorField& U = eqn.psi();
 
-    const bool firstInStep = sampledIndex_ != mesh_.time().timeIndex();
-    if (firstInStep || mesh_.changing())
+    bed_.update();
+    const volScalarField::Internal coefficient(
+        drag_->exchange(bed_, phase(), U) / bed_.voidage().internalField());
+
+    if (reported_ != mesh_.time().timeIndex())
     {
-        sampleSolids();
-        sampledIndex_ = mesh_.time().timeIndex();
+        reported_ = mesh_.time().timeIndex();
+        drag_->report(bed_, phase(), U, who());
+        Info << who().c_str() << ": force on the fluid "
+             << force(U, coefficient) << " N" << endl;
     }
 
-    const tmp<volScalarField::Internal> coefficient(exchange(U));
-    if (firstInStep)
-    {
-        report(U, coefficient());
-    }
-
-    eqn += coefficient() * velocity_.internalField();
-    eqn -= fvm::Sp(coefficient(), U);
+    eqn += coefficient * bed_.velocity().internalField();
+    eqn -= fvm::Sp(coefficient, U);
 }
 
 
@@ -213,31 +137,7 @@ bool Foam::fv::particleDrag::read(const dictionary& dict)
     }
 
     phaseName_ = coeffs_.get<word>("phase");
-    slurry_ = readFluid("slurry");
-    air_ = readFluid("air");
-    multiplier_ = coeffs_.lookupOrDefault<scalar>("multiplier", 1);
-    if (!(multiplier_ >= 0))
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "multiplier is " << multiplier_
-            << "; expected a factor on the drag, 0 or above"
-            << exit(FatalIOError);
-    }
-
-    const word lawName(coeffs_.get<word>("law"));
-    std::string reason;
-    try
-    {
-        law_ = &millfoam::drag::find_law(lawName);
-    }
-    catch (const std::invalid_argument& error)
-    {
-        reason = error.what();
-    }
-    if (!reason.empty())
-    {
-        FatalIOErrorInFunction(coeffs_) << reason << exit(FatalIOError);
-    }
+    drag_.reset(new bedDrag(coeffs_));
     return true;
 }
 

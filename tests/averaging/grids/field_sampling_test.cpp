@@ -58,6 +58,7 @@ TEST_F(LinearField, IsItsVoxelsWhenReadByCell) {
   const LocalSolids local = sample(grid, window, {0.9, 1.9, 2.9}, Interpolation::cell);
   EXPECT_EQ(local.solidity, window.solidity[grid.offset({3, 4, 2})]);
   EXPECT_EQ(local.velocity[0], window.velocity[3 * grid.offset({3, 4, 2})]);
+  EXPECT_EQ(local.diameter43, 0.005);
 }
 
 TEST_F(LinearField, StaysConstantInTheOuterHalfVoxels) {
@@ -86,13 +87,15 @@ TEST(FieldSampling, TowardsAnEmptyVoxelTheVelocityStaysTheParticles) {
   EXPECT_NEAR(local.diameter, 0.004, 1e-17);
 }
 
-TEST(FieldSampling, BetweenTwoSizesTheDiameterIsTheMixturesSauterMean) {
+TEST(FieldSampling, BetweenTwoSizesTheDiametersAreTheMixtures) {
   const BoxGrid grid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   SolidsWindow window = empty_window(grid);
   fill(window, 0, 0.2, {}, 0.002);
   fill(window, 1, 0.4, {}, 0.008);
-  // (0.1 + 0.2)/(0.1/0.002 + 0.2/0.008) = 0.3/75
-  EXPECT_NEAR(sample(grid, window, {1, 0.5, 0.5}, Interpolation::linear).diameter, 0.004, 1e-17);
+  const LocalSolids local = sample(grid, window, {1, 0.5, 0.5}, Interpolation::linear);
+  // (0.1 + 0.2)/(0.1/0.002 + 0.2/0.008) = 0.3/75 and (0.1*0.002 + 0.2*0.008)/0.3
+  EXPECT_NEAR(local.diameter, 0.004, 1e-17);
+  EXPECT_NEAR(local.diameter43, 0.006, 1e-17);
 }
 
 TEST(FieldSampling, AlongAPeriodicAxisTheLastVoxelIsTheFirstOnesNeighbour) {

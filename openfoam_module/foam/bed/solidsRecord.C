@@ -7,6 +7,8 @@
 #include "untrapped.H"
 #include "volFields.H"
 
+#include <cmath>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 const Foam::Enum<millfoam::averaging::Interpolation>
@@ -108,21 +110,82 @@ void Foam::solidsRecord::readInterpolation()
 }
 
 
-void Foam::solidsRecord::loadWindow(const scalar t)
+void Foam::solidsRecord::readLedger()
 {
-    const label wanted = clock_->windowAt(t);
-    if (wanted == number_)
-    {
-        return;
-    }
-
+    std::vector<millfoam::averaging::Ledger> ledgers;
     const auto failure =
-        untrapped([&]() { window_ = reader_->read_window(wanted); });
+        untrapped([&]() { ledgers = reader_->read_ledgers(); });
     if (failure)
     {
         FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
     }
-    number_ = wanted;
+    for (const auto& ledger : ledgers)
+    {
+        if (!(std::isfinite(ledger.deposited) && ledger.deposited >= 0))
+        {
+            FatalIOErrorInFunction(dict_)
+                << file_ << ": /ledger/deposited is "
+                << scalar(ledger.deposited) << " in window "
+                << label(deposited_.size()) << "; expected a volume, m3"
+                << exit(FatalIOError);
+        }
+        deposited_.push_back(ledger.deposited);
+    }
+}
+
+
+Foam::solidsRecord::held&
+Foam::solidsRecord::have(const label number, const label other)
+{
+    for (held& one : held_)
+    {
+        if (one.number == number)
+            return one;
+    }
+
+    held& free = held_[0].number == other ? held_[1] : held_[0];
+    const auto failure =
+        untrapped([&]() { free.window = reader_->read_window(number); });
+    if (failure)
+    {
+        FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
+    }
+    free.number = number;
+    free.sampled = false;
+    return free;
+}
+
+
+bool Foam::solidsRecord::sampleWindow(const fvMesh& mesh, held& one)
+{
+    const bool moved = !cells_.valid() && mesh.changing();
+    if (one.sampled && !moved)
+        return false;
+
+    one.sampled = true;
+    if (cells_.valid())
+    {
+        cells_->pick(one.window, one.sums);
+        return true;
+    }
+
+    DynamicList<label> beyond;
+    const vectorField& centres = mesh.C().primitiveField();
+    one.sums.clear(centres.size());
+    forAll(centres, i)
+    {
+        const LocalSolids local = std::visit(
+            pointSampler{one.window, centres[i], interpolation_},
+            reader_->grid());
+        const vector u(local.velocity[0], local.velocity[1], local.velocity[2]);
+        one.sums.add(i, local.solidity, u, local.diameter, local.diameter43);
+        if (!local.inside)
+        {
+            beyond.append(i);
+        }
+    }
+    uncovered_.transfer(beyond);
+    return true;
 }
 
 
@@ -132,11 +195,12 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   file_(dict.get<fileName>("solids").expand()),
   interpolation_(),
-  number_(-1)
+  moment_({-1, -1, 0})
 {
     open(mesh.time());
     clock_.reset(new solidsClock(dict, file_, *reader_));
     clock_->checkSpan(mesh.time());
+    readLedger();
 
     if (const auto* cells = std::get_if<MeshCells>(&reader_->grid()))
     {
@@ -149,30 +213,38 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::solidsRecord::sample(
-    const fvMesh& mesh, scalarField& solidity, vectorField& velocity,
-    scalarField& diameter)
+bool Foam::solidsRecord::sample(const fvMesh& mesh, solidsFields& sums)
 {
-    loadWindow(mesh.time().value());
-    if (cells_.valid())
+    const solidsClock::moment now = clock_->at(mesh.time().value());
+    bool changed = now.lower != moment_.lower || now.upper != moment_.upper ||
+                   now.weight != moment_.weight;
+    moment_ = now;
+
+    held& lower = have(now.lower, now.upper);
+    changed = sampleWindow(mesh, lower) || changed;
+    if (now.lower == now.upper)
     {
-        cells_->pick(window_, solidity, velocity, diameter);
-        return 0;
+        if (changed)
+        {
+            sums = lower.sums;
+        }
+        return changed;
     }
 
-    label uncovered = 0;
-    const vectorField& centres = mesh.C().primitiveField();
-    forAll(centres, i)
+    held& upper = have(now.upper, now.lower);
+    changed = sampleWindow(mesh, upper) || changed;
+    if (changed)
     {
-        const LocalSolids solids = std::visit(
-            pointSampler{window_, centres[i], interpolation_}, reader_->grid());
-        solidity[i] = solids.solidity;
-        velocity[i] =
-            vector(solids.velocity[0], solids.velocity[1], solids.velocity[2]);
-        diameter[i] = solids.diameter;
-        uncovered += solids.inside ? 0 : 1;
+        sums.blend(lower.sums, upper.sums, now.weight);
     }
-    return uncovered;
+    return changed;
+}
+
+
+Foam::scalar Foam::solidsRecord::volume() const
+{
+    return (1 - moment_.weight) * deposited_[moment_.lower] +
+           moment_.weight * deposited_[moment_.upper];
 }
 
 

@@ -123,17 +123,18 @@ Foam::solidsCells::solidsCells(
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::solidsCells::pick(
-    const millfoam::averaging::SolidsWindow& window, scalarField& solidity,
-    vectorField& velocity, scalarField& diameter) const
+    const millfoam::averaging::SolidsWindow& window, solidsFields& sums) const
 {
+    sums.clear(labels_.size());
     forAll(labels_, celli)
     {
         const label i = labels_[celli];
-        solidity[celli] = window.solidity[i];
-        velocity[celli] = vector(
+        const vector u(
             window.velocity[3 * i], window.velocity[3 * i + 1],
             window.velocity[3 * i + 2]);
-        diameter[celli] = window.diameter[i];
+        sums.add(
+            celli, window.solidity[i], u, window.diameter[i],
+            window.diameter43[i]);
     }
 }
 

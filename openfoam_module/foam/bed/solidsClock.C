@@ -17,6 +17,11 @@ const Foam::Enum<Foam::solidsClock::range> Foam::solidsClock::rangeNames_({
     {range::repeat, "repeat"},
 });
 
+const Foam::Enum<Foam::solidsClock::course> Foam::solidsClock::courseNames_({
+    {course::window, "window"},
+    {course::linear, "linear"},
+});
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -57,31 +62,7 @@ void Foam::solidsClock::checkGaps() const
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
-Foam::solidsClock::solidsClock(
-    const dictionary& dict, const fileName& file,
-    const millfoam::averaging::SolidsReader& reader)
-: dict_(dict),
-  file_(file),
-  windows_(reader.windows()),
-  time0_(reader.time0()),
-  tolerance_(reader.timestep() / 2),
-  outOfRange_(rangeNames_.getOrDefault("outOfRange", dict, range::error))
-{
-    checkTime0();
-    checkGaps();
-
-    if (reader.whole_run())
-    {
-        outOfRange_ = range::hold;
-    }
-}
-
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::label Foam::solidsClock::windowAt(const scalar t) const
+Foam::scalar Foam::solidsClock::recorded(const scalar t) const
 {
     scalar elapsed = t;
     if (outOfRange_ == range::repeat)
@@ -103,6 +84,12 @@ Foam::label Foam::solidsClock::windowAt(const scalar t) const
             << " outOfRange hold or repeat" << exit(FatalIOError);
     }
 
+    return elapsed;
+}
+
+
+Foam::label Foam::solidsClock::windowAt(const scalar elapsed) const
+{
     const label last = label(windows_.size()) - 1;
     label number = 0;
     while (number < last &&
@@ -114,13 +101,83 @@ Foam::label Foam::solidsClock::windowAt(const scalar t) const
 }
 
 
+Foam::scalar Foam::solidsClock::centre(const label number) const
+{
+    return (windows_[number].begin + windows_[number].end) / 2 - time0_;
+}
+
+
+Foam::solidsClock::moment Foam::solidsClock::between(const scalar elapsed) const
+{
+    const label n = label(windows_.size());
+    label upper = 0;
+    while (upper < n && centre(upper) <= elapsed)
+    {
+        ++upper;
+    }
+    const label lower = upper - 1;
+    if (lower >= 0 && upper < n)
+    {
+        const scalar step = centre(upper) - centre(lower);
+        return {lower, upper, (elapsed - centre(lower)) / step};
+    }
+
+    if (outOfRange_ == range::repeat && n > 1)
+    {
+        const scalar step = centre(0) + duration() - centre(n - 1);
+        const scalar since =
+            elapsed - centre(n - 1) + (upper == 0 ? duration() : 0);
+        return {n - 1, 0, since / step};
+    }
+    const label held = upper == 0 ? 0 : n - 1;
+    return {held, held, 0};
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::solidsClock::solidsClock(
+    const dictionary& dict, const fileName& file,
+    const millfoam::averaging::SolidsReader& reader)
+: dict_(dict),
+  file_(file),
+  windows_(reader.windows()),
+  time0_(reader.time0()),
+  tolerance_(reader.timestep() / 2),
+  outOfRange_(rangeNames_.getOrDefault("outOfRange", dict, range::error)),
+  inTime_(courseNames_.getOrDefault("inTime", dict, course::linear))
+{
+    checkTime0();
+    checkGaps();
+
+    if (reader.whole_run())
+    {
+        outOfRange_ = range::hold;
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::solidsClock::moment Foam::solidsClock::at(const scalar t) const
+{
+    const scalar elapsed = recorded(t);
+    if (inTime_ == course::linear)
+    {
+        return between(elapsed);
+    }
+    const label number = windowAt(elapsed);
+    return {number, number, 0};
+}
+
+
 void Foam::solidsClock::checkSpan(const Time& time) const
 {
-    windowAt(time.startTime().value());
+    recorded(time.startTime().value());
     // Without a set end (stopAt nextWrite and its kin) only the run can tell
     if (time.endTime().value() < GREAT)
     {
-        windowAt(time.endTime().value());
+        recorded(time.endTime().value());
     }
 }
 
@@ -130,6 +187,7 @@ Foam::string Foam::solidsClock::description() const
     OStringStream text;
     text << label(windows_.size()) << " windows of " << file_ << ", DEM times "
          << time0_ << " to " << windows_.back().end << " s, "
+         << (inTime_ == course::linear ? "linear in time, " : "")
          << rangeNames_[outOfRange_] << " beyond";
     return text.str();
 }

@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A pool with an exactly flat free surface stays at rest, on meshes that are not aligned with it.
+
+Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
+surface tension, with the mesh standing still and with the mesh turning inside walls that slip. Writes one table and two
+pictures. Exit code 1 when slurryFoam misses what it must hold."""
+import argparse
+import shutil
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pool_pictures
+import pool_table
+from millfoam.run import RunError, write_parameters
+from millfoam.run import run as run_program
+from pool_history import Run, measure, read_history, write_history
+
+SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "slurryFoam": "slurryFoam"}
+SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1.4e-3 / 1239)
+AIR = dict(airDensity=1.2, airKinematicViscosity=1.8e-5 / 1.2)
+TENSION = 0.07  # N/m
+# By name: what makes the mesh (None: blockMesh) and the pool's level, m. Levels run through cells, not along their faces.
+MESHES = {
+    "ogrid": (None, -0.031),
+    "mill": ("mill.yaml", -0.012),
+    "slice": ("../../mills/mill_12cm/mill.yaml", -0.002),
+    "drum": ("drum.yaml", -0.012),
+}
+# Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
+OMEGA = {"ogrid": -6.4, "drum": -6.4}
+QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
+
+
+def matrix(meshes, solvers, quick):
+    """Every run, the O-grid's first. Quick: the two meshes of a mill at rest, with surface tension, for a short time."""
+    if quick:
+        return [Run(mesh, solver, TENSION, False) for mesh in ("ogrid", "mill") for solver in ("interFoam", "slurryFoam")]
+    return [
+        Run(mesh, solver, tension, turning)
+        for mesh in meshes
+        for turning in ((False,) if mesh not in OMEGA else (True,) if mesh == "drum" else (False, True))
+        for tension in (TENSION, 0)
+        for solver in solvers
+    ]
+
+
+def build(run, case, here, end):
+    """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface."""
+    shutil.copytree(here / "pool" / "common", case)
+    shutil.copytree(here / "pool" / run.solver, case, dirs_exist_ok=True)
+    mill, level = MESHES[run.mesh]
+    write_parameters(
+        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension, level=level, endTime=end,
+        writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
+    if mill:
+        run_program(case, "millMesh", here / mill, "--case", ".")
+    else:
+        shutil.copytree(here / "pool" / run.mesh, case, dirs_exist_ok=True)
+        run_program(case, "blockMesh")
+    run_program(case, "setAlphaField")
+
+
+def kept(run, case, here, end):
+    """History that an earlier run left, or None: it must have reached the end and be newer than its solver and inputs."""
+    left = case / "history.csv"
+    program = shutil.which(SOLVERS[run.solver])
+    if not left.is_file() or not program:
+        return None
+    inputs = [Path(program), *here.glob("*.yaml"), *(here / "pool").rglob("*")]
+    if left.stat().st_mtime < max(path.stat().st_mtime for path in inputs):
+        return None
+    history = read_history(case)
+    return history if history.time[-1] >= end - 1e-9 else None
+
+
+def perform(run, work, here, end, keep):
+    """History of a run: an earlier one's where `keep` allows it, else that of a run made now."""
+    case = work / run.name
+    earlier = kept(run, case, here, end) if keep else None
+    if earlier:
+        return earlier
+    shutil.rmtree(case, ignore_errors=True)
+    build(run, case, here, end)
+    try:
+        run_program(case, SOLVERS[run.solver])
+    except RunError as error:
+        # A reference that diverges is a finding; the table shows the time that it reached.
+        print(f"{run.name}: {error}", file=sys.stderr)
+    history = measure(case)
+    write_history(history, case)
+    print(f"{run.name}: {history.time[-1]:g} s, slurry rms {history.slurry_rms[-1]:.2e} m/s", flush=True)
+    return history
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help=f"two meshes, {QUICK_END} s, interFoam and slurryFoam")
+    parser.add_argument("--meshes", nargs="+", choices=MESHES, default=list(MESHES))
+    parser.add_argument("--solvers", nargs="+", choices=SOLVERS, default=list(SOLVERS))
+    parser.add_argument("--keep", action="store_true", help="take complete runs of an earlier time, where nothing is newer")
+    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_pool", help="folder of the runs")
+    parser.add_argument("--out", type=Path, default=Path(__file__).parent, help="folder of the table and pictures")
+    parser.add_argument("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    here, work, out = Path(__file__).parent.resolve(), options.work.resolve(), options.out.resolve()
+    end = QUICK_END if options.quick else LONG_END
+    runs = matrix(options.meshes, options.solvers, options.quick)
+    for program in sorted({SOLVERS[run.solver] for run in runs}):
+        if not shutil.which(program):
+            parser.error(f"{program} is not on the PATH: run scripts/setup, then source scripts/env")
+    work.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(options.jobs) as threads:
+        histories = dict(zip(runs, threads.map(lambda run: perform(run, work, here, end, options.keep), runs)))
+    missed = pool_table.report(histories, end, out)
+    pool_pictures.speeds(histories, out / "pool_speeds.png")
+    pool_pictures.maps(histories, work, out / "pool_maps.png")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

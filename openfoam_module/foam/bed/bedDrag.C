@@ -1,0 +1,217 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "bedDrag.H"
+#include "openfoam_module/drag/pore_viscosity.hpp"
+
+#include <stdexcept>
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::bedDrag::viscosity> Foam::bedDrag::viscosityNames_({
+    {viscosity::plastic, "plastic"},
+    {viscosity::pore, "pore"},
+});
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Density and viscosity of a phase from its dictionary
+static millfoam::drag::Fluid readFluid(const dictionary& dict)
+{
+    const millfoam::drag::Fluid fluid{
+        dict.get<scalar>("rho"), dict.get<scalar>("mu")};
+    if (!(fluid.density > 0 && fluid.viscosity > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "rho is " << fluid.density << " and mu is " << fluid.viscosity
+            << "; expected both above zero" << exit(FatalIOError);
+    }
+    return fluid;
+}
+
+
+//- Slurry and air from the sub-dictionaries of those names
+static bedFluids readFluids(const dictionary& dict)
+{
+    const dictionary& slurry = dict.subDict("slurry");
+    bedFluids fluids;
+    fluids.slurry = readFluid(slurry);
+    fluids.air = readFluid(dict.subDict("air"));
+    fluids.yieldStress = slurry.lookupOrDefault<scalar>("yieldStress", 0);
+    fluids.largestViscosity =
+        slurry.lookupOrDefault<scalar>("viscosityRatio", 1000) *
+        fluids.slurry.viscosity;
+    return fluids;
+}
+
+
+//- The law of that name
+static const millfoam::drag::Law* readLaw(const dictionary& dict)
+{
+    const word name(dict.get<word>("law"));
+    std::string reason;
+    try
+    {
+        return &millfoam::drag::find_law(name);
+    }
+    catch (const std::invalid_argument& error)
+    {
+        reason = error.what();
+    }
+    FatalIOErrorInFunction(dict) << reason << exit(FatalIOError);
+    return nullptr;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+millfoam::drag::Fluid
+Foam::bedDrag::slurryAt(const scalar phi, const scalar v, const scalar d) const
+{
+    millfoam::drag::Fluid fluid = fluids_.slurry;
+    if (viscosity_ == viscosity::pore)
+    {
+        fluid.viscosity = millfoam::drag::pore_viscosity(
+            {fluids_.yieldStress, fluid.viscosity},
+            millfoam::drag::pore_shear_rate(phi, v, d),
+            fluids_.largestViscosity);
+    }
+    return fluid;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
+: law_(readLaw(dict)),
+  range_(*law_),
+  fluids_(fluids),
+  viscosity_(
+      viscosityNames_.getOrDefault("viscosity", dict, viscosity::plastic)),
+  polydispersity_(dict.lookupOrDefault<bool>("polydispersity", false)),
+  multiplier_(dict.lookupOrDefault<scalar>("multiplier", 1))
+{
+    if (!(multiplier_ >= 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "multiplier is " << multiplier_
+            << "; expected a factor on the drag, 0 or above"
+            << exit(FatalIOError);
+    }
+    if (viscosity_ == viscosity::pore &&
+        !(fluids_.yieldStress >= 0 &&
+          fluids_.largestViscosity >= fluids_.slurry.viscosity))
+    {
+        FatalIOErrorInFunction(dict)
+            << "viscosity is pore and the slurry has the yield stress "
+            << fluids_.yieldStress << " Pa, the plastic viscosity "
+            << fluids_.slurry.viscosity << " Pa s and the largest viscosity "
+            << fluids_.largestViscosity
+            << " Pa s; expected a yield stress of 0 or above and a largest"
+            << " viscosity not below the plastic one" << exit(FatalIOError);
+    }
+}
+
+
+Foam::bedDrag::bedDrag(const dictionary& dict)
+: bedDrag(dict, readFluids(dict))
+{
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::tmp<Foam::volScalarField::Internal> Foam::bedDrag::exchange(
+    const movingBed& bed, const volScalarField& alpha,
+    const volVectorField& U) const
+{
+    using millfoam::drag::exchange_coefficient;
+
+    auto tresult = tmp<volScalarField::Internal>::New(
+        IOobject("exchange", U.time().timeName(), U.mesh()), U.mesh(),
+        dimensionedScalar(dimDensity / dimTime, Zero));
+    volScalarField::Internal& result = tresult.ref();
+
+    forAll(result, celli)
+    {
+        const scalar phi = bed.solidity()[celli];
+        if (phi <= 0)
+            continue;
+
+        const scalar v = mag(bed.velocity()[celli] - U[celli]);
+        const scalar d = bed.diameter()[celli];
+        const scalar share = max(scalar(0), min(alpha[celli], scalar(1)));
+        scalar beta = 0;
+        if (share > 0)
+        {
+            beta += share *
+                    exchange_coefficient(*law_, phi, v, d, slurryAt(phi, v, d));
+        }
+        if (share < 1)
+        {
+            beta += (1 - share) *
+                    exchange_coefficient(*law_, phi, v, d, fluids_.air);
+        }
+        if (polydispersity_)
+        {
+            beta *= millfoam::drag::polydispersity_factor(
+                phi, d, bed.diameter43()[celli]);
+        }
+        result[celli] = multiplier_ * beta;
+    }
+    return tresult;
+}
+
+
+void Foam::bedDrag::report(
+    const movingBed& bed, const volScalarField& alpha, const volVectorField& U,
+    const string& who)
+{
+    scalar largestRe = 0;
+    range_.begin();
+    const scalarField& V = U.mesh().V();
+    forAll(V, celli)
+    {
+        const scalar phi = bed.solidity()[celli];
+        if (phi <= 0 || alpha[celli] <= 0.5)
+            continue;
+
+        const scalar v = mag(bed.velocity()[celli] - U[celli]);
+        const scalar d = bed.diameter()[celli];
+        const scalar re =
+            millfoam::drag::reynolds(phi, v, d, slurryAt(phi, v, d));
+        largestRe = max(largestRe, re);
+        range_.count(phi, re, (1 - phi) * V[celli]);
+    }
+    reduce(largestRe, maxOp<scalar>());
+    range_.end(U.time().deltaTValue());
+
+    const scalar solids = gSum(bed.solidity().primitiveField() * V);
+    Info << who.c_str() << ": solids " << solids
+         << " m3, largest particle Re in slurry " << largestRe << ", "
+         << range_.description().c_str() << endl;
+}
+
+
+void Foam::bedDrag::summary(const string& who) const
+{
+    Info << who.c_str() << ": " << range_.summary().c_str() << endl;
+}
+
+
+Foam::string Foam::bedDrag::description() const
+{
+    return "drag law " + std::string(law_->name) + " (" +
+           std::string(law_->reference) + ")";
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,153 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "movingBed.H"
+#include "OStringStream.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "uncoveredCells.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+const Foam::Enum<Foam::movingBed::beyond> Foam::movingBed::beyondNames_({
+    {beyond::error, "error"},
+    {beyond::warn, "warn"},
+});
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::IOobject
+Foam::movingBed::fieldIO(const word& name, const bool shown) const
+{
+    return IOobject(
+        name, mesh_.time().timeName(), mesh_, IOobject::NO_READ,
+        shown && !empty() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE);
+}
+
+
+template <class Type>
+Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh>
+Foam::movingBed::zero(
+    const word& name, const dimensionSet& dimensions, const bool shown)
+{
+    return GeometricField<Type, fvPatchField, volMesh>(
+        fieldIO(name, shown), mesh_, dimensioned<Type>(dimensions, Zero),
+        extrapolatedCalculatedFvPatchField<Type>::typeName);
+}
+
+
+void Foam::movingBed::checkCover()
+{
+    const label n = returnReduce(source_->uncovered().size(), sumOp<label>());
+    if (n == 0 || told_)
+        return;
+
+    told_ = true;
+    OStringStream text;
+    text << n << " of " << returnReduce(mesh_.nCells(), sumOp<label>())
+         << " cells lie outside the grid of the solids: "
+         << firstCells(mesh_, source_->uncovered()).c_str();
+    if (uncovered_ == beyond::warn)
+    {
+        WarningInFunction << text.str().c_str() << "; they have no solids"
+                          << endl;
+        return;
+    }
+    FatalIOErrorInFunction(dict_)
+        << text.str().c_str() << ". Average on a grid that covers the mesh"
+        << " (millAverage --box, or --mesh), or let such cells have no solids"
+        << " with the entry 'uncovered warn;'" << exit(FatalIOError);
+}
+
+
+void Foam::movingBed::setFields()
+{
+    scalarField& solidity = solidity_.primitiveFieldRef();
+    vectorField& velocity = velocity_.primitiveFieldRef();
+    scalarField& diameter = diameter_.primitiveFieldRef();
+    scalarField& diameter43 = diameter43_.primitiveFieldRef();
+    forAll(solidity, celli)
+    {
+        solidity[celli] = sums_.solidity()[celli];
+        velocity[celli] = sums_.velocity(celli);
+        diameter[celli] = sums_.diameter(celli);
+        diameter43[celli] = sums_.diameter43(celli);
+    }
+    if (conservation_.valid() && source_->knowsVolume())
+    {
+        conservation_->correct(solidity, mesh_.V(), source_->volume());
+    }
+    voidage_.primitiveFieldRef() = 1 - solidity;
+
+    solidity_.correctBoundaryConditions();
+    voidage_.correctBoundaryConditions();
+    velocity_.correctBoundaryConditions();
+    diameter_.correctBoundaryConditions();
+    diameter43_.correctBoundaryConditions();
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::movingBed::movingBed(const dictionary& dict, const fvMesh& mesh)
+: dict_(dict),
+  mesh_(mesh),
+  source_(solidsSource::New(dict_, mesh)),
+  conservation_(
+      dict_.lookupOrDefault<bool>("ledgerCorrection", true)
+          ? new solidsConservation(dict_)
+          : nullptr),
+  uncovered_(beyondNames_.getOrDefault("uncovered", dict_, beyond::error)),
+  told_(false),
+  sums_(),
+  solidity_(zero<scalar>("solidity", dimless, true)),
+  voidage_(zero<scalar>("voidage", dimless, false)),
+  velocity_(zero<vector>("solidsVelocity", dimVelocity, true)),
+  diameter_(zero<scalar>("solidsDiameter", dimLength, true)),
+  diameter43_(zero<scalar>("solidsDiameter43", dimLength, false)),
+  updated_(-1)
+{
+    voidage_ == dimensionedScalar("voidage", dimless, 1);
+    update();
+    // From the first time-step on, d(voidage)/dt has its old level
+    voidage_.oldTime();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::movingBed::update()
+{
+    const label now = mesh_.time().timeIndex();
+    if (empty() || (updated_ == now && !mesh_.changing()))
+        return;
+
+    if (source_->sample(mesh_, sums_) || mesh_.changing())
+    {
+        checkCover();
+        setFields();
+    }
+    if (updated_ != now && conservation_.valid() && source_->knowsVolume())
+    {
+        Info << "bed: " << conservation_->description().c_str() << endl;
+    }
+    updated_ = now;
+}
+
+
+Foam::string Foam::movingBed::description() const
+{
+    if (empty())
+    {
+        return "no solids";
+    }
+    return source_->description() +
+           (conservation_.valid() && source_->knowsVolume()
+                ? ", volume corrected to the ledger's"
+                : "");
+}
+
+
+// ************************************************************************* //

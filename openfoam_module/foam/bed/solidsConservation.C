@@ -1,0 +1,146 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "solidsConservation.H"
+#include "OStringStream.H"
+#include "PstreamReduceOps.H"
+#include "vector2D.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Beyond this relative correction the fields are not those of the mesh
+static constexpr scalar tooLarge = 0.02;
+
+//- Relative error of the corrected volume
+static constexpr scalar precision = 1e-13;
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::solidsConservation::volumes Foam::solidsConservation::bounded(
+    const scalarField& solidity, const scalarField& V,
+    const scalar factor) const
+{
+    vector2D sums(Zero);
+    forAll(solidity, celli)
+    {
+        const scalar wanted = factor * solidity[celli];
+        const bool below = wanted < largestSolidity_;
+        sums.x() += min(wanted, largestSolidity_) * V[celli];
+        sums.y() += below ? wanted * V[celli] : 0;
+    }
+    reduce(sums, sumOp<vector2D>());
+    return {sums.x(), sums.y()};
+}
+
+
+Foam::scalar Foam::solidsConservation::factorFor(
+    const scalarField& solidity, const scalarField& V, const scalar found,
+    const scalar volume) const
+{
+    // The bounded volume is at most factor*found, so this starts below
+    scalar factor = volume / found;
+    while (true)
+    {
+        const volumes now = bounded(solidity, V, factor);
+        const scalar missing = volume - now.all;
+        if (mag(missing) <= precision * volume)
+            return factor;
+
+        if (!(now.belowBound > 0))
+        {
+            FatalIOErrorInFunction(dict_)
+                << "the cells with solids have no room for the " << volume
+                << " m3 of the ledger: filled to largestSolidity "
+                << largestSolidity_ << " they hold " << now.all
+                << " m3; expected a grid of solids that fits the mesh, or"
+                << " ledgerCorrection no" << exit(FatalIOError);
+        }
+        const scalar better = factor * (1 + missing / now.belowBound);
+        if (mag(better - factor) <= SMALL * factor)
+            return better;
+        factor = better;
+    }
+}
+
+
+void Foam::solidsConservation::checkSize(
+    const scalar found, const scalar volume) const
+{
+    if (mag(volume - found) <= tooLarge * found)
+        return;
+
+    FatalIOErrorInFunction(dict_)
+        << "the solids fill " << found << " m3 of the mesh but the ledger says "
+        << volume << " m3: the correction would be above " << 100 * tooLarge
+        << " %. Does the grid of the solids cover the mesh, were the walls "
+           "given"
+        << " to millAverage (--inside), is the mesh turned to the solids' time?"
+        << " A mesh that holds only a part of the charge by intention wants"
+        << " ledgerCorrection no" << exit(FatalIOError);
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::solidsConservation::solidsConservation(const dictionary& dict)
+: dict_(dict),
+  largestSolidity_(dict.lookupOrDefault<scalar>("largestSolidity", 0.9)),
+  solids_(0),
+  present_(0),
+  largest_(0),
+  moved_(0)
+{
+    if (!(largestSolidity_ > 0 && largestSolidity_ < 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "largestSolidity is " << largestSolidity_
+            << "; expected a number above 0 and below 1" << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::solidsConservation::correct(
+    scalarField& solidity, const scalarField& V, const scalar volume)
+{
+    scalar found = sum(solidity * V);
+    reduce(found, sumOp<scalar>());
+    checkSize(found, volume);
+    solids_ = volume;
+    if (found <= 0)
+        return;
+
+    const scalar factor = factorFor(solidity, V, found, volume);
+    solidity = min(factor * solidity, largestSolidity_);
+
+    present_ = volume / found - 1;
+    largest_ = mag(present_) > mag(largest_) ? present_ : largest_;
+    // What is left of it by the bound is round-off
+    moved_ = factor * found - volume;
+}
+
+
+Foam::string Foam::solidsConservation::description() const
+{
+    OStringStream text;
+    text << "volume corrected by " << 100 * present_ << " %, at most "
+         << 100 * largest_ << " %, to " << solids_ << " m3";
+    if (moved_ > 1e-9 * solids_)
+    {
+        text << ", " << moved_ << " m3 moved from cells above solidity "
+             << largestSolidity_;
+    }
+    return text.str();
+}
+
+
+// ************************************************************************* //

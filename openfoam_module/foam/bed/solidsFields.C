@@ -1,0 +1,70 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "solidsFields.H"
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::solidsFields::clear(const label n)
+{
+    solidity_.setSize(n);
+    flux_.setSize(n);
+    overDiameter_.setSize(n);
+    timesDiameter_.setSize(n);
+
+    solidity_ = Zero;
+    flux_ = Zero;
+    overDiameter_ = Zero;
+    timesDiameter_ = Zero;
+}
+
+
+void Foam::solidsFields::add(
+    const label celli, const scalar phi, const vector& u, const scalar d32,
+    const scalar d43)
+{
+    if (phi <= 0)
+        return;
+
+    solidity_[celli] += phi;
+    flux_[celli] += phi * u;
+    overDiameter_[celli] += phi / d32;
+    timesDiameter_[celli] += phi * d43;
+}
+
+
+void Foam::solidsFields::blend(
+    const solidsFields& a, const solidsFields& b, const scalar weight)
+{
+    const scalar rest = 1 - weight;
+    solidity_ = rest * a.solidity_ + weight * b.solidity_;
+    flux_ = rest * a.flux_ + weight * b.flux_;
+    overDiameter_ = rest * a.overDiameter_ + weight * b.overDiameter_;
+    timesDiameter_ = rest * a.timesDiameter_ + weight * b.timesDiameter_;
+}
+
+
+Foam::vector Foam::solidsFields::velocity(const label celli) const
+{
+    const scalar phi = solidity_[celli];
+    return phi > 0 ? flux_[celli] / phi : vector::zero;
+}
+
+
+Foam::scalar Foam::solidsFields::diameter(const label celli) const
+{
+    const scalar phi = solidity_[celli];
+    return phi > 0 ? phi / overDiameter_[celli] : 0;
+}
+
+
+Foam::scalar Foam::solidsFields::diameter43(const label celli) const
+{
+    const scalar phi = solidity_[celli];
+    return phi > 0 ? timesDiameter_[celli] / phi : 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,46 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "solidsSource.H"
+#include "labelList.H"
+#include "solidsBlocks.H"
+#include "solidsRecord.H"
+
+// * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
+
+Foam::autoPtr<Foam::solidsSource>
+Foam::solidsSource::New(const dictionary& dict, const fvMesh& mesh)
+{
+    const bool record = dict.found("solids");
+    const bool blocks = dict.isDict("block") || dict.isDict("blocks");
+    if (record && blocks)
+    {
+        FatalIOErrorInFunction(dict)
+            << "both of the entries 'solids' (the name of a solids.h5) and"
+            << " 'block' or 'blocks' (uniform beds) are there; expected one of"
+            << " them" << exit(FatalIOError);
+    }
+
+    if (record)
+    {
+        return autoPtr<solidsSource>(new solidsRecord(dict, mesh));
+    }
+    if (blocks)
+    {
+        return autoPtr<solidsSource>(new solidsBlocks(dict));
+    }
+    return autoPtr<solidsSource>();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+const Foam::labelList& Foam::solidsSource::uncovered() const
+{
+    return labelList::null();
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,247 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "sharpPressure.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "fvcSurfaceIntegrate.H"
+#include "surfaceInterpolate.H"
+#include "zeroGradientFvPatchFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+//- Boundary values of p_rgh as they follow from its cells; walls keep the
+//  slope of the latest projection
+void refreshBoundary(volScalarField& p_rgh)
+{
+    for (fvPatchScalarField& patch : p_rgh.boundaryFieldRef())
+    {
+        if (isA<fixedFluxPressureFvPatchScalarField>(patch))
+        {
+            auto& wall = refCast<fixedFluxPressureFvPatchScalarField>(patch);
+            wall.updateSnGrad(scalarField(wall.gradient()));
+        }
+    }
+    p_rgh.correctBoundaryConditions();
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::sharpPressure::boundaryJumps(const volScalarField& mixtureDensity)
+{
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
+        if (p.coupled() || !p.fixesValue())
+        {
+            continue;
+        }
+        jump_.boundaryFieldRef()[patchi] =
+            (mixtureDensity.boundaryField()[patchi] -
+             density_.boundaryField()[patchi].patchInternalField()) *
+            (g_.value() & mesh_.Cf().boundaryField()[patchi]);
+    }
+}
+
+
+void Foam::sharpPressure::setDensities()
+{
+    const dimensionedScalar excess(slurryDensity_ - airDensity_);
+    const surfaceScalarField line(surface_.wetLine());
+    density_ = airDensity_ + surface_.wet() * excess;
+    faceDensity_ = airDensity_ + line * excess;
+
+    // On a line with the wet share s, s rho_slurry lies on the wet side
+    const surfaceScalarField side(surface_.side());
+    const auto weigh = [this](
+                           scalarField& weights, scalarField& parts,
+                           const scalarField& side, const scalarField& line,
+                           const scalarField& density)
+    {
+        forAll(weights, i)
+        {
+            const scalar wet = line[i] * slurryDensity_.value() / density[i];
+            if (mag(side[i]) > 0.5)
+            {
+                weights[i] = side[i] > 0 ? wet : 1 - wet;
+                parts[i] = side[i] > 0 ? line[i] : 1 - line[i];
+            }
+        }
+    };
+    massWeights_ = mesh_.weights();
+    lineWeights_ = mesh_.weights();
+    weigh(
+        massWeights_.primitiveFieldRef(), lineWeights_.primitiveFieldRef(),
+        side, line, faceDensity_);
+    forAll(mesh_.boundary(), patchi)
+    {
+        weigh(
+            massWeights_.boundaryFieldRef()[patchi],
+            lineWeights_.boundaryFieldRef()[patchi],
+            side.boundaryField()[patchi], line.boundaryField()[patchi],
+            faceDensity_.boundaryField()[patchi]);
+    }
+}
+
+
+Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
+{
+    tmp<volVectorField> tgradient(tmp<volVectorField>::New(
+        IOobject("gradPressure", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedVector(dimPressure / dimLength, Zero),
+        zeroGradientFvPatchVectorField::typeName));
+    volVectorField& gradient = tgradient.ref();
+
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceScalarField& weights = mesh_.weights();
+    forAll(mesh_.neighbour(), facei)
+    {
+        const label own = mesh_.owner()[facei];
+        const label nei = mesh_.neighbour()[facei];
+        const scalar w = weights[facei];
+        // One acceleration on both sides: slopes go with the densities
+        const scalar rise =
+            (p_rgh_[nei] + jump_[facei] - p_rgh_[own]) / faceDensity_[facei];
+        const scalar ownOnFace = p_rgh_[own] + (1 - w) * density_[own] * rise;
+        const scalar neiOnFace = p_rgh_[nei] - w * density_[nei] * rise;
+        gradient[own] += Sf[facei] * ownOnFace;
+        gradient[nei] -= Sf[facei] * neiOnFace;
+    }
+
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const scalarField& jump = jump_.boundaryField()[patchi];
+        const vectorField& areas = Sf.boundaryField()[patchi];
+        scalarField onFace(p + jump);
+        if (p.coupled())
+        {
+            const scalarField own(p.patchInternalField());
+            onFace = own +
+                     (1 - weights.boundaryField()[patchi]) *
+                         density_.boundaryField()[patchi].patchInternalField() *
+                         (p.patchNeighbourField() + jump - own) /
+                         faceDensity_.boundaryField()[patchi];
+        }
+        forAll(patch, i)
+        {
+            gradient[patch.faceCells()[i]] += areas[i] * onFace[i];
+        }
+    }
+
+    gradient.primitiveFieldRef() /= mesh_.V();
+    gradient.correctBoundaryConditions();
+    return tgradient;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::sharpPressure::sharpPressure(
+    const slurrySurface& surface, const volScalarField& p_rgh,
+    const dimensionedVector& g, const dimensionedScalar& slurryDensity,
+    const dimensionedScalar& airDensity,
+    const dimensionedScalar& surfaceTension)
+: surface_(surface),
+  p_rgh_(p_rgh),
+  mesh_(p_rgh.mesh()),
+  g_(g),
+  slurryDensity_(slurryDensity),
+  airDensity_(airDensity),
+  surfaceTension_(surfaceTension),
+  density_(
+      "sharpDensity",
+      airDensity_ + surface_.wet() * (slurryDensity_ - airDensity_)),
+  faceDensity_(
+      "sharpFaceDensity",
+      airDensity_ + surface_.wetLine() * (slurryDensity_ - airDensity_)),
+  massWeights_("massWeights", mesh_.weights()),
+  lineWeights_("lineWeights", mesh_.weights()),
+  jump_(
+      IOobject(
+          "pressureJump", mesh_.time().timeName(), mesh_, IOobject::NO_READ,
+          IOobject::NO_WRITE, false),
+      mesh_, dimensionedScalar(dimPressure, Zero))
+{
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::sharpPressure::update(
+    volScalarField& p_rgh, const volScalarField& mixtureDensity)
+{
+    const dimensionedScalar excess(slurryDensity_ - airDensity_);
+    const volScalarField before(density_);
+    setDensities();
+
+    p_rgh.primitiveFieldRef() +=
+        (before.primitiveField() - density_.primitiveField()) *
+        (g_.value() & mesh_.C().primitiveField());
+    refreshBoundary(p_rgh);
+
+    const surfaceScalarField side(surface_.side());
+    jump_ = -side * excess * surface_.potential(g_.value());
+    if (surfaceTension_.value() > 0)
+    {
+        jump_ += surfaceTension_ * side * surface_.curvature();
+    }
+    boundaryJumps(mixtureDensity);
+}
+
+
+Foam::tmp<Foam::surfaceScalarField>
+Foam::sharpPressure::flux(const volVectorField& velocity) const
+{
+    return mesh_.Sf() & surfaceInterpolationScheme<vector>::interpolate(
+                            velocity, tmp<surfaceScalarField>(massWeights_));
+}
+
+
+Foam::tmp<Foam::volVectorField>
+Foam::sharpPressure::reconstruct(const surfaceScalarField& flux) const
+{
+    const surfaceVectorField weighted(
+        faceDensity_ * mesh_.Sf() / mesh_.magSf());
+    const volTensorField areas(inv(fvc::surfaceSum(weighted * mesh_.Sf())));
+    tmp<volVectorField> tresult(tmp<volVectorField>::New(
+        IOobject("reconstructed", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedVector(dimVelocity, Zero),
+        zeroGradientFvPatchVectorField::typeName));
+    volVectorField& result = tresult.ref();
+    const volVectorField sums(fvc::surfaceSum(weighted * flux));
+    forAll(result, celli)
+    {
+        result[celli] = areas[celli] & sums[celli];
+    }
+    result.correctBoundaryConditions();
+    return tresult;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField> Foam::sharpPressure::skewSlope() const
+{
+    return mesh_.nonOrthCorrectionVectors() &
+           surfaceInterpolationScheme<vector>::interpolate(
+               slopes(), tmp<surfaceScalarField>(lineWeights_));
+}
+
+
+Foam::tmp<Foam::volScalarField> Foam::sharpPressure::staticPressure() const
+{
+    return p_rgh_ + density_ * (g_ & mesh_.C());
+}
+
+
+// ************************************************************************* //

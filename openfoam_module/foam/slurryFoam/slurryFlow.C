@@ -1,0 +1,217 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryFlow.H"
+#include "fvcDiv.H"
+#include "fvcFlux.H"
+#include "fvcMeshPhi.H"
+#include "fvcReconstruct.H"
+#include "fvcSurfaceIntegrate.H"
+#include "geometricOneField.H"
+#include "MULES.H"
+#include "zeroField.H"
+#include "oneField.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+template <class FieldType>
+FieldType Foam::slurryFlow::continued(
+    const word& name, const dimensionSet& dimensions) const
+{
+    using Type = typename FieldType::value_type;
+    return FieldType(
+        IOobject(
+            name, mesh_.time().timeName(), mesh_, IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE),
+        mesh_, dimensioned<Type>("zero", dimensions, Zero));
+}
+
+
+Foam::bedFluids Foam::slurryFlow::fluids() const
+{
+    const dictionary& slurry = mixture_.subDict(mixture_.phase1Name());
+    bedFluids result;
+    result.air = {
+        mixture_.rho2().value(),
+        mixture_.rho2().value() * gMax(mixture_.nuModel2().nu()())};
+    result.slurry.density = mixture_.rho1().value();
+    if (const dictionary* bingham = slurry.findDict("BinghamCoeffs"))
+    {
+        result.slurry.viscosity = bingham->get<scalar>("plasticViscosity");
+        result.yieldStress = bingham->get<scalar>("yieldStress");
+        result.largestViscosity =
+            result.slurry.viscosity * bingham->get<scalar>("viscosityRatio");
+    }
+    else
+    {
+        result.slurry.viscosity =
+            mixture_.rho1().value() * gMax(mixture_.nuModel1().nu()());
+    }
+    return result;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
+: mesh_(mesh),
+  bedDict_(IOobject(
+      "bedProperties", mesh.time().constant(), mesh, IOobject::READ_IF_PRESENT,
+      IOobject::NO_WRITE)),
+  g_(IOobject(
+      "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
+      IOobject::NO_WRITE)),
+  voidageRate_(bedDict_.lookupOrDefault<Switch>("voidageRate", true)),
+  keptDetail_(mesh.solutionDict().subDict("PIMPLE").lookupOrDefault<scalar>(
+      "keptDetail", 1)),
+  bed_(bedDict_, mesh),
+  U_(IOobject(
+         "U", mesh.time().timeName(), mesh, IOobject::MUST_READ,
+         IOobject::AUTO_WRITE),
+     mesh),
+  phi_(
+      IOobject(
+          "phi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT,
+          IOobject::AUTO_WRITE),
+      fvc::flux(bed_.voidage() * U_)),
+  mixture_(U_, phi_),
+  alpha_(mixture_.alpha1()),
+  rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
+  voidage_(IOobject("epsilon", mesh.time().timeName(), mesh), bed_.voidage()),
+  p_rgh_(
+      IOobject(
+          "p_rgh", mesh.time().timeName(), mesh, IOobject::MUST_READ,
+          IOobject::AUTO_WRITE),
+      mesh),
+  p_(IOobject(
+         "p", mesh.time().timeName(), mesh, IOobject::NO_READ,
+         IOobject::AUTO_WRITE),
+     p_rgh_),
+  surface_(alpha_, g_.value()),
+  pressure_(
+      surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
+      dimensionedScalar("sigma", dimForce / dimLength, mixture_)),
+  transport_(surface_, alpha_),
+  forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
+  fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
+  massMoved_(continued<surfaceScalarField>("massMoved", dimMass)),
+  turbulence_(incompressible::turbulenceModel::New(U_, phi_, mixture_)),
+  fvOptions_(fv::options::New(mesh)),
+  misfit_(0),
+  fresh_(!IOobject(
+              forces_.name(), mesh.time().timeName(), mesh,
+              IOobject::READ_IF_PRESENT)
+              .typeHeaderOk<volVectorField>(true))
+{
+    mesh.setFluxRequired(p_rgh_.name());
+    fluxDetail_.setOriented();
+    massMoved_.setOriented();
+    turbulence_->validate();
+    voidage_.oldTime();
+    pressure_.update(p_rgh_, rho_);
+    p_ = pressure_.staticPressure();
+
+    Info << "Bed: " << bed_.description().c_str() << nl;
+    if (!bed_.empty())
+    {
+        drag_.reset(new bedDrag(bedDict_.subDict("drag"), fluids()));
+        Info << "Drag: " << drag_->description().c_str() << nl;
+    }
+    Info << endl;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::slurryFlow::enter()
+{
+    if (mesh_.changing())
+    {
+        surface_.locate();
+        pressure_.update(p_rgh_, rho_);
+    }
+    if (!bed_.empty())
+    {
+        bed_.update();
+        voidage_ = bed_.voidage();
+        if (!voidageRate_)
+        {
+            voidage_.oldTime() = voidage_;
+        }
+    }
+}
+
+
+void Foam::slurryFlow::transport()
+{
+    const vectorField relative(
+        fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
+    surfaceScalarField slurry(transport_.flux(phi_, relative));
+    MULES::explicitSolve(
+        voidage_, alpha_, phi_, slurry, zeroField(), zeroField(), oneField(),
+        zeroField());
+
+    massMoved_ =
+        mesh_.time().deltaT() *
+        (slurry * (mixture_.rho1() - mixture_.rho2()) + phi_ * mixture_.rho2());
+
+    surface_.reconstruct();
+    surface_.locate();
+    rho_ = alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2();
+    pressure_.update(p_rgh_, rho_);
+    mixture_.correct();
+    turbulence_->correct();
+}
+
+
+Foam::FixedList<Foam::scalar, 3> Foam::slurryFlow::courantNumbers() const
+{
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const scalarField passed(
+        0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
+        (mesh_.V() * voidage_.primitiveField()));
+
+    FixedList<scalar, 3> result(Zero);
+    forAll(passed, celli)
+    {
+        result[0] = max(result[0], passed[celli]);
+        if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
+        {
+            result[1] = max(result[1], passed[celli]);
+        }
+        result[2] = max(
+            result[2], mag(voidage_[celli] / voidage_.oldTime()[celli] - 1));
+    }
+    reduce(result[0], maxOp<scalar>());
+    reduce(result[1], maxOp<scalar>());
+    reduce(result[2], maxOp<scalar>());
+    return result;
+}
+
+
+void Foam::slurryFlow::report()
+{
+    const scalarField fluid(mesh_.V() * voidage_.primitiveField());
+    Info << "Slurry " << gSum(fluid * alpha_.primitiveField()) << " m3, fluid "
+         << gSum(fluid) << " m3, alpha from " << gMin(alpha_.primitiveField())
+         << " to " << 1 << " + " << gMax(alpha_.primitiveField()) - 1
+         << ", fluid without room " << misfit_ << " m3" << endl;
+    if (drag_.valid())
+    {
+        drag_->report(bed_, alpha_, U_);
+    }
+}
+
+
+void Foam::slurryFlow::summary() const
+{
+    if (drag_.valid())
+    {
+        drag_->summary();
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,197 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryFlow.H"
+#include "adjustPhi.H"
+#include "constrainHbyA.H"
+#include "fixedFluxPressureFvPatchScalarField.H"
+#include "fvcDiv.H"
+#include "fvcFlux.H"
+#include "fvcMeshPhi.H"
+#include "fvcReconstruct.H"
+#include "fvm.H"
+#include "gaussLaplacianScheme.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
+{
+    tmp<volScalarField> tdensity(voidage_.oldTime() * rho_);
+    if (mesh_.moving())
+    {
+        tdensity.ref().primitiveFieldRef() *= mesh_.V0() / mesh_.V();
+    }
+    return tdensity;
+}
+
+
+Foam::tmp<Foam::volVectorField>
+Foam::slurryFlow::voidageConvection(const surfaceScalarField& flux) const
+{
+    const word scheme("div(rhoPhi,U)");
+    return fvc::div(
+               flux * fvc::interpolate(1 / voidage_), voidage_ * U_, scheme) -
+           fvc::div(flux, U_, scheme);
+}
+
+
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragRate() const
+{
+    auto trate = tmp<volScalarField>::New(
+        IOobject("dragRate", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar(dimless / dimTime, Zero),
+        zeroGradientFvPatchScalarField::typeName);
+    if (drag_.valid())
+    {
+        trate.ref().ref() = drag_->exchange(bed_, alpha_, U_) /
+                            (voidage_.internalField() * rho_.internalField());
+        trate.ref().correctBoundaryConditions();
+    }
+    return trate;
+}
+
+
+Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion()
+{
+    const dimensionedScalar deltaT(mesh_.time().deltaT());
+    tmp<volScalarField::Internal> trate(
+        (voidage_.internalField() - voidage_.oldTime().internalField()) /
+        deltaT);
+    volScalarField::Internal& rate = trate.ref();
+    if (mesh_.moving())
+    {
+        rate.field() =
+            (voidage_.primitiveField() -
+             voidage_.oldTime().primitiveField() * mesh_.V0() / mesh_.V()) /
+            deltaT.value();
+        rate -= fvc::div(fvc::interpolate(voidage_) * mesh_.phi())()
+                    .internalField();
+    }
+
+    if (p_rgh_.needReference())
+    {
+        const scalar total = gSum(rate.field() * mesh_.V());
+        misfit_ += total * deltaT.value();
+        rate.field() -= total / gSum(mesh_.V());
+    }
+    return trate;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
+    surfaceScalarField& free, const surfaceScalarField& mobility,
+    const pimpleControl& pimple)
+{
+    const surfaceScalarField conductance(mobility * mesh_.magSf());
+    const volScalarField::Internal rate(expulsion());
+    free -= conductance * mesh_.nonOrthDeltaCoeffs() * pressure_.jump();
+
+    if (p_rgh_.needReference())
+    {
+        adjustPhi(free, U_, p_rgh_);
+    }
+    const surfaceScalarField::Boundary wallFlux(
+        (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
+            .boundaryField());
+    setSnGrad<fixedFluxPressureFvPatchScalarField>(
+        p_rgh_.boundaryFieldRef(),
+        (free.boundaryField() - wallFlux) / conductance.boundaryField());
+
+    // Without a pressure to go on from, its slopes are known after a first
+    // solution without the faces' skewness
+    tmp<surfaceScalarField> tflux;
+    for (label i = fresh_ ? -1 : 0; i <= pimple.nNonOrthCorr(); ++i)
+    {
+        const bool last = i == pimple.nNonOrthCorr();
+        surfaceScalarField given(free);
+        if (i >= 0)
+        {
+            given -= conductance * pressure_.skewSlope();
+        }
+        fvScalarMatrix equation(
+            fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
+                conductance, mesh_.nonOrthDeltaCoeffs(), p_rgh_)() ==
+            fvc::div(given)().internalField() + rate);
+        equation.setReference(0, p_rgh_[0]);
+        equation.solve(
+            mesh_.solver(p_rgh_.select(last && pimple.finalInnerIter())));
+        if (last)
+        {
+            tflux = given - equation.flux();
+        }
+    }
+    fresh_ = false;
+    return tflux;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::slurryFlow::predict(const pimpleControl& pimple)
+{
+    const dimensionedScalar deltaT(mesh_.time().deltaT());
+    const volScalarField density("rho", massDensity());
+    const surfaceScalarField flux("rhoPhi", massMoved_ / deltaT);
+    const volScalarField::Internal before(
+        density.internalField() / deltaT + fvc::div(flux)().internalField());
+
+    fvVectorMatrix equation(
+        fvm::Sp(density.internalField() / deltaT, U_) + fvm::div(flux, U_) +
+            turbulence_->divDevRhoReff(density, U_) ==
+        before * U_.oldTime().internalField() +
+            density.internalField() * forces_.internalField() +
+            fvOptions_(density, U_));
+    if (!bed_.empty())
+    {
+        equation += voidageConvection(flux);
+    }
+    equation.relax();
+    fvOptions_.constrain(equation);
+    equation.solve(mesh_.solver(U_.select(pimple.finalInnerIter())));
+    fvOptions_.correct(U_);
+}
+
+
+void Foam::slurryFlow::project(const pimpleControl& pimple)
+{
+    const dimensionedScalar deltaT(mesh_.time().deltaT());
+
+    const volVectorField carried(
+        constrainHbyA(U_ - deltaT * forces_, U_, p_rgh_));
+    const surfaceScalarField carriedFlux(pressure_.flux(voidage_ * carried));
+
+    const surfaceScalarField seen(carriedFlux + keptDetail_ * fluxDetail_);
+
+    const volScalarField rate(dragRate());
+    const surfaceScalarField r(deltaT * fvc::interpolate(rate));
+    const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
+    const surfaceScalarField drag(
+        deltaT * faceVoidage * fvc::flux(rate * (bed_.velocity() - U_)));
+    const surfaceScalarField before(
+        pressure_.flux(voidage_ * U_) + fluxDetail_);
+
+    surfaceScalarField free((seen + drag + r * before) / (1 + r));
+    const surfaceScalarField mobility(
+        deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
+    phi_ = solvePressure(free, mobility, pimple);
+
+    const volVectorField unseen(
+        voidage_ * carried - pressure_.reconstruct(seen));
+    U_ =
+        (pressure_.reconstruct(phi_) + unseen / (1 + deltaT * rate)) / voidage_;
+    U_.correctBoundaryConditions();
+    fvOptions_.correct(U_);
+
+    forces_ = (U_ - carried) / deltaT;
+    fluxDetail_ = phi_ - pressure_.flux(voidage_ * U_);
+    p_ = pressure_.staticPressure();
+    if (mesh_.moving())
+    {
+        phi_ -= fvc::interpolate(voidage_) * mesh_.phi();
+    }
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,81 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "timeStep.H"
+
+#include <algorithm>
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::timeStep::watch(const scalar deltaT, const word& cause)
+{
+    steps_.append(deltaT);
+    List<scalar> sorted(steps_);
+    const label middle = sorted.size() / 2;
+    std::nth_element(sorted.begin(), sorted.begin() + middle, sorted.end());
+    const scalar median = sorted[middle];
+
+    const bool isShort = deltaT < median / 20;
+    if (isShort && !told_)
+    {
+        WarningInFunction << "time-step " << deltaT
+                          << " s is below a twentieth of its"
+                          << " median so far, " << median
+                          << " s, because of the " << cause << endl;
+    }
+    told_ = isShort;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::timeStep::timeStep(Time& time)
+: time_(time),
+  steps_(),
+  told_(false)
+{
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
+{
+    Info << "Courant number " << courant[0] << ", at the surface " << courant[1]
+         << ", change of voidage " << courant[2] << endl;
+
+    const dictionary& control = time_.controlDict();
+    if (!control.lookupOrDefault("adjustTimeStep", false))
+    {
+        return;
+    }
+
+    const FixedList<word, 3> causes{
+        "flow", "flow at the surface", "change of voidage"};
+    const FixedList<scalar, 3> bounds{
+        control.get<scalar>("maxCo"), control.get<scalar>("maxAlphaCo"),
+        control.lookupOrDefault<scalar>("maxVoidageChange", 0.1)};
+
+    scalar factor = 1.2;
+    word cause("growth from a short step");
+    forAll(bounds, i)
+    {
+        const scalar allowed = bounds[i] / max(courant[i], SMALL);
+        if (allowed < factor)
+        {
+            factor = allowed;
+            cause = causes[i];
+        }
+    }
+    const scalar deltaT =
+        min(factor * time_.deltaTValue(),
+            control.lookupOrDefault<scalar>("maxDeltaT", GREAT));
+    time_.setDeltaT(deltaT);
+    Info << "deltaT = " << time_.deltaTValue() << endl;
+    watch(deltaT, cause);
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,269 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Application
+    slurryStart
+
+Description
+    Slurry at the start of a flow: sets alpha.slurry at the start time, with a
+    surface that is flat to round-off on every mesh.
+
+    - pool: all below a level, or as high as a volume of slurry reaches between
+      the balls
+    - above: a volume of slurry as a layer that rests upon the highest balls
+    - feed: none; it comes with the feed
+
+    The level is a height against gravity from the origin of the mesh; the
+    balls of constant/bedProperties, if there are any, take their room.
+
+Usage
+    system/slurryStartDict:
+    \verbatim
+        start           pool;       // or above, feed
+        volume          2.9e-5;     // m3; of a pool or a layer above
+        level           -0.02;      // m; of a pool, instead of its volume
+        phase           slurry;     // optional
+        bedShare        0.05;       // optional: solidity that counts as balls
+    \endverbatim
+
+\*---------------------------------------------------------------------------*/
+
+#include "argList.H"
+#include "Enum.H"
+#include "fvMesh.H"
+#include "movingBed.H"
+#include "planeCut.H"
+#include "Time.H"
+#include "uniformDimensionedFields.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+enum class start
+{
+    pool,
+    above,
+    feed
+};
+
+const Enum<start> startNames({
+    {start::pool, "pool"},
+    {start::above, "above"},
+    {start::feed, "feed"},
+});
+
+
+//- Fluid below heights in the cells of a mesh
+class heightCut
+{
+    const fvMesh& mesh_;
+    const planeCut cut_;
+    const vector up_;
+    const scalarField fluid_;
+    scalarField lowest_;
+    scalarField highest_;
+
+    public:
+    heightCut(const fvMesh& mesh, const vector& up, const scalarField& voidage)
+    : mesh_(mesh),
+      cut_(mesh),
+      up_(up),
+      fluid_(voidage * mesh.V()),
+      lowest_(mesh.nCells(), GREAT),
+      highest_(mesh.nCells(), -GREAT)
+    {
+        forAll(lowest_, celli)
+        {
+            for (const label pointi : mesh.cellPoints()[celli])
+            {
+                const scalar height = up & mesh.points()[pointi];
+                lowest_[celli] = min(lowest_[celli], height);
+                highest_[celli] = max(highest_[celli], height);
+            }
+        }
+    }
+
+    //- Share of a cell below a level
+    scalar share(const label celli, const scalar level) const
+    {
+        if (level <= lowest_[celli])
+        {
+            return 0;
+        }
+        if (level >= highest_[celli])
+        {
+            return 1;
+        }
+        return cut_.wetVolume(celli, up_, level) /
+               cut_.wetVolume(celli, up_, highest_[celli] + 1);
+    }
+
+    //- Volume of fluid between two levels, m3
+    scalar volume(const scalar from, const scalar to) const
+    {
+        scalar sum = 0;
+        forAll(fluid_, celli)
+        {
+            sum += fluid_[celli] * (share(celli, to) - share(celli, from));
+        }
+        return returnReduce(sum, sumOp<scalar>());
+    }
+
+    scalar bottom() const
+    {
+        return gMin(lowest_);
+    }
+
+    scalar top() const
+    {
+        return gMax(highest_);
+    }
+
+    //- Top of the highest cell whose solidity is above a share, or the bottom
+    scalar topOfBed(const scalarField& solidity, const scalar bedShare) const
+    {
+        scalar top = -GREAT;
+        forAll(solidity, celli)
+        {
+            if (solidity[celli] > bedShare)
+            {
+                top = max(top, highest_[celli]);
+            }
+        }
+        return max(returnReduce(top, maxOp<scalar>()), bottom());
+    }
+
+    //- Level to which a volume of fluid reaches from a level upwards
+    scalar levelOf(
+        const scalar wanted, const scalar from, const dictionary& dict) const
+    {
+        const scalar room = volume(from, top());
+        if (!(wanted > 0 && wanted < room))
+        {
+            FatalIOErrorInFunction(dict)
+                << "volume is " << wanted << " m3; expected above 0 and below"
+                << " the " << room << " m3 of room between the heights " << from
+                << " and " << top() << " m" << exit(FatalIOError);
+        }
+        scalar low = from;
+        scalar high = top();
+        while (high - low > 1e-15 * (mag(low) + mag(high)))
+        {
+            const scalar middle = 0.5 * (low + high);
+            if (middle <= low || middle >= high)
+            {
+                break;
+            }
+            (volume(from, middle) < wanted ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+    }
+};
+
+
+//- The levels between which slurry starts
+Pair<scalar> levels(
+    const dictionary& dict, const heightCut& cut, const scalarField& solidity)
+{
+    const start kind = startNames.get("start", dict);
+    if (kind == start::feed)
+    {
+        return {cut.bottom(), cut.bottom()};
+    }
+    if (kind == start::above)
+    {
+        const scalar from = cut.topOfBed(
+            solidity, dict.lookupOrDefault<scalar>("bedShare", 0.05));
+        return {from, cut.levelOf(dict.get<scalar>("volume"), from, dict)};
+    }
+    if (dict.found("level") == dict.found("volume"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "expected one of the entries 'level' (m) and 'volume' (m3) of"
+            << " the pool" << exit(FatalIOError);
+    }
+    if (!dict.found("level"))
+    {
+        return {
+            cut.bottom(),
+            cut.levelOf(dict.get<scalar>("volume"), cut.bottom(), dict)};
+    }
+    const scalar level = dict.get<scalar>("level");
+    if (!(level > cut.bottom() && level < cut.top()))
+    {
+        FatalIOErrorInFunction(dict)
+            << "level is " << level << " m; expected a height inside the mesh,"
+            << " between " << cut.bottom() << " and " << cut.top() << " m"
+            << exit(FatalIOError);
+    }
+    return {cut.bottom(), level};
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+using namespace Foam;
+
+int main(int argc, char* argv[])
+{
+    argList::addNote("Slurry at the start of a flow: pool, layer or none");
+
+#include "setRootCase.H"
+#include "createTime.H"
+
+    const fvMesh mesh(IOobject(
+        fvMesh::defaultRegion, runTime.timeName(), runTime,
+        IOobject::MUST_READ));
+
+    const IOdictionary dict(IOobject(
+        "slurryStartDict", runTime.system(), mesh, IOobject::MUST_READ,
+        IOobject::NO_WRITE));
+    const uniformDimensionedVectorField g(IOobject(
+        "g", runTime.constant(), mesh, IOobject::MUST_READ,
+        IOobject::NO_WRITE));
+    if (!(mag(g.value()) > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "constant/g is " << g.value() << "; a start needs gravity to"
+            << " tell below from above" << exit(FatalIOError);
+    }
+    const IOdictionary bedDict(IOobject(
+        "bedProperties", runTime.constant(), mesh, IOobject::READ_IF_PRESENT,
+        IOobject::NO_WRITE));
+    const movingBed bed(bedDict, mesh);
+
+    volScalarField alpha(
+        IOobject(
+            "alpha." + dict.lookupOrDefault<word>("phase", "slurry"),
+            runTime.timeName(), mesh, IOobject::MUST_READ,
+            IOobject::AUTO_WRITE),
+        mesh);
+
+    const heightCut cut(
+        mesh, -g.value() / mag(g.value()), bed.voidage().primitiveField());
+    const Pair<scalar> range(
+        levels(dict, cut, bed.solidity().primitiveField()));
+    forAll(alpha, celli)
+    {
+        alpha[celli] =
+            cut.share(celli, range.second()) - cut.share(celli, range.first());
+    }
+    alpha.correctBoundaryConditions();
+    alpha.write();
+
+    Info << "Slurry from " << range.first() << " m to " << range.second()
+         << " m: " << cut.volume(range.first(), range.second()) << " m3"
+         << endl;
+    return 0;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,220 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurrySurface.H"
+#include "fvcGrad.H"
+#include "unitConversion.H"
+
+#include <Eigen/Dense>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+//- How much a normal is held to its first guess where the neighbours leave
+//  it free
+constexpr scalar held = 1e-4;
+
+//- Slurry or air below this share makes a cell's level less trusted
+constexpr scalar traceShare = 0.02;
+
+
+//- Eigenvector of the smallest eigenvalue
+vector flattest(const symmTensor& m)
+{
+    Eigen::Matrix3d matrix;
+    matrix << m.xx(), m.xy(), m.xz(), m.xy(), m.yy(), m.yz(), m.xz(), m.yz(),
+        m.zz();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+    const Eigen::Vector3d v = solver.eigenvectors().col(0);
+    return vector(v[0], v[1], v[2]);
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::slurrySurface::place(const label celli)
+{
+    const vector& n = normal_[celli];
+    offset_[celli] = cut_.offset(celli, n, alpha_[celli]);
+    const planeCut::section section(cut_.cut(celli, n, offset_[celli]));
+    centre_[celli] = section.centre - mesh_.cellCentres()[celli];
+}
+
+
+void Foam::slurrySurface::guessNormals()
+{
+    const volVectorField gradient(fvc::grad(alpha_));
+    const scalarField& volume = mesh_.V();
+
+    forAll(normal_, celli)
+    {
+        normal_[celli] = Zero;
+        centre_[celli] = Zero;
+        if (alpha_[celli] <= trace || alpha_[celli] >= 1 - trace)
+        {
+            continue;
+        }
+        const vector outward(-cbrt(volume[celli]) * gradient[celli]);
+        normal_[celli] = mag(outward) > 1e-6
+                             ? outward / mag(outward)
+                             : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
+        place(celli);
+    }
+    normal_.correctBoundaryConditions();
+    centre_.correctBoundaryConditions();
+}
+
+
+void Foam::slurrySurface::fitNormals()
+{
+    symmTensorField ways(mesh_.nCells(), Zero);
+    forNeighbours([&ways](const label celli, const vector& way, const vector&)
+                  { ways[celli] += sqr(way) / max(magSqr(way), VSMALL); });
+
+    const Vector<label>& solved = mesh_.geometricD();
+    forAll(normal_, celli)
+    {
+        if (!isCut(celli))
+        {
+            continue;
+        }
+        vector n(normal_[celli]);
+        symmTensor m(ways[celli] + held * (I - sqr(n)));
+        for (direction i = 0; i < 3; ++i)
+        {
+            if (solved[i] < 0)
+            {
+                vector e(Zero);
+                e[i] = 10;
+                m += sqr(e);
+            }
+        }
+        const vector fitted(flattest(m));
+        n = (fitted & n) < 0 ? -fitted : fitted;
+        normal_[celli] = n;
+        place(celli);
+    }
+    normal_.correctBoundaryConditions();
+    centre_.correctBoundaryConditions();
+}
+
+
+void Foam::slurrySurface::findLevels()
+{
+    forAll(normal_, celli)
+    {
+        levelNormal_[celli] = normal_[celli];
+        levelOffset_[celli] = offset_[celli];
+        const scalar cosine = normal_[celli] & up_;
+        if (!isCut(celli) || mag(cosine) <= surfaceCosine_)
+        {
+            continue;
+        }
+        const scalar share = min(
+            (mag(cosine) - surfaceCosine_) / (levelCosine_ - surfaceCosine_),
+            scalar(1));
+        const vector n(
+            share * sign(cosine) * up_ + (1 - share) * normal_[celli]);
+        levelNormal_[celli] = n / mag(n);
+        levelOffset_[celli] =
+            cut_.offset(celli, levelNormal_[celli], alpha_[celli]);
+    }
+    levelNormal_.correctBoundaryConditions();
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
+: alpha_(alpha),
+  mesh_(alpha.mesh()),
+  cut_(mesh_),
+  up_(mag(g) > VSMALL ? -g / mag(g) : vector::zero),
+  levelCosine_(),
+  surfaceCosine_(),
+  fits_(),
+  normal_(cellField<vector>("surface:normal", dimless)),
+  offset_(mesh_.nCells(), Zero),
+  centre_(cellField<vector>("surface:centre", dimLength)),
+  levelNormal_(cellField<vector>("surface:levelNormal", dimless)),
+  levelOffset_(mesh_.nCells(), Zero),
+  depth_(cellField<scalar>("surface:depth", dimLength)),
+  trust_(cellField<scalar>("surface:trust", dimless)),
+  wet_(cellField<scalar>("wet", dimless)),
+  crossing_(
+      IOobject(
+          "surface:crossing", mesh_.time().timeName(), mesh_, IOobject::NO_READ,
+          IOobject::NO_WRITE, false),
+      mesh_, dimensionedScalar(dimless, Zero))
+{
+    const dictionary& dict =
+        mesh_.solutionDict().subOrEmptyDict("slurrySurface");
+    const Pair<scalar> angles(
+        dict.lookupOrDefault("levelAngle", Pair<scalar>(15, 30)));
+    if (!(angles.first() >= 0 && angles.first() < angles.second() &&
+          angles.second() <= 180))
+    {
+        FatalIOErrorInFunction(dict)
+            << "levelAngle is " << angles
+            << "; expected two angles in degrees, the smaller first"
+            << exit(FatalIOError);
+    }
+    levelCosine_ = Foam::cos(degToRad(angles.first()));
+    surfaceCosine_ = Foam::cos(degToRad(angles.second()));
+    fits_ = dict.lookupOrDefault<label>("fits", 2);
+
+    reconstruct();
+    locate();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::slurrySurface::reconstruct()
+{
+    guessNormals();
+    for (label i = 0; i < fits_; ++i)
+    {
+        fitNormals();
+    }
+    findLevels();
+}
+
+
+void Foam::slurrySurface::locate()
+{
+    const vectorField& centres = mesh_.cellCentres();
+    forAll(wet_, celli)
+    {
+        const scalar alpha = alpha_[celli];
+        if (isCut(celli))
+        {
+            depth_[celli] =
+                levelOffset_[celli] - (levelNormal_[celli] & centres[celli]);
+            trust_[celli] = min(min(alpha, 1 - alpha) / traceShare, scalar(1));
+            wet_[celli] = depth_[celli] > 0 ? 1 : 0;
+        }
+        else
+        {
+            depth_[celli] = 0;
+            trust_[celli] = 0;
+            wet_[celli] = alpha > 0.5 ? 1 : 0;
+        }
+    }
+    depth_.correctBoundaryConditions();
+    trust_.correctBoundaryConditions();
+    wet_.correctBoundaryConditions();
+    findCrossings();
+}
+
+
+// ************************************************************************* //
