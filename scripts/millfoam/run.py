@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes and runs OpenFOAM cases from a template."""
+import argparse
+import shutil
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 
@@ -23,3 +26,26 @@ def run(case, *command, name=None):
     if done.returncode:
         raise RunError(f"{name} failed; {log} ends with:\n" + "\n".join(text.splitlines()[-15:]))
     return text
+
+
+def case_options(description, quick=None):
+    """Options of a verification case's script: `jobs`, and `quick` where a text says what its quick form leaves out."""
+    parser = argparse.ArgumentParser(description=description)
+    if quick:
+        parser.add_argument("--quick", action="store_true", help=quick)
+    parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
+    return parser.parse_args()
+
+
+def fresh_runs(here):
+    """The folder `runs` of a verification case, empty."""
+    work = Path(here) / "runs"
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir()
+    return work
+
+
+def run_jobs(function, items, jobs):
+    """[function(item), …] in the items' order, so many at a time."""
+    with ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(function, items))

@@ -53,6 +53,16 @@ Foam::bedFluids Foam::slurryFlow::fluids() const
 }
 
 
+void Foam::slurryFlow::keepState()
+{
+    voidageChange_ = gMax(mag(
+        voidage_.primitiveField() / voidage_.oldTime().primitiveField() - 1)());
+    allMisfit_ += misfit_;
+    state_.set("voidageChange", voidageChange_);
+    state_.set("misfit", allMisfit_);
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
@@ -64,8 +74,6 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
       IOobject::NO_WRITE)),
   voidageRate_(bedDict_.lookupOrDefault<Switch>("voidageRate", true)),
-  keptDetail_(mesh.solutionDict().subDict("PIMPLE").lookupOrDefault<scalar>(
-      "keptDetail", 1)),
   bed_(bedDict_, mesh),
   U_(IOobject(
          "U", mesh.time().timeName(), mesh, IOobject::MUST_READ,
@@ -99,7 +107,12 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   massMoved_(continued<surfaceScalarField>("massMoved", dimMass)),
   turbulence_(incompressible::turbulenceModel::New(U_, phi_, mixture_)),
   fvOptions_(fv::options::New(mesh)),
+  state_(IOobject(
+      "slurryFlow", mesh.time().timeName(), "uniform", mesh,
+      IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
   misfit_(0),
+  allMisfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
+  voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
   fresh_(!IOobject(
               forces_.name(), mesh.time().timeName(), mesh,
               IOobject::READ_IF_PRESENT)
@@ -163,6 +176,7 @@ void Foam::slurryFlow::transport()
     pressure_.update(p_rgh_, rho_);
     mixture_.correct();
     turbulence_->correct();
+    keepState();
 }
 
 
@@ -181,12 +195,10 @@ Foam::FixedList<Foam::scalar, 3> Foam::slurryFlow::courantNumbers() const
         {
             result[1] = max(result[1], passed[celli]);
         }
-        result[2] = max(
-            result[2], mag(voidage_[celli] / voidage_.oldTime()[celli] - 1));
     }
     reduce(result[0], maxOp<scalar>());
     reduce(result[1], maxOp<scalar>());
-    reduce(result[2], maxOp<scalar>());
+    result[2] = voidageChange_;
     return result;
 }
 
@@ -197,7 +209,7 @@ void Foam::slurryFlow::report()
     Info << "Slurry " << gSum(fluid * alpha_.primitiveField()) << " m3, fluid "
          << gSum(fluid) << " m3, alpha from " << gMin(alpha_.primitiveField())
          << " to " << 1 << " + " << gMax(alpha_.primitiveField()) - 1
-         << ", fluid without room " << misfit_ << " m3" << endl;
+         << ", fluid without room " << allMisfit_ << " m3" << endl;
     if (drag_.valid())
     {
         drag_->report(bed_, alpha_, U_);

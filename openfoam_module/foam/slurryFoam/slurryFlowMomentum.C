@@ -4,15 +4,16 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
-#include "adjustPhi.H"
 #include "constrainHbyA.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
 #include "fvcMeshPhi.H"
 #include "fvcReconstruct.H"
+#include "fvcSurfaceIntegrate.H"
 #include "fvm.H"
 #include "gaussLaplacianScheme.H"
+#include "zeroGradientFvPatchFields.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -24,16 +25,6 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
         tdensity.ref().primitiveFieldRef() *= mesh_.V0() / mesh_.V();
     }
     return tdensity;
-}
-
-
-Foam::tmp<Foam::volVectorField>
-Foam::slurryFlow::voidageConvection(const surfaceScalarField& flux) const
-{
-    const word scheme("div(rhoPhi,U)");
-    return fvc::div(
-               flux * fvc::interpolate(1 / voidage_), voidage_ * U_, scheme) -
-           fvc::div(flux, U_, scheme);
 }
 
 
@@ -53,7 +44,29 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragRate() const
 }
 
 
-Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion()
+Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::keptDetail() const
+{
+    // Against the mass in a cell that which flow and friction exchange in a
+    // step: what an implicit upwind equation of the detail would leave
+    const surfaceScalarField friction(
+        fvc::interpolate(voidage_ * rho_ * turbulence_->nuEff()) *
+        mesh_.magSf() * mesh_.nonOrthDeltaCoeffs());
+    const volScalarField exchanged(
+        0.5 * fvc::surfaceSum(mag(massMoved_)) +
+        mesh_.time().deltaT() * fvc::surfaceSum(friction));
+
+    volScalarField share(
+        IOobject("exchanged", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar(dimless, Zero),
+        zeroGradientFvPatchScalarField::typeName);
+    share.ref() = exchanged.internalField() /
+                  (massDensity()().internalField() * mesh_.V());
+    share.correctBoundaryConditions();
+    return 1 / (1 + fvc::interpolate(share));
+}
+
+
+Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion() const
 {
     const dimensionedScalar deltaT(mesh_.time().deltaT());
     tmp<volScalarField::Internal> trate(
@@ -69,14 +82,28 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion()
         rate -= fvc::div(fvc::interpolate(voidage_) * mesh_.phi())()
                     .internalField();
     }
-
-    if (p_rgh_.needReference())
-    {
-        const scalar total = gSum(rate.field() * mesh_.V());
-        misfit_ += total * deltaT.value();
-        rate.field() -= total / gSum(mesh_.V());
-    }
     return trate;
+}
+
+
+void Foam::slurryFlow::makeRoom(
+    volScalarField::Internal& rate, const surfaceScalarField& free,
+    const surfaceScalarField::Boundary& wallFlux)
+{
+    scalar total = gSum(rate.field() * mesh_.V());
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
+        if (!p.coupled())
+        {
+            total += gSum(
+                isA<fixedFluxPressureFvPatchScalarField>(p)
+                    ? wallFlux[patchi]
+                    : free.boundaryField()[patchi]);
+        }
+    }
+    misfit_ = total * mesh_.time().deltaTValue();
+    rate.field() -= total / gSum(mesh_.V());
 }
 
 
@@ -85,19 +112,19 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
     const pimpleControl& pimple)
 {
     const surfaceScalarField conductance(mobility * mesh_.magSf());
-    const volScalarField::Internal rate(expulsion());
+    volScalarField::Internal rate(expulsion());
     free -= conductance * mesh_.nonOrthDeltaCoeffs() * pressure_.jump();
 
-    if (p_rgh_.needReference())
-    {
-        adjustPhi(free, U_, p_rgh_);
-    }
     const surfaceScalarField::Boundary wallFlux(
         (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
             .boundaryField());
     setSnGrad<fixedFluxPressureFvPatchScalarField>(
         p_rgh_.boundaryFieldRef(),
         (free.boundaryField() - wallFlux) / conductance.boundaryField());
+    if (p_rgh_.needReference())
+    {
+        makeRoom(rate, free, wallFlux);
+    }
 
     // Without a pressure to go on from, its slopes are known after a first
     // solution without the faces' skewness
@@ -114,7 +141,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
             fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
                 conductance, mesh_.nonOrthDeltaCoeffs(), p_rgh_)() ==
             fvc::div(given)().internalField() + rate);
-        equation.setReference(0, p_rgh_[0]);
+        equation.setReference(Pstream::master() ? 0 : -1, p_rgh_[0]);
         equation.solve(
             mesh_.solver(p_rgh_.select(last && pimple.finalInnerIter())));
         if (last)
@@ -162,17 +189,18 @@ void Foam::slurryFlow::project(const pimpleControl& pimple)
         constrainHbyA(U_ - deltaT * forces_, U_, p_rgh_));
     const surfaceScalarField carriedFlux(pressure_.flux(voidage_ * carried));
 
-    const surfaceScalarField seen(carriedFlux + keptDetail_ * fluxDetail_);
+    const surfaceScalarField seen(carriedFlux + keptDetail() * fluxDetail_);
 
     const volScalarField rate(dragRate());
     const surfaceScalarField r(deltaT * fvc::interpolate(rate));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
     const surfaceScalarField drag(
         deltaT * faceVoidage * fvc::flux(rate * (bed_.velocity() - U_)));
+    const surfaceScalarField contraction(contractionFlux(massMoved_ / deltaT));
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
 
-    surfaceScalarField free((seen + drag + r * before) / (1 + r));
+    surfaceScalarField free((seen + contraction + drag + r * before) / (1 + r));
     const surfaceScalarField mobility(
         deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
     phi_ = solvePressure(free, mobility, pimple);

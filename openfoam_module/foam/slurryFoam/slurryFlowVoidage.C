@@ -1,0 +1,123 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryFlow.H"
+#include "fvcDiv.H"
+#include "fvcGrad.H"
+#include "fvcReconstruct.H"
+#include "snGradScheme.H"
+#include "surfaceInterpolate.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+//- Values of the cell on one side of each face: the owner's with the weight 1,
+//  the neighbour's with 0
+template <class Type>
+tmp<GeometricField<Type, fvsPatchField, surfaceMesh>> sideValues(
+    const GeometricField<Type, fvPatchField, volMesh>& field,
+    const scalar weight)
+{
+    const fvMesh& mesh = field.mesh();
+    return surfaceInterpolationScheme<Type>::interpolate(
+        field, tmp<surfaceScalarField>::New(
+                   IOobject("sideWeights", mesh.time().timeName(), mesh), mesh,
+                   dimensionedScalar("weight", dimless, weight)));
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::tmp<Foam::surfaceVectorField> Foam::slurryFlow::faceBedVelocity() const
+{
+    return fvc::interpolate(bed_.solidity() * bed_.velocity()) /
+           max(fvc::interpolate(bed_.solidity()),
+               dimensionedScalar("none", dimless, SMALL));
+}
+
+
+Foam::tmp<Foam::volVectorField>
+Foam::slurryFlow::voidageConvection(const surfaceScalarField& flux) const
+{
+    const word scheme("div(rhoPhi,U)");
+    tmp<volVectorField> tresult(
+        fvc::div(flux * fvc::interpolate(1 / voidage_), voidage_ * U_, scheme) -
+        fvc::div(flux, U_, scheme));
+    vectorField& result = tresult.ref().primitiveFieldRef();
+
+    const volScalarField inverse(1 / voidage_);
+    const surfaceScalarField faceInverse(fvc::interpolate(inverse));
+    const surfaceVectorField balls(faceBedVelocity());
+    const auto contraction = [&](const scalar side)
+    {
+        return surfaceVectorField(
+            flux * (faceInverse - sideValues(inverse, side)) *
+            sideValues(voidage_, side) * (sideValues(U_, side) - balls));
+    };
+    const surfaceVectorField ofOwner(contraction(1));
+    const surfaceVectorField ofNeighbour(contraction(0));
+
+    const scalarField& V = mesh_.V();
+    forAll(mesh_.neighbour(), facei)
+    {
+        const label own = mesh_.owner()[facei];
+        const label nei = mesh_.neighbour()[facei];
+        result[own] -= ofOwner[facei] / V[own];
+        result[nei] += ofNeighbour[facei] / V[nei];
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+        const vectorField& taken = ofOwner.boundaryField()[patchi];
+        forAll(cells, i)
+        {
+            result[cells[i]] -= taken[i] / V[cells[i]];
+        }
+    }
+    return tresult;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField>
+Foam::slurryFlow::contractionFlux(const surfaceScalarField& flux) const
+{
+    const surfaceVectorField normal(mesh_.Sf() / mesh_.magSf());
+    const auto withNormal =
+        [&normal](const volVectorField& cells, const surfaceScalarField& own)
+    {
+        surfaceVectorField faces(fvc::interpolate(cells));
+        faces += normal * (own - (normal & faces));
+        return faces;
+    };
+
+    // The slope normal to the face as that of the pressure, so that both keep
+    // each other in balance
+    const volScalarField head(0.5 / sqr(voidage_));
+    const volVectorField headSlope(fvc::grad(head));
+    const surfaceVectorField slope(withNormal(
+        headSlope,
+        fv::snGradScheme<scalar>::snGrad(
+            head, mesh_.nonOrthDeltaCoeffs(), "headSlope") +
+            (mesh_.nonOrthCorrectionVectors() & fvc::interpolate(headSlope))));
+    const surfaceVectorField moved(
+        withNormal(fvc::reconstruct(flux), flux / mesh_.magSf()));
+
+    const surfaceScalarField through(
+        (fvc::interpolate(voidage_ * U_) -
+         fvc::interpolate(voidage_) * faceBedVelocity()) &
+        mesh_.Sf());
+    return -mesh_.time().deltaT() * (moved & slope) * through /
+           (fvc::interpolate(1 / voidage_) * pressure_.faceDensity());
+}
+
+
+// ************************************************************************* //
