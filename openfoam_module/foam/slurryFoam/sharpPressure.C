@@ -54,19 +54,19 @@ void Foam::sharpPressure::boundaryJumps(const volScalarField& mixtureDensity)
 }
 
 
-void Foam::sharpPressure::setDensities()
+void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
 {
     const dimensionedScalar excess(slurryDensity_ - airDensity_);
     const surfaceScalarField line(surface_.wetLine());
+    const surfaceScalarField side(surface_.side());
     density_ = airDensity_ + surface_.wet() * excess;
-    faceDensity_ = airDensity_ + line * excess;
+    lineDensity_ = airDensity_ + line * excess;
 
     // On a line with the wet share s, s rho_slurry lies on the wet side
-    const surfaceScalarField side(surface_.side());
-    const auto weigh = [this](
-                           scalarField& weights, scalarField& parts,
-                           const scalarField& side, const scalarField& line,
-                           const scalarField& density)
+    const auto divide = [this](
+                            scalarField& weights, scalarField& parts,
+                            const scalarField& side, const scalarField& line,
+                            const scalarField& density)
     {
         forAll(weights, i)
         {
@@ -80,17 +80,22 @@ void Foam::sharpPressure::setDensities()
     };
     massWeights_ = mesh_.weights();
     lineWeights_ = mesh_.weights();
-    weigh(
+    divide(
         massWeights_.primitiveFieldRef(), lineWeights_.primitiveFieldRef(),
-        side, line, faceDensity_);
+        side, line, lineDensity_);
     forAll(mesh_.boundary(), patchi)
     {
-        weigh(
+        divide(
             massWeights_.boundaryFieldRef()[patchi],
             lineWeights_.boundaryFieldRef()[patchi],
             side.boundaryField()[patchi], line.boundaryField()[patchi],
-            faceDensity_.boundaryField()[patchi]);
+            lineDensity_.boundaryField()[patchi]);
     }
+
+    const volScalarField looseMass(
+        surface_.loose() * (mixtureDensity - airDensity_));
+    inertia_ = density_ + looseMass;
+    faceDensity_ = lineDensity_ + fvc::interpolate(looseMass);
 }
 
 
@@ -111,7 +116,7 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
         const scalar w = weights[facei];
         // One acceleration on both sides: slopes go with the densities
         const scalar rise =
-            (p_rgh_[nei] + jump_[facei] - p_rgh_[own]) / faceDensity_[facei];
+            (p_rgh_[nei] + jump_[facei] - p_rgh_[own]) / lineDensity_[facei];
         const scalar ownOnFace = p_rgh_[own] + (1 - w) * density_[own] * rise;
         const scalar neiOnFace = p_rgh_[nei] - w * density_[nei] * rise;
         gradient[own] += Sf[facei] * ownOnFace;
@@ -132,7 +137,7 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
                      (1 - weights.boundaryField()[patchi]) *
                          density_.boundaryField()[patchi].patchInternalField() *
                          (p.patchNeighbourField() + jump - own) /
-                         faceDensity_.boundaryField()[patchi];
+                         lineDensity_.boundaryField()[patchi];
         }
         forAll(patch, i)
         {
@@ -141,6 +146,25 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
     }
 
     gradient.primitiveFieldRef() /= mesh_.V();
+
+    // Walls know the pressure above the cell's centre along their normal, not
+    // at their own centre
+    const vectorField first(gradient.primitiveField());
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (patch.coupled() || p_rgh_.boundaryField()[patchi].fixesValue())
+        {
+            continue;
+        }
+        const vectorField aside(patch.Cf() - patch.Cn() - patch.delta());
+        forAll(patch, i)
+        {
+            const label celli = patch.faceCells()[i];
+            gradient[celli] += Sf.boundaryField()[patchi][i] *
+                               (first[celli] & aside[i]) / mesh_.V()[celli];
+        }
+    }
     gradient.correctBoundaryConditions();
     return tgradient;
 }
@@ -163,9 +187,11 @@ Foam::sharpPressure::sharpPressure(
   density_(
       "sharpDensity",
       airDensity_ + surface_.wet() * (slurryDensity_ - airDensity_)),
+  inertia_("inertia", density_),
   faceDensity_(
       "sharpFaceDensity",
       airDensity_ + surface_.wetLine() * (slurryDensity_ - airDensity_)),
+  lineDensity_("lineDensity", faceDensity_),
   massWeights_("massWeights", mesh_.weights()),
   lineWeights_("lineWeights", mesh_.weights()),
   jump_(
@@ -184,7 +210,7 @@ void Foam::sharpPressure::update(
 {
     const dimensionedScalar excess(slurryDensity_ - airDensity_);
     const volScalarField before(density_);
-    setDensities();
+    setDensities(mixtureDensity);
 
     p_rgh.primitiveFieldRef() +=
         (before.primitiveField() - density_.primitiveField()) *
@@ -204,8 +230,38 @@ void Foam::sharpPressure::update(
 Foam::tmp<Foam::surfaceScalarField>
 Foam::sharpPressure::flux(const volVectorField& velocity) const
 {
-    return mesh_.Sf() & surfaceInterpolationScheme<vector>::interpolate(
-                            velocity, tmp<surfaceScalarField>(massWeights_));
+    tmp<surfaceScalarField> tflux(
+        mesh_.Sf() & surfaceInterpolationScheme<vector>::interpolate(
+                         velocity, tmp<surfaceScalarField>(massWeights_)));
+    forAll(mesh_.boundary(), patchi)
+    {
+        if (isA<fixedFluxPressureFvPatchScalarField>(
+                p_rgh_.boundaryField()[patchi]))
+        {
+            tflux.ref().boundaryFieldRef()[patchi] =
+                mesh_.Sf().boundaryField()[patchi] &
+                velocity.boundaryField()[patchi].patchInternalField();
+        }
+    }
+    return tflux;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField>
+Foam::sharpPressure::faceRate(const volScalarField& coefficient) const
+{
+    return surfaceInterpolationScheme<scalar>::interpolate(
+               coefficient, tmp<surfaceScalarField>(lineWeights_)) /
+           faceDensity_;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField>
+Foam::sharpPressure::accelerationFlux(const volVectorField& force) const
+{
+    return (mesh_.Sf() & surfaceInterpolationScheme<vector>::interpolate(
+                             force, tmp<surfaceScalarField>(lineWeights_))) /
+           faceDensity_;
 }
 
 

@@ -104,6 +104,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   transport_(surface_, alpha_),
   forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
   fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
+  detailBefore_("fluxDetailBefore", fluxDetail_),
   massMoved_(continued<surfaceScalarField>("massMoved", dimMass)),
   turbulence_(incompressible::turbulenceModel::New(U_, phi_, mixture_)),
   fvOptions_(fv::options::New(mesh)),
@@ -140,6 +141,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 
 void Foam::slurryFlow::enter()
 {
+    detailBefore_ = fluxDetail_;
     if (mesh_.changing())
     {
         surface_.locate();

@@ -28,19 +28,19 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 }
 
 
-Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragRate() const
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce() const
 {
-    auto trate = tmp<volScalarField>::New(
-        IOobject("dragRate", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimless / dimTime, Zero),
+    auto tforce = tmp<volScalarField>::New(
+        IOobject("dragForce", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar(dimDensity / dimTime, Zero),
         zeroGradientFvPatchScalarField::typeName);
     if (drag_.valid())
     {
-        trate.ref().ref() = drag_->exchange(bed_, alpha_, U_) /
-                            (voidage_.internalField() * rho_.internalField());
-        trate.ref().correctBoundaryConditions();
+        tforce.ref().ref() =
+            drag_->exchange(bed_, alpha_, U_) / voidage_.internalField();
+        tforce.ref().correctBoundaryConditions();
     }
-    return trate;
+    return tforce;
 }
 
 
@@ -189,26 +189,33 @@ void Foam::slurryFlow::project(const pimpleControl& pimple)
         constrainHbyA(U_ - deltaT * forces_, U_, p_rgh_));
     const surfaceScalarField carriedFlux(pressure_.flux(voidage_ * carried));
 
-    const surfaceScalarField seen(carriedFlux + keptDetail() * fluxDetail_);
+    const surfaceScalarField seen(carriedFlux + keptDetail() * detailBefore_);
 
-    const volScalarField rate(dragRate());
-    const surfaceScalarField r(deltaT * fvc::interpolate(rate));
+    const volScalarField force(dragForce());
+    const surfaceScalarField r(deltaT * pressure_.faceRate(force));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
     const surfaceScalarField drag(
-        deltaT * faceVoidage * fvc::flux(rate * (bed_.velocity() - U_)));
+        deltaT * faceVoidage *
+        pressure_.accelerationFlux(force * (bed_.velocity() - U_)));
     const surfaceScalarField contraction(contractionFlux(massMoved_ / deltaT));
+    // Drops and films weigh what they hold: the pressure knows only the air
+    const surfaceScalarField fall(
+        deltaT * faceVoidage *
+        fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
 
-    surfaceScalarField free((seen + contraction + drag + r * before) / (1 + r));
+    surfaceScalarField free(
+        (seen + contraction + fall + drag + r * before) / (1 + r));
     const surfaceScalarField mobility(
         deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
     phi_ = solvePressure(free, mobility, pimple);
 
     const volVectorField unseen(
         voidage_ * carried - pressure_.reconstruct(seen));
-    U_ =
-        (pressure_.reconstruct(phi_) + unseen / (1 + deltaT * rate)) / voidage_;
+    U_ = (pressure_.reconstruct(phi_) +
+          unseen / (1 + deltaT * force / pressure_.inertia())) /
+         voidage_;
     U_.correctBoundaryConditions();
     fvOptions_.correct(U_);
 

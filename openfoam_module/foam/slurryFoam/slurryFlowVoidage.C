@@ -31,6 +31,23 @@ tmp<GeometricField<Type, fvsPatchField, surfaceMesh>> sideValues(
                    dimensionedScalar("weight", dimless, weight)));
 }
 
+
+//- Boundary values out of the cells' slopes
+void extrapolate(volScalarField& field)
+{
+    const volVectorField slope(fvc::grad(field));
+    for (fvPatchScalarField& patch : field.boundaryFieldRef())
+    {
+        if (!patch.coupled())
+        {
+            patch == patch.patchInternalField() +
+                         (slope.boundaryField()[patch.patch().index()]
+                              .patchInternalField() &
+                          (patch.patch().Cf() - patch.patch().Cn()));
+        }
+    }
+}
+
 } // End anonymous namespace
 } // End namespace Foam
 
@@ -101,7 +118,8 @@ Foam::slurryFlow::contractionFlux(const surfaceScalarField& flux) const
 
     // The slope normal to the face as that of the pressure, so that both keep
     // each other in balance
-    const volScalarField head(0.5 / sqr(voidage_));
+    volScalarField head(0.5 / sqr(voidage_));
+    extrapolate(head);
     const volVectorField headSlope(fvc::grad(head));
     const surfaceVectorField slope(withNormal(
         headSlope,

@@ -5,9 +5,12 @@
 
 #include "slurrySurface.H"
 #include "fvcGrad.H"
+#include "syncTools.H"
 #include "unitConversion.H"
 
 #include <Eigen/Dense>
+
+#include <algorithm>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -132,6 +135,29 @@ void Foam::slurrySurface::findLevels()
 }
 
 
+void Foam::slurrySurface::findLoose()
+{
+    labelList pointWet(mesh_.nPoints(), Zero);
+    forAll(wet_, celli)
+    {
+        if (wet_[celli] > 0.5)
+        {
+            UIndirectList<label>(pointWet, mesh_.cellPoints()[celli]) = 1;
+        }
+    }
+    syncTools::syncPointList(mesh_, pointWet, maxEqOp<label>(), label(0));
+
+    forAll(loose_, celli)
+    {
+        const labelList& points = mesh_.cellPoints()[celli];
+        loose_[celli] = std::none_of(
+            points.begin(), points.end(),
+            [&pointWet](const label p) { return pointWet[p] > 0; });
+    }
+    loose_.correctBoundaryConditions();
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
@@ -150,6 +176,7 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   depth_(cellField<scalar>("surface:depth", dimLength)),
   trust_(cellField<scalar>("surface:trust", dimless)),
   wet_(cellField<scalar>("wet", dimless)),
+  loose_(cellField<scalar>("loose", dimless)),
   crossing_(
       IOobject(
           "surface:crossing", mesh_.time().timeName(), mesh_, IOobject::NO_READ,
@@ -213,6 +240,7 @@ void Foam::slurrySurface::locate()
     depth_.correctBoundaryConditions();
     trust_.correctBoundaryConditions();
     wet_.correctBoundaryConditions();
+    findLoose();
     findCrossings();
 }
 

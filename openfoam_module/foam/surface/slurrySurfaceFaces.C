@@ -175,7 +175,7 @@ Foam::slurrySurface::potential(const vector& g) const
         if (patch.coupled())
         {
             potential.boundaryFieldRef()[patchi] =
-                g & (mesh_.C().boundaryField()[patchi].patchInternalField() +
+                g & (patch.Cn() +
                      crossing_.boundaryField()[patchi] * patch.delta());
         }
     }
