@@ -7,11 +7,11 @@
 #include <ostream>
 #include <sstream>
 
+#include "dem_driver/pi.hpp"
+
 namespace millfoam::dem_driver {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double ball_volume(double diameter) {
   return pi / 6 * std::pow(diameter, 3);

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "dem_driver/pi.hpp"
+
 namespace millfoam::dem_driver {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 double ball_mass(double diameter, double density) {
   return density * pi / 6 * std::pow(diameter, 3);

@@ -8,11 +8,12 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "dem_driver/pi.hpp"
+
 namespace millfoam::dem_driver {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double smallest_modulus = 5e6;
 // Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
 // to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.

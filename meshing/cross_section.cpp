@@ -7,14 +7,13 @@
 #include "meshing/divisions.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
+#include "meshing/pi.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector2d;
 using Part = CrossSection::Part;
-
-const double pi = std::acos(-1.0);
 
 Vector2d on_circle(double radius, double angle) {
   return {radius * std::cos(angle), radius * std::sin(angle)};

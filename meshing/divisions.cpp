@@ -8,11 +8,11 @@
 
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
+#include "meshing/pi.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
-const double pi = std::acos(-1.0);
 /// Cells around a smooth drum are at least this many.
 constexpr int fewest_around = 40;
 

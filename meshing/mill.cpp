@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "meshing/mill_shape.hpp"
+#include "meshing/pi.hpp"
 #include "meshing/yaml_section.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
-const double pi = std::acos(-1.0);
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 /// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "meshing/pi.hpp"
+
 namespace millfoam::meshing {
 
-namespace {
-const double pi = std::acos(-1.0);
-}
+namespace {}
 
 double lifter_section(const Geometry& geometry) {
   if (geometry.lifters.count == 0) return 0;

@@ -6,12 +6,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "meshing/pi.hpp"
+
 namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector2d;
 
-const double pi = std::acos(-1.0);
 const double side_turn = pi / 6;        ///< angle by which a side of the core turns
 constexpr double corner_radius = 0.75;  ///< of the core's corners, in units of the rim's smallest radius
 

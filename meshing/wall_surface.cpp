@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "meshing/pi.hpp"
 #include "meshing/polygon_filling.hpp"
 
 namespace millfoam::meshing {
@@ -12,7 +13,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-const double pi = std::acos(-1.0);
 /// Longest side of a triangle along the axis, in units of the outline's longest side.
 constexpr double axial_stretch = 4;
 

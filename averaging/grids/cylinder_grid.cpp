@@ -6,11 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 [[noreturn]] void refuse_range(const char* what, const std::array<double, 2>& range, const char* expected) {
   std::ostringstream message;

@@ -6,16 +6,14 @@
 #include <cstdint>
 #include <utility>
 
+#include "averaging/at.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
 
 using Eigen::Array3i;
 using Eigen::Vector3d;
-
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Place along Morton's curve, by 10 bits of each whole coordinate: near in space is near along it.
 std::uint32_t morton(const Array3i& place) {

@@ -6,17 +6,14 @@
 #include <numeric>
 #include <utility>
 
+#include "averaging/at.hpp"
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
-
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Twice the face's area as a vector along its mean normal, out of its owner.
 Vector3d area_vector(const MeshGeometry& geometry, std::size_t face) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "averaging/at.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
@@ -15,10 +17,6 @@ constexpr std::size_t cells_per_leaf = 4;
 
 /// Boxes that overlap so much more than when the tree was built are worth a new tree.
 constexpr double worn = 1.15;
-
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 double half_surface(const Vector3d& size) {
   return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();

@@ -5,13 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double near_plane = 1e-6;
 constexpr double near_edge = 1e-3;
 constexpr double near_corner = 1e-9;

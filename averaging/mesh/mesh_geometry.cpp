@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/at.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
@@ -18,10 +20,6 @@ constexpr double rounding = 1e-14;
 
 /// Of a face's size: below it a fan's middle point would buy nothing.
 constexpr double nearly_flat = 1e-6;
-
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 /// Largest distance of a quadrangle's corners from the plane midway between its diagonals, m.
 double warp(const std::array<Vector3d, 4>& p) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// x - sin(x), also for small x.
 double less_sine(double x) {

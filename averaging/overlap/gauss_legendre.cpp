@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Value and slope of the Legendre polynomial of degree n at x.
 std::pair<double, double> legendre(int n, double x) {

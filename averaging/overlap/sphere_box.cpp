@@ -5,11 +5,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double ball = 4 * pi / 3;
 
 double slab(double a) {

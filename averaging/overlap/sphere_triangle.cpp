@@ -12,7 +12,7 @@ namespace millfoam::averaging {
 
 namespace {
 
-constexpr long double pi = 3.14159265358979323846L;
+constexpr long double long_pi = 3.14159265358979323846L;
 
 template <typename Real>
 using Point = Eigen::Matrix<Real, 3, 1>;
@@ -33,7 +33,7 @@ class AngleSum {
     x_ = x;
     y_ = y;
   }
-  Real sum() const { return std::atan2(y_, x_) + turns_ * Real(2 * pi); }
+  Real sum() const { return std::atan2(y_, x_) + turns_ * Real(2 * long_pi); }
 
  private:
   Real x_ = 1;
@@ -168,7 +168,7 @@ Real unit_sphere_volume(const std::array<Point<Real>, 3>& corners) {
   const Real beyond = 1 - std::abs(h);
   const bool disc =
       std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.distance > 0; });
-  const Real cap = disc ? Real(pi) * beyond * beyond * (3 - beyond) / 3 : Real(0);
+  const Real cap = disc ? Real(long_pi) * beyond * beyond * (3 - beyond) / 3 : Real(0);
   return solid_angle(corners, plane) / 3 - std::copysign(cap, h);
 }
 

@@ -6,11 +6,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void check(const Superquadric& shape) {
   const auto refuse = [](const char* what, double value, const char* expected) {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Numbers of balls per averaging volume in the simulations that the laws of drag come from.
 constexpr double fewest_balls = 8, most_balls = 64;

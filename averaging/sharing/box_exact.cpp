@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/sharing/box_exact.hpp"
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
-
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 void BoxExact::share(const Particle& sphere, std::vector<Share>& shares) {
   shares.clear();

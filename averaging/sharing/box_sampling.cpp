@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Whether the sphere lies within one voxel, and which.
 std::optional<VoxelIndex> holding_voxel(const BoxGrid& grid, const Vector3& centre, double radius) {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// A rounding of the sphere's volume; less than that is no share.
 constexpr double nothing = 1e-15;

@@ -4,13 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/pi.hpp"
+
 namespace millfoam::averaging {
-
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 CylinderSampling::CylinderSampling(const CylinderGrid& grid, int template_points)
     : CylinderSharing(grid, template_points),

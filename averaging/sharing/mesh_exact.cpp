@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/at.hpp"
 #include "averaging/mesh/facet_cut.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
+#include "averaging/pi.hpp"
 #include "averaging/sharing/mesh_sharing.hpp"
 
 namespace millfoam::averaging {
@@ -11,12 +13,6 @@ namespace millfoam::averaging {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
-
-std::size_t at(int number) {
-  return static_cast<std::size_t>(number);
-}
 
 bool holds(const Vector3d& centre, double radius, const Eigen::AlignedBox3d& box) {
   return (centre - box.min()).cwiseAbs().cwiseMax((box.max() - centre).cwiseAbs()).squaredNorm() <

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "averaging/pi.hpp"
 #include "averaging/sharing/mesh_sharing.hpp"
 
 namespace millfoam::averaging {
@@ -8,8 +9,6 @@ namespace millfoam::averaging {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
 
 std::shared_ptr<const std::vector<Vector3d>> lattice_points(const SphereTemplate& lattice) {
   auto points = std::make_shared<std::vector<Vector3d>>();

@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "averaging/overlap/superquadric.hpp"
+#include "averaging/pi.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Adds the shares of one particle and returns their volume.
 double add_shares(const Particle& particle, double diameter, double particle_volume,

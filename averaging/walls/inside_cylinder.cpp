@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/pi.hpp"
 #include "averaging/walls/clipped_polygon.hpp"
 #include "averaging/walls/column_volumes.hpp"
 #include "averaging/walls/disc_part.hpp"
@@ -13,8 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Cuts polygons into wedges about the z axis: the steps of theta, or equal parts of them so that none is
 /// wider than a quarter of a turn.

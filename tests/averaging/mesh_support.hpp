@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "averaging/mesh/mesh_geometry.hpp"
 #include "averaging/mesh/poly_mesh.hpp"
 
 /// Meshes made in memory.
@@ -243,6 +244,10 @@ inline TestMesh joined(const TestMesh& mesh, const std::vector<int>& into) {
     cells[static_cast<std::size_t>(owner)].push_back(corners);
   }
   return assemble(mesh.points, cells);
+}
+
+inline MeshGeometry geometry_of(const TestMesh& mesh) {
+  return {mesh.topology, mesh.points};
 }
 
 }  // namespace millfoam::averaging

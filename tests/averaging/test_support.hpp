@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "averaging/dumps/dump_reader.hpp"
+#include "averaging/pi.hpp"
 
 namespace millfoam::averaging {
-
-inline constexpr double pi = 3.14159265358979323846;
 
 inline double sphere_volume(double radius) {
   return 4.0 / 3.0 * pi * radius * radius * radius;
@@ -70,6 +69,11 @@ std::string message_of(Action&& action) {
   }
   ADD_FAILURE() << "nothing was refused";
   return {};
+}
+
+/// Why a dump of that text is refused.
+inline std::string refusal_of_dump(const std::string& text) {
+  return message_of<DumpError>([&] { parse_dump(text, "dump7.txt"); });
 }
 
 /// Expects `text` to hold each of the parts.

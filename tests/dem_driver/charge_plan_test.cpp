@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "dem_driver/pi.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -14,8 +15,6 @@ namespace {
 
 using tests::message_of;
 using tests::small_mill;
-
-constexpr double pi = 3.14159265358979323846;
 
 TEST(ChargePlan, TheCountIsTheMassOverTheMassOfOneBallRounded) {
   auto mill = small_mill();

@@ -6,13 +6,14 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "dem_driver/pi.hpp"
+
 namespace millfoam::dem_driver::tests {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 using Point = std::array<double, 3>;
 
 double ball_mass(double diameter) {

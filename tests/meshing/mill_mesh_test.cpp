@@ -20,12 +20,6 @@ VolumeMesh mesh_of(const TestMill& mill) {
   return make_mill_mesh(make_cross_section(mill.geometry, mill.cell_size), mill.geometry, layers);
 }
 
-std::vector<TestMill> all_mills() {
-  std::vector<TestMill> mills = ordinary_mills();
-  for (const TestMill& mill : unusual_mills()) mills.push_back(mill);
-  return mills;
-}
-
 std::string described(const TestMill& mill) {
   return "diameter " + std::to_string(mill.geometry.diameter) + ", " +
          std::to_string(mill.geometry.lifters.count) + " lifters " +

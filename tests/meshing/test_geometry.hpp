@@ -35,6 +35,13 @@ inline std::vector<TestMill> unusual_mills() {
           test_mill(0.12, 12, 0.008, 0.025, 0.003), test_mill(0.12, 12, 0.001, 0.006, 0.003)};
 }
 
+/// Both.
+inline std::vector<TestMill> all_mills() {
+  std::vector<TestMill> mills = ordinary_mills();
+  for (const TestMill& mill : unusual_mills()) mills.push_back(mill);
+  return mills;
+}
+
 /// Area of the mill's section whose shell has a facet over each of `gap` equal angles between two lifters:
 /// triangles to the axis between the lifters' feet, and between each lifter's sides and top by the shoelace
 /// formula.

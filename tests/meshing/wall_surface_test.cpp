@@ -62,12 +62,6 @@ std::vector<Triangle> read_all(const std::vector<std::filesystem::path>& files) 
   return all;
 }
 
-std::vector<TestMill> all_mills() {
-  std::vector<TestMill> mills = ordinary_mills();
-  for (const TestMill& mill : unusual_mills()) mills.push_back(mill);
-  return mills;
-}
-
 TEST(Walls, close_in_the_files_edge_by_edge_with_equal_digits) {
   const TemporaryFolder folder;
   for (const TestMill& mill : all_mills()) {

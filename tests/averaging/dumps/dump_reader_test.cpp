@@ -25,10 +25,6 @@ void expect_two_balls(const ParticleRecord& record) {
   }
 }
 
-std::string refusal(const std::string& text) {
-  return message_of<DumpError>([&] { parse_dump(text, "dump7.txt"); });
-}
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from;
@@ -110,42 +106,44 @@ TEST(DumpReader, ADumpWithAnyByteBrokenIsReadOrRefusedButNeverWorse) {
 
 TEST(DumpReader, TruncationIsToldWithItsLineAndCount) {
   const std::string text = dump_text(1200, two_balls);
-  expect_named(refusal(text.substr(0, text.rfind("3 1 -0.125"))),
+  expect_named(refusal_of_dump(text.substr(0, text.rfind("3 1 -0.125"))),
                {"dump7.txt:11", "particle 2 of 2", "truncated"});
-  expect_named(refusal(text.substr(0, text.size() - 3)), {"dump7.txt:11", "ends within this line"});
+  expect_named(refusal_of_dump(text.substr(0, text.size() - 3)), {"dump7.txt:11", "ends within this line"});
 }
 
 TEST(DumpReader, AMissingColumnIsNamedWithThoseThatAreThere) {
-  expect_named(refusal(replaced(dump_text(1200, two_balls), " vy ", " vyy ")),
+  expect_named(refusal_of_dump(replaced(dump_text(1200, two_balls), " vy ", " vyy ")),
                {"dump7.txt:9", "'vy' is missing", "id type x y z vx vyy vz radius"});
 }
 
 TEST(DumpReader, AValueThatIsNoFiniteNumberIsToldWithItsPlace) {
   const std::string text = dump_text(1200, two_balls);
   for (const std::string word : {"nan", "-nan", "inf", "0.75x", "abc", "1e999"}) {
-    expect_named(refusal(replaced(text, " 0.75 ", " " + word + " ")),
+    expect_named(refusal_of_dump(replaced(text, " 0.75 ", " " + word + " ")),
                  {"dump7.txt:11", "'y'", "'" + word + "'"});
   }
 }
 
 TEST(DumpReader, ARadiusThatIsNotPositiveIsRefused) {
   const std::string text = dump_text(1200, two_balls);
-  expect_named(refusal(replaced(text, "0.0040000000000000001", "-0.004")),
+  expect_named(refusal_of_dump(replaced(text, "0.0040000000000000001", "-0.004")),
                {"dump7.txt:10", "radius", "-0.004"});
-  expect_named(refusal(replaced(text, "0.0040000000000000001", "0")), {"dump7.txt:10", "radius", "positive"});
+  expect_named(refusal_of_dump(replaced(text, "0.0040000000000000001", "0")),
+               {"dump7.txt:10", "radius", "positive"});
 }
 
 TEST(DumpReader, RowsOfTheWrongLengthAreRefused) {
   const std::string text = dump_text(1200, two_balls);
-  expect_named(refusal(replaced(text, "-0.125 0.75", "-0.125")), {"dump7.txt:11", "8 values", "expected 9"});
-  expect_named(refusal(replaced(text, "-0.125 0.75", "-0.125 1 0.75")),
+  expect_named(refusal_of_dump(replaced(text, "-0.125 0.75", "-0.125")),
+               {"dump7.txt:11", "8 values", "expected 9"});
+  expect_named(refusal_of_dump(replaced(text, "-0.125 0.75", "-0.125 1 0.75")),
                {"dump7.txt:11", "more values", "expected 9"});
 }
 
 TEST(DumpReader, MoreThanOneRecordOrTooManyRowsAreRefused) {
   const std::string text = dump_text(1200, two_balls);
-  expect_named(refusal(text + dump_text(1400, two_balls)), {"dump7.txt:12", "second record"});
-  expect_named(refusal(text + "9 1 0 0 0 0 0 0 1\n"), {"dump7.txt:12", "more rows", "2"});
+  expect_named(refusal_of_dump(text + dump_text(1400, two_balls)), {"dump7.txt:12", "second record"});
+  expect_named(refusal_of_dump(text + "9 1 0 0 0 0 0 0 1\n"), {"dump7.txt:12", "more rows", "2"});
 }
 
 TEST(DumpReader, AFileThatIsNoDumpIsRefused) {
@@ -158,7 +156,7 @@ TEST(DumpReader, AFileThatIsNoDumpIsRefused) {
 
 TEST(DumpReader, AnAbsurdNumberOfAtomsIsRefusedAndNotReserved) {
   const std::string text = replaced(dump_text(1200, two_balls), "ATOMS\n2", "ATOMS\n9000000000000000000");
-  expect_named(refusal(text), {"dump7.txt:12", "particle 3 of 9000000000000000000"});
+  expect_named(refusal_of_dump(text), {"dump7.txt:12", "particle 3 of 9000000000000000000"});
 }
 
 }  // namespace

@@ -17,10 +17,6 @@
 namespace millfoam::averaging {
 namespace {
 
-std::string refusal(const std::string& text) {
-  return message_of<DumpError>([&] { parse_dump(text, "dump7.txt"); });
-}
-
 std::vector<Particle> random_balls(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-1, 1);
@@ -127,7 +123,7 @@ TEST(DumpProperties, ParticlesThatComeAndGoAreTheRecordsOwn) {
 TEST(DumpProperties, ADoubledIdIsToldWithBothLines) {
   std::vector<Particle> balls = random_balls(30, 4);
   balls[20].id = balls[3].id;
-  expect_named(refusal(dump_text(1, balls)),
+  expect_named(refusal_of_dump(dump_text(1, balls)),
                {"dump7.txt:30", "particle " + std::to_string(balls[3].id) + " is there twice", "line 13"});
 }
 
@@ -164,8 +160,8 @@ TEST(DumpProperties, FilesThatAreNoDumpsAreRefused) {
 TEST(DumpProperties, AHeaderAloneIsRefused) {
   const std::string text = dump_text(1, random_balls(2, 1));
   const std::size_t columns = text.find("ITEM: ATOMS");
-  expect_named(refusal(text.substr(0, columns)), {"dump7.txt:9", "ends here", "truncated"});
-  expect_named(refusal(text.substr(0, text.find('\n', columns) + 1)),
+  expect_named(refusal_of_dump(text.substr(0, columns)), {"dump7.txt:9", "ends here", "truncated"});
+  expect_named(refusal_of_dump(text.substr(0, text.find('\n', columns) + 1)),
                {"dump7.txt:10", "particle 1 of 2", "truncated"});
 }
 
@@ -187,15 +183,16 @@ TEST(DumpProperties, CountsThatCannotBeAreRefused) {
   for (const std::string count :
        {"-1", "9000000000000000000", "90000000000000000000", "2.0", "1e9", "", "two", "3"}) {
     std::string broken = text;
-    expect_named(refusal(broken.replace(place, 1, count)), {"dump7.txt:"});
+    expect_named(refusal_of_dump(broken.replace(place, 1, count)), {"dump7.txt:"});
   }
 }
 
 TEST(DumpProperties, AnItemThatIsThereTwiceIsRefused) {
   std::string text = dump_text(1, random_balls(2, 1));
-  expect_named(refusal("ITEM: TIMESTEP\n4\n" + text), {"dump7.txt:3", "'ITEM: TIMESTEP'", "twice"});
-  expect_named(refusal(text.substr(0, text.find("ITEM: BOX")) + text.substr(text.find("ITEM: NUMBER"))),
-               {"dump7.txt:5", "'ITEM: NUMBER OF ATOMS'", "twice"});
+  expect_named(refusal_of_dump("ITEM: TIMESTEP\n4\n" + text), {"dump7.txt:3", "'ITEM: TIMESTEP'", "twice"});
+  expect_named(
+      refusal_of_dump(text.substr(0, text.find("ITEM: BOX")) + text.substr(text.find("ITEM: NUMBER"))),
+      {"dump7.txt:5", "'ITEM: NUMBER OF ATOMS'", "twice"});
 }
 
 TEST(DumpProperties, SeveralGzipStreamsInAFileAreOneText) {

@@ -14,10 +14,6 @@
 namespace millfoam::averaging {
 namespace {
 
-MeshGeometry geometry_of(const TestMesh& mesh) {
-  return {mesh.topology, mesh.points};
-}
-
 /// A drum with warped faces and skewed cells.
 TestMesh rough_drum() {
   return warped(drum_mesh(0.06, 0.024, 4, 4, 6), 0.0004);

@@ -14,11 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-MeshGeometry geometry_of(const TestMesh& mesh) {
-  return {mesh.topology, mesh.points};
-}
-
-std::string refusal(const TestMesh& mesh) {
+std::string mesh_refusal(const TestMesh& mesh) {
   return message_of<std::invalid_argument>([&] { geometry_of(mesh); });
 }
 
@@ -104,14 +100,14 @@ TEST(MeshGeometry, ACellInsideOutIsRefusedByNumber) {
   for (Vector3d& point : mesh.points) {
     if (point.x() == 2) point.x() = 3.5;
   }
-  expect_named(refusal(mesh), {"cell 2", "volume", "positive"});
+  expect_named(mesh_refusal(mesh), {"cell 2", "volume", "positive"});
 }
 
 TEST(MeshGeometry, AnOpenCellIsRefusedByNumber) {
   TestMesh mesh = box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
   MeshTopology& topology = mesh.topology;
   topology.owner[10] = 1 - topology.owner[10];
-  expect_named(refusal(mesh), {"cell", "not enclosed"});
+  expect_named(mesh_refusal(mesh), {"cell", "not enclosed"});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ void expect_near(const Vector3d& found, const Vector3d& expected) {
   EXPECT_LT((found - expected).norm(), 1e-14) << found.transpose() << " and " << expected.transpose();
 }
 
-std::string refusal(const std::vector<std::string>& texts) {
+std::string motion_refusal(const std::vector<std::string>& texts) {
   return message_of<std::invalid_argument>([&] { parse_motion(texts); });
 }
 
@@ -74,29 +74,30 @@ TEST(Motion, OutsideATableIsRefusedWithTheTime) {
 }
 
 TEST(Motion, ThatIsNotKnownIsRefusedWithItsText) {
-  expect_named(refusal({"rotaton speed 2"}), {"'rotaton speed 2'", "'rotation' or 'translation'"});
-  expect_named(refusal({"rotation sped 2"}), {"'sped'", "'speed' or 'table'"});
-  expect_named(refusal({"rotation speed fast"}), {"'fast'", "rad/s"});
-  expect_named(refusal({"rotation speed"}), {"it ends", "rad/s"});
-  expect_named(refusal({"rotation speed 1 axis 0 0 0"}), {"no direction"});
-  expect_named(refusal({"rotation speed 1 axis 0 1"}), {"it ends", "axis"});
-  expect_named(refusal({"rotation speed 1 about z"}), {"'about'", "'axis' or 'origin'"});
-  expect_named(refusal({"translation speed 1 0 0"}), {"'speed'", "'velocity' or 'table'"});
-  expect_named(refusal({"translation velocity 1 0 0 0"}), {"'0'"});
-  expect_named(refusal({""}), {"it ends", "'rotation' or 'translation'"});
+  expect_named(motion_refusal({"rotaton speed 2"}), {"'rotaton speed 2'", "'rotation' or 'translation'"});
+  expect_named(motion_refusal({"rotation sped 2"}), {"'sped'", "'speed' or 'table'"});
+  expect_named(motion_refusal({"rotation speed fast"}), {"'fast'", "rad/s"});
+  expect_named(motion_refusal({"rotation speed"}), {"it ends", "rad/s"});
+  expect_named(motion_refusal({"rotation speed 1 axis 0 0 0"}), {"no direction"});
+  expect_named(motion_refusal({"rotation speed 1 axis 0 1"}), {"it ends", "axis"});
+  expect_named(motion_refusal({"rotation speed 1 about z"}), {"'about'", "'axis' or 'origin'"});
+  expect_named(motion_refusal({"translation speed 1 0 0"}), {"'speed'", "'velocity' or 'table'"});
+  expect_named(motion_refusal({"translation velocity 1 0 0 0"}), {"'0'"});
+  expect_named(motion_refusal({""}), {"it ends", "'rotation' or 'translation'"});
 }
 
 TEST(Motion, ATableWithErrorsIsRefusedWithFileAndLine) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {
-    return refusal({"rotation table " + folder.write("speed.txt", text).string()});
+    return motion_refusal({"rotation table " + folder.write("speed.txt", text).string()});
   };
   expect_named(refused("0 1\n1 x\n"), {"speed.txt:2", "'x'"});
   expect_named(refused("0 1\n1\n"), {"speed.txt:2", "1 numbers", "a time and 1 value"});
   expect_named(refused("0 1\n# pause\n0 2\n"), {"speed.txt:3", "does not follow"});
   expect_named(refused("0 inf\n"), {"speed.txt:1", "'inf'"});
   expect_named(refused("0 1\n"), {"speed.txt", "two or more"});
-  expect_named(refusal({"translation table " + (folder / "none.txt").string()}), {"none.txt", "cannot read"});
+  expect_named(motion_refusal({"translation table " + (folder / "none.txt").string()}),
+               {"none.txt", "cannot read"});
 }
 
 }  // namespace
