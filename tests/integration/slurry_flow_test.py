@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""slurryFoam goes on after a restart and on two ranks as it would have, and loses nothing: in a closed box with a moving
+bed, on meshes that turn and deform, between an inlet and an outlet, laminar and turbulent."""
+import shutil
+import unittest
+
+import numpy as np
+
+from openfoam_case import require_environment, rotating_mesh
+from slurry_case import AIR, SLURRY, SlurryTest
+
+# Soft edges and a way that goes through the surface; it stays inside the box.
+BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005;"
+         " velocity (0.3 0.3 0); moves yes; }")
+# Reaches into the walls wherever the box has turned to; as soft as the cells that pass through its edge.
+PILE = "block { box (-1 -1 -1) (1 0.05 1); edge 0.03; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; velocity (0.1 0 0); }"
+
+
+class Restart(SlurryTest):
+    """A run of 20 ms against one that is taken up at 10 ms: the same to the last bit."""
+
+    first, last = 0.01, 0.02
+
+    def assert_restarts(self, case):
+        self.assert_runs(case, "slurryFoam")
+        other = self.copy_of(case)
+        shutil.rmtree(other.folder(self.last))
+        control = other.path / "system/controlDict"
+        control.write_text(control.read_text().replace("startTime 0;", f"startTime {self.first};"))
+        self.assert_runs(other, "slurryFoam")
+
+        names = case.written(self.last)
+        for name in ("U", "alpha.slurry", "p_rgh", "phi"):
+            self.assertIn(name, names)
+        self.assertGreater(np.abs(case.field("U", self.last) - case.field("U", self.first)).max(), 0.01)
+        for name in names:
+            np.testing.assert_array_equal(other.field(name, self.last), case.field(name, self.last), name)
+
+    def test_with_fixed_time_steps(self):
+        case = self.slurry_case(end_time=self.last)
+        case.bed(BALLS)
+        self.assert_restarts(case)
+
+    def test_with_time_steps_that_the_courant_number_bounds(self):
+        case = self.slurry_case()
+        case.bed(BALLS)
+        case.adjusted(self.last, self.first, courant=0.03, voidage_change=1)
+        self.assert_restarts(case)
+
+    def test_with_time_steps_that_the_change_of_voidage_bounds(self):
+        case = self.slurry_case()
+        case.bed(BALLS)
+        case.adjusted(self.last, self.first, voidage_change=0.02)
+        self.assert_restarts(case)
+
+    def test_on_a_turning_mesh(self):
+        case = self.slurry_case(end_time=self.last, motion=rotating_mesh(3))
+        self.assert_restarts(case)
+
+
+class Ranks(SlurryTest):
+    def run_case(self, ranks):
+        case = self.slurry_case(end_time=0.02)
+        case.bed(BALLS)
+        case.decompose_into(2, 1, 1)
+        if ranks > 1:
+            self.assert_runs(case, "decomposePar")
+        self.assert_runs(case, "slurryFoam", ranks=ranks)
+        if ranks > 1:
+            self.assert_runs(case, "reconstructPar")
+        names = ("U", "p_rgh", "alpha.slurry", "phi", "solidity", "solidsVelocity")
+        return {name: case.field(name, 0.02) for name in names}
+
+    def test_two_change_nothing_but_the_solvers_round_off(self):
+        one, two = self.run_case(1), self.run_case(2)
+        for name in ("solidity", "solidsVelocity"):
+            np.testing.assert_array_equal(two[name], one[name], name)
+        self.assertGreater(np.linalg.norm(one["U"], axis=1).max(), 0.01)
+        for name in ("U", "p_rgh", "alpha.slurry", "phi"):
+            scale = np.abs(one[name]).max()
+            np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-7 * scale, err_msg=name)
+
+
+class Volumes(SlurryTest):
+    """Slurry and air of a closed box."""
+
+    def test_are_kept_while_a_bed_goes_through_the_surface(self):
+        case = self.slurry_case()
+        case.bed(BALLS)
+        case.adjusted(0.1, 0.1)
+        result = self.assert_runs(case, "slurryFoam")
+        self.assert_kept(result)
+        self.assertGreater(result.log.count("deltaT = "), 10)
+
+        # Again from what was written: 14 x 10 x 2 equal cells
+        cell = case.upper.prod() / case.cells
+        voidage = 1 - case.field("solidity", 0.1)
+        slurry = voidage @ case.field("alpha.slurry", 0.1) * cell
+        start = 1 - case.below(lambda x: 0 * x)
+        self.assertLess(abs(voidage.sum() * cell - (start.sum() * cell - 0.5 * 0.03 * 0.03 * 0.02)), 1e-8 * slurry)
+        self.assertAlmostEqual(slurry, float(np.ravel(self.first_slurry(result))[0]), delta=1e-8 * slurry)
+
+    @staticmethod
+    def first_slurry(result):
+        return [float(line.split()[1]) for line in result.log.splitlines() if line.startswith("Slurry ")][:1]
+
+    def test_are_kept_in_a_turning_box(self):
+        case = self.slurry_case(end_time=0.1, motion=rotating_mesh(3))
+        self.assert_kept(self.assert_runs(case, "slurryFoam"))
+
+    def test_are_kept_in_a_box_that_turns_through_a_bed(self):
+        case = self.slurry_case(end_time=0.04, motion=rotating_mesh(3))
+        case.bed(PILE)
+        self.assert_runs(case, "slurryFoam")
+
+
+if __name__ == "__main__":
+    require_environment()
+    unittest.main()
