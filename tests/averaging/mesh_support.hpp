@@ -13,6 +13,7 @@
 
 #include "averaging/mesh/mesh_geometry.hpp"
 #include "averaging/mesh/poly_mesh.hpp"
+#include "averaging/pi.hpp"
 
 /// Meshes made in memory.
 namespace millfoam::averaging {
@@ -178,7 +179,6 @@ inline TestMesh honeycomb_mesh(int nx, int ny, int layers, double size) {
   std::vector<Eigen::Vector2d> plane;
   std::map<std::pair<long, long>, int> numbers;
   std::vector<std::array<int, 6>> hexagons;
-  const double pi = std::acos(-1.0);
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
       const Eigen::Vector2d centre(std::sqrt(3.0) * size * (i + 0.5 * (j % 2)), 1.5 * size * j);
