@@ -26,7 +26,7 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr double radius = 0.06, length = 0.024, pi = 3.14159265358979323846;
+constexpr double radius = 0.06, length = 0.024;
 
 TestMesh mill(int n) {
   return drum_mesh(radius, length, n, n, 2 * n);

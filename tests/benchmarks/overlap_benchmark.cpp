@@ -10,6 +10,7 @@
 
 #include "averaging/overlap/sphere_template.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
+#include "averaging/pi.hpp"
 #include "averaging/sharing/box_exact.hpp"
 #include "averaging/sharing/box_sampling.hpp"
 #include "averaging/sharing/cylinder_exact.hpp"
@@ -18,7 +19,6 @@
 namespace millfoam::averaging {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 BoxGrid box() {
   return BoxGrid({-1, -1, -1}, {1, 1, 1}, {40, 40, 40}, {true, true, true});
