@@ -19,7 +19,6 @@
 namespace millfoam::averaging {
 namespace {
 
-
 BoxGrid box() {
   return BoxGrid({-1, -1, -1}, {1, 1, 1}, {40, 40, 40}, {true, true, true});
 }
