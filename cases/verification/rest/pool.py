@@ -110,7 +110,8 @@ def main():
     runs = matrix(options.meshes, options.solvers, options.quick)
     for program in sorted({SOLVERS[run.solver] for run in runs}):
         if not shutil.which(program):
-            parser.error(f"{program} is not on the PATH: run scripts/setup, then source scripts/env")
+            parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target {program}, "
+                         "then source scripts/env")
     work.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(options.jobs) as threads:
         histories = dict(zip(runs, threads.map(lambda run: perform(run, work, here, end, options.keep), runs)))
