@@ -99,6 +99,7 @@ void write_mill_properties(const Mill& mill, double time, const fs::path& case_f
     out << "endsType " << (mill.geometry.ends == Ends::plain ? "plain" : "periodic") << ";\n";
     number("omega", mill.angular_velocity);
     number("time0", time);
+    number("ballDensity", mill.ball.density);
     number("slurryDensity", mill.slurry.density);
     number("slurryViscosity", mill.slurry.plastic_viscosity);
     number("slurryKinematicViscosity", mill.slurry.plastic_viscosity / mill.slurry.density);

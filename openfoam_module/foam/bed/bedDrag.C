@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "bedDrag.H"
+#include "knownEntries.H"
 #include "openfoam_module/drag/pore_viscosity.hpp"
 
 #include <stdexcept>
@@ -40,6 +41,8 @@ static millfoam::drag::Fluid readFluid(const dictionary& dict)
 static bedFluids readFluids(const dictionary& dict)
 {
     const dictionary& slurry = dict.subDict("slurry");
+    requireKnownEntries(slurry, {"rho", "mu", "yieldStress", "viscosityRatio"});
+    requireKnownEntries(dict.subDict("air"), {"rho", "mu"});
     bedFluids fluids;
     fluids.slurry = readFluid(slurry);
     fluids.air = readFluid(dict.subDict("air"));
@@ -128,6 +131,12 @@ Foam::bedDrag::bedDrag(const dictionary& dict)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::bedDrag::entries()
+{
+    return {"law", "viscosity", "polydispersity", "multiplier"};
+}
+
 
 Foam::tmp<Foam::volScalarField::Internal> Foam::bedDrag::exchange(
     const movingBed& bed, const volScalarField& alpha,

@@ -6,6 +6,7 @@
 #include "blockShape.H"
 #include "OStringStream.H"
 #include "Tuple2.H"
+#include "knownEntries.H"
 #include "mathematicalConstants.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -107,6 +108,7 @@ Foam::cylinderShape::cylinderShape(const dictionary& dict)
   begin_(0),
   end_(0)
 {
+    requireKnownEntries(dict, {"centre", "axis", "radius", "ends"});
     const Tuple2<scalar, scalar> ends(dict.lookup("ends"));
     begin_ = ends.first();
     end_ = ends.second();
@@ -123,6 +125,18 @@ Foam::cylinderShape::cylinderShape(const dictionary& dict)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::boxShape::entries() const
+{
+    return {"box", "edge", "edgeAxes", "edgeShape"};
+}
+
+
+Foam::wordList Foam::cylinderShape::entries() const
+{
+    return {"cylinder"};
+}
+
 
 Foam::scalar Foam::boxShape::at(const point& p) const
 {

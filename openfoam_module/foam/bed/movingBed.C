@@ -137,6 +137,27 @@ void Foam::movingBed::update()
 }
 
 
+Foam::wordList Foam::movingBed::entries()
+{
+    return {"solids",         "interpolation", "inTime",
+            "outOfRange",     "time0",         "block",
+            "blocks",         "uncovered",     "ledgerCorrection",
+            "largestSolidity"};
+}
+
+
+void Foam::movingBed::requireSolids() const
+{
+    if (empty())
+    {
+        FatalIOErrorInFunction(dict_)
+            << "neither of the entries 'solids' (the name of a solids.h5) and"
+            << " 'block' (a uniform bed) is there; expected one of them"
+            << exit(FatalIOError);
+    }
+}
+
+
 Foam::string Foam::movingBed::description() const
 {
     if (empty())

@@ -5,6 +5,7 @@
 
 #include "solidsBlock.H"
 #include "OStringStream.H"
+#include "knownEntries.H"
 #include "Tuple2.H"
 #include "volFields.H"
 
@@ -40,6 +41,7 @@ void Foam::solidsBlock::readMotion(const dictionary& dict)
 
     if (dict.isDict("ramp"))
     {
+        requireKnownEntries(dict.subDict("ramp"), {"time"});
         const Tuple2<scalar, scalar> times(dict.subDict("ramp").lookup("time"));
         rampBegin_ = times.first();
         rampEnd_ = times.second();
@@ -55,6 +57,11 @@ void Foam::solidsBlock::readMotion(const dictionary& dict)
 
 void Foam::solidsBlock::check(const dictionary& dict) const
 {
+    wordList known(
+        {"solidity", "diameter", "velocity", "moves", "until", "omega",
+         "origin", "axis", "ramp", "cells", "volume"});
+    known.append(shape_->entries());
+    requireKnownEntries(dict, known);
     if (!(solidity_ >= 0 && solidity_ < 1))
     {
         FatalIOErrorInFunction(dict)
@@ -99,10 +106,10 @@ Foam::solidsBlock::solidsBlock(const dictionary& dict)
   cells_(cells::centre),
   volume_(dict.lookupOrDefault<scalar>("volume", -1))
 {
+    check(dict);
     readMotion(dict);
     cells_ = cellsNames_.getOrDefault(
         "cells", dict, moves_ ? cells::overlap : cells::centre);
-    check(dict);
 }
 
 

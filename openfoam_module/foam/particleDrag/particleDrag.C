@@ -7,6 +7,7 @@
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvmSup.H"
+#include "knownEntries.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -75,13 +76,7 @@ Foam::fv::particleDrag::particleDrag(
     applied_.setSize(1, false);
 
     read(dict);
-    if (bed_.empty())
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "neither of the entries 'solids' (the name of a solids.h5) and"
-            << " 'block' (a uniform bed) is there; expected one of them"
-            << exit(FatalIOError);
-    }
+    bed_.requireSolids();
 
     Info << "    " << drag_->description().c_str() << ", "
          << bed_.description().c_str() << endl;
@@ -135,6 +130,11 @@ bool Foam::fv::particleDrag::read(const dictionary& dict)
     {
         return false;
     }
+
+    wordList known({"phase", "slurry", "air", "U"});
+    known.append(movingBed::entries());
+    known.append(bedDrag::entries());
+    refuseMisspelt(coeffs_, known);
 
     phaseName_ = coeffs_.get<word>("phase");
     drag_.reset(new bedDrag(coeffs_));

@@ -9,10 +9,33 @@
 #include "fvcMeshPhi.H"
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
+#include "knownEntries.H"
 #include "geometricOneField.H"
 #include "MULES.H"
 #include "zeroField.H"
 #include "oneField.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Surface tension, N/m, out of transportProperties
+static dimensionedScalar surfaceTension(const dictionary& dict)
+{
+    const dimensionedScalar sigma("sigma", dimForce / dimLength, dict);
+    if (!(sigma.value() >= 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "sigma is " << sigma.value()
+            << " N/m; expected a surface tension of 0 or above"
+            << exit(FatalIOError);
+    }
+    return sigma;
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -50,6 +73,29 @@ Foam::bedFluids Foam::slurryFlow::fluids() const
             mixture_.rho1().value() * gMax(mixture_.nuModel1().nu()());
     }
     return result;
+}
+
+
+void Foam::slurryFlow::readBed()
+{
+    Info << "Bed: " << bed_.description().c_str() << nl;
+    if (!bedDict_.dictionary::empty())
+    {
+        wordList known({"drag", "voidageRate", "ballDensity"});
+        known.append(movingBed::entries());
+        refuseMisspelt(bedDict_, known);
+        bed_.requireSolids();
+
+        const dictionary& drag = bedDict_.subDict("drag");
+        requireKnownEntries(drag, bedDrag::entries());
+        drag_.reset(new bedDrag(drag, fluids()));
+        Info << "Drag: " << drag_->description().c_str() << nl;
+    }
+    if (bedDict_.found("ballDensity"))
+    {
+        load_.reset(new ballLoad(bedDict_, bed_, g_.value()));
+    }
+    Info << endl;
 }
 
 
@@ -100,7 +146,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   surface_(alpha_, g_.value()),
   pressure_(
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
-      dimensionedScalar("sigma", dimForce / dimLength, mixture_)),
+      surfaceTension(mixture_)),
   transport_(surface_, alpha_),
   forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
   fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
@@ -127,13 +173,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
     pressure_.update(p_rgh_, rho_);
     p_ = pressure_.staticPressure();
 
-    Info << "Bed: " << bed_.description().c_str() << nl;
-    if (!bed_.empty())
-    {
-        drag_.reset(new bedDrag(bedDict_.subDict("drag"), fluids()));
-        Info << "Drag: " << drag_->description().c_str() << nl;
-    }
-    Info << endl;
+    readBed();
 }
 
 
@@ -216,6 +256,13 @@ void Foam::slurryFlow::report()
     {
         drag_->report(bed_, alpha_, U_);
     }
+    if (load_.valid() && mesh_.time().writeTime())
+    {
+        load_->update(
+            drag_->exchange(bed_, alpha_, U_), U_, forces_,
+            pressure_.inertia());
+        Info << "bed: " << load_->description().c_str() << endl;
+    }
 }
 
 
@@ -224,6 +271,10 @@ void Foam::slurryFlow::summary() const
     if (drag_.valid())
     {
         drag_->summary();
+    }
+    if (load_.valid())
+    {
+        Info << "bed: " << load_->summary().c_str() << endl;
     }
 }
 

@@ -32,6 +32,7 @@ Usage
 #include "argList.H"
 #include "Enum.H"
 #include "fvMesh.H"
+#include "knownEntries.H"
 #include "movingBed.H"
 #include "planeCut.H"
 #include "Time.H"
@@ -170,6 +171,7 @@ class heightCut
 Pair<scalar> levels(
     const dictionary& dict, const heightCut& cut, const scalarField& solidity)
 {
+    refuseMisspelt(dict, {"start", "level", "volume", "bedShare", "phase"});
     const start kind = startNames.get("start", dict);
     if (kind == start::feed)
     {

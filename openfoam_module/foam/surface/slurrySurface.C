@@ -5,6 +5,7 @@
 
 #include "slurrySurface.H"
 #include "fvcGrad.H"
+#include "knownEntries.H"
 #include "syncTools.H"
 #include "unitConversion.H"
 
@@ -158,6 +159,41 @@ void Foam::slurrySurface::findLoose()
 }
 
 
+void Foam::slurrySurface::readControls()
+{
+    const dictionary& dict =
+        mesh_.solutionDict().subOrEmptyDict("slurrySurface");
+    requireKnownEntries(dict, {"levelAngle", "fits"});
+    // Two numbers in brackets are four tokens
+    if (dict.found("levelAngle") && dict.lookup("levelAngle").size() != 4)
+    {
+        FatalIOErrorInFunction(dict)
+            << "levelAngle is " << dict.lookup("levelAngle").toString()
+            << "; expected two angles in degrees, as (15 30)"
+            << exit(FatalIOError);
+    }
+    const Pair<scalar> angles(
+        dict.lookupOrDefault("levelAngle", Pair<scalar>(15, 30)));
+    if (!(angles.first() >= 0 && angles.first() < angles.second() &&
+          angles.second() <= 180))
+    {
+        FatalIOErrorInFunction(dict)
+            << "levelAngle is " << angles
+            << "; expected two angles in degrees, the smaller first"
+            << exit(FatalIOError);
+    }
+    levelCosine_ = Foam::cos(degToRad(angles.first()));
+    surfaceCosine_ = Foam::cos(degToRad(angles.second()));
+    fits_ = dict.lookupOrDefault<label>("fits", 2);
+    if (fits_ < 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "fits is " << fits_ << "; expected a number, 0 or above"
+            << exit(FatalIOError);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
@@ -183,22 +219,7 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
           IOobject::NO_WRITE, false),
       mesh_, dimensionedScalar(dimless, Zero))
 {
-    const dictionary& dict =
-        mesh_.solutionDict().subOrEmptyDict("slurrySurface");
-    const Pair<scalar> angles(
-        dict.lookupOrDefault("levelAngle", Pair<scalar>(15, 30)));
-    if (!(angles.first() >= 0 && angles.first() < angles.second() &&
-          angles.second() <= 180))
-    {
-        FatalIOErrorInFunction(dict)
-            << "levelAngle is " << angles
-            << "; expected two angles in degrees, the smaller first"
-            << exit(FatalIOError);
-    }
-    levelCosine_ = Foam::cos(degToRad(angles.first()));
-    surfaceCosine_ = Foam::cos(degToRad(angles.second()));
-    fits_ = dict.lookupOrDefault<label>("fits", 2);
-
+    readControls();
     reconstruct();
     locate();
 }

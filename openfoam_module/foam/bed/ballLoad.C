@@ -1,0 +1,121 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "ballLoad.H"
+#include "ListListOps.H"
+#include "OStringStream.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::ballLoad::weigh()
+{
+    List<scalarField> ratios(Pstream::nProcs());
+    List<scalarField> volumes(Pstream::nProcs());
+    ratios[Pstream::myProcNo()] = ratio_.primitiveField();
+    volumes[Pstream::myProcNo()] =
+        bed_.solidity().primitiveField() * ratio_.mesh().V();
+    Pstream::gatherList(ratios);
+    Pstream::gatherList(volumes);
+
+    mean_ = 0;
+    high_ = 0;
+    if (Pstream::master())
+    {
+        const scalarField ratio(
+            ListListOps::combine<scalarField>(ratios, accessOp<scalarField>()));
+        const scalarField volume(ListListOps::combine<scalarField>(
+            volumes, accessOp<scalarField>()));
+        const scalar all = sum(volume);
+        mean_ = all > 0 ? sum(ratio * volume) / all : 0;
+
+        scalar below = 0;
+        for (const label celli : sortedOrder(ratio))
+        {
+            if (below < 0.95 * all)
+            {
+                high_ = ratio[celli];
+            }
+            below += volume[celli];
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::ballLoad::ballLoad(
+    const dictionary& dict, const movingBed& bed, const vector& g)
+: bed_(bed),
+  g_(g),
+  density_(dict.get<scalar>("ballDensity")),
+  ratio_(
+      IOobject(
+          "forceOverWeight", bed.solidity().time().timeName(),
+          bed.solidity().mesh(), IOobject::NO_READ, IOobject::AUTO_WRITE),
+      bed.solidity().mesh(), dimensionedScalar(dimless, Zero)),
+  mean_(0),
+  high_(0),
+  meanSum_(0),
+  highSum_(0),
+  updates_(0)
+{
+    if (!(density_ > 0 && mag(g_) > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "ballDensity is " << density_ << " kg/m3 and gravity " << g_
+            << " m/s2; expected a density above 0 and, for the balls' weight,"
+            << " gravity. Without the entry the force on the balls is not told"
+            << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::ballLoad::update(
+    const volScalarField::Internal& exchange, const volVectorField& U,
+    const volVectorField& acceleration, const volScalarField& rho)
+{
+    forAll(ratio_, celli)
+    {
+        const scalar phi = bed_.solidity()[celli];
+        ratio_[celli] = 0;
+        if (phi > 0)
+        {
+            const vector force(
+                phi * rho[celli] * (acceleration[celli] - g_) +
+                exchange[celli] * (U[celli] - bed_.velocity()[celli]) /
+                    (1 - phi));
+            ratio_[celli] = mag(force) / (phi * density_ * mag(g_));
+        }
+    }
+    weigh();
+    meanSum_ += mean_;
+    highSum_ += high_;
+    ++updates_;
+}
+
+
+Foam::string Foam::ballLoad::description() const
+{
+    OStringStream text;
+    text << "force of the fluid on the balls over their weight: mean " << mean_
+         << ", 95 % below " << high_;
+    return text.str();
+}
+
+
+Foam::string Foam::ballLoad::summary() const
+{
+    OStringStream text;
+    text << "force of the fluid on the balls over their weight, in the mean of "
+         << updates_ << " written times: mean "
+         << (updates_ > 0 ? meanSum_ / updates_ : 0) << ", 95 % below "
+         << (updates_ > 0 ? highSum_ / updates_ : 0);
+    return text.str();
+}
+
+
+// ************************************************************************* //

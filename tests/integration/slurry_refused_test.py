@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What slurryFoam and slurryStart refuse, and what they say: a bed, its drag, a solids.h5, the slurry, the surface."""
+import re
+import shutil
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+import solids
+from openfoam_case import require_environment
+from slurry_case import BINGHAM, SOLUTION, SlurryCase, SlurryTest
+
+BLOCK = "box (-9 -9 -9) (9 9 9); solidity 0.5; velocity (0.1 0 0); diameter 0.005;"
+
+
+class RefusedTest(SlurryTest):
+    """The cases of a class share one mesh, 4 x 4 x 1 cells of 1 cm."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="millfoam_test_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.meshed = cls.unmeshed(folder.name)
+        result = cls.meshed.run("blockMesh")
+        if result.code:
+            raise RuntimeError(result.tail())
+
+    @staticmethod
+    def unmeshed(folder, **options):
+        return SlurryCase(folder, **{"upper": (0.04, 0.04, 0.01), "cells": (4, 4, 1), "end_time": 0.002,
+                                     "level": lambda x: 0.021 + 0 * x, **options})
+
+    def small(self, **options):
+        case = self.unmeshed(tempfile.mkdtemp(prefix="case", dir=self.folder), **options)
+        shutil.copytree(self.meshed.path / "constant/polyMesh", case.path / "constant/polyMesh")
+        return case
+
+    def assert_says(self, case, *words, program="slurryFoam"):
+        """Refused, and the message, whose lines OpenFOAM breaks at will, holds every one of the words."""
+        result = case.run(program)
+        self.assertNotEqual(result.code, 0, f"{program} was expected to refuse:\n{result.tail()}")
+        at = result.log.find("FOAM FATAL")
+        self.assertGreaterEqual(at, 0, f"no error sentence:\n{result.tail()}")
+        message = " ".join(result.log[at:].split())
+        for word in words:
+            self.assertIn(word, message)
+        return result
+
+
+class Bed(RefusedTest):
+    """constant/bedProperties"""
+
+    def assert_bed_refused(self, solid, *words, drag="law Beetstra;", entries=""):
+        case = self.small()
+        case.bed(solid, drag, entries)
+        return self.assert_says(case, "bedProperties", *words)
+
+    def block(self, pattern="", new=""):
+        return f"block {{ {re.sub(pattern, new, BLOCK) if pattern else BLOCK} }}"
+
+    def test_what_the_others_are_made_from_is_accepted(self):
+        case = self.small()
+        case.bed(self.block())
+        self.assert_runs(case, "slurryFoam")
+
+    def test_an_unknown_law_lists_the_known_ones(self):
+        self.assert_bed_refused(self.block(), "Stokes", "Beetstra", "Ergun", "WenYu", drag="law Stokes;")
+
+    def test_no_law(self):
+        self.assert_bed_refused(self.block(), "'law'", "drag", drag="multiplier 1;")
+
+    def test_no_drag(self):
+        case = self.small()
+        case.write("constant/bedProperties", self.block())
+        self.assert_says(case, "bedProperties", "drag")
+
+    def test_a_misspelt_entry_of_the_drag(self):
+        self.assert_bed_refused(self.block(), "multiplyer", "multiplier", drag="law Beetstra; multiplyer 2;")
+
+    def test_a_misspelt_entry_of_the_bed(self):
+        self.assert_bed_refused(self.block(), "voidageRates", "voidageRate", entries="voidageRates no;")
+
+    def test_a_misspelt_block(self):
+        self.assert_bed_refused(f"blok {{ {BLOCK} }}", "blok", "block")
+
+    def test_an_entry_of_ones_own_is_accepted(self):
+        case = self.small()
+        case.bed(f"mySolidity 0.5; {self.block('solidity 0.5', 'solidity $mySolidity')}")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_a_misspelt_entry_of_a_block(self):
+        self.assert_bed_refused(self.block("$", " move yes;"), "move", "moves")
+
+    def test_a_bed_that_has_neither_solids_nor_blocks(self):
+        self.assert_bed_refused(f"bed {{ {BLOCK} }}", "'solids'", "'block'")
+
+    def test_a_solidity_of_one(self):
+        self.assert_bed_refused(self.block("solidity 0.5", "solidity 1"), "solidity is 1", "0 <= solidity < 1")
+
+
+class Record(RefusedTest):
+    """solids.h5, as bedProperties names it"""
+
+    def record(self, change=None, upper=(0.04, 0.04, 0.01), entries="", **options):
+        case = self.small(**options)
+        solids.write(case.path / "solids.h5", (0, 0, 0), upper, solids.uniform(0.1, 0.2, shape=(2, 2, 2)))
+        if change:
+            with h5py.File(case.path / "solids.h5", "r+") as file:
+                change(file)
+        case.bed(f'solids "solids.h5"; interpolation linear; {entries}')
+        return case
+
+    def test_what_the_others_are_made_from_is_accepted(self):
+        self.assert_runs(self.record(), "slurryFoam")
+
+    def test_missing(self):
+        case = self.record()
+        (case.path / "solids.h5").unlink()
+        self.assert_says(case, "bedProperties", "solids.h5", "no such file")
+
+    def test_still_being_written(self):
+        self.assert_says(self.record(lambda file: file.attrs.modify("complete", 0)), "solids.h5", "not complete")
+
+    def test_not_a_number(self):
+        def spoil(file):
+            file["velocity"][0, 1, 0, 1, 2] = np.nan
+        self.assert_says(self.record(spoil), "solids.h5", "velocity is nan", "voxel (1 0 1)", "window 0")
+
+    def test_a_gap_between_windows(self):
+        def spoil(file):
+            file["window/begin"][1] += 0.003
+        self.assert_says(self.record(spoil), "bedProperties", "no solids between DEM times 0.01", "0.013")
+
+    def test_cells_beyond_the_grid_are_counted_and_named(self):
+        case = self.record(upper=(0.03, 0.04, 0.01))
+        self.assert_says(case, "bedProperties", "4 of 16 cells lie outside", "cell 3 at (0.03", "uncovered warn")
+
+    def test_a_flow_that_outlasts_it_is_refused_before_the_first_step(self):
+        result = self.assert_says(self.record(end_time=0.03), "solids.h5", "records DEM times 0 to 0.02", "endTime",
+                                  "outOfRange")
+        self.assertNotIn("Time = ", result.log)
+
+
+class Slurry(RefusedTest):
+    def assert_bingham_refused(self, pattern, new, *words):
+        self.assert_says(self.small(bingham=re.sub(pattern, new, BINGHAM)), "transportProperties", *words)
+
+    def test_a_negative_yield_stress(self):
+        self.assert_bingham_refused("yieldStress 0.16", "yieldStress -0.16", "yieldStress is -0.16", "not below zero")
+
+    def test_no_plastic_viscosity(self):
+        self.assert_bingham_refused("plasticViscosity 1.4e-3", "plasticViscosity 0", "plasticViscosity is 0", "above")
+
+    def test_a_negative_surface_tension(self):
+        case = self.small()
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0", "sigma -0.07"))
+        self.assert_says(case, "transportProperties", "sigma is -0.07")
+
+
+class Surface(RefusedTest):
+    """The sub-dictionary slurrySurface of system/fvSolution"""
+
+    def assert_surface_refused(self, entries, *words):
+        case = self.small()
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=entries))
+        self.assert_says(case, "fvSolution", *words)
+
+    def test_angles_in_the_wrong_order(self):
+        self.assert_surface_refused("levelAngle (30 15);", "levelAngle is", "30", "15", "smaller first")
+
+    def test_one_angle(self):
+        self.assert_surface_refused("levelAngle 15;", "levelAngle")
+
+    def test_a_negative_number_of_fits(self):
+        self.assert_surface_refused("fits -1;", "fits is -1")
+
+    def test_a_misspelt_entry(self):
+        self.assert_surface_refused("levelAngles (15 30);", "levelAngles", "levelAngle")
+
+
+class Start(RefusedTest):
+    """system/slurryStartDict"""
+
+    def assert_start_refused(self, entries, *words, bed=False):
+        case = self.small()
+        if bed:
+            case.bed(f"block {{ {BLOCK} }}")
+        case.write("system/slurryStartDict", entries)
+        self.assert_says(case, *words, program="slurryStart")
+
+    def test_an_unknown_kind_lists_the_known_ones(self):
+        self.assert_start_refused("start puddle; level 0.02;", "slurryStartDict", "puddle", "pool", "above", "feed")
+
+    def test_both_level_and_volume(self):
+        self.assert_start_refused("start pool; level 0.02; volume 1e-5;", "slurryStartDict", "'level'", "'volume'")
+
+    def test_neither_level_nor_volume(self):
+        self.assert_start_refused("start pool;", "slurryStartDict", "'level'", "'volume'")
+
+    def test_a_level_beyond_the_mesh(self):
+        self.assert_start_refused("start pool; level 0.05;", "slurryStartDict", "level is 0.05", "0.04")
+
+    def test_more_than_there_is_room_for_between_the_balls(self):
+        # 1.6e-5 m3 of which balls take half
+        self.assert_start_refused("start pool; volume 9e-6;", "slurryStartDict", "volume is 9", "e-06", "room",
+                                  bed=True)
+
+    def test_no_room_above_the_balls(self):
+        self.assert_start_refused("start above; volume 1e-6;", "slurryStartDict", "volume is", "room", bed=True)
+
+    def test_above_without_a_volume(self):
+        self.assert_start_refused("start above; level 0.02;", "slurryStartDict", "volume")
+
+    def test_without_gravity(self):
+        case = self.small()
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.write("system/slurryStartDict", "start pool; level 0.02;")
+        self.assert_says(case, "constant/g", "gravity", program="slurryStart")
+
+
+if __name__ == "__main__":
+    require_environment()
+    unittest.main()
