@@ -84,13 +84,22 @@ class SlurryCase(BoxCase):
         """Names of the fields at a time (s)."""
         return sorted(entry.name for entry in self.folder(time).iterdir() if entry.is_file())
 
-    def patch(self, name, time, patch, faces):
-        """Values of a field at the faces of a patch; a value of the whole patch is given to every face."""
-        text = (self.folder(time) / name).read_text()
-        text = text[text.index("boundaryField"):]
-        found = re.search(rf"\b{patch}\s*\{{.*?value\s+(uniform|nonuniform)([^;]*);", text, re.S)
-        numbers = np.array(re.sub(r"List<\w+>\s*\d+|[()]", " ", found.group(2)).split(), dtype=float)
-        return np.tile(numbers, (faces, 1)) if found.group(1) == "uniform" else numbers.reshape(faces, -1)
+    def at_patch(self, patch, **fields):
+        """Boundary conditions of fields at a patch; alpha: of the slurry's share."""
+        for name, entries in fields.items():
+            path = self.path / "0" / {"alpha": "alpha.slurry"}.get(name, name)
+            path.write_text(path.read_text().replace("boundaryField {", f"boundaryField {{ {patch} {{ {entries} }}", 1))
+
+    def open_top(self):
+        """Air above the top at pressure 0: it comes in, and what there is goes out."""
+        self.at_patch("top", U="type pressureInletOutletVelocity; value uniform (0 0 0);",
+                      p_rgh="type prghPressure; p uniform 0; value uniform 0;",
+                      alpha="type inletOutlet; inletValue uniform 0; value uniform 0;")
+
+    def field_file(self, name, kind, dimensions, value, patches):
+        """A further field at time 0; patches: its boundaryField."""
+        self.write(f"0/{name}", f"dimensions [{dimensions}]; internalField uniform {value}; boundaryField {{ {patches} }}",
+                   kind)
 
 
 class SlurryTest(OpenFoamTest):

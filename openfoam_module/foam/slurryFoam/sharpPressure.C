@@ -92,10 +92,10 @@ void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
             lineDensity_.boundaryField()[patchi]);
     }
 
-    const volScalarField looseMass(
-        surface_.loose() * (mixtureDensity - airDensity_));
-    inertia_ = density_ + looseMass;
-    faceDensity_ = lineDensity_ + fvc::interpolate(looseMass);
+    const volScalarField held(
+        (1 - surface_.wet()) * (mixtureDensity - airDensity_));
+    inertia_ = density_ + held;
+    faceDensity_ = lineDensity_ + fvc::interpolate(held);
 }
 
 

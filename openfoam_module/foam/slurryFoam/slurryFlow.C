@@ -119,6 +119,9 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   g_(IOobject(
       "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
       IOobject::NO_WRITE)),
+  hRef_(
+      IOobject("hRef", mesh.time().constant(), mesh),
+      dimensionedScalar(dimLength, Zero)),
   voidageRate_(bedDict_.lookupOrDefault<Switch>("voidageRate", true)),
   bed_(bedDict_, mesh),
   U_(IOobject(
@@ -133,7 +136,8 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   mixture_(U_, phi_),
   alpha_(mixture_.alpha1()),
   rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
-  voidage_(IOobject("epsilon", mesh.time().timeName(), mesh), bed_.voidage()),
+  voidage_(
+      IOobject("flowVoidage", mesh.time().timeName(), mesh), bed_.voidage()),
   p_rgh_(
       IOobject(
           "p_rgh", mesh.time().timeName(), mesh, IOobject::MUST_READ,
@@ -148,6 +152,11 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
       surfaceTension(mixture_)),
   transport_(surface_, alpha_),
+  grates_(
+      IOdictionary(IOobject(
+          "grateProperties", mesh.time().constant(), mesh,
+          IOobject::READ_IF_PRESENT, IOobject::NO_WRITE)),
+      mesh, fluids()),
   forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
   fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),

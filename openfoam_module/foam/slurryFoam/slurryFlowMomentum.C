@@ -191,14 +191,16 @@ void Foam::slurryFlow::project(const pimpleControl& pimple)
 
     const surfaceScalarField seen(carriedFlux + keptDetail() * detailBefore_);
 
-    const volScalarField force(dragForce());
+    volScalarField force(dragForce());
+    volVectorField solidsVelocity(bed_.velocity());
+    grates_.add(force, solidsVelocity, alpha_, U_);
     const surfaceScalarField r(deltaT * pressure_.faceRate(force));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
     const surfaceScalarField drag(
         deltaT * faceVoidage *
-        pressure_.accelerationFlux(force * (bed_.velocity() - U_)));
+        pressure_.accelerationFlux(force * (solidsVelocity - U_)));
     const surfaceScalarField contraction(contractionFlux(massMoved_ / deltaT));
-    // Drops and films weigh what they hold: the pressure knows only the air
+    // Drops and films weigh what they hold: in p_rgh a dry cell weighs air
     const surfaceScalarField fall(
         deltaT * faceVoidage *
         fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, a grate of
+porous cells, and turbulence. Columns of cells along y; expected is what one can write down."""
+import re
+import unittest
+
+import numpy as np
+
+from openfoam_case import require_environment
+from slurry_case import SlurryTest
+
+WIDTH, HEIGHT, ROWS = 0.02, 0.1, 20
+AREA = WIDTH * WIDTH
+SLIP = "type slip;"
+
+
+class ColumnTest(SlurryTest):
+    def column(self, *, level, **options):
+        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(2, ROWS, 2), level=lambda x: level + 0 * x, **options)
+        for side in ("left", "right", "back", "front"):
+            case.at_patch(side, U=SLIP)
+        return case
+
+    @staticmethod
+    def slurry(result):
+        """Volume of slurry after each step, m3."""
+        return np.array(re.findall(r"^Slurry (\S+) m3", result.log, re.M), dtype=float)
+
+
+class Piston(ColumnTest):
+    """The bottom of an open column moves by A sin(omega t) and with it the mesh up to the top, which stays."""
+
+    amplitude, omega, level, end, step = 0.004, 15, 0.052, 0.08, 0.002
+
+    def moved(self, time):
+        return self.amplitude * np.sin(self.omega * time)
+
+    def piston(self):
+        case = self.column(level=self.level, end_time=self.end, delta_t=self.step, motion="""
+            dynamicFvMesh dynamicMotionSolverFvMesh;
+            motionSolverLibs ("libfvMotionSolvers.so");
+            motionSolver displacementLaplacian;
+            diffusivity uniform;""")
+        case.control(self.end, self.step, write_interval=20)
+        case.open_top()
+        # The sides' points follow, without a force on them
+        case.field_file("pointDisplacement", "pointVectorField", "0 1 0 0 0 0 0", "(0 0 0)", f"""
+            bottom {{ type oscillatingDisplacement; amplitude (0 {self.amplitude} 0); omega {self.omega};
+                value uniform (0 0 0); }}
+            top {{ type fixedValue; value uniform (0 0 0); }}
+            "left|right|back|front" {{ type slip; }}""")
+        return case
+
+    def assert_carried(self, case, result, tolerance, solidity=0):
+        """The slurry's superficial velocity is the piston's in the last step; it lies flat, as high as before over the
+        piston, since the balls' volume stays in it."""
+        slurry = self.slurry(result)
+        np.testing.assert_allclose(slurry, slurry[0], rtol=1e-8)
+
+        mesh_centres = case.centres(self.end)
+        alpha = case.field("alpha.slurry", self.end)
+        speed = (self.moved(self.end) - self.moved(self.end - self.step)) / self.step
+        wet = alpha > 1 - 1e-6
+        self.assertGreater(wet.sum(), 4 * ROWS / 3)
+        superficial = case.field("U", self.end)[:, 1] * (1 - solidity)
+        np.testing.assert_allclose(superficial[wet], speed, rtol=tolerance)
+        edge = (HEIGHT - self.moved(self.end)) / ROWS
+        bottom = mesh_centres[:, 1] - edge / 2
+        np.testing.assert_allclose(alpha, np.clip((self.level + self.moved(self.end) - bottom) / edge, 0, 1), atol=1e-5)
+
+    def test_carries_a_pool(self):
+        case = self.piston()
+        result = self.assert_runs(case, "slurryFoam")
+        self.assert_carried(case, result, 3e-3)
+
+    def test_pushes_a_pool_through_a_bed_at_rest(self):
+        case = self.piston()
+        case.bed(f"block {{ box (-1 0.021 -1) (1 0.036 1); cells overlap; solidity 0.4; velocity (0 0 0);"
+                 f" diameter 0.005; volume {0.4 * 0.015 * AREA}; }}", drag="law Beetstra;")
+        result = self.assert_runs(case, "slurryFoam")
+        # Cells that the bed's sharp ends pass change their voidage: their velocity lags behind their fluxes
+        self.assert_carried(case, result, 0.08, case.field("solidity", self.end))
+
+
+class Feed(ColumnTest):
+    """Slurry comes in below; above there is air, and an open top."""
+
+    speed, level, step, end = 0.05, 0.082, 0.01, 0.5
+
+    def test_fills_the_column_and_overflows(self):
+        case = self.column(level=self.level, delta_t=self.step, end_time=self.end)
+        case.open_top()
+        case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
+                      alpha="type fixedValue; value uniform 1;")
+        result = self.assert_runs(case, "slurryFoam")
+        found = self.slurry(result)
+        expected = AREA * (self.level + self.speed * self.step * np.arange(1, len(found) + 1))
+        before = expected < AREA * (HEIGHT - HEIGHT / ROWS)
+        self.assertGreater(before.sum(), 20)
+        np.testing.assert_allclose(found[before], expected[before], rtol=1e-8)
+        # The top passes on what the last row holds in the mean, so that some leaves before the row is full
+        row = AREA * HEIGHT / ROWS
+        np.testing.assert_allclose(found, np.minimum(expected, AREA * HEIGHT), atol=0.1 * row)
+        self.assertAlmostEqual(found[-1], AREA * HEIGHT, delta=1e-6 * AREA * HEIGHT)
+        np.testing.assert_allclose(case.field("U", self.end)[:, 1], self.speed, rtol=1e-6)
+
+
+class Grate(ColumnTest):
+    """Cells of a grate resist by Darcy and Forchheimer; the slurry is pushed through."""
+
+    speed, darcy, forchheimer = 0.1, 2e7, 400.0
+
+    def test_costs_its_pressure(self):
+        case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=(
+            "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity; viscosityRatio 1000;"))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.open_top()
+        case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
+                      alpha="type fixedValue; value uniform 1;")
+        case.write("system/topoSetDict", """
+            actions ( { name grate; type cellZoneSet; action new; source boxToCell;
+                        box (-1 0.04 -1) (1 0.06 1); } );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties",
+                   f"discharge {{ cellZone grate; darcy {self.darcy}; forchheimer {self.forchheimer}; }}")
+        self.assert_runs(case, "slurryFoam")
+        rows = case.field("p_rgh", 0.1).reshape(2, ROWS, 2).mean(axis=(0, 2))
+        thickness = 0.02
+        expected = (1.4e-3 * self.darcy + 1239 * self.speed * self.forchheimer / 2) * self.speed * thickness
+        # 6e-5 are left of the start
+        self.assertAlmostEqual(rows[0] - rows[-1], expected, delta=1e-4 * expected)
+
+
+class Turbulence(ColumnTest):
+    def test_decays_as_the_model_says(self):
+        # Without flow: k = k0 (1 + (C2 - 1) e0 t/k0)^(-1/(C2 - 1)); first order in time
+        k0, e0, c2, end, step = 0.01, 0.05, 1.92, 0.1, 0.001
+        case = self.column(level=HEIGHT, delta_t=step, end_time=end)
+        case.control(end, step, write_interval=100)
+        case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace(
+            "default none;", "default none; div(phi,k) Gauss upwind; div(phi,epsilon) Gauss upwind;"))
+        everywhere = '".*" { type zeroGradient; }'
+        case.field_file("k", "volScalarField", "0 2 -2 0 0 0 0", k0, everywhere)
+        case.field_file("epsilon", "volScalarField", "0 2 -3 0 0 0 0", e0, everywhere)
+        case.field_file("nut", "volScalarField", "0 2 -1 0 0 0 0", 0, '".*" { type calculated; value uniform 0; }')
+        self.assert_runs(case, "slurryFoam")
+        expected = k0 * (1 + (c2 - 1) * e0 * end / k0) ** (-1 / (c2 - 1))
+        np.testing.assert_allclose(case.field("k", end), expected, rtol=5e-3)
+        np.testing.assert_allclose(case.field("nut", end),
+                                   0.09 * case.field("k", end) ** 2 / case.field("epsilon", end), rtol=1e-10)
+
+
+if __name__ == "__main__":
+    require_environment()
+    unittest.main()
