@@ -107,9 +107,22 @@ void Foam::slurryFlow::makeRoom(
 }
 
 
+Foam::tmp<Foam::fvScalarMatrix> Foam::slurryFlow::pressureEquation(
+    const surfaceScalarField& conductance, const surfaceScalarField& given,
+    const volScalarField::Internal& rate)
+{
+    tmp<fvScalarMatrix> tequation(
+        fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
+            conductance, mesh_.nonOrthDeltaCoeffs(), p_rgh_) ==
+        fvc::div(given)().internalField() + rate);
+    tequation.ref().setReference(Pstream::master() ? 0 : -1, p_rgh_[0]);
+    return tequation;
+}
+
+
 Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
     surfaceScalarField& free, const surfaceScalarField& mobility,
-    const pimpleControl& pimple)
+    pimpleControl& pimple)
 {
     const surfaceScalarField conductance(mobility * mesh_.magSf());
     volScalarField::Internal rate(expulsion());
@@ -128,28 +141,26 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
 
     // Without a pressure to go on from, its slopes are known after a first
     // solution without the faces' skewness
-    tmp<surfaceScalarField> tflux;
-    for (label i = fresh_ ? -1 : 0; i <= pimple.nNonOrthCorr(); ++i)
+    if (fresh_)
     {
-        const bool last = i == pimple.nNonOrthCorr();
-        surfaceScalarField given(free);
-        if (i >= 0)
+        pressureEquation(conductance, free, rate)
+            ->solve(mesh_.solver(p_rgh_.name()));
+        fresh_ = false;
+    }
+    tmp<surfaceScalarField> tflux;
+    while (pimple.correctNonOrthogonal())
+    {
+        const surfaceScalarField given(
+            free - conductance * pressure_.skewSlope());
+        tmp<fvScalarMatrix> tequation(
+            pressureEquation(conductance, given, rate));
+        tequation.ref().solve(
+            mesh_.solver(p_rgh_.select(pimple.finalInnerIter())));
+        if (pimple.finalNonOrthogonalIter())
         {
-            given -= conductance * pressure_.skewSlope();
-        }
-        fvScalarMatrix equation(
-            fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
-                conductance, mesh_.nonOrthDeltaCoeffs(), p_rgh_)() ==
-            fvc::div(given)().internalField() + rate);
-        equation.setReference(Pstream::master() ? 0 : -1, p_rgh_[0]);
-        equation.solve(
-            mesh_.solver(p_rgh_.select(last && pimple.finalInnerIter())));
-        if (last)
-        {
-            tflux = given - equation.flux();
+            tflux = given - tequation().flux();
         }
     }
-    fresh_ = false;
     return tflux;
 }
 
@@ -181,7 +192,7 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
 }
 
 
-void Foam::slurryFlow::project(const pimpleControl& pimple)
+void Foam::slurryFlow::project(pimpleControl& pimple)
 {
     const dimensionedScalar deltaT(mesh_.time().deltaT());
 
