@@ -21,6 +21,8 @@ class MillFlow:
         self.omega = float(properties["omega"])
         self.radius = float(properties["radius"])
         self.time0 = float(properties["time0"])
+        # Balls of constant/bedProperties displace slurry; those of an fvOption do not
+        self.displaced = (self.case / "constant" / "bedProperties").is_file()
         self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
         if len(self.frames) < 2:
             raise RuntimeError(f"{self.case}: no flow was written; is log.flow complete?")
@@ -78,12 +80,34 @@ class MillFlow:
         values = np.where(inside, column_values[self._tree.query(back)[1]], np.nan)
         return values.reshape(len(y), len(x))
 
-    def slurry_volume(self, path):
-        """Volume of slurry at a written time, m^3."""
-        return float((self.field("alpha.slurry", path) * self.volumes).sum())
+    def slurry(self, path):
+        """Volume of slurry in each cell [cells] at a written time, m^3: its share of what the balls leave of the cell,
+        where they displace it. Of the initial time, written before the flow knew its balls, this cannot be told."""
+        volume = self.field("alpha.slurry", path) * self.volumes
+        return volume * (1 - self.field("solidity", path)) if self.displaced else volume
+
+    def slurry_volumes(self):
+        """Volume of slurry at the first and the last written time that have it, m^3."""
+        first = next(path for _, path in self.frames if not self.displaced or (path / "solidity").is_file())
+        return tuple(float(self.slurry(path).sum()) for path in (first, self.frames[-1][1]))
+
+    def load(self, begin):
+        """Force of the fluid on the balls over their weight, at the written times from `begin` (s) on: its mean and its
+        95th percentile over the balls' volume, or None where the flow did not tell it."""
+        ratios, balls = [], []
+        for time, path in self.frames:
+            if time >= begin - 1e-9 and (path / "forceOverWeight").is_file():
+                ratios.append(self.field("forceOverWeight", path))
+                balls.append(self.field("solidity", path) * self.volumes)
+        if not ratios:
+            return None
+        ratios, balls = np.concatenate(ratios), np.concatenate(balls)
+        order = np.argsort(ratios)
+        share = np.cumsum(balls[order]) / balls.sum()
+        return float(np.average(ratios, weights=balls)), float(ratios[order][np.searchsorted(share, 0.95)])
 
     def slurry_centroid(self, time, path):
         """Centre (x, y) of the slurry's volume at a written time, m."""
-        weight = self.field("alpha.slurry", path) * self.volumes
+        weight = self.slurry(path)
         centre = (weight[:, None] * self.turned(self.centres[:, :2], time)).sum(axis=0) / weight.sum()
         return float(centre[0]), float(centre[1])

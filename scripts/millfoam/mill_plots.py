@@ -96,6 +96,39 @@ def plot_maps(flow, solids, begin, out):
     plt.close(figure)
 
 
+def mean_load(flow, begin):
+    """Force of the fluid on the balls over their weight, weighted by the balls' volume over axis and time from `begin`
+    (s), on a lab-frame grid: x, y, ratio [ny, nx]; NaN where the balls fill less than 2 % in the mean."""
+    x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
+    weighted, solidity, frames = 0.0, 0.0, 0
+    for time, path in flow.frames:
+        if time >= begin - 1e-9:
+            phi = flow.field("solidity", path)
+            ratio = flow.field("forceOverWeight", path)
+            weighted = weighted + np.nan_to_num(flow.on_grid(flow.over_axis(phi * ratio), time, x, y))
+            solidity = solidity + np.nan_to_num(flow.on_grid(flow.over_axis(phi), time, x, y))
+            frames += 1
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return x, y, np.where(solidity > 0.02 * frames, weighted / solidity, np.nan)
+
+
+def plot_load(flow, begin, out):
+    """Map of the one-way verdict: where the fluid's force on the balls nears their weight."""
+    x, y, ratio = mean_load(flow, begin)
+    mean, high = flow.load(begin)
+    edges = np.linspace(-1e3 * flow.radius, 1e3 * flow.radius, PIXELS + 1)
+    figure, axis = plt.subplots(figsize=(6.4, 5.4), constrained_layout=True)
+    image = axis.pcolormesh(edges, edges, ratio, cmap="magma_r", vmin=0, vmax=max(1, np.nanpercentile(ratio, 99)))
+    figure.colorbar(image, ax=axis, shrink=0.9, label="force of the fluid on the balls / their weight, –")
+    if np.nanmax(ratio) > 1:
+        axis.contour(1e3 * x, 1e3 * y, np.nan_to_num(ratio), [1], colors="k", linewidths=1)
+    draw_mill(axis, flow, flow.frames[-1][0])
+    axis.set_title(f"mean over the balls {mean:.2f}, 95 % below {high:.2f}\n"
+                   f"flow time {begin:.3g} to {flow.frames[-1][0]:.3g} s", fontsize=10)
+    figure.savefig(out, dpi=110)
+    plt.close(figure)
+
+
 def draw_frame(axis, flow, time, path, quads, columns):
     """Slurry share over the axis at one time, with the charge's edge (solidity 0.2) where the flow felt one."""
     alpha = flow.over_axis(flow.field("alpha.slurry", path))
