@@ -97,10 +97,11 @@ TEST(MillProperties, hold_one_plain_line_per_number) {
   const Mill mill = read_mill(folder.write("mill.yaml", example_mill));
   write_mill_properties(mill, 0.25, folder.path());
   const std::string text = text_of(folder.path() / "constant" / "millProperties");
-  for (const char* line : {"\nradius 0.06;\n", "\nlength 0.024;\n", "\nlifterHeight 0.008;\n",
-                           "\nendsType plain;\n", "\ntime0 0.25;\n", "\nballDensity 2700;\n", "\nslurryDensity 1239;\n",
-                           "\nslurryViscosity 0.0014;\n", "\nyieldStress 0.16;\n", "\nsurfaceTension 0.07;\n",
-                           "\nslurryLevel -0.012;\n", "\nairDensity 1.2;\n", "\nairViscosity 1.8e-05;\n"}) {
+  for (const char* line :
+       {"\nradius 0.06;\n", "\nlength 0.024;\n", "\nlifterHeight 0.008;\n", "\nendsType plain;\n",
+        "\ntime0 0.25;\n", "\nballDensity 2700;\n", "\nslurryDensity 1239;\n", "\nslurryViscosity 0.0014;\n",
+        "\nyieldStress 0.16;\n", "\nsurfaceTension 0.07;\n", "\nslurryLevel -0.012;\n", "\nairDensity 1.2;\n",
+        "\nairViscosity 1.8e-05;\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
   const auto number = [&](const std::string& key) {

@@ -54,6 +54,32 @@ void Foam::sharpPressure::boundaryJumps(const volScalarField& mixtureDensity)
 }
 
 
+void Foam::sharpPressure::divide(
+    scalarField& faceDensity, scalarField& massWeights,
+    scalarField& lineWeights, const scalarField& side, const scalarField& line,
+    const scalarField& ownHeld, const scalarField& neiHeld) const
+{
+    forAll(faceDensity, i)
+    {
+        const scalar w = lineWeights[i];
+        const bool ownWet = side[i] > 0;
+        const scalar slurry = line[i] * slurryDensity_.value();
+        const scalar air = (1 - line[i]) * airDensity_.value();
+        scalar own = w * (slurry + air + ownHeld[i]);
+        scalar nei = (1 - w) * (slurry + air + neiHeld[i]);
+        if (mag(side[i]) > 0.5)
+        {
+            // The slurry of the line lies on the wet side, on the other the air
+            own = ownWet ? slurry : air + w * ownHeld[i];
+            nei = ownWet ? air + (1 - w) * neiHeld[i] : slurry;
+            lineWeights[i] = ownWet ? line[i] : 1 - line[i];
+        }
+        faceDensity[i] = own + nei;
+        massWeights[i] = own / faceDensity[i];
+    }
+}
+
+
 void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
 {
     const dimensionedScalar excess(slurryDensity_ - airDensity_);
@@ -62,40 +88,28 @@ void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
     density_ = airDensity_ + surface_.wet() * excess;
     lineDensity_ = airDensity_ + line * excess;
 
-    // On a line with the wet share s, s rho_slurry lies on the wet side
-    const auto divide = [this](
-                            scalarField& weights, scalarField& parts,
-                            const scalarField& side, const scalarField& line,
-                            const scalarField& density)
-    {
-        forAll(weights, i)
-        {
-            const scalar wet = line[i] * slurryDensity_.value() / density[i];
-            if (mag(side[i]) > 0.5)
-            {
-                weights[i] = side[i] > 0 ? wet : 1 - wet;
-                parts[i] = side[i] > 0 ? line[i] : 1 - line[i];
-            }
-        }
-    };
-    massWeights_ = mesh_.weights();
-    lineWeights_ = mesh_.weights();
-    divide(
-        massWeights_.primitiveFieldRef(), lineWeights_.primitiveFieldRef(),
-        side, line, lineDensity_);
-    forAll(mesh_.boundary(), patchi)
-    {
-        divide(
-            massWeights_.boundaryFieldRef()[patchi],
-            lineWeights_.boundaryFieldRef()[patchi],
-            side.boundaryField()[patchi], line.boundaryField()[patchi],
-            lineDensity_.boundaryField()[patchi]);
-    }
-
     const volScalarField held(
         (1 - surface_.wet()) * (mixtureDensity - airDensity_));
     inertia_ = density_ + held;
-    faceDensity_ = lineDensity_ + fvc::interpolate(held);
+
+    lineWeights_ = mesh_.weights();
+    divide(
+        faceDensity_.primitiveFieldRef(), massWeights_.primitiveFieldRef(),
+        lineWeights_.primitiveFieldRef(), side, line,
+        scalarField(held.primitiveField(), mesh_.owner()),
+        scalarField(held.primitiveField(), mesh_.neighbour()));
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatchScalarField& patch = held.boundaryField()[patchi];
+        const bool coupled = patch.coupled();
+        divide(
+            faceDensity_.boundaryFieldRef()[patchi],
+            massWeights_.boundaryFieldRef()[patchi],
+            lineWeights_.boundaryFieldRef()[patchi],
+            side.boundaryField()[patchi], line.boundaryField()[patchi],
+            coupled ? patch.patchInternalField() : tmp<scalarField>(patch),
+            coupled ? patch.patchNeighbourField() : tmp<scalarField>(patch));
+    }
 }
 
 
