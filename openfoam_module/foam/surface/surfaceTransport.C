@@ -45,9 +45,21 @@ void Foam::surfaceTransport::patchShares(
     const label start = patch.start() - mesh_.nInternalFaces();
     forAll(flow, i)
     {
-        shares[start + i] =
-            flow[i] >= 0 ? outflowShare(patch.faceCells()[i], patch.start() + i)
-                         : outside[i];
+        const label celli = patch.faceCells()[i];
+        if (flow[i] < 0)
+        {
+            shares[start + i] = outside[i];
+        }
+        else if (patch.coupled())
+        {
+            shares[start + i] = outflowShare(celli, patch.start() + i);
+        }
+        else
+        {
+            // MULES takes boundary fluxes as they are: only upwind ones are
+            // sure to leave the cell within 0 and 1
+            shares[start + i] = min(max(alpha_[celli], scalar(0)), scalar(1));
+        }
     }
 }
 
