@@ -128,11 +128,14 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
         const label own = mesh_.owner()[facei];
         const label nei = mesh_.neighbour()[facei];
         const scalar w = weights[facei];
-        // One acceleration on both sides: slopes go with the densities
-        const scalar rise =
-            (p_rgh_[nei] + jump_[facei] - p_rgh_[own]) / lineDensity_[facei];
-        const scalar ownOnFace = p_rgh_[own] + (1 - w) * density_[own] * rise;
-        const scalar neiOnFace = p_rgh_[nei] - w * density_[nei] * rise;
+        // One acceleration on both sides: slopes go with the densities, but
+        // neither part is above the whole where the line is mostly air
+        const scalar rise = p_rgh_[nei] + jump_[facei] - p_rgh_[own];
+        const scalar line = lineDensity_[facei];
+        const scalar ownOnFace =
+            p_rgh_[own] + min((1 - w) * density_[own] / line, scalar(1)) * rise;
+        const scalar neiOnFace =
+            p_rgh_[nei] - min(w * density_[nei] / line, scalar(1)) * rise;
         gradient[own] += Sf[facei] * ownOnFace;
         gradient[nei] -= Sf[facei] * neiOnFace;
     }
@@ -147,11 +150,13 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
         if (p.coupled())
         {
             const scalarField own(p.patchInternalField());
-            onFace = own +
-                     (1 - weights.boundaryField()[patchi]) *
-                         density_.boundaryField()[patchi].patchInternalField() *
-                         (p.patchNeighbourField() + jump - own) /
-                         lineDensity_.boundaryField()[patchi];
+            onFace =
+                own +
+                min((1 - weights.boundaryField()[patchi]) *
+                        density_.boundaryField()[patchi].patchInternalField() /
+                        lineDensity_.boundaryField()[patchi],
+                    scalar(1)) *
+                    (p.patchNeighbourField() + jump - own);
         }
         forAll(patch, i)
         {
@@ -282,20 +287,48 @@ Foam::sharpPressure::accelerationFlux(const volVectorField& force) const
 Foam::tmp<Foam::volVectorField>
 Foam::sharpPressure::reconstruct(const surfaceScalarField& flux) const
 {
-    const surfaceVectorField weighted(
-        faceDensity_ * mesh_.Sf() / mesh_.magSf());
-    const volTensorField areas(inv(fvc::surfaceSum(weighted * mesh_.Sf())));
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceScalarField length(
+        1 / (mesh_.nonOrthDeltaCoeffs() * mesh_.magSf()));
+    tensorField areas(mesh_.nCells(), Zero);
+    vectorField sums(mesh_.nCells(), Zero);
+    const auto add = [&](const label celli, const scalar mass,
+                         const scalar length, const vector& S,
+                         const scalar flow)
+    {
+        // A surface through the centre of a cell leaves its faces on one side
+        // no mass: they have a little, lest a direction be without faces
+        const scalar weight = max(mass, 0.01 * inertia_[celli]) * length;
+        areas[celli] += weight * S * S;
+        sums[celli] += weight * flow * S;
+    };
+    forAll(mesh_.neighbour(), facei)
+    {
+        const scalar mass = faceDensity_[facei];
+        const scalar own = massWeights_[facei] * mass;
+        add(mesh_.owner()[facei], own, length[facei], Sf[facei], flux[facei]);
+        add(mesh_.neighbour()[facei], mass - own, length[facei], Sf[facei],
+            flux[facei]);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+        const scalarField mass(
+            massWeights_.boundaryField()[patchi] *
+            faceDensity_.boundaryField()[patchi]);
+        forAll(cells, i)
+        {
+            add(cells[i], mass[i], length.boundaryField()[patchi][i],
+                Sf.boundaryField()[patchi][i], flux.boundaryField()[patchi][i]);
+        }
+    }
+
     tmp<volVectorField> tresult(tmp<volVectorField>::New(
         IOobject("reconstructed", mesh_.time().timeName(), mesh_), mesh_,
         dimensionedVector(dimVelocity, Zero),
         zeroGradientFvPatchVectorField::typeName));
-    volVectorField& result = tresult.ref();
-    const volVectorField sums(fvc::surfaceSum(weighted * flux));
-    forAll(result, celli)
-    {
-        result[celli] = areas[celli] & sums[celli];
-    }
-    result.correctBoundaryConditions();
+    tresult.ref().primitiveFieldRef() = inv(areas)() & sums;
+    tresult.ref().correctBoundaryConditions();
     return tresult;
 }
 
