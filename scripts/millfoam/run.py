@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes and runs OpenFOAM cases from a template."""
 import argparse
+import os
 import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
@@ -20,8 +21,11 @@ def run(case, *command, name=None):
     """Runs a command in a case folder into log.NAME (by default the program's name) and returns the log's text."""
     name = name or Path(str(command[0])).name
     log = Path(case) / f"log.{name}"
+    # OpenFOAM takes its folder's name from PWD
+    environment = {**os.environ, "PWD": str(Path(case).resolve())}
     with open(log, "w") as out:
-        done = subprocess.run([str(word) for word in command], cwd=case, stdout=out, stderr=subprocess.STDOUT)
+        done = subprocess.run([str(word) for word in command], cwd=case, env=environment, stdout=out,
+                              stderr=subprocess.STDOUT)
     text = log.read_text()
     if done.returncode:
         raise RunError(f"{name} failed; {log} ends with:\n" + "\n".join(text.splitlines()[-15:]))
