@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small standing waves in a box and in the round section of a mill, against linear theory.
+
+Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also with the round mesh turning inside
+its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 when one misses."""
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from scipy.optimize import curve_fit
+
+import potential_flow
+from millfoam import foam
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import run as run_program
+
+GRAVITY = 9.81
+SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
+AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
+# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see README.
+WIDTH, HEIGHT, DEPTH, CELLS = 0.2, 0.16, 0.0875, (30, 64)
+BOX_AMPLITUDE = 0.003
+# Round section, half full. The mesh is turned so that no line of its cells lies in the surface.
+RADIUS, TILT, MESH_TURN = 0.15, np.radians(2), np.radians(20)
+OMEGA = -6.4  # rad/s, of the turning mesh
+SOLIDITY = 0.5
+OVERDAMPING = 4.0  # drag per mass over the wave's omega; 2 is critical
+BED_DECAY = 1.4  # over the slow rate: how long a wave in a bed is followed, until a quarter of it is left
+RECORDS, STEPS = 20, 150  # per period
+TOLERANCE = 0.01
+
+
+@dataclass(frozen=True)
+class Run:
+    room: str  # box or round
+    solver: str  # interFoam or slurryFoam
+    bed: bool = False
+    turning: bool = False
+    periods: int = 4
+
+    @property
+    def name(self):
+        return "_".join([self.room, self.solver] + ["bed"] * self.bed + ["turning"] * self.turning)
+
+
+RUNS = [Run(room, solver) for room in ("box", "round") for solver in ("slurryFoam", "interFoam")]
+RUNS += [Run("round", solver, turning=True) for solver in ("slurryFoam", "interFoam")]
+RUNS += [Run("box", "slurryFoam", bed=True), Run("round", "slurryFoam", bed=True)]
+PROGRAMS = {"interFoam": "millInterFoam", "slurryFoam": "slurryFoam"}
+
+
+def theory(run):
+    """The Wave of linear theory."""
+    if run.room == "box":
+        slurry = potential_flow.box_eigenvalue(WIDTH, DEPTH)
+        air = potential_flow.box_eigenvalue(WIDTH, HEIGHT - DEPTH)
+    else:
+        slurry = air = potential_flow.half_circle_mode(RADIUS)[0]
+    rho_s, rho_a = SLURRY["slurryDensity"], AIR["airDensity"]
+    fluids = [potential_flow.Fluid(rho_s, slurry), potential_flow.Fluid(rho_a, air)]
+    if run.bed:
+        free = potential_flow.wave(*fluids, GRAVITY)
+        fluids[0].drag = OVERDAMPING * free.omega
+        # Darcy's drag goes with the viscosity
+        fluids[1].drag = fluids[0].drag * AIR["airKinematicViscosity"] / SLURRY["slurryKinematicViscosity"]
+    return potential_flow.wave(*fluids, GRAVITY)
+
+
+def ball_diameter(drag):
+    """Diameter, m, of the balls whose drag per mass beta/(epsilon rho) is this, 1/s (Kozeny-Carman, 150)."""
+    return np.sqrt(150 * SLURRY["slurryKinematicViscosity"] * SOLIDITY**2 / ((1 - SOLIDITY) ** 2 * drag))
+
+
+def turn_mesh(case, angle):
+    """Turns the mesh of a case about z."""
+    path = case / "constant" / "polyMesh" / "points"
+    head, body = path.read_text().split("\n(\n", 1)
+    points = np.array([line.strip("()").split() for line in body.splitlines() if line.startswith("(")], dtype=float)
+    c, s = np.cos(angle), np.sin(angle)
+    points = points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    path.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*point) for point in points) + "\n)\n")
+
+
+def cosine_surface(case):
+    """alpha.slurry below y = DEPTH + BOX_AMPLITUDE cos(pi x/WIDTH), exact in each cell's mean over x."""
+    edges = np.linspace(0, WIDTH, CELLS[0] + 1)
+    k = np.pi / WIDTH
+    level = DEPTH + BOX_AMPLITUDE * np.diff(np.sin(k * edges)) / (k * np.diff(edges))
+    rows = np.arange(CELLS[1])[:, None]
+    alpha = np.clip(level * CELLS[1] / HEIGHT - rows, 0, 1)
+    path = case / "0" / "alpha.slurry"
+    values = "\n".join(f"{value:.15g}" for value in alpha.ravel())
+    path.write_text(path.read_text().replace(
+        "internalField   uniform 0;", f"internalField   nonuniform List<scalar> {alpha.size}\n(\n{values}\n);"))
+
+
+def build(run, case, here):
+    wave = theory(run)
+    shutil.copytree(here / "template", case)
+    period = 2 * np.pi / wave.omega
+    drag = OVERDAMPING * wave.omega
+    if run.bed:
+        end, step = BED_DECAY / wave.slow_rate, 0.03 / drag
+    else:
+        (case / "constant" / "bedProperties").unlink()
+        end, step = run.periods * period, period / STEPS
+    write_parameters(
+        case, solver=PROGRAMS[run.solver], **SLURRY, **AIR, gravity=-GRAVITY, endTime=end,
+        writeInterval=end / (run.periods * RECORDS), largestStep=step, correctors=3 if run.solver == "interFoam" else 1,
+        skewCorrectors=0 if run.room == "box" else 1, meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
+        omega=OMEGA, solidity=SOLIDITY, diameter=ball_diameter(drag), width=WIDTH, height=HEIGHT, cellsX=CELLS[0],
+        cellsY=CELLS[1], surfaceNormal=f"({-np.sin(TILT):.15g} {np.cos(TILT):.15g} 0)")
+    room = here / "box" if run.room == "box" else here.parent / "rest" / "pool" / "ogrid"
+    shutil.copytree(room, case, dirs_exist_ok=True)
+    run_program(case, "blockMesh")
+    if run.room == "box":
+        cosine_surface(case)
+    else:
+        turn_mesh(case, MESH_TURN)
+        run_program(case, "setAlphaField")
+
+
+@dataclass
+class History:
+    """The first mode's share of the surface's elevation (m) at the written times (s), and what it is held against."""
+    run: Run
+    time: np.ndarray
+    elevation: np.ndarray
+    volume_change: float  # of the slurry, relative
+
+    @property
+    def wave(self):
+        return theory(self.run)
+
+    @property
+    def fit(self):
+        """Fitted omega without damping (rad/s) and rate of decay of the amplitude (1/s)."""
+        def damped(t, amplitude, rate, omega, phase, rest):
+            return amplitude * np.exp(-rate * t) * np.cos(omega * t + phase) + rest
+        guess = (self.elevation[0], 0.01, self.wave.omega, 0, 0)
+        _, rate, omega, _, _ = curve_fit(damped, self.time, self.elevation, guess)[0]
+        return np.hypot(omega, rate), rate
+
+    @property
+    def bed_rate(self):
+        """With a bed: rate of decay, 1/s, once the fast mode is gone."""
+        late = self.time > 10 / (self.wave.damping - self.wave.slow_rate)
+        return -np.polyfit(self.time[late], np.log(np.abs(self.elevation[late])), 1)[0]
+
+    @property
+    def error(self):
+        """Of the frequency, or with a bed of the rate of decay, relative."""
+        if self.run.bed:
+            return self.bed_rate / self.wave.slow_rate - 1
+        return self.fit[0] / self.wave.omega - 1
+
+    @property
+    def bed_deviation(self):
+        """With a bed: largest difference from theory's course, over the elevation at the start."""
+        return np.abs(self.elevation / self.elevation[0] - self.wave.from_rest(self.time)).max()
+
+
+def measure(run, case):
+    if run.room == "box":
+        shape, norm = lambda x: np.cos(np.pi * x / WIDTH), WIDTH / 2
+    else:
+        shape = potential_flow.half_circle_mode(RADIUS)[1]
+        x = np.linspace(-RADIUS, RADIUS, 2001)
+        norm = np.trapz(shape(x) ** 2, x)
+    rows = []
+    for time, folder in foam.times(case):
+        if not rows or run.turning:
+            mesh = foam.read_mesh(case, folder)
+            centre, volume = mesh.centres_and_volumes()
+            thickness = np.ptp(mesh.points[:, 2])
+        slurry = foam.read_field(folder / "alpha.slurry", mesh.cells) * volume / thickness
+        rows.append((time, (slurry * shape(centre[:, 0])).sum() / norm, slurry.sum()))
+    time, elevation, area = np.array(rows).T
+    return History(run, time, elevation, np.abs(area / area[0] - 1).max())
+
+
+def perform(run, work, here):
+    case = work / run.name
+    build(run, case, here)
+    run_program(case, PROGRAMS[run.solver])
+    return measure(run, case)
+
+
+def report(histories, out):
+    """Writes and prints the table; the number of lines that missed."""
+    lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
+    references = [history for history in histories if history.run.solver == "interFoam"]
+    reference = {(history.run.room, history.run.turning): history.fit[1] for history in references}
+    missed = 0
+    for history in histories:
+        run, wave = history.run, history.wave
+        if run.bed:
+            expected, found, decay = wave.slow_rate, history.bed_rate, f"{100 * history.bed_deviation:9.2f}%"
+            bad = not max(abs(history.error), history.bed_deviation) <= TOLERANCE
+        else:
+            expected, (found, rate) = wave.omega, history.fit
+            decay = f"{rate:10.4f}"
+            bad = not (abs(history.error) <= TOLERANCE and rate <= reference.get((run.room, run.turning), np.inf))
+        bad = run.solver == "slurryFoam" and (bad or not history.volume_change <= 1e-8)
+        missed += bad
+        lines.append(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
+                     f"{history.volume_change:14.1e}" + ("  MISSED" if bad else ""))
+    lines.append(f"rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance from theory's course. "
+                 f"Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than interFoam")
+    print("\n".join(lines))
+    out.write_text("\n".join(lines) + "\n")
+    return missed
+
+
+def plot(histories, out):
+    figure, axes = plt.subplots(2, 2, figsize=(13, 8), constrained_layout=True)
+    for row, room in zip(axes, ("box", "round")):
+        for history in (history for history in histories if history.run.room == room):
+            axis = row[int(history.run.bed)]
+            axis.plot(history.time, history.elevation / history.elevation[0], "o-", ms=3, lw=0.8, mfc="none",
+                      label=history.run.solver + (", mesh turning" if history.run.turning else ""))
+        for bed, axis in enumerate(row):
+            first = next(history for history in histories if history.run.room == room and history.run.bed == bed)
+            time = np.linspace(0, first.time[-1], 600)
+            value = first.wave.from_rest(time) if bed else np.cos(first.wave.omega * time)
+            axis.plot(time, value, "k-", lw=0.8, label="linear theory, no viscosity")
+            axis.set(title={"box": "Box", "round": "Round section, half full"}[room] + (", with a bed" if bed else ""),
+                     xlabel="time, s", ylabel="first mode over its start")
+            axis.grid(alpha=0.3)
+            axis.legend(fontsize=8)
+    figure.savefig(out, dpi=110)
+
+
+def main():
+    options = case_options(__doc__, quick="two periods of the box with slurryFoam")
+    here = Path(__file__).parent.resolve()
+    work = fresh_runs(here)
+    runs = [Run("box", "slurryFoam", periods=2)] if options.quick else RUNS
+    histories = run_jobs(lambda run: perform(run, work, here), runs, options.jobs)
+    missed = report(histories, here / "sloshing.txt")
+    if not options.quick:
+        plot(histories, here / "sloshing.png")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

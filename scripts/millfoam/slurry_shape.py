@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off a flow.
+
+Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is positive,
+the toe's usually negative."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import foam
+
+BIN = 3.0  # of the ring along the lifters' tips, degrees
+LEVEL = 0.5  # slurry's share of the fluid at its surface
+SAMPLES = 4  # along each side of a column's quad
+BED = 0.2  # solidity from which on a place belongs to the bed
+
+
+def shell_angle(x, y, omega):
+    """Angle from straight down, degrees in [-180, 180), positive on the rising side of a mill of speed omega (rad/s)."""
+    return (np.degrees(np.arctan2(np.sign(omega) * x, -y)) + 180) % 360 - 180
+
+
+def bin_centres():
+    """Of the ring's bins, degrees."""
+    return np.arange(-180 + BIN / 2, 180, BIN)
+
+
+def crossing(angles, share, inside, outside):
+    """Angle at which the share, straight between the two bins, is LEVEL."""
+    part = (share[inside] - LEVEL) / (share[inside] - share[outside])
+    way = (angles[outside] - angles[inside] + 180) % 360 - 180
+    return (angles[inside] + part * way + 180) % 360 - 180
+
+
+def toe_and_shoulder(share):
+    """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins [bins].
+
+    Of the arcs with a share of at least LEVEL the one that holds most slurry counts. NaN where there is no end: nowhere
+    that much slurry, or everywhere."""
+    angles, wet = bin_centres(), share >= LEVEL
+    starts = np.flatnonzero(wet & ~np.roll(wet, 1))
+    if len(starts) == 0:
+        return np.nan, np.nan
+    bins = len(share)
+    arcs = [np.arange(start, start + np.argmin(np.roll(wet, -start))) % bins for start in starts]
+    arc = max(arcs, key=lambda bins_of: share[bins_of].sum())
+    return (crossing(angles, share, arc[0], arc[0] - 1),
+            crossing(angles, share, arc[-1], (arc[-1] + 1) % bins))
+
+
+def samples(flow):
+    """Points (m, at flow time 0) spread evenly over every column's section, [SAMPLES^2 columns, 2], and their columns."""
+    quads, column = flow.end_wall()
+    at = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    u, v = (grid.ravel() for grid in np.meshgrid(at, at))
+    weights = np.stack([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v])
+    points = np.einsum("qcx,cs->qsx", quads, weights)
+    return points.reshape(-1, 2), np.repeat(column, SAMPLES**2)
+
+
+@dataclass
+class Frame:
+    """The flow at a written time (s), cell by cell: slurry and fluid (m3), solidity, velocities (m/s) of fluid and balls,
+    and the balls' diameter (m)."""
+    time: float
+    slurry: np.ndarray
+    fluid: np.ndarray
+    solidity: np.ndarray
+    velocity: np.ndarray
+    balls: np.ndarray
+    diameter: np.ndarray
+
+
+def read_frame(flow, time, path):
+    """A written time of a flow whose balls displace slurry."""
+    alpha, solidity, velocity, balls, diameter = (
+        flow.field(name, path) for name in ("alpha.slurry", "solidity", "U", "solidsVelocity", "solidsDiameter"))
+    fluid = flow.volumes * (1 - solidity)
+    return Frame(time, alpha * fluid, fluid, solidity, velocity, balls, diameter)
+
+
+def place(flow, frame):
+    """x, y of the cells in the lab (m) at a frame's time."""
+    return flow.turned(flow.centres[:, :2], frame.time).T
+
+
+def centre(flow, frame):
+    """Centre (x, y) of the slurry's volume, m."""
+    return [float((frame.slurry * at).sum() / frame.slurry.sum()) for at in place(flow, frame)]
+
+
+def angular_momentum(flow, frame, density):
+    """Of the slurry about the mill's axis, kg m2/s."""
+    x, y = place(flow, frame)
+    return float(density * (frame.slurry * (x * frame.velocity[:, 1] - y * frame.velocity[:, 0])).sum())
+
+
+def over_bins(flow, frame, points, column, keys, bins):
+    """Volumes of slurry and fluid (m3) [2, bins] of a frame, shared between bins by its sample points; key -1: in none."""
+    kept = keys >= 0
+    per_point = [np.bincount(flow.column, volume)[column] / SAMPLES**2 for volume in (frame.slurry, frame.fluid)]
+    return np.stack([np.bincount(keys[kept], volume[kept], minlength=bins) for volume in per_point])
+
+
+def ring(flow, frame, points, column, height):
+    """Volumes of slurry and fluid [2, bins] of a ring along the lifters' tips, inside of them and as wide as the lifters'
+    `height` (m): between lifters, pockets of air and slurry carried over the top would blur both ends."""
+    x, y = flow.turned(points, frame.time).T
+    bins = round(360 / BIN)
+    keys = np.floor((shell_angle(x, y, flow.omega) + 180) / BIN).astype(int) % bins
+    within = np.abs(np.hypot(x, y) - (flow.radius - 1.5 * height)) <= height / 2
+    return over_bins(flow, frame, points, column, np.where(within, keys, -1), bins)
+
+
+def section(flow, frame, points, column, pixels):
+    """Volumes of slurry and fluid [2, pixels, pixels], row by row in y, over the mill's square."""
+    x, y = (((at / flow.radius + 1) / 2 * pixels).astype(int).clip(0, pixels - 1)
+            for at in flow.turned(points, frame.time).T)
+    return over_bins(flow, frame, points, column, y * pixels + x, pixels**2).reshape(2, pixels, pixels)
+
+
+def reynolds(frame, density, viscosity):
+    """Particle Reynolds numbers rho e |u_s - u| d/mu in the bed's cells with slurry, and the slurry's volume there (m3)."""
+    bed = (frame.solidity >= BED) & (frame.slurry > 0)
+    slip = np.linalg.norm(frame.balls[bed] - frame.velocity[bed], axis=1)
+    number = density * (1 - frame.solidity[bed]) * slip * frame.diameter[bed] / viscosity
+    return number, frame.slurry[bed]
+
+
+def weighted_percentile(values, weights, percents):
+    """Values below which these percents of the weight lie."""
+    order = np.argsort(values)
+    below = np.cumsum(weights[order]) - weights[order] / 2
+    return np.interp(np.asarray(percents) / 100 * weights.sum(), below, values[order])
+
+
+@dataclass
+class Shape:
+    """What is read off the later part of a flow. Each of `numbers` is name -> (mean, half of the difference between the
+    means over the two halves of that time): centre_x, centre_y (m), toe, shoulder (degrees), torque (N m), power (W/m)."""
+    numbers: dict
+    share: np.ndarray  # slurry's of the fluid [pixels, pixels] over the mill's square, NaN outside
+    reynolds: np.ndarray
+    weights: np.ndarray  # of the Reynolds numbers, m3
+    steps: int
+    columns: int  # of cells, in the mill's section
+
+    def reynolds_percentiles(self, percents):
+        return weighted_percentile(self.reynolds, self.weights, percents)
+
+
+def ratio(volumes):
+    """Slurry over fluid, NaN where there is no fluid; volumes [2, …]."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(volumes[1] > 0, volumes[0] / volumes[1], np.nan)
+
+
+def power_numbers(flow, frames, centres, properties, gravity=9.81):
+    """Torque (N m) on the slurry by walls and balls, and its power (W/m of the mill's length).
+
+    Walls and balls balance the slurry's weight and change its angular momentum L: T = m g x_c + dL/dt. The balls are
+    driven by the mill alone, so that the mill has to give omega T, whichever way the torque takes."""
+    density = float(properties["slurryDensity"])
+    mass = density * np.mean([frame.slurry.sum() for frame in frames])
+    gain = angular_momentum(flow, frames[-1], density) - angular_momentum(flow, frames[0], density)
+    torque = mass * gravity * centres[:, 0].mean() + gain / (frames[-1].time - frames[0].time)
+    return {"torque": torque, "power": torque * flow.omega / float(properties["length"])}
+
+
+def numbers_of(flow, frames, rings, properties):
+    """The numbers of Shape, as means over these frames with their rings [frames, 2, bins]."""
+    centres = np.array([centre(flow, frame) for frame in frames])
+    toe, shoulder = toe_and_shoulder(np.nan_to_num(ratio(rings.sum(axis=0))))
+    return {"centre_x": centres[:, 0].mean(), "centre_y": centres[:, 1].mean(), "toe": toe, "shoulder": shoulder,
+            **power_numbers(flow, frames, centres, properties)}
+
+
+def read_shape(flow, begin, pixels=60):
+    """Shape of the slurry of a MillFlow over its written times from `begin` (s) on."""
+    properties = foam.read_dictionary(flow.case / "constant" / "millProperties")
+    frames = [read_frame(flow, time, path) for time, path in flow.frames if time >= begin - 1e-9]
+    points, column = samples(flow)
+    height = float(properties["lifterHeight"])
+    rings = np.array([ring(flow, frame, points, column, height) for frame in frames])
+    whole = numbers_of(flow, frames, rings, properties)
+    half = len(frames) // 2 + 1  # both halves share the middle frame
+    halves = [numbers_of(flow, frames[part], rings[part], properties) for part in (slice(half), slice(half - 1, None))]
+    spread = {name: abs(halves[1][name] - halves[0][name]) / 2 for name in whole}
+    pairs = [reynolds(frame, float(properties["slurryDensity"]), float(properties["slurryViscosity"])) for frame in frames]
+    share = ratio(sum(section(flow, frame, points, column, pixels) for frame in frames))
+    return Shape({name: (whole[name], spread[name]) for name in whole}, share,
+                 *(np.concatenate(part) for part in zip(*pairs)), count_steps(flow.case), len(flow.column_centres))
+
+
+def count_steps(case):
+    """Time-steps in a case's log.slurryFoam."""
+    return sum(line.startswith("Time = ") for line in (case / "log.slurryFoam").read_text().splitlines())
