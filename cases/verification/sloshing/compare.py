@@ -234,7 +234,9 @@ def plot(histories, out):
             axis.set(title={"box": "Box", "round": "Round section, half full"}[room] + (", with a bed" if bed else ""),
                      xlabel="time, s", ylabel="first mode over its start")
             axis.grid(alpha=0.3)
-            axis.legend(fontsize=8)
+            if not bed:
+                axis.set_ylim(-1.1, 1.7)  # room for the legend
+            axis.legend(fontsize=8, loc="upper right", ncol=1 if bed else 2)
     figure.savefig(out, dpi=110)
 
 
