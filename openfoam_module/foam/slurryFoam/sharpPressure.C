@@ -5,7 +5,6 @@
 
 #include "sharpPressure.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
-#include "fvcSurfaceIntegrate.H"
 #include "surfaceInterpolate.H"
 #include "zeroGradientFvPatchFields.H"
 

@@ -9,8 +9,6 @@
 #include "syncTools.H"
 #include "unitConversion.H"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -22,22 +20,10 @@ namespace
 
 //- How much a normal is held to its first guess where the neighbours leave
 //  it free
-constexpr scalar held = 1e-4;
+constexpr scalar held = 1e-6;
 
 //- Slurry or air below this share makes a cell's level less trusted
 constexpr scalar traceShare = 0.02;
-
-
-//- Eigenvector of the smallest eigenvalue
-vector flattest(const symmTensor& m)
-{
-    Eigen::Matrix3d matrix;
-    matrix << m.xx(), m.xy(), m.xz(), m.xy(), m.yy(), m.yz(), m.xz(), m.yz(),
-        m.zz();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-    const Eigen::Vector3d v = solver.eigenvectors().col(0);
-    return vector(v[0], v[1], v[2]);
-}
 
 } // End anonymous namespace
 } // End namespace Foam
@@ -51,6 +37,7 @@ void Foam::slurrySurface::place(const label celli)
     offset_[celli] = cut_.offset(celli, n, alpha_[celli]);
     const planeCut::section section(cut_.cut(celli, n, offset_[celli]));
     centre_[celli] = section.centre - mesh_.cellCentres()[celli];
+    area_[celli] = section.area;
 }
 
 
@@ -63,6 +50,7 @@ void Foam::slurrySurface::guessNormals()
     {
         normal_[celli] = Zero;
         centre_[celli] = Zero;
+        area_[celli] = 0;
         if (alpha_[celli] <= trace || alpha_[celli] >= 1 - trace)
         {
             continue;
@@ -75,14 +63,18 @@ void Foam::slurrySurface::guessNormals()
     }
     normal_.correctBoundaryConditions();
     centre_.correctBoundaryConditions();
+    area_.correctBoundaryConditions();
 }
 
 
 void Foam::slurrySurface::fitNormals()
 {
     symmTensorField ways(mesh_.nCells(), Zero);
-    forNeighbours([&ways](const label celli, const vector& way, const vector&)
-                  { ways[celli] += sqr(way) / max(magSqr(way), VSMALL); });
+    forNeighbours(
+        [&ways](
+            const label celli, const vector& way, const vector&,
+            const scalar area)
+        { ways[celli] += area * sqr(way) / max(magSqr(way), VSMALL); });
 
     const Vector<label>& solved = mesh_.geometricD();
     forAll(normal_, celli)
@@ -91,24 +83,25 @@ void Foam::slurrySurface::fitNormals()
         {
             continue;
         }
-        vector n(normal_[celli]);
-        symmTensor m(ways[celli] + held * (I - sqr(n)));
+        // n & way = 0 for the neighbours, by least squares around the guess: an
+        // eigenvector would turn round where two directions are equally flat
+        symmTensor m(ways[celli] / cbrt(sqr(mesh_.V()[celli])) + held * I);
         for (direction i = 0; i < 3; ++i)
         {
             if (solved[i] < 0)
             {
                 vector e(Zero);
-                e[i] = 10;
+                e[i] = 1;
                 m += sqr(e);
             }
         }
-        const vector fitted(flattest(m));
-        n = (fitted & n) < 0 ? -fitted : fitted;
-        normal_[celli] = n;
+        const vector n(inv(m) & normal_[celli]);
+        normal_[celli] = n / mag(n);
         place(celli);
     }
     normal_.correctBoundaryConditions();
     centre_.correctBoundaryConditions();
+    area_.correctBoundaryConditions();
 }
 
 
@@ -207,6 +200,7 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   normal_(cellField<vector>("surface:normal", dimless)),
   offset_(mesh_.nCells(), Zero),
   centre_(cellField<vector>("surface:centre", dimLength)),
+  area_(cellField<scalar>("surface:area", dimArea)),
   levelNormal_(cellField<vector>("surface:levelNormal", dimless)),
   levelOffset_(mesh_.nCells(), Zero),
   depth_(cellField<scalar>("surface:depth", dimLength)),

@@ -45,7 +45,8 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::curvature() const
     symmTensorField ways(mesh_.nCells(), Zero);
     tensorField turns(mesh_.nCells(), Zero);
     forNeighbours(
-        [&](const label celli, const vector& way, const vector& normal)
+        [&](const label celli, const vector& way, const vector& normal,
+            const scalar)
         {
             const scalar square = max(magSqr(way), VSMALL);
             ways[celli] += sqr(way) / square;

@@ -31,12 +31,13 @@ void Foam::slurrySurface::forNeighbours(const Visitor& visit) const
     {
         const label own = owner[facei];
         const label nei = neighbour[facei];
-        if (isCut(own) && isCut(nei) && (normal_[own] & normal_[nei]) > 0)
+        const scalar cosine = normal_[own] & normal_[nei];
+        if (cosine > 0)
         {
             const vector way(
                 centres[nei] - centres[own] + centre_[nei] - centre_[own]);
-            visit(own, way, normal_[nei]);
-            visit(nei, -way, normal_[own]);
+            visit(own, way, normal_[nei], cosine * area_[nei]);
+            visit(nei, -way, normal_[own], cosine * area_[own]);
         }
     }
 
@@ -52,12 +53,17 @@ void Foam::slurrySurface::forNeighbours(const Visitor& visit) const
             normal_.boundaryField()[patchi].patchNeighbourField());
         const vectorField places(
             centre_.boundaryField()[patchi].patchNeighbourField());
+        const scalarField areas(
+            area_.boundaryField()[patchi].patchNeighbourField());
         forAll(delta, i)
         {
             const label celli = patch.faceCells()[i];
-            if (isCut(celli) && (normal_[celli] & normals[i]) > 0)
+            const scalar cosine = normal_[celli] & normals[i];
+            if (cosine > 0)
             {
-                visit(celli, delta[i] + places[i] - centre_[celli], normals[i]);
+                visit(
+                    celli, delta[i] + places[i] - centre_[celli], normals[i],
+                    cosine * areas[i]);
             }
         }
     }
