@@ -12,7 +12,9 @@
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvm.H"
+#include "gaussConvectionScheme.H"
 #include "gaussLaplacianScheme.H"
+#include "upwind.H"
 #include "zeroGradientFvPatchFields.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -175,8 +177,16 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
     const volScalarField::Internal before(
         density.internalField() / deltaT + fvc::div(flux)().internalField());
 
+    // The scheme's part beyond upwind is explicit: where much slurry goes
+    // through a cell of air, its matrix could not be solved
+    const fv::gaussConvectionScheme<vector> upwinds(
+        mesh_, flux,
+        tmp<surfaceInterpolationScheme<vector>>(
+            new upwind<vector>(mesh_, flux)));
     fvVectorMatrix equation(
-        fvm::Sp(density.internalField() / deltaT, U_) + fvm::div(flux, U_) +
+        fvm::Sp(density.internalField() / deltaT, U_) +
+            upwinds.fvmDiv(flux, U_) +
+            (fvc::div(flux, U_, "div(rhoPhi,U)") - upwinds.fvcDiv(flux, U_)) +
             turbulence_->divDevRhoReff(density, U_) ==
         before * U_.oldTime().internalField() +
             density.internalField() * forces_.internalField() +
