@@ -5,8 +5,9 @@
 
 #include "planeCut.H"
 
-#include <algorithm>
 #include <array>
+#include <utility>
+#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -20,9 +21,15 @@ using heights = std::array<scalar, 3>;
 
 heights sortedHeights(scalar a, scalar b, scalar c)
 {
-    heights s{a, b, c};
-    std::sort(s.begin(), s.end());
-    return s;
+    if (a > b)
+    {
+        std::swap(a, b);
+    }
+    if (b > c)
+    {
+        std::swap(b, c);
+    }
+    return a > b ? heights{b, a, c} : heights{a, b, c};
 }
 
 
@@ -106,6 +113,103 @@ void forOutwardTriangles(
 }
 
 
+//- A cell's volume below a level along a normal. Levels count from its centre
+class cellColumn
+{
+    //- A triangle of its surface: three times the volume between it and the
+    //  centre, and how much of that a cut at the level 1 takes away
+    struct facet
+    {
+        heights s;
+        scalar cone;
+        scalar taken;
+        scalar overLower;
+        scalar overUpper;
+    };
+
+    std::vector<facet> facets_;
+    scalar low_ = GREAT;
+    scalar high_ = -GREAT;
+
+    static scalar inverse(const scalar product)
+    {
+        return product > VSMALL ? 1 / product : 0;
+    }
+
+
+    public:
+    cellColumn(const fvMesh& mesh, const label celli, const vector& n)
+    {
+        const point& origin = mesh.cellCentres()[celli];
+        facets_.reserve(4 * mesh.cells()[celli].size());
+        forOutwardTriangles(
+            mesh, celli,
+            [&](const point& a, const point& b, const point& c)
+            {
+                const vector ra(a - origin), rb(b - origin), rc(c - origin);
+                const heights s(sortedHeights(n & ra, n & rb, n & rc));
+                const vector area(0.5 * ((rb - ra) ^ (rc - ra)));
+                const scalar height = s[2] - s[0];
+                facets_.push_back(
+                    {s, ra & area, n & area, inverse(height * (s[1] - s[0])),
+                     inverse(height * (s[2] - s[1]))});
+                low_ = min(low_, s[0]);
+                high_ = max(high_, s[2]);
+            });
+    }
+
+    scalar low() const
+    {
+        return low_;
+    }
+
+    scalar high() const
+    {
+        return high_;
+    }
+
+    struct part
+    {
+        //- Volume below the level, m3
+        scalar volume;
+
+        //- Its rate of growth with the level: the area of the cut, m2
+        scalar area;
+    };
+
+    part below(const scalar level) const
+    {
+        scalar volume = 0;
+        scalar growth = 0;
+        for (const facet& t : facets_)
+        {
+            if (level <= t.s[0])
+            {
+                continue;
+            }
+            scalar share = 1;
+            scalar rate = 0;
+            if (level <= t.s[1])
+            {
+                const scalar up = level - t.s[0];
+                share = sqr(up) * t.overLower;
+                rate = 2 * up * t.overLower;
+            }
+            else if (level < t.s[2])
+            {
+                const scalar down = t.s[2] - level;
+                share = 1 - sqr(down) * t.overUpper;
+                rate = 2 * down * t.overUpper;
+            }
+            const scalar cone = t.cone - level * t.taken;
+            volume += share * cone;
+            growth += rate * cone - share * t.taken;
+        }
+        return {volume / 3, growth / 3};
+    }
+};
+
+
 //- Where the segment from a to b, at heights sa and sb, meets height d
 point crossing(
     const point& a, const point& b, const scalar sa, const scalar sb,
@@ -131,70 +235,44 @@ Foam::planeCut::planeCut(const fvMesh& mesh)
 Foam::scalar Foam::planeCut::wetVolume(
     const label celli, const vector& n, const scalar d) const
 {
-    const point& origin = mesh_.cellCentres()[celli];
-    const scalar level = d - (n & origin);
-
-    scalar volume = 0;
-    forOutwardTriangles(
-        mesh_, celli,
-        [&](const point& a, const point& b, const point& c)
-        {
-            const vector ra(a - origin), rb(b - origin), rc(c - origin);
-            const heights s(sortedHeights(n & ra, n & rb, n & rc));
-            const vector area(0.5 * ((rb - ra) ^ (rc - ra)));
-            volume += shareBelow(s, level) * ((ra - level * n) & area) / 3;
-        });
-    return volume;
+    return cellColumn(mesh_, celli, n)
+        .below(d - (n & mesh_.cellCentres()[celli]))
+        .volume;
 }
 
 
 Foam::scalar Foam::planeCut::offset(
-    const label celli, const vector& n, const scalar alpha) const
+    const label celli, const vector& n, const scalar alpha,
+    const scalar guess) const
 {
-    const point& origin = mesh_.cellCentres()[celli];
-    scalar low = GREAT, high = -GREAT;
-    for (const label pointi : mesh_.cellPoints()[celli])
-    {
-        const scalar s = n & (mesh_.points()[pointi] - origin);
-        low = min(low, s);
-        high = max(high, s);
-    }
+    const cellColumn column(mesh_, celli, n);
+    const scalar base = n & mesh_.cellCentres()[celli];
+    const scalar whole = column.below(column.high()).volume;
+    scalar low = column.low();
+    scalar high = column.high();
 
-    // Bracketed secant steps (Illinois); V(d) is monotone and smooth
-    const scalar base = n & origin;
-    const scalar whole = wetVolume(celli, n, base + 2 * high - low);
-    scalar belowTarget = -alpha;
-    scalar aboveTarget = 1 - alpha;
-    label side = 0;
+    // Newton's steps, halves where they leave the bracket; V(d) is monotone
+    // and smooth
+    scalar level = guess - base;
+    if (!(level > low && level < high))
+    {
+        level = low + alpha * (high - low);
+    }
     for (label i = 0; i < 100 && high - low > 1e-15 * (mag(low) + mag(high));
          ++i)
     {
-        if (aboveTarget - belowTarget < VSMALL)
-        {
-            break;
-        }
-        const scalar d = min(
-            max(low + (high - low) * -belowTarget / (aboveTarget - belowTarget),
-                low),
-            high);
-        const scalar error = wetVolume(celli, n, base + d) / whole - alpha;
+        const cellColumn::part part(column.below(level));
+        const scalar error = part.volume / whole - alpha;
         if (mag(error) < 4e-15)
         {
-            return base + d;
+            return base + level;
         }
-        if (error < 0)
+        (error < 0 ? low : high) = level;
+        const scalar step = error * whole / max(part.area, VSMALL);
+        level -= step;
+        if (!(level > low && level < high))
         {
-            low = d;
-            belowTarget = error;
-            aboveTarget *= side == -1 ? 0.5 : 1;
-            side = -1;
-        }
-        else
-        {
-            high = d;
-            aboveTarget = error;
-            belowTarget *= side == 1 ? 0.5 : 1;
-            side = 1;
+            level = 0.5 * (low + high);
         }
     }
     return base + 0.5 * (low + high);

@@ -34,9 +34,11 @@ constexpr scalar traceShare = 0.02;
 void Foam::slurrySurface::place(const label celli)
 {
     const vector& n = normal_[celli];
-    offset_[celli] = cut_.offset(celli, n, alpha_[celli]);
+    const point& origin = mesh_.cellCentres()[celli];
+    offset_[celli] =
+        cut_.offset(celli, n, alpha_[celli], n & (origin + centre_[celli]));
     const planeCut::section section(cut_.cut(celli, n, offset_[celli]));
-    centre_[celli] = section.centre - mesh_.cellCentres()[celli];
+    centre_[celli] = section.centre - origin;
     area_[celli] = section.area;
 }
 
@@ -122,8 +124,10 @@ void Foam::slurrySurface::findLevels()
         const vector n(
             share * sign(cosine) * up_ + (1 - share) * normal_[celli]);
         levelNormal_[celli] = n / mag(n);
-        levelOffset_[celli] =
-            cut_.offset(celli, levelNormal_[celli], alpha_[celli]);
+        levelOffset_[celli] = cut_.offset(
+            celli, levelNormal_[celli], alpha_[celli],
+            levelNormal_[celli] &
+                (mesh_.cellCentres()[celli] + centre_[celli]));
     }
     levelNormal_.correctBoundaryConditions();
 }
