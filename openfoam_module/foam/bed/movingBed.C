@@ -62,22 +62,28 @@ void Foam::movingBed::checkCover()
 }
 
 
+void Foam::movingBed::setSolidity(scalarField& solidity)
+{
+    solidity = sums_.solidity();
+    if (conservation_.valid() && source_->knowsVolume())
+    {
+        conservation_->correct(solidity, mesh_.V(), source_->volume());
+    }
+}
+
+
 void Foam::movingBed::setFields()
 {
     scalarField& solidity = solidity_.primitiveFieldRef();
+    setSolidity(solidity);
     vectorField& velocity = velocity_.primitiveFieldRef();
     scalarField& diameter = diameter_.primitiveFieldRef();
     scalarField& diameter43 = diameter43_.primitiveFieldRef();
     forAll(solidity, celli)
     {
-        solidity[celli] = sums_.solidity()[celli];
         velocity[celli] = sums_.velocity(celli);
         diameter[celli] = sums_.diameter(celli);
         diameter43[celli] = sums_.diameter43(celli);
-    }
-    if (conservation_.valid() && source_->knowsVolume())
-    {
-        conservation_->correct(solidity, mesh_.V(), source_->volume());
     }
     voidage_.primitiveFieldRef() = 1 - solidity;
 
@@ -107,7 +113,8 @@ Foam::movingBed::movingBed(const dictionary& dict, const fvMesh& mesh)
   velocity_(zero<vector>("solidsVelocity", dimVelocity, true)),
   diameter_(zero<scalar>("solidsDiameter", dimLength, true)),
   diameter43_(zero<scalar>("solidsDiameter43", dimLength, false)),
-  updated_(-1)
+  updated_(-1),
+  placed_(false)
 {
     voidage_ == dimensionedScalar("voidage", dimless, 1);
     update();
@@ -124,16 +131,36 @@ void Foam::movingBed::update()
     if (empty() || (updated_ == now && !mesh_.changing()))
         return;
 
-    if (source_->sample(mesh_, sums_) || mesh_.changing())
+    const bool moved = mesh_.changing() && !placed_;
+    if (source_->sample(mesh_, mesh_.time().value(), moved, sums_) ||
+        mesh_.changing())
     {
         checkCover();
         setFields();
     }
+    placed_ = false;
     if (updated_ != now && conservation_.valid() && source_->knowsVolume())
     {
         Info << "bed: " << conservation_->description().c_str() << endl;
     }
     updated_ = now;
+}
+
+
+Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
+{
+    source_->sample(
+        mesh_, mesh_.time().value() - mesh_.time().deltaTValue(),
+        mesh_.changing(), sums_);
+    placed_ = true;
+
+    auto tvoidage = tmp<volScalarField::Internal>::New(
+        IOobject("voidageBefore", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar(dimless, Zero));
+    scalarField solidity;
+    setSolidity(solidity);
+    tvoidage.ref().field() = 1 - solidity;
+    return tvoidage;
 }
 
 

@@ -9,14 +9,14 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::solidsBlocks::setBoxes(const fvMesh& mesh)
+void Foam::solidsBlocks::setBoxes(const fvMesh& mesh, const bool moved)
 {
     bool wanted = false;
     for (const solidsBlock& block : blocks_)
     {
         wanted = wanted || block.wantsBoxes();
     }
-    if (!wanted || (boxes_.size() == mesh.nCells() && !mesh.changing()))
+    if (!wanted || (boxes_.size() == mesh.nCells() && !moved))
         return;
 
     boxes_.setSize(mesh.nCells());
@@ -67,10 +67,10 @@ Foam::solidsBlocks::solidsBlocks(const dictionary& dict)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::solidsBlocks::sample(const fvMesh& mesh, solidsFields& sums)
+bool Foam::solidsBlocks::sample(
+    const fvMesh& mesh, const scalar time, const bool moved, solidsFields& sums)
 {
-    const scalar time = mesh.time().value();
-    bool changed = !sampled_ || mesh.changing();
+    bool changed = !sampled_ || moved;
     for (const solidsBlock& block : blocks_)
     {
         changed = changed || block.changes(time_, time);
@@ -80,7 +80,7 @@ bool Foam::solidsBlocks::sample(const fvMesh& mesh, solidsFields& sums)
     if (!changed)
         return false;
 
-    setBoxes(mesh);
+    setBoxes(mesh, moved);
     sums.clear(mesh.nCells());
     for (const solidsBlock& block : blocks_)
     {

@@ -158,8 +158,7 @@ Foam::solidsRecord::have(const label number, const label other)
 
 bool Foam::solidsRecord::sampleWindow(const fvMesh& mesh, held& one)
 {
-    const bool moved = !cells_.valid() && mesh.changing();
-    if (one.sampled && !moved)
+    if (one.sampled)
         return false;
 
     one.sampled = true;
@@ -213,9 +212,17 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::solidsRecord::sample(const fvMesh& mesh, solidsFields& sums)
+bool Foam::solidsRecord::sample(
+    const fvMesh& mesh, const scalar time, const bool moved, solidsFields& sums)
 {
-    const solidsClock::moment now = clock_->at(mesh.time().value());
+    if (moved && inSpace())
+    {
+        for (held& one : held_)
+        {
+            one.sampled = false;
+        }
+    }
+    const solidsClock::moment now = clock_->at(time);
     bool changed = now.lower != moment_.lower || now.upper != moment_.upper ||
                    now.weight != moment_.weight;
     moment_ = now;

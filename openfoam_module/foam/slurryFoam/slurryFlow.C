@@ -13,6 +13,7 @@
 #include "geometricOneField.H"
 #include "MULES.H"
 #include "zeroField.H"
+#include "zeroGradientFvPatchFields.H"
 #include "oneField.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -138,6 +139,16 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
   voidage_(
       IOobject("flowVoidage", mesh.time().timeName(), mesh), bed_.voidage()),
+  swept_(
+      IOobject("sweptFluid", mesh.time().timeName(), mesh), mesh,
+      dimensionedScalar(dimVolume / dimTime, Zero)),
+  sweptPotential_(
+      IOobject(
+          "sweptPotential", mesh.time().timeName(), mesh,
+          IOobject::READ_IF_PRESENT,
+          bed_.inSpace() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE),
+      mesh, dimensionedScalar(dimArea / dimTime, Zero),
+      zeroGradientFvPatchScalarField::typeName),
   p_rgh_(
       IOobject(
           "p_rgh", mesh.time().timeName(), mesh, IOobject::MUST_READ,
@@ -175,6 +186,8 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
               .typeHeaderOk<volVectorField>(true))
 {
     mesh.setFluxRequired(p_rgh_.name());
+    mesh.setFluxRequired(sweptPotential_.name());
+    swept_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();
     turbulence_->validate();
@@ -196,14 +209,23 @@ void Foam::slurryFlow::enter()
         surface_.locate();
         pressure_.update(p_rgh_, rho_);
     }
+    tmp<volScalarField::Internal> before;
+    if (mesh_.moving() && bed_.inSpace())
+    {
+        before = bed_.voidageBefore();
+    }
     if (!bed_.empty())
     {
         bed_.update();
         voidage_ = bed_.voidage();
-        if (!voidageRate_)
+        if (!voidageRate_ && !before.valid())
         {
             voidage_.oldTime() = voidage_;
         }
+    }
+    if (mesh_.moving())
+    {
+        sweep(before);
     }
 }
 

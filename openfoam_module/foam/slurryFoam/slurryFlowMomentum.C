@@ -70,19 +70,10 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::keptDetail() const
 
 Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion() const
 {
-    const dimensionedScalar deltaT(mesh_.time().deltaT());
-    tmp<volScalarField::Internal> trate(
-        (voidage_.internalField() - voidage_.oldTime().internalField()) /
-        deltaT);
-    volScalarField::Internal& rate = trate.ref();
+    tmp<volScalarField::Internal> trate(fluidRate());
     if (mesh_.moving())
     {
-        rate.field() =
-            (voidage_.primitiveField() -
-             voidage_.oldTime().primitiveField() * mesh_.V0() / mesh_.V()) /
-            deltaT.value();
-        rate -= fvc::div(fvc::interpolate(voidage_) * mesh_.phi())()
-                    .internalField();
+        trate.ref() -= fvc::div(swept_)().internalField();
     }
     return trate;
 }
@@ -247,7 +238,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     p_ = pressure_.staticPressure();
     if (mesh_.moving())
     {
-        phi_ -= fvc::interpolate(voidage_) * mesh_.phi();
+        phi_ -= swept_;
     }
 }
 

@@ -7,6 +7,7 @@
 #include "fvcDiv.H"
 #include "fvcGrad.H"
 #include "fvcReconstruct.H"
+#include "gaussLaplacianScheme.H"
 #include "snGradScheme.H"
 #include "surfaceInterpolate.H"
 
@@ -53,6 +54,54 @@ void extrapolate(volScalarField& field)
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::fluidRate() const
+{
+    const dimensionedScalar deltaT(mesh_.time().deltaT());
+    tmp<volScalarField::Internal> trate(
+        (voidage_.internalField() - voidage_.oldTime().internalField()) /
+        deltaT);
+    if (mesh_.moving())
+    {
+        trate.ref().field() =
+            (voidage_.primitiveField() -
+             voidage_.oldTime().primitiveField() * mesh_.V0() / mesh_.V()) /
+            deltaT.value();
+    }
+    return trate;
+}
+
+
+void Foam::slurryFlow::sweep(const tmp<volScalarField::Internal>& before)
+{
+    swept_ = fvc::interpolate(voidage_) * mesh_.phi();
+    if (!before.valid())
+    {
+        return;
+    }
+
+    volScalarField::Internal missing(
+        fluidRate() - fvc::div(swept_)().internalField());
+    if (voidageRate_)
+    {
+        missing -=
+            (voidage_.internalField() - before()) / mesh_.time().deltaT();
+    }
+    // No potential moves fluid through the walls
+    missing.field() -= gSum(missing.field() * mesh_.V()) / gSum(mesh_.V());
+
+    fvScalarMatrix equation(
+        fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
+            mesh_.magSf(), mesh_.nonOrthDeltaCoeffs(), sweptPotential_) ==
+        missing);
+    // What is left over stirs the fluid a little, and is in (1) all the same
+    dictionary controls(mesh_.solver(p_rgh_.name()));
+    controls.set("tolerance", 0.01);
+    controls.set("relTol", 0);
+    equation.solve(controls);
+    swept_ += equation.flux();
+}
+
 
 Foam::tmp<Foam::surfaceVectorField> Foam::slurryFlow::faceBedVelocity() const
 {
