@@ -3,13 +3,15 @@
 """A pool with an exactly flat free surface stays at rest, on meshes that are not aligned with it.
 
 Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
-surface tension, with the mesh standing still and with the mesh turning inside walls that slip. Writes one table and two
-pictures. Exit code 1 when slurryFoam misses what it must hold."""
+surface tension, with and without a bed of balls at rest, with the mesh standing still and with the mesh turning inside
+walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 when slurryFoam misses what it must hold."""
 import argparse
 import shutil
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+import numpy as np
 
 import pool_pictures
 import pool_table
@@ -18,42 +20,63 @@ from millfoam.run import run as run_program
 from pool_history import Run, measure, read_history, write_history
 
 SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "slurryFoam": "slurryFoam"}
-SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1.4e-3 / 1239)
-AIR = dict(airDensity=1.2, airKinematicViscosity=1.8e-5 / 1.2)
+SLURRY = dict(slurryDensity=1239, slurryViscosity=1.4e-3, slurryKinematicViscosity=1.4e-3 / 1239)
+AIR = dict(airDensity=1.2, airViscosity=1.8e-5, airKinematicViscosity=1.8e-5 / 1.2)
 TENSION = 0.07  # N/m
-# By name: what makes the mesh (None: blockMesh) and the pool's level, m. Levels run through cells, not along their faces.
+# By name: what makes the mesh (None: blockMesh), the pool's level, the mesh's radius and length, m. Levels run through
+# cells, not along their faces.
 MESHES = {
-    "ogrid": (None, -0.031),
-    "mill": ("mill.yaml", -0.012),
-    "slice": ("../../mills/mill_12cm/mill.yaml", -0.002),
-    "drum": ("drum.yaml", -0.012),
+    "ogrid": (None, -0.031, 0.15, 0.006),
+    "mill": ("mill.yaml", -0.012, 0.06, 0.12),
+    "slice": ("../../mills/mill_12cm/mill.yaml", -0.002, 0.06, 0.024),
+    "drum": ("drum.yaml", -0.012, 0.06, 0.12),
 }
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
 QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
+# Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as averages
+# on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
+BED_SIDES, BED_ENDS, BED_EDGE = (-0.5, 0.4), (-0.4, 0.35), 0.275
+BED_SOLIDITY = 0.5
+FULL = 1.0  # m: a level above every mesh
+BEDS = {"slurryFoam": "bedProperties", "interFoam": "fvOptions"}  # solver -> file in constant/ that holds the bed
 
 
 def matrix(meshes, solvers, quick):
-    """Every run, the O-grid's first. Quick: the two meshes of a mill at rest, with surface tension, for a short time."""
+    """Every run, the O-grid's first. Quick: a few with surface tension for a short time, and slurry alone in a bed."""
     if quick:
-        return [Run(mesh, solver, TENSION, False) for mesh in ("ogrid", "mill") for solver in ("interFoam", "slurryFoam")]
-    return [
-        Run(mesh, solver, tension, turning)
-        for mesh in meshes
-        for turning in ((False,) if mesh not in OMEGA else (True,) if mesh == "drum" else (False, True))
-        for tension in (TENSION, 0)
-        for solver in solvers
-    ]
+        settings = [("ogrid", False, False), ("ogrid", False, True), ("ogrid", True, False), ("ogrid", True, True),
+                    ("mill", False, False)]
+        runs = [Run(mesh, solver, TENSION, turning, bed) for mesh, turning, bed in settings for solver in BEDS]
+        return runs + [Run("mill", "slurryFoam", 0, False, bed=True, filled=True)]
+    runs = []
+    for mesh in meshes:
+        for turning in ((False,) if mesh not in OMEGA else (True,) if mesh == "drum" else (False, True)):
+            runs += [Run(mesh, solver, tension, turning) for tension in (TENSION, 0) for solver in solvers]
+            runs += [Run(mesh, solver, TENSION, turning, bed=True) for solver in solvers if solver in BEDS]
+    if "slurryFoam" in solvers:
+        runs += [Run(mesh, "slurryFoam", 0, False, bed=True, filled=True) for mesh in meshes if mesh != "drum"]
+    return runs
+
+
+def bed_parameters(level, radius, length):
+    """Entries of the dictionaries in pool/beds for a mesh; the edges rise to full solidity within the box."""
+    sides, ends = (radius * np.array(part) for part in (BED_SIDES, BED_ENDS))
+    across, up = (np.ptp(part) - BED_EDGE * radius for part in (sides, ends))
+    return dict(bedLeft=sides[0], bedRight=sides[1], bedBottom=level + ends[0], bedTop=level + ends[1],
+                bedEdge=BED_EDGE * radius, bedSolidity=BED_SOLIDITY, bedVolume=BED_SOLIDITY * across * up * length)
 
 
 def build(run, case, here, end):
     """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface."""
     shutil.copytree(here / "pool" / "common", case)
     shutil.copytree(here / "pool" / run.solver, case, dirs_exist_ok=True)
-    mill, level = MESHES[run.mesh]
+    if run.bed:
+        shutil.copy(here / "pool" / "beds" / BEDS[run.solver], case / "constant")
+    mill, level, radius, length = MESHES[run.mesh]
     write_parameters(
-        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension, level=level, endTime=end,
-        writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
+        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension, level=FULL if run.filled else level,
+        **bed_parameters(level, radius, length), endTime=end, writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".")
@@ -73,7 +96,7 @@ def kept(run, case, here, end):
     if left.stat().st_mtime < max(path.stat().st_mtime for path in inputs):
         return None
     history = read_history(case)
-    return history if history.time[-1] >= end - 1e-9 else None
+    return history if history and history.time[-1] >= end - 1e-9 else None
 
 
 def perform(run, work, here, end, keep):
@@ -97,7 +120,7 @@ def perform(run, work, here, end, keep):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quick", action="store_true", help=f"two meshes, {QUICK_END} s, interFoam and slurryFoam")
+    parser.add_argument("--quick", action="store_true", help=f"a few settings, {QUICK_END} s, interFoam and slurryFoam")
     parser.add_argument("--meshes", nargs="+", choices=MESHES, default=list(MESHES))
     parser.add_argument("--solvers", nargs="+", choices=SOLVERS, default=list(SOLVERS))
     parser.add_argument("--keep", action="store_true", help="take complete runs of an earlier time, where nothing is newer")

@@ -10,35 +10,42 @@ import numpy as np
 from millfoam import foam
 
 
+BED = 0.05  # solidity from which on slurry is between balls
 STILL = 1e-6  # m/s: what moves less is at rest, however its round-off develops
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of the matrix: mesh, solver, surface tension in N/m, and whether the mesh turns."""
+    """One run of the matrix: mesh, solver, surface tension in N/m, whether the mesh turns, whether balls rest in one half of
+    it, and whether slurry fills all of it."""
     mesh: str
     solver: str
     tension: float
     turning: bool
+    bed: bool = False
+    filled: bool = False
 
     @property
     def setting(self):
         """What runs of different solvers have in common."""
-        return f"{self.mesh}, {'turning' if self.turning else 'static'}, sigma {self.tension:g}"
+        return (f"{self.mesh}, {'turning' if self.turning else 'static'}, sigma {self.tension:g}"
+                f"{', bed' if self.bed else ''}{', full' if self.filled else ''}")
 
     @property
     def name(self):
-        return f"{self.mesh}_{'turning' if self.turning else 'static'}_{'sigma' if self.tension else 'free'}_{self.solver}"
+        return (f"{self.mesh}_{'turning' if self.turning else 'static'}_{'sigma' if self.tension else 'free'}"
+                f"{'_bed' if self.bed else ''}{'_full' if self.filled else ''}_{self.solver}")
 
 
 @dataclass
 class History:
-    """The pool at the written times (s): largest speed of the air and of the slurry, the slurry's rms speed (m/s), its
-    volume (m3), how far its share leaves [0, 1], and the number of steps taken."""
+    """The pool at the written times (s): largest speed of the air and of the slurry, the slurry's rms speed, the largest
+    speed of slurry between balls (m/s), its volume (m3), how far its share leaves [0, 1], and the number of steps taken."""
     time: np.ndarray
     air: np.ndarray
     slurry: np.ndarray
     slurry_rms: np.ndarray
+    bed: np.ndarray
     volume: np.ndarray
     excess: np.ndarray
     steps: np.ndarray
@@ -50,8 +57,9 @@ class History:
 
     @property
     def volume_change(self):
-        """Largest relative change of the slurry's volume."""
-        return np.abs(self.volume / self.volume[0] - 1).max()
+        """Largest relative change of the slurry's volume, from the first time on at which it is known."""
+        known = self.volume[np.isfinite(self.volume)]
+        return np.abs(known / known[0] - 1).max()
 
     @property
     def growth(self):
@@ -69,16 +77,22 @@ def measure(case):
     _, volume = mesh.centres_and_volumes()
     solver_log = next(path for path in case.glob("log.*") if path.name.endswith("Foam"))
     stepped = np.array(re.findall(r"^Time = (\S+)", solver_log.read_text(), flags=re.M), dtype=float)
+    times = foam.times(case)
+    with_balls = any((folder / "solidity").is_file() for _, folder in times)
     rows = []
-    for time, folder in foam.times(case):
+    for time, folder in times:
         try:
             alpha = foam.read_field(folder / "alpha.slurry", mesh.cells)
             speed = np.linalg.norm(foam.read_field(folder / "U", mesh.cells), axis=1)
         except foam.FoamError:
             break
-        slurry = alpha * volume
-        rows.append((time, speed[alpha < 0.5].max(), speed[alpha >= 0.5].max(),
-                     math.sqrt((slurry * speed**2).sum() / slurry.sum()), slurry.sum(),
+        known = (folder / "solidity").is_file()  # not at the start
+        solidity = foam.read_field(folder / "solidity", mesh.cells) if known else np.zeros(mesh.cells)
+        slurry = alpha * (1 - solidity) * volume
+        rows.append((time, speed[alpha < 0.5].max(initial=0), speed[alpha >= 0.5].max(),
+                     math.sqrt((slurry * speed**2).sum() / slurry.sum()),
+                     speed[(alpha >= 0.5) & (solidity > BED)].max(initial=0),
+                     slurry.sum() if known or not with_balls else math.nan,
                      max(0.0, -alpha.min(), alpha.max() - 1), np.count_nonzero(stepped < time + 1e-9)))
     return History(*np.array(rows).T)
 
@@ -91,6 +105,8 @@ def write_history(history, case):
 
 
 def read_history(case):
+    """What write_history wrote, or None if that was another version's."""
     with open(case / "history.csv", newline="") as lines:
         rows = list(csv.reader(lines))
-    return History(*np.array(rows[1:], dtype=float).T)
+    known = rows[0] == [field.name for field in fields(History)]
+    return History(*np.array(rows[1:], dtype=float).T) if known else None

@@ -69,7 +69,8 @@ def draw(axis, case, folder):
     drawn = PolyCollection(outline, array=np.maximum(speed, SLOWEST), cmap="viridis", norm=LogNorm(SLOWEST, FASTEST),
                            edgecolors="face", linewidths=0.1)
     axis.add_collection(drawn)
-    axis.tricontour(centre[:, 0], centre[:, 1], alpha, levels=[0.5], colors="w", linewidths=1)
+    if (alpha < 0.5).any():
+        axis.tricontour(centre[:, 0], centre[:, 1], alpha, levels=[0.5], colors="w", linewidths=1)
     axis.set_aspect("equal")
     axis.autoscale_view()
     axis.axis("off")
