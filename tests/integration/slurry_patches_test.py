@@ -1,18 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, a grate of
-porous cells, and turbulence. Columns of cells along y; expected is what one can write down."""
+"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates of
+porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write down."""
 import re
 import unittest
 
 import numpy as np
 
-from openfoam_case import require_environment
+from openfoam_case import require_environment, rotating_mesh
 from slurry_case import SlurryTest
 
 WIDTH, HEIGHT, ROWS = 0.02, 0.1, 20
 AREA = WIDTH * WIDTH
 SLIP = "type slip;"
+NEWTONIAN = "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity; viscosityRatio 1000;"
 
 
 class ColumnTest(SlurryTest):
@@ -125,8 +126,7 @@ class Grate(ColumnTest):
     speed, darcy, forchheimer = 0.1, 2e7, 400.0
 
     def test_costs_its_pressure(self):
-        case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=(
-            "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity; viscosityRatio 1000;"))
+        case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=NEWTONIAN)
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
         case.open_top()
         case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
@@ -143,6 +143,35 @@ class Grate(ColumnTest):
         expected = (1.4e-3 * self.darcy + 1239 * self.speed * self.forchheimer / 2) * self.speed * thickness
         # 6e-5 are left of the start
         self.assertAlmostEqual(rows[0] - rows[-1], expected, delta=1e-4 * expected)
+
+
+    def test_turns_with_the_mesh(self):
+        # Everywhere, and so dense that the slurry is carried within a step
+        omega, end = 3, 0.02
+        case = self.slurry_case(end_time=end, level=lambda x: 1 + 0 * x, motion=rotating_mesh(omega), bingham=NEWTONIAN)
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.write("system/topoSetDict", """
+            actions ( { name grate; type cellZoneSet; action new; source boxToCell; box (-9 -9 -9) (9 9 9); } );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", "everywhere { cellZone grate; darcy 1e10; }")
+        self.assert_runs(case, "slurryFoam")
+        x, y, _ = case.centres(end).T
+        carried = omega * np.stack([-y, x, 0 * x], axis=1)
+        np.testing.assert_allclose(case.field("U", end), carried, atol=0.01 * np.abs(carried).max())
+
+
+class Divergence(ColumnTest):
+    def test_is_told_and_ends_the_run(self):
+        case = self.column(level=HEIGHT, end_time=0.2)
+        case.open_top()
+        case.adjusted(0.2, 0.2)
+        case.at_patch("bottom", U="type uniformFixedValue; uniformValue table ((0 (0 0.05 0)) (0.1 (0 0.05 0))"
+                                  " (0.1001 (0 1e7 0)) (1 (0 1e7 0))); value uniform (0 0.05 0);",
+                      alpha="type fixedValue; value uniform 1;")
+        result = case.run("slurryFoam")
+        self.assertNotEqual(result.code, 0, result.tail())
+        for words in ("because of the flow", "has diverged at 0.1", "earlier written time"):
+            self.assertIn(words, " ".join(result.log.split()))
 
 
 class Turbulence(ColumnTest):

@@ -222,6 +222,25 @@ class Start(RefusedTest):
         self.assert_says(case, "constant/g", "gravity", program="slurryStart")
 
 
+
+class Grates(RefusedTest):
+    """constant/grateProperties"""
+
+    def assert_grate_refused(self, entries, *words):
+        case = self.small()
+        case.write("constant/grateProperties", f"discharge {{ {entries} }}")
+        self.assert_says(case, "grateProperties", "discharge", *words)
+
+    def test_a_zone_that_the_mesh_has_not(self):
+        self.assert_grate_refused("cellZone grate; darcy 1e7;", "no cellZone grate", "topoSet")
+
+    def test_no_zone(self):
+        self.assert_grate_refused("darcy 1e7;", "cellZone")
+
+    def test_a_misspelt_entry(self):
+        self.assert_grate_refused("cellZone grate; darci 1e7;", "darci", "darcy")
+
+
 if __name__ == "__main__":
     require_environment()
     unittest.main()
