@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A surface at rest that a mesh turns past: without gravity nothing moves, and what is left is the transport of the slurry.
+
+After one turn every cell is where it was. What its share of slurry has changed by, summed up over the surface, is how far
+the transport has moved the surface: geometric (slurryFoam, interIsoFoam) against compressive MULES (interFoam). Writes
+transport.txt; exit code 1 when slurryFoam moves it by more than half of what interFoam does, or loses slurry."""
+import argparse
+import math
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import pool
+from millfoam import foam
+from millfoam.run import run as run_program
+from pool_history import Run
+
+MIXED = 1e-3  # cells whose share is further than this from 0 and 1 hold the surface
+LARGEST_SHARE = 0.5  # of interFoam's displacement
+CONSERVED = 1e-8
+
+
+def perform(mesh, solver, work, here):
+    """The case of a solver's run of one turn."""
+    run = Run(mesh, solver, 0, True)
+    case = work / f"{mesh}_{solver}"
+    shutil.rmtree(case, ignore_errors=True)
+    pool.build(run, case, here, 2 * math.pi / abs(pool.OMEGA[mesh]))
+    gravity = case / "constant" / "g"
+    gravity.write_text(re.sub(r"value.*;", "value (0 0 0);", gravity.read_text()))
+    run_program(case, pool.SOLVERS[solver])
+    return case
+
+
+def measure(case, name):
+    """(mean displacement of the surface in m, relative change of the slurry's volume, cells that hold the surface before and
+    after)."""
+    mesh = foam.read_mesh(case)
+    _, volume = mesh.centres_and_volumes()
+    times = foam.times(case)
+    first, last = (foam.read_field(folder / "alpha.slurry", mesh.cells) for _, folder in (times[0], times[-1]))
+    _, level, radius, length = pool.MESHES[name]
+    surface = 2 * math.sqrt(radius**2 - level**2) * length
+    mixed = [np.count_nonzero((alpha > MIXED) & (alpha < 1 - MIXED)) for alpha in (first, last)]
+    return (np.abs(last - first) * volume).sum() / surface, abs((last * volume).sum() / (first * volume).sum() - 1), *mixed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--meshes", nargs="+", choices=pool.OMEGA, default=list(pool.OMEGA))
+    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport", help="folder of the runs, made anew")
+    options = parser.parse_args()
+    here, work = Path(__file__).parent.resolve(), options.work.resolve()
+    lines = [f"{'mesh':<8} {'solver':<13} {'surface moved, mm':>18} {'volume change':>14} {'cells of the surface':>21}"]
+    missed = 0
+    for mesh in options.meshes:
+        found = {}
+        for solver in pool.SOLVERS:
+            moved, change, before, after = measure(perform(mesh, solver, work, here), mesh)
+            found[solver] = moved
+            lines.append(f"{mesh:<8} {solver:<13} {1e3 * moved:18.3f} {change:14.1e} {before:10d} -> {after:7d}")
+            missed += solver == "slurryFoam" and change > CONSERVED
+        share = found["slurryFoam"] / found["interFoam"]
+        missed += share > LARGEST_SHARE
+        lines.append(f"{mesh}: slurryFoam moves it by {share:.2f} of what interFoam does, allowed {LARGEST_SHARE}")
+    text = "\n".join(lines)
+    print(text)
+    (here / "transport.txt").write_text(text + "\n")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
