@@ -105,10 +105,16 @@ static label compareOffsets(const fvMesh& mesh, const vector& n)
         for (const scalar share : {1e-9, 0.003, 0.25, 0.5, 0.9, 1 - 1e-6})
         {
             const scalar d = cut.offset(celli, n, share);
-            wrong += differs(
-                "share below the offset",
-                cut.wetVolume(celli, n, d) / mesh.cellVolumes()[celli], share,
-                1e-12);
+            const scalar centre = n & mesh.cellCentres()[celli];
+            for (const scalar guess :
+                 {scalar(GREAT), centre, d, 2 * centre - d})
+            {
+                const scalar found = cut.offset(celli, n, share, guess);
+                wrong += differs(
+                    "share below the offset",
+                    cut.wetVolume(celli, n, found) / mesh.cellVolumes()[celli],
+                    share, 1e-12);
+            }
         }
     }
     return wrong;

@@ -58,11 +58,18 @@ class Restart(SlurryTest):
         case = self.slurry_case(end_time=self.last, motion=rotating_mesh(3))
         self.assert_restarts(case)
 
+    def test_on_a_mesh_that_turns_through_a_bed(self):
+        case = self.slurry_case(end_time=self.last, motion=rotating_mesh(3))
+        case.bed(PILE)
+        self.assert_restarts(case)
+
 
 class Ranks(SlurryTest):
-    def run_case(self, ranks):
-        case = self.slurry_case(end_time=0.02)
-        case.bed(BALLS)
+    def run_case(self, ranks, bed=BALLS, **options):
+        case = self.slurry_case(end_time=0.02, **options)
+        case.bed(bed)
+        solution = case.path / "system/fvSolution"
+        solution.write_text(solution.read_text().replace('"p_rgh.*"', '"(p_rgh|sweptPotential).*"'))
         case.decompose_into(2, 1, 1)
         if ranks > 1:
             self.assert_runs(case, "decomposePar")
@@ -80,6 +87,35 @@ class Ranks(SlurryTest):
         for name in ("U", "p_rgh", "alpha.slurry", "phi"):
             scale = np.abs(one[name]).max()
             np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-7 * scale, err_msg=name)
+
+
+    def test_nor_do_they_on_a_mesh_that_turns_through_a_bed(self):
+        one, two = (self.run_case(ranks, PILE, motion=rotating_mesh(3)) for ranks in (1, 2))
+        for name in ("U", "p_rgh", "alpha.slurry", "phi"):
+            scale = np.abs(one[name]).max()
+            np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-6 * scale, err_msg=name)
+
+
+class VoidageRate(SlurryTest):
+    """A bed without drag that moves through slurry displaces it, or, with `voidageRate no`, does not."""
+
+    def largest_speed(self, entries, motion):
+        case = self.slurry_case(end_time=0.02, level=lambda x: 1 + 0 * x, motion=motion)
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("left", "right", "bottom", "top", "front", "back"):
+            case.at_patch(side, U="type slip;")
+        case.bed(BALLS, drag="law Beetstra; multiplier 0;", entries=entries)
+        self.assert_runs(case, "slurryFoam")
+        return np.abs(case.field("U", 0.02)).max()
+
+    def test_is_what_moves_slurry_without_drag(self):
+        self.assertGreater(self.largest_speed("", "dynamicFvMesh staticFvMesh;"), 0.05)
+        self.assertLess(self.largest_speed("voidageRate no;", "dynamicFvMesh staticFvMesh;"), 1e-12)
+
+    def test_is_that_in_space_where_the_mesh_turns(self):
+        # The box's corners stir too where it turns: less than balls at 0.4 m/s do
+        moving = self.largest_speed("", rotating_mesh(0.3))
+        self.assertLess(self.largest_speed("voidageRate no;", rotating_mesh(0.3)), 0.1 * moving)
 
 
 class Volumes(SlurryTest):

@@ -144,7 +144,6 @@ class Grate(ColumnTest):
         # 6e-5 are left of the start
         self.assertAlmostEqual(rows[0] - rows[-1], expected, delta=1e-4 * expected)
 
-
     def test_turns_with_the_mesh(self):
         # Everywhere, and so dense that the slurry is carried within a step
         omega, end = 3, 0.02

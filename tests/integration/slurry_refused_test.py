@@ -222,7 +222,6 @@ class Start(RefusedTest):
         self.assert_says(case, "constant/g", "gravity", program="slurryStart")
 
 
-
 class Grates(RefusedTest):
     """constant/grateProperties"""
 

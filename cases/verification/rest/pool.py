@@ -48,14 +48,15 @@ def matrix(meshes, solvers, quick):
         settings = [("ogrid", False, False), ("ogrid", False, True), ("ogrid", True, False), ("ogrid", True, True),
                     ("mill", False, False)]
         runs = [Run(mesh, solver, TENSION, turning, bed) for mesh, turning, bed in settings for solver in BEDS]
-        return runs + [Run("mill", "slurryFoam", 0, False, bed=True, filled=True)]
+        return runs + [Run(mesh, "slurryFoam", 0, mesh in OMEGA, bed=True, filled=True) for mesh in ("mill", "ogrid")]
     runs = []
     for mesh in meshes:
         for turning in ((False,) if mesh not in OMEGA else (True,) if mesh == "drum" else (False, True)):
             runs += [Run(mesh, solver, tension, turning) for tension in (TENSION, 0) for solver in solvers]
             runs += [Run(mesh, solver, TENSION, turning, bed=True) for solver in solvers if solver in BEDS]
     if "slurryFoam" in solvers:
-        runs += [Run(mesh, "slurryFoam", 0, False, bed=True, filled=True) for mesh in meshes if mesh != "drum"]
+        runs += [Run(mesh, "slurryFoam", 0, mesh in OMEGA, bed=True, filled=True)
+                 for mesh in meshes]
     return runs
 
 
@@ -92,7 +93,9 @@ def kept(run, case, here, end):
     program = shutil.which(SOLVERS[run.solver])
     if not left.is_file() or not program:
         return None
-    inputs = [Path(program), *here.glob("*.yaml"), *(here / "pool").rglob("*")]
+    library = Path(program).parents[1] / "lib" / "libmillFoam.so"
+    mills = [here / mesh[0] for mesh in MESHES.values() if mesh[0]]
+    inputs = [Path(program), library, *mills, here / "pool.py", *(here / "pool").rglob("*")]
     if left.stat().st_mtime < max(path.stat().st_mtime for path in inputs):
         return None
     history = read_history(case)

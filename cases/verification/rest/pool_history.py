@@ -16,8 +16,8 @@ STILL = 1e-6  # m/s: what moves less is at rest, however its round-off develops
 
 @dataclass(frozen=True)
 class Run:
-    """One run of the matrix: mesh, solver, surface tension in N/m, whether the mesh turns, whether balls rest in one half of
-    it, and whether slurry fills all of it."""
+    """One run of the matrix: mesh, solver, surface tension in N/m, whether the mesh turns, whether balls rest in the
+    middle of it, and whether slurry fills all of it."""
     mesh: str
     solver: str
     tension: float
@@ -77,10 +77,9 @@ def measure(case):
     _, volume = mesh.centres_and_volumes()
     solver_log = next(path for path in case.glob("log.*") if path.name.endswith("Foam"))
     stepped = np.array(re.findall(r"^Time = (\S+)", solver_log.read_text(), flags=re.M), dtype=float)
-    times = foam.times(case)
-    with_balls = any((folder / "solidity").is_file() for _, folder in times)
+    displaced = (case / "constant" / "bedProperties").is_file()  # interFoam's slurry lies between the balls as if they were not
     rows = []
-    for time, folder in times:
+    for time, folder in foam.times(case):
         try:
             alpha = foam.read_field(folder / "alpha.slurry", mesh.cells)
             speed = np.linalg.norm(foam.read_field(folder / "U", mesh.cells), axis=1)
@@ -92,7 +91,7 @@ def measure(case):
         rows.append((time, speed[alpha < 0.5].max(initial=0), speed[alpha >= 0.5].max(),
                      math.sqrt((slurry * speed**2).sum() / slurry.sum()),
                      speed[(alpha >= 0.5) & (solidity > BED)].max(initial=0),
-                     slurry.sum() if known or not with_balls else math.nan,
+                     (slurry.sum() if known else math.nan) if displaced else (alpha * volume).sum(),
                      max(0.0, -alpha.min(), alpha.max() - 1), np.count_nonzero(stepped < time + 1e-9)))
     return History(*np.array(rows).T)
 

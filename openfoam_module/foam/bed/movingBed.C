@@ -152,6 +152,7 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
     source_->sample(
         mesh_, mesh_.time().value() - mesh_.time().deltaTValue(),
         mesh_.changing(), sums_);
+    checkCover();
     placed_ = true;
 
     auto tvoidage = tmp<volScalarField::Internal>::New(

@@ -4,14 +4,13 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
-#include "fvcDiv.H"
 #include "fvcFlux.H"
-#include "fvcMeshPhi.H"
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
 #include "geometricOneField.H"
 #include "MULES.H"
+#include "staticFvMesh.H"
 #include "zeroField.H"
 #include "zeroGradientFvPatchFields.H"
 #include "oneField.H"
@@ -146,7 +145,8 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       IOobject(
           "sweptPotential", mesh.time().timeName(), mesh,
           IOobject::READ_IF_PRESENT,
-          bed_.inSpace() ? IOobject::AUTO_WRITE : IOobject::NO_WRITE),
+          bed_.inSpace() && !isA<staticFvMesh>(mesh) ? IOobject::AUTO_WRITE
+                                                     : IOobject::NO_WRITE),
       mesh, dimensionedScalar(dimArea / dimTime, Zero),
       zeroGradientFvPatchScalarField::typeName),
   p_rgh_(
@@ -218,9 +218,9 @@ void Foam::slurryFlow::enter()
     {
         bed_.update();
         voidage_ = bed_.voidage();
-        if (!voidageRate_ && !before.valid())
+        if (!voidageRate_)
         {
-            voidage_.oldTime() = voidage_;
+            dropRate(before);
         }
     }
     if (mesh_.moving())

@@ -8,8 +8,6 @@
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
-#include "fvcMeshPhi.H"
-#include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvm.H"
 #include "gaussConvectionScheme.H"
@@ -177,15 +175,11 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
     fvVectorMatrix equation(
         fvm::Sp(density.internalField() / deltaT, U_) +
             upwinds.fvmDiv(flux, U_) +
-            (fvc::div(flux, U_, "div(rhoPhi,U)") - upwinds.fvcDiv(flux, U_)) +
+            (convection(flux) - upwinds.fvcDiv(flux, U_)) +
             turbulence_->divDevRhoReff(density, U_) ==
         before * U_.oldTime().internalField() +
             density.internalField() * forces_.internalField() +
             fvOptions_(density, U_));
-    if (!bed_.empty())
-    {
-        equation += voidageConvection(flux);
-    }
     equation.relax();
     fvOptions_.constrain(equation);
     equation.solve(mesh_.solver(U_.select(pimple.finalInnerIter())));

@@ -58,17 +58,28 @@ void extrapolate(volScalarField& field)
 Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::fluidRate() const
 {
     const dimensionedScalar deltaT(mesh_.time().deltaT());
-    tmp<volScalarField::Internal> trate(
-        (voidage_.internalField() - voidage_.oldTime().internalField()) /
-        deltaT);
+    const volScalarField::Internal& before = voidage_.oldTime().internalField();
     if (mesh_.moving())
     {
-        trate.ref().field() =
-            (voidage_.primitiveField() -
-             voidage_.oldTime().primitiveField() * mesh_.V0() / mesh_.V()) /
-            deltaT.value();
+        return (voidage_.internalField() - before * mesh_.V0() / mesh_.V()) /
+               deltaT;
     }
-    return trate;
+    return (voidage_.internalField() - before) / deltaT;
+}
+
+
+void Foam::slurryFlow::dropRate(const tmp<volScalarField::Internal>& before)
+{
+    if (before.valid())
+    {
+        voidage_.oldTime().primitiveFieldRef() +=
+            (voidage_.primitiveField() - before().field()) * mesh_.V() /
+            mesh_.V0();
+    }
+    else
+    {
+        voidage_.oldTime() = voidage_;
+    }
 }
 
 
@@ -94,11 +105,20 @@ void Foam::slurryFlow::sweep(const tmp<volScalarField::Internal>& before)
         fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
             mesh_.magSf(), mesh_.nonOrthDeltaCoeffs(), sweptPotential_) ==
         missing);
-    // What is left over stirs the fluid a little, and is in (1) all the same
-    dictionary controls(mesh_.solver(p_rgh_.name()));
-    controls.set("tolerance", 0.01);
-    controls.set("relTol", 0);
-    equation.solve(controls);
+    equation.setReference(Pstream::master() ? 0 : -1, sweptPotential_[0]);
+    const word& name = sweptPotential_.name();
+    if (mesh_.solutionDict().subDict("solvers").found(name))
+    {
+        equation.solve(mesh_.solver(name));
+    }
+    else
+    {
+        // What is left over stirs the fluid a little, and is in (1) all the same
+        dictionary controls(mesh_.solver(p_rgh_.name()));
+        controls.set("tolerance", 0.01);
+        controls.set("relTol", 0);
+        equation.solve(controls);
+    }
     swept_ += equation.flux();
 }
 
@@ -112,12 +132,15 @@ Foam::tmp<Foam::surfaceVectorField> Foam::slurryFlow::faceBedVelocity() const
 
 
 Foam::tmp<Foam::volVectorField>
-Foam::slurryFlow::voidageConvection(const surfaceScalarField& flux) const
+Foam::slurryFlow::convection(const surfaceScalarField& flux) const
 {
     const word scheme("div(rhoPhi,U)");
+    if (bed_.empty())
+    {
+        return fvc::div(flux, U_, scheme);
+    }
     tmp<volVectorField> tresult(
-        fvc::div(flux * fvc::interpolate(1 / voidage_), voidage_ * U_, scheme) -
-        fvc::div(flux, U_, scheme));
+        fvc::div(flux * fvc::interpolate(1 / voidage_), voidage_ * U_, scheme));
     vectorField& result = tresult.ref().primitiveFieldRef();
 
     const volScalarField inverse(1 / voidage_);

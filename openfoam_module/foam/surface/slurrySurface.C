@@ -18,8 +18,8 @@ namespace Foam
 namespace
 {
 
-//- How much a normal is held to its first guess where the neighbours leave
-//  it free
+//- How much a normal is held to the one before where the neighbours leave it
+//  free, against the area of the surface there over V^(2/3)
 constexpr scalar held = 1e-6;
 
 //- Slurry or air below this share makes a cell's level less trusted
