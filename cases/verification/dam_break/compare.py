@@ -31,6 +31,8 @@ FREE_OF_GATE, LAST = 1.4, 5.01
 # measured by Martin & Moyce differ by up to 2 % in speed and 0.1 widths.
 SPEED_TOLERANCE, POSITION_TOLERANCE, LONGEST_DELAY = 0.05, 0.1, 0.4
 PROGRAMS = {"slurryFoam": "slurryFoam", "interFoam": "millInterFoam"}
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 
 @dataclass
@@ -77,8 +79,8 @@ def perform(solver, cells, case, template):
     shutil.copytree(template, case)
     end = END / SCALE
     write_parameters(
-        case, solver=PROGRAMS[solver], slurryDensity=998, slurryKinematicViscosity=1e-6, airDensity=1.2,
-        airKinematicViscosity=1.5e-5, gravity=-GRAVITY, endTime=end, writeInterval=end / 42,
+        case, solver=PROGRAMS[solver], convection=CONVECTION[solver], slurryDensity=998, slurryKinematicViscosity=1e-6,
+        airDensity=1.2, airKinematicViscosity=1.5e-5, gravity=-GRAVITY, endTime=end, writeInterval=end / 42,
         correctors=3 if solver == "interFoam" else 1, columnWidth=WIDTH, columnHeight=2 * WIDTH, length=LENGTH * WIDTH,
         height=HEIGHT * WIDTH, cellsX=int(LENGTH * cells), cellsY=int(HEIGHT * cells))
     run_program(case, "blockMesh")

@@ -54,6 +54,8 @@ RUNS = [Run(room, solver) for room in ("box", "round") for solver in ("slurryFoa
 RUNS += [Run("round", solver, turning=True) for solver in ("slurryFoam", "interFoam")]
 RUNS += [Run("box", "slurryFoam", bed=True), Run("round", "slurryFoam", bed=True)]
 PROGRAMS = {"interFoam": "millInterFoam", "slurryFoam": "slurryFoam"}
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 
 def theory(run):
@@ -112,7 +114,7 @@ def build(run, case, here):
         (case / "constant" / "bedProperties").unlink()
         end, step = run.periods * period, period / STEPS
     write_parameters(
-        case, solver=PROGRAMS[run.solver], **SLURRY, **AIR, gravity=-GRAVITY, endTime=end,
+        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY, endTime=end,
         writeInterval=end / (run.periods * RECORDS), largestStep=step, correctors=3 if run.solver == "interFoam" else 1,
         skewCorrectors=0 if run.room == "box" else 1, meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
         omega=OMEGA, solidity=SOLIDITY, diameter=ball_diameter(drag), width=WIDTH, height=HEIGHT, cellsX=CELLS[0],
