@@ -125,7 +125,7 @@ def draw_reynolds(axis, shapes, colour):
                     label=name)
     axis.set(xscale="log", xlabel="particle Reynolds number, –", ylabel="slurry in the bed, %")
     axis.set_title("particle Reynolds numbers (solidity from 0.2 on)")
-    axis.legend(fontsize=8, ncol=2)
+    axis.legend(fontsize=8, loc="upper left")
 
 
 def plot(rows, shapes, flow, title):
