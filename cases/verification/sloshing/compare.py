@@ -198,8 +198,9 @@ def perform(run, work, here):
 def report(histories, out):
     """Writes and prints the table; the number of lines that missed."""
     lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
-    references = [history for history in histories if history.run.solver == "interFoam"]
-    reference = {(history.run.room, history.run.turning): history.fit[1] for history in references}
+    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps it
+    reference = {history.run.room: history.fit[1] for history in histories
+                 if history.run.solver == "interFoam" and not history.run.turning}
     missed = 0
     for history in histories:
         run, wave = history.run, history.wave
@@ -209,13 +210,15 @@ def report(histories, out):
         else:
             expected, (found, rate) = wave.omega, history.fit
             decay = f"{rate:10.4f}"
-            bad = not (abs(history.error) <= TOLERANCE and rate <= reference.get((run.room, run.turning), np.inf))
+            most = np.inf if run.turning else reference.get(run.room, np.inf)
+            bad = not (abs(history.error) <= TOLERANCE and rate <= most)
         bad = run.solver == "slurryFoam" and (bad or not history.volume_change <= 1e-8)
         missed += bad
         lines.append(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
                      f"{history.volume_change:14.1e}" + ("  MISSED" if bad else ""))
     lines.append(f"rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance from theory's course. "
-                 f"Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than interFoam")
+                 f"Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than interFoam "
+                 f"where the mesh rests")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed
