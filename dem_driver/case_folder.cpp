@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/case_folder.hpp"
 
+#include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+
+#include "dem_driver/segments.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -33,23 +38,46 @@ std::vector<fs::path> find_dumps(const CaseFolder& folder) {
 std::size_t prepare_folders(const CaseFolder& folder) {
   fs::create_directories(folder.dem());
   fs::create_directories(folder.dumps());
-  fs::remove(folder.run_file());
+  for (const auto& file :
+       {folder.run_file(), folder.results(), folder.energy(), folder.overlaps(), folder.charge()})
+    fs::remove(file);
+  for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
+  for (const char* kind : segment_kinds)
+    for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);
   const auto old = find_dumps(folder);
   for (const auto& dump : old) fs::remove(dump);
   return old.size();
 }
 
-void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
-  const fs::path unfinished = folder.dumps() / "run.txt.part";
+std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts) {
+  std::ostringstream lines;
+  for (const auto& part : parts) {
+    std::ifstream in(folder.walls() / (part + ".stl"), std::ios::binary);
+    std::uint64_t sum = 14695981039346656037U;
+    for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte)
+      sum = (sum ^ static_cast<unsigned char>(*byte)) * 1099511628211U;
+    lines << "# wall " << part << ".stl " << std::hex << sum << '\n';
+  }
+  return lines.str();
+}
+
+void write_whole_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
+  const fs::path unfinished = file.string() + ".part";
   {
     std::ofstream out(unfinished);
-    out.precision(std::numeric_limits<double>::max_digits10);
-    out << "timestep " << plan.step.value << "\ninterval " << plan.step.steps_per_record
-        << "\nangular_velocity " << mill.angular_velocity << '\n';
+    write(out);
     out.close();
     if (!out) throw std::runtime_error(unfinished.string() + ": cannot be written");
   }
-  fs::rename(unfinished, folder.run_file());
+  fs::rename(unfinished, file);
+}
+
+void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
+  write_whole_file(folder.run_file(), [&](std::ostream& out) {
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << "timestep " << plan.step.value << "\ninterval " << plan.step.steps_per_record
+        << "\nangular_velocity " << mill.angular_velocity << '\n';
+  });
 }
 
 }  // namespace millfoam::dem_driver

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,12 @@ struct CaseFolder {
   std::filesystem::path dumps() const { return root / "dumps"; }
   std::filesystem::path deck() const { return dem() / "in.mill"; }
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
+  std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
   std::filesystem::path run_file() const { return dumps() / "run.txt"; }
+  std::filesystem::path results() const { return dumps() / "results.txt"; }
+  std::filesystem::path energy() const { return dumps() / "energy.csv"; }
+  std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }
+  std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
 /// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd.
@@ -29,9 +36,16 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
 /// Every `dump.*.txt` in the dumps folder.
 std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
 
-/// Makes the folders and removes dumps and run file of an earlier run, so that two runs never mix. Nothing
-/// else is removed. Returns the number of dumps removed.
+/// Makes the folders and removes dumps, run file, results, restart files and histories of an earlier run, so
+/// that two runs never mix. Nothing else is removed. Returns the number of dumps removed.
 std::size_t prepare_folders(const CaseFolder& folder);
+
+/// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
+/// these walls only.
+std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
+
+/// Writes a text file that appears whole or not at all. Throws std::runtime_error naming it.
+void write_whole_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 /// Writes `dumps/run.txt`, lines `key value`: timestep (s), interval (steps between dumps), angular_velocity
 /// (rad/s). The file appears whole or not at all.

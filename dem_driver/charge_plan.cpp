@@ -77,6 +77,10 @@ std::vector<Round> cut_into_rounds(const std::vector<ClassCount>& classes, doubl
 
 }  // namespace
 
+double ClassCount::surface() const {
+  return static_cast<double>(count) * pi * diameter * diameter;
+}
+
 long ChargePlan::balls() const {
   long sum = 0;
   for (const auto& size : classes) sum += size.count;
@@ -91,7 +95,8 @@ double ChargePlan::mass() const {
 
 ChargePlan plan_charge(const meshing::Mill& mill) {
   ChargePlan plan;
-  plan.classes = count_balls(mill);
+  for (const auto& size : count_balls(mill))
+    (size.diameter < mill.charge.fines_below ? plan.fines : plan.classes).push_back(size);
   if (plan.balls() == 0) throw std::runtime_error("charge: no class has the mass of even one ball");
   check_fits(mill, plan.classes);
   const double radius = mill.charge.start_radius;
@@ -115,6 +120,19 @@ void print_charge(std::ostream& out, const ChargePlan& plan) {
   out << "        total" << std::setw(10) << plan.balls() << std::setw(11) << std::setprecision(4) << asked
       << std::setw(14) << plan.mass() << std::setw(15) << std::setprecision(2)
       << 100 * (plan.mass() / asked - 1) << '\n';
+  for (const auto& size : plan.fines)
+    out << "  fines, not simulated: " << std::setprecision(4) << size.diameter * 1e3 << " mm, " << size.count
+        << " balls, " << size.mass_realised << " kg, " << size.surface() << " m^2\n";
+}
+
+void write_charge_books(std::ostream& out, const ChargePlan& plan) {
+  out << "diameter_m,balls,mass_kg,surface_m2,simulated\n" << std::setprecision(10);
+  const auto write = [&](const ClassCount& size, int simulated) {
+    out << size.diameter << ',' << size.count << ',' << size.mass_realised << ',' << size.surface() << ','
+        << simulated << '\n';
+  };
+  for (const auto& size : plan.classes) write(size, 1);
+  for (const auto& size : plan.fines) write(size, 0);
 }
 
 }  // namespace millfoam::dem_driver

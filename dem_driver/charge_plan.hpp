@@ -14,6 +14,7 @@ struct ClassCount {
   double mass_asked = 0;     ///< kg
   double mass_realised = 0;  ///< kg, of `count` whole balls
   long count = 0;
+  double surface() const;  ///< m^2, of all its balls
 };
 
 /// Balls of one size that are put in at one moment.
@@ -27,7 +28,8 @@ using Round = std::vector<Insertion>;
 
 /// The charge as whole balls, and the order in which they enter the mill.
 struct ChargePlan {
-  std::vector<ClassCount> classes;  ///< largest first
+  std::vector<ClassCount> classes;  ///< that are simulated, largest first
+  std::vector<ClassCount> fines;    ///< left out of the simulation (charge.fines_below), largest first
   std::vector<Round> rounds;        ///< largest first; every ball of `classes` is in exactly one insertion
   double round_settle_time = 0;     ///< s, that the balls of a round fall before the next round comes
   long balls() const;
@@ -46,7 +48,11 @@ inline constexpr double heap_solidity = 0.6;
 /// charge does not fit into the start cylinder.
 ChargePlan plan_charge(const meshing::Mill& mill);
 
-/// Prints asked and realised mass per class.
+/// Prints asked and realised mass per class, and what is left out as fines.
 void print_charge(std::ostream& out, const ChargePlan& plan);
+
+/// Writes the books of the charge as CSV: diameter_m, balls, mass_kg, surface_m2 and simulated (1 or 0) of
+/// every class, fines last.
+void write_charge_books(std::ostream& out, const ChargePlan& plan);
 
 }  // namespace millfoam::dem_driver

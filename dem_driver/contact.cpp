@@ -27,10 +27,11 @@ double ContactPair::stiffness() const {
   return 4.0 / 3.0 * modulus * std::sqrt(radius);
 }
 
-ContactPair ball_on_ball(double diameter1, double diameter2, double density, const Elastic& ball) {
+ContactPair ball_on_ball(double diameter1, double diameter2, double density, const Elastic& ball1,
+                         const Elastic& ball2) {
   const double mass1 = ball_mass(diameter1, density);
   const double mass2 = ball_mass(diameter2, density);
-  return {1 / (2 * compliance(ball)), diameter1 * diameter2 / (2 * (diameter1 + diameter2)),
+  return {1 / (compliance(ball1) + compliance(ball2)), diameter1 * diameter2 / (2 * (diameter1 + diameter2)),
           mass1 * mass2 / (mass1 + mass2)};
 }
 

@@ -19,8 +19,9 @@ struct ContactPair {
   double stiffness() const;
 };
 
-/// Two balls of the given diameters (m), one material of the given density (kg/m^3).
-ContactPair ball_on_ball(double diameter1, double diameter2, double density, const Elastic& ball);
+/// Two balls of the given diameters (m) and the same density (kg/m^3).
+ContactPair ball_on_ball(double diameter1, double diameter2, double density, const Elastic& ball1,
+                         const Elastic& ball2);
 
 /// A ball on a plane wall of infinite mass.
 ContactPair ball_on_wall(double diameter, double density, const Elastic& ball, const Elastic& wall);

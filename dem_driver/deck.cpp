@@ -14,7 +14,8 @@ namespace millfoam::dem_driver {
 
 namespace {
 
-constexpr double smallest_modulus = 5e6;
+constexpr long restarts = 50;  // of a run, unless it is short
+constexpr long fewest_records_per_restart = 10;
 // Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
 // to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
@@ -45,63 +46,103 @@ bool is_periodic(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic;
 }
 
-void write_box(std::ostream& out, const meshing::Mill& mill, RankGrid ranks) {
+/// The atom types of LIGGGHTS: balls of equal modulus share one, the wall has the last.
+class AtomTypes {
+ public:
+  explicit AtomTypes(const DemPlan& plan) : stiffness_(plan.step.stiffness) {
+    for (const auto& size : plan.charge.classes) {
+      const double modulus = stiffness_.of_ball(size.diameter);
+      if (std::find(moduli_.begin(), moduli_.end(), modulus) == moduli_.end()) moduli_.push_back(modulus);
+    }
+  }
+  int of_ball(double diameter) const {
+    const auto found = std::find(moduli_.begin(), moduli_.end(), stiffness_.of_ball(diameter));
+    return 1 + static_cast<int>(found - moduli_.begin());
+  }
+  int wall() const { return 1 + static_cast<int>(moduli_.size()); }
+  const std::vector<double>& ball_moduli() const { return moduli_; }
+  double wall_modulus() const { return stiffness_.modulus; }
+
+ private:
+  Stiffness stiffness_;
+  std::vector<double> moduli_;
+};
+
+double largest_diameter(const DemPlan& plan) {
+  return plan.charge.classes.front().diameter;
+}
+
+void write_style(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, int ranks) {
+  const RankGrid grid = split_ranks(ranks, mill.geometry.length, largest_diameter(plan));
+  out << "units si\natom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
+      << "processors " << grid.x << ' ' << grid.y << ' ' << grid.z << '\n';
+}
+
+void write_box(std::ostream& out, const meshing::Mill& mill, const AtomTypes& types) {
   // The box ends just outside the shell, so that a ball that went through a wall is soon missed and reported.
   const double margin = 0.02 * mill.geometry.diameter;
   const double half = mill.geometry.radius() + margin;
   const double z0 = is_periodic(mill) ? 0 : -margin;
   const double z1 = mill.geometry.length - z0;
-  out << "units si\natom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
-      << "processors " << ranks.x << ' ' << ranks.y << " 1\n"
-      << "boundary f f " << (is_periodic(mill) ? 'p' : 'f') << '\n'
+  out << "boundary f f " << (is_periodic(mill) ? 'p' : 'f') << '\n'
       << "region box block " << -half << ' ' << half << ' ' << -half << ' ' << half << ' ' << z0 << ' ' << z1
       << " units box\n"
-      << "create_box 2 box\n";
+      << "create_box " << types.wall() << " box\n";
 }
 
-void write_matrix(std::ostream& out, const char* id, const char* property, double balls, double wall) {
-  out << "fix " << id << " all property/global " << property << " peratomtypepair 2 " << balls << ' ' << wall
-      << ' ' << wall << ' ' << wall << '\n';
+/// A property of every pair of types: `balls` for two balls, `wall` where one of them is the wall.
+void write_matrix(std::ostream& out, const char* id, const char* property, const AtomTypes& types,
+                  double balls, double wall) {
+  const int count = types.wall();
+  out << "fix " << id << " all property/global " << property << " peratomtypepair " << count;
+  for (int first = 1; first <= count; ++first)
+    for (int second = 1; second <= count; ++second)
+      out << ' ' << (std::max(first, second) == count ? wall : balls);
+  out << '\n';
 }
 
-void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan) {
+void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
+                   const AtomTypes& types) {
   const auto& smallest = plan.charge.classes.back();
   // Of skins of 0.2, 0.4 and 0.75 smallest diameters, 0.4 was the fastest while a mill with 2, 4 and 8 mm
   // balls turns.
   out << "neighbor " << 0.4 * smallest.diameter << " bin\nneigh_modify delay 0\n"
-      << "fix youngs all property/global youngsModulus peratomtype " << mill.dem.youngs_modulus << ' '
-      << mill.dem.youngs_modulus << '\n'
-      << "fix poisson all property/global poissonsRatio peratomtype " << mill.ball.poisson_ratio << ' '
-      << mill.wall.poisson_ratio << '\n';
-  write_matrix(out, "restitution", "coefficientRestitution", mill.ball_ball.restitution,
+      << "fix youngs all property/global youngsModulus peratomtype";
+  for (const double modulus : types.ball_moduli()) out << ' ' << modulus;
+  out << ' ' << types.wall_modulus() << "\nfix poisson all property/global poissonsRatio peratomtype";
+  for (std::size_t i = 0; i < types.ball_moduli().size(); ++i) out << ' ' << mill.ball.poisson_ratio;
+  out << ' ' << mill.wall.poisson_ratio << '\n';
+  write_matrix(out, "restitution", "coefficientRestitution", types, mill.ball_ball.restitution,
                mill.ball_wall.restitution);
-  write_matrix(out, "friction", "coefficientFriction", mill.ball_ball.friction, mill.ball_wall.friction);
-  write_matrix(out, "rolling", "coefficientRollingFriction", mill.ball_ball.rolling_friction,
+  write_matrix(out, "friction", "coefficientFriction", types, mill.ball_ball.friction,
+               mill.ball_wall.friction);
+  write_matrix(out, "rolling", "coefficientRollingFriction", types, mill.ball_ball.rolling_friction,
                mill.ball_wall.rolling_friction);
   out << "pair_style " << contact_model << "\npair_coeff * *\n"
       << "timestep " << plan.step.value << '\n'
       << "fix gravity all gravity " << meshing::gravity << " vector 0 -1 0\n";
 }
 
-void write_walls(std::ostream& out, const std::vector<std::string>& parts) {
+void write_walls(std::ostream& out, const std::vector<std::string>& parts, const AtomTypes& types) {
   for (const auto& part : parts)
-    out << "fix " << part << " all mesh/surface file ../walls/" << part << ".stl type 2\n";
+    out << "fix " << part << " all mesh/surface/stress file ../walls/" << part << ".stl type " << types.wall()
+        << '\n';
   out << "fix walls all wall/" << contact_model << " mesh n_meshes " << parts.size() << " meshes";
   for (const auto& part : parts) out << ' ' << part;
   out << '\n';
 }
 
 void write_thermo(std::ostream& out, const DemPlan& plan) {
-  out << "compute overlaps all pair/gran/local delta\ncompute overlap all reduce max c_overlaps[1]\n"
+  out << "compute ballOverlaps all pair/gran/local delta\ncompute wallOverlaps all wall/gran/local delta\n"
+      << "compute overlap all reduce max c_ballOverlaps[1]\n"
       << "thermo_style custom step atoms ke c_overlap\n"
-      << "thermo_modify lost ignore norm no flush yes\nthermo " << plan.thermo_steps << '\n'
-      << "variable balls equal atoms\n";
+      << "thermo_modify lost ignore norm no flush yes\nthermo " << plan.thermo_steps << '\n';
 }
 
 /// One insertion: centres in the start cylinder shrunk by the ball's radius. The number asked of
 /// `insert/pack` is that of all balls then in the region, so those that are there already are counted first.
-void write_insertion(std::ostream& out, const meshing::Mill& mill, const Insertion& insertion, int number,
-                     Primes& primes) {
+void write_insertion(std::ostream& out, const meshing::Mill& mill, const AtomTypes& types,
+                     const Insertion& insertion, int number, Primes& primes) {
   const double radius = insertion.diameter / 2;
   const double length = is_periodic(mill) ? mill.geometry.length : mill.charge.start_length;
   const double z0 = (mill.geometry.length - length) / 2 + radius;
@@ -109,8 +150,9 @@ void write_insertion(std::ostream& out, const meshing::Mill& mill, const Inserti
   out << "region start" << id << " cylinder z 0 0 " << mill.charge.start_radius - radius << ' ' << z0 << ' '
       << z0 + length - 2 * radius << " units box\n"
       << "variable wanted equal count(all,start" << id << ")+" << insertion.count << '\n'
-      << "fix ball" << id << " all particletemplate/sphere " << primes.next()
-      << " atom_type 1 density constant " << mill.ball.density << " radius constant " << radius << '\n'
+      << "fix ball" << id << " all particletemplate/sphere " << primes.next() << " atom_type "
+      << types.of_ball(insertion.diameter) << " density constant " << mill.ball.density << " radius constant "
+      << radius << '\n'
       << "fix size" << id << " all particledistribution/discrete " << primes.next() << " 1 ball" << id
       << " 1\n"
       << "fix insert" << id << " all insert/pack seed " << primes.next() << " distributiontemplate size" << id
@@ -122,33 +164,60 @@ void write_insertion(std::ostream& out, const meshing::Mill& mill, const Inserti
       << "unfix insert" << id << "\nunfix size" << id << "\nunfix ball" << id << '\n';
 }
 
-void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan) {
+void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, const AtomTypes& types) {
   Primes primes(mill.dem.seed);
+  out << "variable balls equal atoms\n";
   int number = 0;
   const auto& rounds = plan.charge.rounds;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     out << "\n# round " << i + 1 << " of " << rounds.size() << '\n';
     if (i > 0) out << "unfix motion\n";
-    for (const auto& insertion : rounds[i]) write_insertion(out, mill, insertion, ++number, primes);
+    for (const auto& insertion : rounds[i]) write_insertion(out, mill, types, insertion, ++number, primes);
     out << "fix motion all nve/sphere\nrun " << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps)
         << '\n';
   }
 }
 
+/// Torque of the charge on all walls about the axis, mean over every step of a record; kinetic and potential
+/// energy and the largest overlap at every record; histograms of the overlaps.
+void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
+                   long start) {
+  const long record = plan.step.steps_per_record;
+  const double range = overlap_range * largest_diameter(plan);
+  out << "variable torque equal 0";
+  for (const auto& part : parts) out << "+f_" << part << "[6]";
+  out << "\nfix torque all ave/time 1 " << record << ' ' << record << " v_torque file torque." << start
+      << ".txt\n"
+      << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity
+      << "*y\ncompute potential all reduce sum v_height\n"
+      << "fix energy all ave/time " << record << " 1 " << record
+      << " c_kinetic c_potential c_overlap file energy." << start << ".txt\n";
+  for (const char* kind : {"ballOverlaps", "wallOverlaps"})
+    out << "fix " << kind << "Histogram all ave/histo " << record << ' ' << plan.restart_steps / record << ' '
+        << plan.restart_steps << " 0 " << range << ' ' << overlap_bins << " c_" << kind
+        << "[1] mode vector file " << kind << '.' << start << ".txt\n";
+}
+
+/// From step `start` on, which is 0 or that of a restart file.
 void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
-                   const std::vector<std::string>& parts) {
-  // No insertion is left, so LIGGGHTS lets the clock be set back: step 0 is the start of rotation.
-  out << "\nreset_timestep 0\nprint \"" << turning_mark << "\"\n";
+                   const std::vector<std::string>& parts, long start) {
+  out << "print \"" << turning_mark << "\"\n";
   if (mill.angular_velocity != 0) {
     const double period = 2 * pi / std::abs(mill.angular_velocity);
     for (const auto& part : parts)
       out << "fix turn_" << part << " all move/mesh mesh " << part << " rotate origin 0 0 0 axis 0 0 "
           << (mill.angular_velocity > 0 ? 1 : -1) << " period " << period << '\n';
   }
+  write_results(out, plan, parts, start);
+  // Renamed when it is whole, so that a run killed while it writes leaves no half restart file of that name.
   out << "dump balls all custom " << plan.step.steps_per_record
       << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"
-      << "run " << plan.turning_steps << "\nprint \"" << finished_mark << "\"\n";
+      << "variable now equal step\n"
+      << "run " << plan.turning_steps << " upto every " << plan.restart_steps
+      << " \"write_restart restart.part\" \"shell mv restart.part restart.${now}\" \"print '" << restart_mark
+      << " ${now}'\"\n"
+      << "print \"" << finished_mark << "\"\n";
 }
 
 }  // namespace
@@ -175,32 +244,49 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.dumps = records + 1;
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
+  plan.restart_steps = std::max(fewest_records_per_restart, records / restarts) * plan.step.steps_per_record;
   return plan;
 }
 
-RankGrid split_ranks(int ranks) {
+RankGrid split_ranks(int ranks, double length, double largest_diameter) {
   if (ranks < 1) throw std::runtime_error("-np: " + std::to_string(ranks) + ", expected at least 1 rank");
-  int y = static_cast<int>(std::sqrt(ranks));
-  while (ranks % y != 0) --y;
-  return {ranks / y, y};
+  const double thinnest = 1.5 * largest_diameter;
+  int z = std::clamp(static_cast<int>(length / thinnest), 1, ranks);
+  while (ranks % z != 0) --z;
+  const int across = ranks / z;
+  int x = static_cast<int>(std::sqrt(across));
+  while (across % x != 0) --x;
+  return {x, across / x, z};
 }
 
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks) {
-  if (mill.dem.youngs_modulus < smallest_modulus) {
-    std::ostringstream message;
-    message << "key 'dem.youngs_modulus': " << mill.dem.youngs_modulus << ", expected at least "
-            << smallest_modulus << " Pa, which is the softest that LIGGGHTS accepts";
-    throw std::runtime_error(message.str());
-  }
+  const AtomTypes types(plan);
   out.precision(std::numeric_limits<double>::digits10);
   out << "# Written by millDem\n";
-  write_box(out, mill, split_ranks(ranks));
-  write_physics(out, mill, plan);
-  write_walls(out, parts);
+  write_style(out, mill, plan, ranks);
+  write_box(out, mill, types);
+  write_physics(out, mill, plan, types);
+  write_walls(out, parts, types);
   write_thermo(out, plan);
-  write_charge(out, mill, plan);
-  write_turning(out, mill, plan, parts);
+  write_charge(out, mill, plan, types);
+  // No insertion is left, so LIGGGHTS lets the clock be set back: step 0 is the start of rotation.
+  out << "\nreset_timestep 0\n";
+  write_turning(out, mill, plan, parts, 0);
+}
+
+void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
+                       const std::vector<std::string>& parts, int ranks, long step) {
+  const AtomTypes types(plan);
+  out.precision(std::numeric_limits<double>::digits10);
+  out << "# Written by millDem\n";
+  write_style(out, mill, plan, ranks);
+  out << "read_restart restart." << step << '\n';
+  write_physics(out, mill, plan, types);
+  write_walls(out, parts, types);
+  write_thermo(out, plan);
+  out << "fix motion all nve/sphere\n";
+  write_turning(out, mill, plan, parts, step);
 }
 
 }  // namespace millfoam::dem_driver

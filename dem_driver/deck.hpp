@@ -21,6 +21,7 @@ struct DemPlan {
   long turning_steps = 0;   ///< from DEM time 0 on, a whole number of records
   long dumps = 0;           ///< of the turning mill, with the one at step 0
   long thermo_steps = 0;    ///< between two lines of LIGGGHTS' log
+  long restart_steps = 0;   ///< between two restart files of the turning mill, a whole number of records
   long insertions() const;  ///< single insertions of all rounds; each takes one step
   long total_steps() const;
 };
@@ -30,23 +31,36 @@ struct DemPlan {
 /// do.
 DemPlan plan_dem(const meshing::Mill& mill);
 
-/// Ranks along x, y and z: the product is `ranks`, x gets the larger factor and the axis is never cut,
-/// because the charge fills it evenly and a slice is short. Throws std::runtime_error for ranks < 1.
+/// Ranks along x, y and z. The axis is cut first, because the charge lies evenly along it: as often as
+/// leaves every rank one and a half of the largest balls. What is left is cut across y, then x. Throws
+/// std::runtime_error for ranks < 1.
 struct RankGrid {
   int x = 1;
   int y = 1;
+  int z = 1;
 };
-RankGrid split_ranks(int ranks);
+RankGrid split_ranks(int ranks, double length, double largest_diameter);
 
 /// Words that begin the deck's own lines in the log; `LiggghtsLog` reads them.
 inline constexpr char inserted_mark[] = "millFoam inserted";
 inline constexpr char turning_mark[] = "millFoam turning";
+inline constexpr char restart_mark[] = "millFoam restart";
 inline constexpr char finished_mark[] = "millFoam finished";
 
+/// Bins of the overlaps' histograms, and their range over the largest ball's diameter.
+inline constexpr int overlap_bins = 1000;
+inline constexpr double overlap_range = 0.2;
+
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
-/// each of `parts` and dumps to `../dumps/dump.<step>.txt`. Balls are atom type 1, walls type 2. Throws
-/// std::runtime_error for a modulus below what LIGGGHTS accepts (5e6 Pa).
+/// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes beside itself, from step 0 on,
+/// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`. Balls are
+/// the first atom types, one for each modulus, the wall is the last.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
+
+/// Writes the deck that goes on from `restart.<step>`, which holds balls, walls where they have turned to,
+/// and contacts. Its own files carry `step` in the place of 0.
+void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
+                       const std::vector<std::string>& parts, int ranks, long step);
 
 }  // namespace millfoam::dem_driver

@@ -35,7 +35,8 @@ bool is_row(const std::vector<std::string>& words, std::size_t columns) {
 
 }  // namespace
 
-LiggghtsLog::LiggghtsLog(const DemPlan& plan) : plan_(plan) {}
+LiggghtsLog::LiggghtsLog(const DemPlan& plan, bool resumed)
+    : plan_(plan), expected_balls_(resumed ? plan.charge.balls() : 0) {}
 
 void LiggghtsLog::read(const std::string& line) {
   if (line.empty()) return;
@@ -50,7 +51,8 @@ void LiggghtsLog::read(const std::string& line) {
   } else if (starts_with(line, turning_mark)) {
     turning_ = true;
     last_step_ = 0;
-    resting_energy_ = kinetic_energy_;
+  } else if (starts_with(line, restart_mark)) {
+    restart_step_ = std::atol(line.c_str() + std::string(restart_mark).size());
   } else if (starts_with(line, finished_mark)) {
     finished_ = true;
   } else if (words.size() >= 3 && words[0] == "Step" && words[1] == "Atoms") {
@@ -65,15 +67,10 @@ void LiggghtsLog::read(const std::string& line) {
 void LiggghtsLog::read_thermo(const std::vector<std::string>& words) {
   const long step = std::atol(words[0].c_str());
   check_balls(step, std::atol(words[1].c_str()));
-  for (std::size_t i = 2; i < words.size(); ++i) {
-    const double value = std::strtod(words[i].c_str(), nullptr);
-    if (columns_[i] == "KinEng") kinetic_energy_ = value;
-    // While the mill rests, balls of different rounds may touch hard once; only the turning mill counts.
-    if (columns_[i] == "overlap" && turning_) largest_overlap_ = std::max(largest_overlap_, value);
-  }
-  if (!std::isfinite(kinetic_energy_))
-    throw RunError("the kinetic energy is not finite at step " + words[0] +
-                   ": shorten dem.rayleigh_fraction");
+  for (std::size_t i = 2; i < words.size(); ++i)
+    if (columns_[i] == "KinEng" && !std::isfinite(std::strtod(words[i].c_str(), nullptr)))
+      throw RunError("the kinetic energy is not finite at step " + words[0] +
+                     ": shorten dem.rayleigh_fraction");
   last_step_ = step;
   steps_done_ = turning_ ? plan_.total_steps() - plan_.turning_steps + step : step;
 }

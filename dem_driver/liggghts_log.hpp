@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ class RunError : public std::runtime_error {
 /// Follows LIGGGHTS' output line by line: how far it is, and whether every ball is still there.
 class LiggghtsLog {
  public:
-  /// `plan` is the one that the deck was written from.
-  explicit LiggghtsLog(const DemPlan& plan);
+  /// `plan` is the one that the deck was written from. A run that is `resumed` has all its balls from the
+  /// start.
+  LiggghtsLog(const DemPlan& plan, bool resumed);
 
   /// Takes the next line. Throws RunError when an insertion brought another number of balls than asked, when
   /// balls were lost, or when the kinetic energy is not finite. An ERROR of LIGGGHTS is kept (`error()`),
@@ -27,13 +29,11 @@ class LiggghtsLog {
   void read(const std::string& line);
 
   long steps_done() const { return steps_done_; }
-  bool turning() const { return turning_; }                  ///< DEM time 0 is reached
-  bool finished() const { return finished_; }                ///< the deck came to its end
-  const std::string& error() const { return error_; }        ///< first line that begins with ERROR, or empty
-  double resting_energy() const { return resting_energy_; }  ///< kinetic, at DEM time 0, J
-  double kinetic_energy() const { return kinetic_energy_; }  ///< the last one, J
-  double largest_overlap() const { return largest_overlap_; }  ///< of two balls, over the log's lines, m
-  std::string last_lines() const;                              ///< for a message, each on its own line
+  bool turning() const { return turning_; }            ///< DEM time 0 is reached
+  bool finished() const { return finished_; }          ///< the deck came to its end
+  const std::string& error() const { return error_; }  ///< first line that begins with ERROR, or empty
+  std::optional<long> restart_step() const { return restart_step_; }  ///< of the last whole restart file
+  std::string last_lines() const;                                     ///< for a message, each on its own line
 
  private:
   void read_thermo(const std::vector<std::string>& words);
@@ -49,9 +49,7 @@ class LiggghtsLog {
   long steps_done_ = 0;
   bool turning_ = false;
   bool finished_ = false;
-  double resting_energy_ = 0;
-  double kinetic_energy_ = 0;
-  double largest_overlap_ = 0;
+  std::optional<long> restart_step_;
 };
 
 }  // namespace millfoam::dem_driver

@@ -4,7 +4,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <ostream>
@@ -14,6 +15,7 @@
 
 #include "dem_driver/child_process.hpp"
 #include "dem_driver/progress.hpp"
+#include "dem_driver/segments.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -25,11 +27,12 @@ std::string require(const std::string& program, const std::string& package) {
   return path->string();
 }
 
-std::vector<std::string> command(const CaseFolder& folder, int ranks) {
-  std::vector<std::string> words;
-  if (ranks > 1) words = {require("mpirun", "openmpi-bin"), "-np", std::to_string(ranks)};
-  words.insert(words.end(),
-               {require("liggghts", "liggghts"), "-in", folder.deck().filename().string(), "-log", "none"});
+/// setpriv has the program end when millDem does, however that is killed.
+std::vector<std::string> command(const std::filesystem::path& deck, int ranks) {
+  const std::string liggghts = require("liggghts", "liggghts");
+  std::vector<std::string> words{require("setpriv", "util-linux"), "--pdeathsig", "TERM"};
+  if (ranks > 1) words.insert(words.end(), {require("mpirun", "openmpi-bin"), "-np", std::to_string(ranks)});
+  words.insert(words.end(), {liggghts, "-in", deck.filename().string(), "-log", "none"});
   return words;
 }
 
@@ -54,14 +57,19 @@ std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
 }
 
 /// Reads the child's output to its end. Throws RunError without the log's name: the caller adds it.
-void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const DemPlan& plan,
-            ProgressOutput output) {
+void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const CaseFolder& folder,
+            const DemPlan& plan, ProgressOutput output) {
   Progress progress(output.out, output.terminal, plan.total_steps());
+  std::optional<long> last_restart;
   try {
     while (const auto line = child.read_line()) {
       file << *line << '\n' << std::flush;
       log.read(*line);
       progress.show(log.steps_done(), phase(log, plan));
+      if (log.restart_step() != last_restart) {
+        last_restart = log.restart_step();
+        remove_restarts_before(folder, *last_restart);
+      }
     }
   } catch (const RunError&) {
     progress.end();
@@ -74,45 +82,41 @@ void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const De
   if (!log.finished()) throw RunError("LIGGGHTS ended before the deck's last line");
 }
 
+/// Sum of the times that LIGGGHTS' loops took, s.
+double logged_time(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const std::string mark = "Loop time of ";
+  double sum = 0;
+  for (std::string line; std::getline(in, line);)
+    if (line.rfind(mark, 0) == 0) sum += std::atof(line.c_str() + mark.size());
+  return sum;
+}
+
 }  // namespace
 
-RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress) {
-  const auto words = command(folder, ranks);
-  std::ofstream file(folder.log());
+RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
+                       std::optional<long> resumed_at) {
+  const auto words = command(resumed_at ? folder.resume_deck() : folder.deck(), ranks);
+  RunResult result;
+  result.ranks = ranks;
+  if (resumed_at) result.wall_time = logged_time(folder.log());
+  std::ofstream file(folder.log(), resumed_at ? std::ios::app : std::ios::trunc);
   if (!file) throw RunError(folder.log().string() + ": cannot be written");
-  LiggghtsLog log(plan);
+  LiggghtsLog log(plan, resumed_at.has_value());
   const auto start = std::chrono::steady_clock::now();
   try {
     ChildProcess child(words, folder.dem(), environment());
-    follow(child, log, file, plan, progress);
+    follow(child, log, file, folder, plan, progress);
   } catch (const RunError& error) {
     throw RunError(std::string(error.what()) + "\nlog: " + folder.log().string() + ", its last lines:\n" +
                    log.last_lines());
   }
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-
-  RunResult result;
-  result.wall_time = elapsed.count();
-  result.resting_speed = std::sqrt(2 * log.resting_energy() / plan.charge.mass());
-  result.largest_overlap = log.largest_overlap();
+  result.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.dumps = find_dumps(folder).size();
   if (static_cast<long>(result.dumps) != plan.dumps)
     throw RunError(folder.dumps().string() + ": " + std::to_string(result.dumps) + " dumps, expected " +
                    std::to_string(plan.dumps));
   return result;
-}
-
-void print_result(std::ostream& out, const DemPlan& plan, const RunResult& result) {
-  const double particle_steps =
-      static_cast<double>(plan.charge.balls()) * static_cast<double>(plan.total_steps());
-  out << "done: " << plan.charge.balls() << " balls, " << plan.total_steps() << " steps of "
-      << std::setprecision(4) << plan.step.value * 1e6 << " us in " << std::setprecision(3)
-      << result.wall_time << " s (" << particle_steps / result.wall_time / 1e6
-      << " million particle-steps per second)\n"
-      << "charge at DEM time 0: rms speed " << result.resting_speed << " m/s\n"
-      << "largest overlap of two balls seen: " << result.largest_overlap * 1e6 << " um, "
-      << 100 * result.largest_overlap / plan.charge.classes.back().diameter << " % of the smallest diameter\n"
-      << result.dumps << " dumps, one every " << plan.step.steps_per_record << " steps\n";
 }
 
 }  // namespace millfoam::dem_driver

@@ -9,48 +9,26 @@
 #include <sstream>
 
 #include "dem_driver/contact.hpp"
+#include "dem_driver/pairs.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
 
-struct NamedPair {
-  std::string name;
-  ContactPair pair;
-  double smaller_diameter = 0;
-  double restitution = 0;
-};
-
-std::string millimetres(double length) {
-  std::ostringstream text;
-  text << length * 1e3 << " mm";
-  return text.str();
-}
-
-std::vector<NamedPair> all_pairs(const meshing::Mill& mill) {
-  const Elastic ball{mill.dem.youngs_modulus, mill.ball.poisson_ratio};
-  const Elastic wall{mill.dem.youngs_modulus, mill.wall.poisson_ratio};
-  std::vector<NamedPair> pairs;
-  for (const auto& first : mill.charge.classes) {
-    for (const auto& second : mill.charge.classes) {
-      if (second.diameter < first.diameter) continue;
-      pairs.push_back({millimetres(first.diameter) + " on " + millimetres(second.diameter),
-                       ball_on_ball(first.diameter, second.diameter, mill.ball.density, ball), first.diameter,
-                       mill.ball_ball.restitution});
+TimeStepLimit rayleigh_limit(const meshing::Mill& mill, const Stiffness& stiffness) {
+  double shortest = std::numeric_limits<double>::infinity();
+  double diameter = 0;
+  for (const auto& size : simulated_classes(mill)) {
+    const Elastic ball{stiffness.of_ball(size.diameter), mill.ball.poisson_ratio};
+    const double time = rayleigh_time(size.diameter / 2, mill.ball.density, ball);
+    if (time < shortest) {
+      shortest = time;
+      diameter = size.diameter;
     }
-    pairs.push_back({millimetres(first.diameter) + " on the wall",
-                     ball_on_wall(first.diameter, mill.ball.density, ball, wall), first.diameter,
-                     mill.ball_wall.restitution});
   }
-  return pairs;
-}
-
-double smallest_diameter(const meshing::Mill& mill) {
-  if (mill.charge.classes.empty())
-    throw std::runtime_error("the charge has no size class: no time-step to choose");
-  return std::min_element(mill.charge.classes.begin(), mill.charge.classes.end(),
-                          [](const auto& a, const auto& b) { return a.diameter < b.diameter; })
-      ->diameter;
+  std::ostringstream reason;
+  reason << mill.dem.rayleigh_fraction << " of the Rayleigh time of " << millimetres(diameter);
+  return {reason.str(), mill.dem.rayleigh_fraction * shortest};
 }
 
 TimeStepLimit contact_limit(const std::vector<NamedPair>& pairs, double speed) {
@@ -62,45 +40,26 @@ TimeStepLimit contact_limit(const std::vector<NamedPair>& pairs, double speed) {
   return {reason.str(), hertz_contact_time(shortest->pair, speed) / steps_per_contact};
 }
 
-ExpectedOverlap worst_overlap(const std::vector<NamedPair>& pairs, double speed) {
-  ExpectedOverlap worst;
-  for (const auto& named : pairs) {
-    const double ratio = largest_overlap(named.pair, speed, named.restitution) / named.smaller_diameter;
-    if (ratio > worst.ratio) worst = {named.name, ratio};
-  }
-  return worst;
-}
-
 }  // namespace
 
-double expected_impact_speed(const meshing::Mill& mill) {
-  return std::sqrt(2 * meshing::gravity * mill.geometry.diameter) +
-         std::abs(mill.angular_velocity) * mill.geometry.radius();
-}
-
 TimeStep choose_time_step(const meshing::Mill& mill) {
-  const double diameter = smallest_diameter(mill);
-  const auto pairs = all_pairs(mill);
   TimeStep step;
   step.impact_speed = expected_impact_speed(mill);
+  step.stiffness = choose_stiffness(mill);
+  step.overlap = expected_overlap(mill, step.stiffness);
 
-  const Elastic ball{mill.dem.youngs_modulus, mill.ball.poisson_ratio};
-  std::ostringstream fraction;
-  fraction << mill.dem.rayleigh_fraction << " of the Rayleigh time of " << millimetres(diameter);
-  step.limits.push_back(
-      {fraction.str(), mill.dem.rayleigh_fraction * rayleigh_time(diameter / 2, mill.ball.density, ball)});
-  step.limits.push_back(contact_limit(pairs, step.impact_speed));
+  step.limits.push_back(rayleigh_limit(mill, step.stiffness));
+  step.limits.push_back(contact_limit(all_pairs(mill, step.stiffness), step.impact_speed));
   std::ostringstream crossing;
   crossing << "1/" << steps_per_allowed_overlap << " of the allowed overlap at the impact speed";
-  step.limits.push_back(
-      {crossing.str(), allowed_overlap_ratio * diameter / steps_per_allowed_overlap / step.impact_speed});
-  step.overlap = worst_overlap(pairs, step.impact_speed);
+  step.limits.push_back({crossing.str(), allowed_overlap_ratio * smallest_simulated(mill) /
+                                             steps_per_allowed_overlap / step.impact_speed});
 
   double longest = std::numeric_limits<double>::infinity();
   for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
   if (!(longest > 0) || !std::isfinite(mill.dem.record_interval / longest))
     throw std::runtime_error(
-        "no time-step follows from dem.youngs_modulus, dem.rayleigh_fraction and the smallest ball");
+        "no time-step follows from the balls' modulus, dem.rayleigh_fraction and the smallest ball");
   // The slack keeps an interval that is a whole number of longest steps from being cut once more by
   // round-off.
   step.steps_per_record =
@@ -109,10 +68,31 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   return step;
 }
 
+void print_advice(std::ostream& out, const meshing::Mill& mill) {
+  const double chosen = choose_time_step(mill).value;
+  out << "softness: modulus Pa   largest overlap %   time-step us   cost\n";
+  std::vector<double> moduli{smallest_modulus, 1e7, 3e7, 1e8, 1e9, 1e10};
+  while (!moduli.empty() && moduli.back() >= mill.ball.youngs_modulus) moduli.pop_back();
+  moduli.push_back(mill.ball.youngs_modulus);
+  for (const double modulus : moduli) {
+    meshing::Mill other = mill;
+    other.dem.youngs_modulus = modulus;
+    other.dem.largest_overlap = 0;
+    other.dem.soften_below = 0;
+    const TimeStep step = choose_time_step(other);
+    out << std::setprecision(3) << std::setw(21) << modulus << std::setw(20) << 100 * step.overlap.ratio
+        << std::setw(15) << 1e6 * step.value << std::setw(7) << chosen / step.value << '\n';
+  }
+}
+
 void print_time_step(std::ostream& out, const TimeStep& step) {
   const auto smallest = std::min_element(step.limits.begin(), step.limits.end(),
                                          [](const auto& a, const auto& b) { return a.value < b.value; });
-  out << "time-step limits (hardest impact expected: " << std::setprecision(3) << step.impact_speed
+  out << "softened modulus of balls and walls: " << std::setprecision(4) << step.stiffness.modulus << " Pa";
+  if (step.stiffness.soften_below > 0)
+    out << ", balls below " << millimetres(step.stiffness.soften_below) << " softer by (d/"
+        << millimetres(step.stiffness.soften_below) << ")^2.5";
+  out << "\ntime-step limits (hardest impact expected: " << std::setprecision(3) << step.impact_speed
       << " m/s)\n";
   for (const auto& limit : step.limits)
     out << "  " << std::left << std::setw(64) << limit.reason << std::right << std::setw(10)

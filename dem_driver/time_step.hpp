@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dem_driver/stiffness.hpp"
 #include "meshing/mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -15,18 +16,13 @@ struct TimeStepLimit {
   double value = 0;  ///< s
 };
 
-/// Largest expected overlap of one impact, relative to the smaller ball's diameter, and of which pair.
-struct ExpectedOverlap {
-  std::string pair;  ///< for example "2 mm on 8 mm"
-  double ratio = 0;  ///< overlap over the smaller diameter
-};
-
 /// The chosen time-step with its reasons.
 struct TimeStep {
   double value = 0;                   ///< s; a record interval is exactly `steps_per_record` of them
   long steps_per_record = 0;          ///<
   double impact_speed = 0;            ///< m/s, the hardest impact expected in this mill
   std::vector<TimeStepLimit> limits;  ///< all bounds; value <= the smallest
+  Stiffness stiffness;                ///< that the limits belong to
   ExpectedOverlap overlap;            ///< worst pair at `impact_speed`
 };
 
@@ -37,18 +33,19 @@ inline constexpr double steps_per_allowed_overlap = 6;
 /// Overlap, relative to the diameter, up to which softened balls are accepted (Brosh, Kalman & Levy).
 inline constexpr double allowed_overlap_ratio = 0.15;
 
-/// Hardest impact expected, m/s: a free fall through the mill's diameter onto a shell that comes towards the
-/// ball.
-double expected_impact_speed(const meshing::Mill& mill);
-
-/// Chooses the time-step: the smallest of a fraction (`dem.rayleigh_fraction`) of the smallest ball's
-/// Rayleigh time, a tenth of the shortest Hertz contact, and the time in which the hardest impact crosses a
-/// sixth of the allowed overlap; then shortened so that `dem.record_interval` is a whole number of steps.
-/// Throws std::runtime_error for a mill without balls or with values that give no finite step.
+/// Chooses the stiffness (choose_stiffness) and the time-step: the smallest of a fraction
+/// (`dem.rayleigh_fraction`) of the shortest Rayleigh time of all balls, a tenth of the shortest Hertz
+/// contact, and the time in which the hardest impact crosses a sixth of the allowed overlap; then shortened
+/// so that `dem.record_interval` is a whole number of steps. Throws std::runtime_error for a mill without
+/// balls or with values that give no finite step.
 TimeStep choose_time_step(const meshing::Mill& mill);
 
-/// Prints the limits, the choice and the expected overlap as a small table; warns where the overlap is too
-/// large.
+/// Prints what softer and harder balls would mean for this mill: modulus, largest expected overlap, time-step
+/// and relative cost.
+void print_advice(std::ostream& out, const meshing::Mill& mill);
+
+/// Prints the moduli, the limits, the choice and the expected overlap as a small table; warns where the
+/// overlap is too large.
 void print_time_step(std::ostream& out, const TimeStep& step);
 
 }  // namespace millfoam::dem_driver

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshing/materials.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/pi.hpp"
 #include "meshing/yaml_section.hpp"
@@ -122,6 +123,11 @@ Charge read_charge(const Section& in, const Geometry& geometry, double density) 
               "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
                   shown(closest_packing * analytic_volume(geometry)) + " m^3");
   }
+  charge.fines_below =
+      in.number("fines_below",
+                {"a diameter in m of 0 or more and up to the largest ball's, " + shown(largest) + " m",
+                 [=](double v) { return v >= 0 && v <= largest; }},
+                0);
   const double room = geometry.radius() - geometry.lifters.height;
   charge.start_radius =
       in.number("start_radius",
@@ -140,22 +146,46 @@ Charge read_charge(const Section& in, const Geometry& geometry, double density) 
   return charge;
 }
 
-Material read_material(const Section& in) {
+Material read_material(const Section& materials, const std::string& key) {
+  if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
+  const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
   return {in.number("density", positive("a density in kg/m^3")),
           in.number("youngs_modulus", positive("a modulus in Pa")),
           in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
 }
 
-Contact read_contact(const Section& in) {
+/// A contact by name, by its numbers, or, where the key is missing, by the names of its two materials.
+Contact read_contact(const Section& materials, const std::string& key, const std::string& partner) {
+  if (materials.is_text(key)) return named_contact(materials.choice(key, contact_names()));
+  if (!materials.has(key) && materials.is_text("ball") && materials.is_text(partner)) {
+    const std::string name = materials.text("ball", "") + "-" + materials.text(partner, "");
+    const auto names = contact_names();
+    if (std::find(names.begin(), names.end(), name) != names.end()) return named_contact(name);
+  }
+  const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
   return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
                                     [](double v) { return v > 0 && v <= 1; }}),
           in.number("friction", not_negative("a friction coefficient")),
           in.number("rolling_friction", not_negative("a rolling friction coefficient"))};
 }
 
+/// The modulus, or the overlap that it follows from.
+void read_softness(const Section& in, Dem& dem) {
+  if (in.has("youngs_modulus")) {
+    if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
+    dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
+  } else {
+    dem.largest_overlap = in.number(
+        "largest_overlap",
+        {"a share of the diameter above 0 and up to 0.15", [](double v) { return v > 0 && v <= 0.15; }},
+        default_largest_overlap);
+  }
+  dem.soften_below = in.number("soften_below", not_negative("a diameter in m"), 0);
+}
+
 Dem read_dem(const Section& in) {
   Dem dem;
-  dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
+  read_softness(in, dem);
   dem.rayleigh_fraction = in.number(
       "rayleigh_fraction",
       {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }});
@@ -207,23 +237,22 @@ Mill read_mill(const std::filesystem::path& file) {
   const Section in = Section::open(
       file, {"title", "geometry", "speed", "charge", "materials", "dem", "slurry", "air", "resolution"});
   const Section materials = in.section("materials", {"ball", "wall", "ball_ball", "ball_wall"});
-  const Section::Keys material = {"density", "youngs_modulus", "poisson_ratio"};
-  const Section::Keys contact = {"restitution", "friction", "rolling_friction"};
 
   Mill mill;
   mill.title = in.text("title", file.stem().string());
   mill.geometry = read_geometry(in.section("geometry", {"diameter", "length", "ends", "lifters"}));
   mill.angular_velocity = read_angular_velocity(
       in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"}), mill.geometry);
-  mill.ball = read_material(materials.section("ball", material));
-  mill.wall = read_material(materials.section("wall", material));
-  mill.ball_ball = read_contact(materials.section("ball_ball", contact));
-  mill.ball_wall = read_contact(materials.section("ball_wall", contact));
+  mill.ball = read_material(materials, "ball");
+  mill.wall = read_material(materials, "wall");
+  mill.ball_ball = read_contact(materials, "ball_ball", "ball");
+  mill.ball_wall = read_contact(materials, "ball_wall", "wall");
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
-                                                  "packing", "start_radius", "start_length"}),
+                                                  "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
-  mill.dem = read_dem(in.section(
-      "dem", {"youngs_modulus", "rayleigh_fraction", "settle_time", "duration", "record_interval", "seed"}));
+  mill.dem =
+      read_dem(in.section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
+                                  "settle_time", "duration", "record_interval", "seed"}));
   mill.slurry = read_slurry(
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"}),
       mill.geometry.radius());

@@ -38,6 +38,7 @@ struct SizeClass {
 /// released.
 struct Charge {
   std::vector<SizeClass> classes;
+  double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
   double start_radius = 0;  ///< m
   double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
 };
@@ -59,7 +60,9 @@ struct Contact {
 
 /// How the dry run is done.
 struct Dem {
-  double youngs_modulus = 0;     ///< Pa, softened modulus used for balls and walls
+  double youngs_modulus = 0;     ///< Pa, softened modulus of balls and walls; 0: it follows from the overlap
+  double largest_overlap = 0;    ///< largest overlap expected over the smaller diameter; 0 with a modulus
+  double soften_below = 0;       ///< m: balls smaller than this are softer still; 0 for none
   double rayleigh_fraction = 0;  ///< largest time-step over the Rayleigh time of the smallest ball
   double settle_time = 0;        ///< s the balls fall in the mill at rest, before DEM time 0
   double duration = 0;           ///< s of turning mill, from DEM time 0

@@ -150,6 +150,11 @@ bool Section::has(const std::string& key) const {
   return find(key).IsDefined();
 }
 
+bool Section::is_text(const std::string& key) const {
+  const YAML::Node node = find(key);
+  return node.IsDefined() && node.IsScalar();
+}
+
 double Section::number(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
   const auto number = is_plain_scalar(node) ? parse<double>(node.Scalar()) : std::nullopt;

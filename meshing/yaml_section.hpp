@@ -32,6 +32,8 @@ class Section {
   std::vector<Section> list(const std::string& key, const Keys& known) const;
 
   bool has(const std::string& key) const;
+  /// Whether the key is there with a single word or text, not a map or a list.
+  bool is_text(const std::string& key) const;
   /// The finite number under `key`, which must satisfy the rule.
   double number(const std::string& key, const Rule& rule) const;
   /// As above, or `fallback` where the key is not there.

@@ -5,8 +5,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +18,8 @@
 #include "dem_driver/charge_plan.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/results.hpp"
+#include "dem_driver/segments.hpp"
 #include "dem_driver/time_step.hpp"
 #include "meshing/mill.hpp"
 
@@ -21,39 +27,90 @@ namespace {
 
 using namespace millfoam;
 
+namespace fs = std::filesystem;
+
 struct Options {
   std::string mill_file;
   std::string case_folder;
   int ranks = 1;
   bool deck_only = false;
+  bool resume = false;
 };
 
-void write_deck_file(const dem_driver::CaseFolder& folder, const meshing::Mill& mill,
-                     const dem_driver::DemPlan& plan, int ranks) {
-  std::ofstream deck(folder.deck());
-  dem_driver::write_deck(deck, mill, plan, dem_driver::find_walls(folder, mill), ranks);
-  deck.close();
-  if (!deck) throw std::runtime_error(folder.deck().string() + ": cannot be written");
+/// What identifies a run, whatever its ranks and its length: its deck without the lines that depend on these.
+std::string identity(const std::string& deck) {
+  std::istringstream in(deck);
+  std::string kept;
+  for (std::string line; std::getline(in, line);) {
+    const auto begins = [&](const std::string& start) { return line.rfind(start, 0) == 0; };
+    const bool of_length = begins("run ") && line.find(" upto ") != std::string::npos;
+    const bool of_restarts = line.find(" ave/histo ") != std::string::npos;
+    if (!begins("processors ") && !begins("thermo ") && !of_length && !of_restarts) kept += line + '\n';
+  }
+  return kept;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The step at which a run of this very deck goes on; nothing when there is none to go on with. Throws
+/// std::runtime_error when the folder holds another run.
+std::optional<long> resumable(const dem_driver::CaseFolder& folder, const std::string& deck) {
+  const auto restarts = dem_driver::find_restarts(folder);
+  if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
+  if (identity(read_text(folder.deck())) != identity(deck))
+    throw std::runtime_error(
+        folder.deck().string() +
+        ": the run there is of another mill.yaml or other walls than these, so it cannot "
+        "be resumed; without --resume it is replaced");
+  return restarts.back().step;
+}
+
+void print_plan(const meshing::Mill& mill, const dem_driver::DemPlan& plan) {
+  dem_driver::print_advice(std::cout, mill);
+  dem_driver::print_time_step(std::cout, plan.step);
+  dem_driver::print_charge(std::cout, plan.charge);
 }
 
 void run(const Options& options) {
   const auto mill = meshing::read_mill(options.mill_file);
   const dem_driver::CaseFolder folder{options.case_folder};
   const auto plan = dem_driver::plan_dem(mill);
-  dem_driver::print_time_step(std::cout, plan.step);
-  dem_driver::print_charge(std::cout, plan.charge);
-  dem_driver::find_walls(folder, mill);
+  const auto parts = dem_driver::find_walls(folder, mill);
+  std::ostringstream deck;
+  dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
+  deck << dem_driver::wall_checksums(folder, parts);
 
-  const auto removed = dem_driver::prepare_folders(folder);
-  if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
-  write_deck_file(folder, mill, plan, options.ranks);
+  const auto step = options.resume ? resumable(folder, deck.str()) : std::nullopt;
+  if (step && *step >= plan.turning_steps && fs::exists(folder.run_file())) {
+    std::cout << folder.run_file().string() << ": the run is whole, nothing to do\n";
+    return;
+  }
+  print_plan(mill, plan);
+  if (step) {
+    dem_driver::remove_dumps_after(folder, *step);
+    fs::remove(folder.run_file());
+    dem_driver::write_whole_file(folder.resume_deck(), [&](std::ostream& out) {
+      dem_driver::write_resume_deck(out, mill, plan, parts, options.ranks, *step);
+    });
+    std::cout << "resumed at step " << *step << ", t = " << static_cast<double>(*step) * plan.step.value
+              << " s\n";
+  } else {
+    const auto removed = dem_driver::prepare_folders(folder);
+    if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
+  }
+  dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;
   const auto result =
-      dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0});
+      dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0}, step);
+  const auto results = dem_driver::gather_results(folder, mill, plan, result);
+  dem_driver::write_results_files(folder, plan, results);
   // Only now, so that the dumps of a broken run are not taken for a whole one.
   dem_driver::write_run_file(folder, mill, plan);
-  dem_driver::print_result(std::cout, plan, result);
+  dem_driver::print_results(std::cout, plan, results);
 }
 
 /// CLI11 knows no long option with one dash, but `-np` is what every user of MPI types.
@@ -73,6 +130,7 @@ int main(int argc, char** argv) {
   app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made")->required();
   app.add_option("--np", options.ranks, "number of MPI ranks (also -np)")->check(CLI::PositiveNumber);
+  app.add_flag("--resume", options.resume, "go on with a run that was broken off; a whole one is kept");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   try {
     app.parse(arguments(argc, argv));

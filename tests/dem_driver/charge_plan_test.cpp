@@ -89,5 +89,22 @@ TEST(ChargePlan, TheReportHasAskedAndRealisedMass) {
   EXPECT_NE(out.str().find("0.0005236"), std::string::npos) << out.str();
 }
 
+TEST(ChargePlan, FinesAreInTheBooksAndNotInTheMill) {
+  auto mill = small_mill();
+  mill.charge.fines_below = 0.0025;
+  const auto plan = plan_charge(mill);
+  EXPECT_EQ(plan.balls(), 150);
+  ASSERT_EQ(plan.fines.size(), 1u);
+  EXPECT_EQ(plan.fines[0].count, 100);
+  EXPECT_NEAR(plan.fines[0].surface(), 100 * pi * 0.002 * 0.002, 1e-15);
+  std::ostringstream books;
+  write_charge_books(books, plan);
+  EXPECT_NE(books.str().find("\n0.003,150,"), std::string::npos) << books.str();
+  EXPECT_NE(books.str().find("\n0.002,100,"), std::string::npos) << books.str();
+  std::ostringstream report;
+  print_charge(report, plan);
+  EXPECT_NE(report.str().find("fines, not simulated: 2 mm, 100 balls"), std::string::npos) << report.str();
+}
+
 }  // namespace
 }  // namespace millfoam::dem_driver

@@ -34,7 +34,7 @@ Impact integrate(const ContactPair& pair, double speed) {
 }
 
 TEST(Contact, TwoEqualBallsHaveHalfTheModulusRadiusAndMassOfOneOnARigidWall) {
-  const auto pair = ball_on_ball(0.004, 0.004, 2700, glass);
+  const auto pair = ball_on_ball(0.004, 0.004, 2700, glass, glass);
   const auto wall = ball_on_wall(0.004, 2700, glass, {1e30, 0.3});
   EXPECT_NEAR(pair.modulus / wall.modulus, 0.5, 1e-12);
   EXPECT_NEAR(pair.radius / wall.radius, 0.5, 1e-12);
@@ -42,7 +42,7 @@ TEST(Contact, TwoEqualBallsHaveHalfTheModulusRadiusAndMassOfOneOnARigidWall) {
 }
 
 TEST(Contact, AVeryLargeBallActsLikeAWallOfTheSameMaterial) {
-  const auto pair = ball_on_ball(0.004, 4e6, 2700, glass);
+  const auto pair = ball_on_ball(0.004, 4e6, 2700, glass, glass);
   const auto wall = ball_on_wall(0.004, 2700, glass, glass);
   EXPECT_NEAR(pair.stiffness() / wall.stiffness(), 1, 1e-8);
   EXPECT_NEAR(pair.mass / wall.mass, 1, 1e-8);
@@ -65,7 +65,7 @@ TEST(Contact, AnElasticImpactTurnsAllKineticEnergyIntoTheHertzSpring) {
 }
 
 TEST(Contact, DurationAndOverlapAgreeWithTheIntegratedEquationOfMotion) {
-  const auto pair = ball_on_ball(0.002, 0.006, 2700, glass);
+  const auto pair = ball_on_ball(0.002, 0.006, 2700, glass, glass);
   const Impact impact = integrate(pair, 1.3);
   EXPECT_NEAR(hertz_contact_time(pair, 1.3) / impact.duration, 1, 1e-4);
   EXPECT_NEAR(largest_overlap(pair, 1.3, 1) / impact.overlap, 1, 1e-4);

@@ -57,7 +57,7 @@ TEST(Deck, EveryPartIsAWallAndEveryPartTurns) {
   EXPECT_EQ(after(deck, "n_meshes"), std::vector<std::string>{"3"});
   EXPECT_NE(deck.find("meshes shell lifters feedEnd\n"), std::string::npos);
   for (const std::string part : {"shell", "lifters", "feedEnd"}) {
-    EXPECT_NE(deck.find("mesh/surface file ../walls/" + part + ".stl type 2"), std::string::npos);
+    EXPECT_NE(deck.find("mesh/surface/stress file ../walls/" + part + ".stl type 2"), std::string::npos);
     EXPECT_NE(deck.find("move/mesh mesh " + part + " rotate"), std::string::npos);
   }
 }
@@ -93,7 +93,7 @@ TEST(Deck, TheTurningRunIsAWholeNumberOfDumpIntervals) {
   const DemPlan plan = plan_dem(mill);
   EXPECT_EQ(plan.dumps, 31);
   EXPECT_EQ(plan.turning_steps, 30 * plan.step.steps_per_record);
-  EXPECT_TRUE(has_line(deck_of(mill), "run " + std::to_string(plan.turning_steps)));
+  EXPECT_NE(deck_of(mill).find("run " + std::to_string(plan.turning_steps) + " upto"), std::string::npos);
 }
 
 TEST(Deck, ADurationThatIsNotAWholeNumberOfRecordsIsRoundedUp) {
@@ -178,20 +178,65 @@ TEST(Deck, NoBallMovesWhileBallsAreInserted) {
   EXPECT_TRUE(moving);
 }
 
-TEST(Deck, RanksSplitTheCrossSectionAndNeverTheAxis) {
-  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 2), "processors 2 1 1"));
-  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 6), "processors 3 2 1"));
-  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 7), "processors 7 1 1"));
+TEST(Deck, RanksSplitTheAxisAsOftenAsLeavesEachOneAndAHalfBalls) {
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 2), "processors 1 1 2"));
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 6), "processors 1 3 2"));
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell"}, 7), "processors 1 7 1"));
+  auto mill = small_mill();
+  mill.geometry.length = 0.12;
+  EXPECT_TRUE(has_line(deck_of(mill, {"shell"}, 6), "processors 1 1 6"));
 }
 
 TEST(Deck, NoRanksAreRefused) {
-  EXPECT_NE(message_of([] { split_ranks(0); }).find("-np: 0"), std::string::npos);
+  EXPECT_NE(message_of([] { split_ranks(0, 1, 0.1); }).find("-np: 0"), std::string::npos);
 }
 
-TEST(Deck, AModulusSofterThanLiggghtsAcceptsIsRefusedByItsKey) {
+TEST(Deck, SofterSmallBallsAreATypeOfTheirOwnAndTheWallIsTheLast) {
   auto mill = small_mill();
-  mill.dem.youngs_modulus = 1e6;
-  EXPECT_NE(message_of([&] { deck_of(mill); }).find("dem.youngs_modulus"), std::string::npos);
+  mill.dem.youngs_modulus = 2e7;
+  mill.dem.soften_below = 0.003;
+  const std::string deck = deck_of(mill);
+  EXPECT_NE(deck.find("create_box 3 box"), std::string::npos);
+  EXPECT_NE(deck.find("youngsModulus peratomtype 20000000 7257747.38"), std::string::npos) << deck;
+  EXPECT_NE(deck.find("poissonsRatio peratomtype 0.25 0.25 0.3\n"), std::string::npos);
+  EXPECT_NE(deck.find("coefficientFriction peratomtypepair 3 0.5 0.5 0.4 0.5 0.5 0.4 0.4 0.4 0.4\n"),
+            std::string::npos);
+  EXPECT_NE(deck.find("shell.stl type 3"), std::string::npos);
+  EXPECT_EQ(after(deck, "atom_type"), (std::vector<std::string>{"1", "2", "2"}));
+}
+
+TEST(Deck, ARestartFileGetsItsNameWhenItIsWhole) {
+  const std::string deck = deck_of(small_mill());
+  const auto part = deck.find("write_restart restart.part");
+  EXPECT_NE(part, std::string::npos);
+  EXPECT_GT(deck.find("shell mv restart.part restart.${now}"), part);
+}
+
+TEST(Deck, RestartFilesComeEveryWholeNumberOfRecords) {
+  const DemPlan plan = plan_dem(small_mill());
+  EXPECT_EQ(plan.restart_steps, 10 * plan.step.steps_per_record);
+  auto mill = small_mill();
+  mill.dem.duration = 10;
+  EXPECT_EQ(plan_dem(mill).restart_steps, 20 * plan.step.steps_per_record);
+}
+
+TEST(Deck, AResumedRunReadsTheRestartFileInsertsNothingAndKeepsTheClock) {
+  const auto mill = small_mill();
+  std::ostringstream out;
+  write_resume_deck(out, mill, plan_dem(mill), {"shell"}, 1, 700);
+  const std::string deck = out.str();
+  EXPECT_TRUE(has_line(deck, "read_restart restart.700"));
+  EXPECT_EQ(deck.find("insert/pack"), std::string::npos);
+  EXPECT_EQ(deck.find("reset_timestep"), std::string::npos);
+  EXPECT_EQ(deck.find("create_box"), std::string::npos);
+  EXPECT_NE(deck.find("file torque.700.txt"), std::string::npos);
+  EXPECT_NE(deck.find("run " + std::to_string(plan_dem(mill).turning_steps) + " upto every"),
+            std::string::npos);
+}
+
+TEST(Deck, TheTorqueIsOfAllWalls) {
+  EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell", "lifters"}),
+                       "variable torque equal 0+f_shell[6]+f_lifters[6]"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/results.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -58,7 +59,9 @@ class RealRun : public ::testing::Test {
     write_deck(deck, mill, *plan_, find_walls(folder, mill), 1);
     deck.close();
     std::ostringstream progress;
-    result_ = new RunResult(run_liggghts(folder, *plan_, 1, {progress, false}));
+    const RunResult run = run_liggghts(folder, *plan_, 1, {progress, false});
+    result_ = new Results(gather_results(folder, mill, *plan_, run));
+    write_results_files(folder, *plan_, *result_);
     progress_ = new std::string(progress.str());
     snapshots_ = new std::vector<Snapshot>;
     for (const auto& file : find_dumps(folder)) snapshots_->push_back(read_dump(file));
@@ -75,7 +78,7 @@ class RealRun : public ::testing::Test {
 
   static inline TemporaryFolder* temporary_ = nullptr;
   static inline DemPlan* plan_ = nullptr;
-  static inline RunResult* result_ = nullptr;
+  static inline Results* result_ = nullptr;
   static inline std::string* progress_ = nullptr;
   static inline std::vector<Snapshot>* snapshots_ = nullptr;
 };
@@ -138,6 +141,73 @@ TEST_F(RealRun, AClockwiseMillLiftsItsChargeOnTheLeft) {
 TEST_F(RealRun, SpeedsAreFiniteAndBelowTheExpectedImpact) {
   for (const auto& b : snapshots_->back().balls)
     EXPECT_LT(std::sqrt(b.vx * b.vx + b.vy * b.vy + b.vz * b.vz), expected_impact_speed(small_mill()));
+}
+
+double mass(const Ball& b) {
+  return 2500 * 4 * 3.14159265358979 / 3 * std::pow(b.radius, 3);
+}
+
+/// Moment of the balls' weight about the axis, N m.
+double weight_moment(const Snapshot& snapshot) {
+  double sum = 0;
+  for (const auto& b : snapshot.balls) sum -= mass(b) * meshing::gravity * b.x;
+  return sum;
+}
+
+double angular_momentum(const Snapshot& snapshot) {
+  double sum = 0;
+  for (const auto& b : snapshot.balls) sum += mass(b) * (b.x * b.vy - b.y * b.vx);
+  return sum;
+}
+
+TEST_F(RealRun, TheTorqueOnTheMillIsTheMomentOfTheChargesWeightLessWhatItGainsInAngularMomentum) {
+  const auto& history = result_->history;
+  ASSERT_EQ(history.size() + 1, snapshots_->size());
+  double torque = 0;
+  double moment = 0;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    torque += history[i].torque;
+    moment += (weight_moment((*snapshots_)[i]) + weight_moment((*snapshots_)[i + 1])) / 2;
+  }
+  const auto records = static_cast<double>(history.size());
+  const double gained = angular_momentum(snapshots_->back()) - angular_momentum(snapshots_->front());
+  const double expected = moment / records - gained / (records * small_mill().dem.record_interval);
+  EXPECT_NEAR(torque / records / expected, 1, 0.05);
+}
+
+TEST_F(RealRun, EnergiesAreThoseOfTheDumpedBalls) {
+  for (std::size_t i = 0; i < result_->history.size(); ++i) {
+    double kinetic = 0;
+    double potential = 0;
+    for (const auto& b : (*snapshots_)[i + 1].balls) {
+      kinetic += mass(b) * (b.vx * b.vx + b.vy * b.vy + b.vz * b.vz) / 2;
+      potential += mass(b) * meshing::gravity * b.y;
+    }
+    EXPECT_NEAR(result_->history[i].kinetic / kinetic, 1, 1e-5);
+    EXPECT_NEAR(result_->history[i].potential / potential, 1, 1e-5);
+  }
+}
+
+TEST_F(RealRun, OverlapsAreCountedAndStayBelowTheExpectedOne) {
+  for (const auto* overlaps : {&result_->ball_overlaps, &result_->wall_overlaps}) {
+    EXPECT_GT(overlaps->samples, 1000);
+    EXPECT_GT(overlaps->percentile(0.99), 0);
+    EXPECT_LE(overlaps->percentile(0.99), overlaps->largest);
+    EXPECT_LT(overlaps->largest, plan_->step.overlap.ratio * 0.003);
+  }
+}
+
+TEST_F(RealRun, TheBooksStandBesideTheDumps) {
+  const CaseFolder folder{temporary_->path()};
+  std::ifstream charge(folder.charge());
+  std::string header;
+  std::string first;
+  std::getline(charge, header);
+  std::getline(charge, first);
+  EXPECT_EQ(header, "diameter_m,balls,mass_kg,surface_m2,simulated");
+  EXPECT_EQ(first.substr(0, 10), "0.003,150,");
+  for (const auto& file : {folder.results(), folder.energy(), folder.overlaps()})
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
 }
 
 TEST_F(RealRun, ProgressIsALineEveryTenPercentUpToTheEnd) {

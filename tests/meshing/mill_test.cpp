@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "meshing/materials.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
@@ -237,6 +238,69 @@ TEST(CriticalSpeed, of_the_published_mills) {
   EXPECT_NEAR(critical_speed(geometry), 12.79, 0.005);
   geometry.diameter = 0.3;
   EXPECT_NEAR(critical_speed(geometry), 8.087, 0.0005);
+}
+
+const std::string named_materials = R"(  ball: glass
+  wall: HDPE
+)";
+
+std::string with_named_materials() {
+  const auto begin = example_mill.find("  ball: {");
+  const auto end = example_mill.find("dem:\n");
+  return example_mill.substr(0, begin) + named_materials + example_mill.substr(end);
+}
+
+TEST(ReadMill, knows_materials_and_their_contacts_by_name) {
+  const Mill mill = read(with_named_materials());
+  EXPECT_EQ(mill.ball.density, 2700);
+  EXPECT_NEAR(mill.ball.youngs_modulus / (2 * (1 + mill.ball.poisson_ratio)), 26.42e9, 1);
+  EXPECT_EQ(mill.ball_ball.restitution, 0.8);
+  EXPECT_EQ(mill.ball_ball.friction, 0.94);
+  EXPECT_EQ(mill.ball_wall.restitution, 0.703);
+  EXPECT_EQ(mill.ball_wall.friction, 0.287);
+  EXPECT_EQ(mill.ball_wall.rolling_friction, 0.01);
+}
+
+TEST(ReadMill, takes_a_contact_by_name_beside_materials_of_its_own) {
+  const std::string text =
+      with(example_mill, "ball_wall: {restitution: 0.703, friction: 0.287, rolling_friction: 0.02}",
+           "ball_wall: glass-nylon");
+  EXPECT_EQ(read(text).ball_wall.restitution, 0.279);
+  EXPECT_EQ(read(text).ball_wall.friction, 0.532);
+}
+
+TEST(ReadMill, names_what_it_knows_when_a_material_or_contact_is_not) {
+  EXPECT_NE(refusal(with(with_named_materials(), "HDPE", "rubber")).find("HDPE"), std::string::npos);
+  EXPECT_NE(refusal(with(with_named_materials(), "wall: HDPE", "wall: HDPE\n  ball_wall: glass-rubber"))
+                .find("glass-perspex"),
+            std::string::npos);
+}
+
+TEST(ReadMill, asks_for_a_contact_that_no_table_has) {
+  const std::string text = with(with_named_materials(), "ball: glass", "ball: aluminium");
+  EXPECT_NE(refusal(text).find("'materials.ball_ball' is missing"), std::string::npos) << refusal(text);
+}
+
+TEST(ReadMill, takes_an_overlap_instead_of_a_modulus) {
+  const Mill mill = read(with(example_mill, "youngs_modulus: 1.0e7", "largest_overlap: 0.05"));
+  EXPECT_EQ(mill.dem.youngs_modulus, 0);
+  EXPECT_EQ(mill.dem.largest_overlap, 0.05);
+  EXPECT_NE(refusal("  youngs_modulus: 1.0e7", "  youngs_modulus: 1.0e7\n  largest_overlap: 0.05")
+                .find("'dem.largest_overlap'"),
+            std::string::npos);
+  EXPECT_NE(refusal("youngs_modulus: 1.0e7", "largest_overlap: 0.3").find("up to 0.15"), std::string::npos);
+}
+
+TEST(ReadMill, has_an_overlap_where_it_says_neither) {
+  const Mill mill = read(with(example_mill, "  youngs_modulus: 1.0e7\n", ""));
+  EXPECT_EQ(mill.dem.largest_overlap, default_largest_overlap);
+}
+
+TEST(ReadMill, takes_fines_up_to_the_largest_ball) {
+  EXPECT_EQ(read(with(example_mill, "charge:\n", "charge:\n  fines_below: 0.003\n")).charge.fines_below,
+            0.003);
+  EXPECT_NE(refusal("charge:\n", "charge:\n  fines_below: 0.02\n").find("'charge.fines_below' = 0.02"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dem_driver/contact.hpp"
+#include "dem_driver/stiffness.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// Two size classes, or one and the wall.
+struct NamedPair {
+  std::string name;  ///< for example "2 mm on 8 mm"
+  ContactPair pair;
+  double smaller_diameter = 0;  ///< m
+  double restitution = 0;
+};
+
+/// A length in words, for example "2 mm".
+std::string millimetres(double length);
+
+/// The size classes that are simulated: those not left out as fines. Throws std::runtime_error when there is
+/// none.
+std::vector<meshing::SizeClass> simulated_classes(const meshing::Mill& mill);
+
+/// Smallest diameter of them, m.
+double smallest_simulated(const meshing::Mill& mill);
+
+/// Every pair of simulated classes, and every class with the wall.
+std::vector<NamedPair> all_pairs(const meshing::Mill& mill, const Stiffness& stiffness);
+
+}  // namespace millfoam::dem_driver

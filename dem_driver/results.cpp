@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iterator>
+#include <map>
+#include <ostream>
+#include <stdexcept>
+
+#include "dem_driver/segments.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace {
+
+void expect_columns(const SegmentLine& line, std::size_t columns) {
+  if (line.values.size() == columns) return;
+  throw std::runtime_error(line.file.string() + ":" + std::to_string(line.line) + ": " +
+                           std::to_string(line.values.size()) + " numbers, expected " +
+                           std::to_string(columns));
+}
+
+long step_of(const SegmentLine& line) {
+  return std::lround(line.values.front());
+}
+
+template <typename Value>
+std::vector<double> column(const std::vector<HistoryRow>& history, Value value) {
+  std::vector<double> values;
+  std::transform(history.begin(), history.end(), std::back_inserter(values), value);
+  return values;
+}
+
+double resting_speed(const CaseFolder& folder, double mass) {
+  for (const auto& line : read_segments(folder, "energy"))
+    if (step_of(line) == 0) return std::sqrt(2 * line.values.at(1) / mass);
+  return 0;
+}
+
+const char* yes_or_no(bool value) {
+  return value ? "yes" : "no";
+}
+
+}  // namespace
+
+std::vector<HistoryRow> read_history(const CaseFolder& folder) {
+  std::map<long, HistoryRow> rows;
+  for (const auto& line : read_segments(folder, "torque")) {
+    expect_columns(line, 2);
+    rows[step_of(line)].torque = line.values[1];
+  }
+  for (const auto& line : read_segments(folder, "energy")) {
+    expect_columns(line, 4);
+    const auto row = rows.find(step_of(line));
+    if (row == rows.end()) continue;  // step 0, before which there is no torque
+    row->second = {row->first, row->second.torque, line.values[1], line.values[2], line.values[3]};
+  }
+  std::vector<HistoryRow> history;
+  std::transform(rows.begin(), rows.end(), std::back_inserter(history),
+                 [](const auto& entry) { return entry.second; });
+  return history;
+}
+
+OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kind, double largest_diameter) {
+  OverlapStatistics statistics;
+  statistics.counts.assign(overlap_bins, 0);
+  statistics.bin_width = overlap_range * largest_diameter / overlap_bins;
+  const auto lines = read_segments(folder, kind, overlap_bins);
+  for (std::size_t first = 0; first < lines.size(); first += overlap_bins + 1) {
+    // step, bins, contacts within the range, contacts beyond it, least, largest
+    expect_columns(lines[first], 6);
+    const auto& head = lines[first].values;
+    if (head[2] + head[3] == 0) continue;
+    statistics.samples += head[2] + head[3];
+    statistics.largest = std::max(statistics.largest, head[5]);
+    for (std::size_t bin = 0; bin < overlap_bins; ++bin) {
+      expect_columns(lines[first + 1 + bin], 4);
+      statistics.counts[bin] += lines[first + 1 + bin].values[2];
+    }
+  }
+  return statistics;
+}
+
+double OverlapStatistics::percentile(double share) const {
+  double below = 0;
+  for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+    below += counts[bin];
+    if (samples > 0 && below >= share * samples)
+      return std::min(largest, static_cast<double>(bin + 1) * bin_width);
+  }
+  return largest;
+}
+
+bool Results::steady() const {
+  return power_steadiness.steady && kinetic_steadiness.steady && potential_steadiness.steady;
+}
+
+double Results::steady_from() const {
+  const std::size_t latest =
+      std::max({power_steadiness.begin, kinetic_steadiness.begin, potential_steadiness.begin});
+  return time.empty() ? 0 : time[latest];
+}
+
+Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                       const RunResult& run) {
+  Results results;
+  results.run = run;
+  results.balls = plan.charge.balls();
+  results.resting_speed = resting_speed(folder, plan.charge.mass());
+  results.history = read_history(folder);
+  results.time = column(results.history, [&](const HistoryRow& row) {
+    return static_cast<double>(row.step) * plan.step.value;
+  });
+  results.power =
+      column(results.history, [&](const HistoryRow& row) { return -row.torque * mill.angular_velocity; });
+  results.power_steadiness = judge_steadiness(results.power);
+  results.kinetic_steadiness =
+      judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.kinetic; }));
+  results.potential_steadiness =
+      judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.potential; }));
+  const double largest = plan.charge.classes.front().diameter;
+  results.ball_overlaps = read_overlaps(folder, "ballOverlaps", largest);
+  results.wall_overlaps = read_overlaps(folder, "wallOverlaps", largest);
+  return results;
+}
+
+void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Results& results) {
+  write_whole_file(folder.energy(), [&](std::ostream& out) {
+    out << "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n" << std::setprecision(8);
+    for (std::size_t i = 0; i < results.history.size(); ++i) {
+      const HistoryRow& row = results.history[i];
+      out << results.time[i] << ',' << row.torque << ',' << results.power[i] << ',' << row.kinetic << ','
+          << row.potential << ',' << row.overlap << '\n';
+    }
+  });
+  write_whole_file(folder.overlaps(), [&](std::ostream& out) {
+    out << "overlap_m,ball_contacts,wall_contacts\n" << std::setprecision(8);
+    for (std::size_t bin = 0; bin < overlap_bins; ++bin)
+      out << (static_cast<double>(bin) + 0.5) * results.ball_overlaps.bin_width << ','
+          << results.ball_overlaps.counts[bin] << ',' << results.wall_overlaps.counts[bin] << '\n';
+  });
+  write_whole_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
+  write_whole_file(folder.results(), [&](std::ostream& out) {
+    out << std::setprecision(8) << "balls " << results.balls << "\nlost_balls 0\nsteps " << plan.total_steps()
+        << "\nwall_time " << results.run.wall_time << "\nranks " << results.run.ranks << "\nmodulus "
+        << plan.step.stiffness.modulus << "\nsteady " << yes_or_no(results.steady()) << "\nsteady_from "
+        << results.steady_from() << "\npower " << results.power_steadiness.mean << "\npower_error "
+        << results.power_steadiness.standard_error << "\nkinetic_energy " << results.kinetic_steadiness.mean
+        << "\npotential_energy " << results.potential_steadiness.mean << "\nball_overlap_largest "
+        << results.ball_overlaps.largest << "\nball_overlap_99 " << results.ball_overlaps.percentile(0.99)
+        << "\nwall_overlap_largest " << results.wall_overlaps.largest << "\nwall_overlap_99 "
+        << results.wall_overlaps.percentile(0.99) << "\nresting_speed " << results.resting_speed << '\n';
+  });
+}
+
+void print_results(std::ostream& out, const DemPlan& plan, const Results& results) {
+  const double particle_steps = static_cast<double>(results.balls) * static_cast<double>(plan.total_steps());
+  const double smallest = plan.charge.classes.back().diameter;
+  const auto print_overlaps = [&](const char* what, const OverlapStatistics& overlaps) {
+    out << "overlap of " << what << ": 99 % below " << overlaps.percentile(0.99) * 1e6 << " um, largest "
+        << overlaps.largest * 1e6 << " um, " << 100 * overlaps.largest / smallest
+        << " % of the smallest diameter\n";
+  };
+  out << std::setprecision(4) << "done: " << results.balls << " balls, none lost, " << plan.total_steps()
+      << " steps of " << plan.step.value * 1e6 << " us in " << results.run.wall_time << " s ("
+      << particle_steps / results.run.wall_time / 1e6 << " million particle-steps per second)\n"
+      << std::setprecision(3) << "charge at DEM time 0: rms speed " << results.resting_speed << " m/s\n"
+      << "power " << results.power_steadiness.mean << " +- " << results.power_steadiness.standard_error
+      << " W, kinetic energy " << results.kinetic_steadiness.mean << " J, potential energy "
+      << results.potential_steadiness.mean << " J\n";
+  if (results.steady())
+    out << "steady from " << results.steady_from() << " s of DEM time on\n";
+  else
+    out << "NOT STEADY: power, kinetic or potential energy still change; raise dem.duration\n";
+  print_overlaps("two balls", results.ball_overlaps);
+  print_overlaps("balls and walls", results.wall_overlaps);
+  out << results.run.dumps << " dumps, one every " << plan.step.steps_per_record << " steps\n";
+}
+
+}  // namespace millfoam::dem_driver

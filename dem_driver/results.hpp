@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "dem_driver/case_folder.hpp"
+#include "dem_driver/deck.hpp"
+#include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/steady_state.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// The mill at one record.
+struct HistoryRow {
+  long step = 0;
+  double torque = 0;     ///< of the charge on the mill about +z, mean over the record's steps, N m
+  double kinetic = 0;    ///< energy of translation, J
+  double potential = 0;  ///< against the mill's axis, J
+  double overlap = 0;    ///< largest of two balls, m
+};
+
+/// What LIGGGHTS has written of the turning mill, one row per record after step 0. Throws std::runtime_error
+/// naming file and line where it cannot be read.
+std::vector<HistoryRow> read_history(const CaseFolder& folder);
+
+/// All overlaps of one kind at all records.
+struct OverlapStatistics {
+  std::vector<double> counts;  ///< contacts in bins of equal width from 0 on
+  double bin_width = 0;        ///< m
+  double samples = 0;          ///< contacts, those beyond the last bin too
+  double largest = 0;          ///< m
+  /// Overlap that this share of all contacts stays below, m; within a bin's width.
+  double percentile(double share) const;
+};
+OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kind, double largest_diameter);
+
+/// What a dry run comes to.
+struct Results {
+  RunResult run;
+  long balls = 0;
+  double resting_speed = 0;  ///< m/s, root mean square by mass of the charge at DEM time 0
+  std::vector<HistoryRow> history;
+  std::vector<double> time;   ///< s, of each row
+  std::vector<double> power;  ///< that the drive gives to the charge, W, of each row
+  Steadiness power_steadiness;
+  Steadiness kinetic_steadiness;
+  Steadiness potential_steadiness;
+  OverlapStatistics ball_overlaps;
+  OverlapStatistics wall_overlaps;
+  bool steady() const;
+  double steady_from() const;  ///< s, the latest of the three
+};
+Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                       const RunResult& run);
+
+/// Writes `dumps/results.txt` (lines `key value`), `dumps/energy.csv`, `dumps/overlaps.csv` and
+/// `dumps/charge.csv`; see dem_driver/README.md.
+void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Results& results);
+
+/// Prints the same in words.
+void print_results(std::ostream& out, const DemPlan& plan, const Results& results);
+
+}  // namespace millfoam::dem_driver

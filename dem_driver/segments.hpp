@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dem_driver/case_folder.hpp"
+
+namespace millfoam::dem_driver {
+
+/// A file of `dem/` whose name carries the step at which it was written or begun.
+struct NumberedFile {
+  long step = 0;
+  std::filesystem::path file;
+};
+
+/// What a run writes in segments: every resumed run begins files of its own.
+inline constexpr const char* segment_kinds[] = {"torque", "energy", "ballOverlaps", "wallOverlaps"};
+
+/// Every `dem/<kind>.<step>.txt`, by step.
+std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind);
+
+/// Every whole restart file, `dem/restart.<step>`, by step.
+std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
+
+/// A line of numbers of a segment and where it stands.
+struct SegmentLine {
+  std::vector<double> values;
+  std::filesystem::path file;
+  long line = 0;
+};
+
+/// The lines of all segments of a kind without comments, as one run has written them: what a segment wrote
+/// after the step at which the next one begins was lost with the run that was killed, and is left out; so
+/// is a half line at the end of a segment. A line of a record begins with its step; lines that continue a
+/// record (`continued` of them after each line) follow it. Throws std::runtime_error naming file and line for
+/// one that is not all numbers.
+std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::string& kind, long continued = 0);
+
+/// Removes dumps later than `step`: they belong to a run that was killed after its last restart file.
+void remove_dumps_after(const CaseFolder& folder, long step);
+
+/// Removes the restart files of steps before `step`.
+void remove_restarts_before(const CaseFolder& folder, long step);
+
+}  // namespace millfoam::dem_driver

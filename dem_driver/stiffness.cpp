@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/stiffness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "dem_driver/pairs.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace {
+
+/// Throws when the softest balls are too soft for LIGGGHTS.
+void check_modulus(const Stiffness& stiffness, double smallest_diameter) {
+  const double softest = std::min(stiffness.modulus, stiffness.of_ball(smallest_diameter));
+  // The slack lets through a modulus that was raised to just this limit.
+  if (softest >= smallest_modulus * (1 - 1e-12)) return;
+  std::ostringstream message;
+  message << (stiffness.modulus < smallest_modulus ? "key 'dem.youngs_modulus': "
+                                                   : "key 'dem.soften_below': ")
+          << softest << " Pa for balls of " << smallest_diameter << " m, expected at least "
+          << smallest_modulus << " Pa, which is the softest that LIGGGHTS accepts";
+  throw std::runtime_error(message.str());
+}
+
+/// All overlaps go with modulus^-0.4, so one trial gives the modulus.
+double modulus_for_overlap(const meshing::Mill& mill) {
+  const Stiffness trial{mill.ball.youngs_modulus, mill.dem.soften_below};
+  const double needed =
+      trial.modulus * std::pow(expected_overlap(mill, trial).ratio / mill.dem.largest_overlap, 2.5);
+  const double softening = trial.of_ball(smallest_simulated(mill)) / trial.modulus;
+  return std::min(mill.ball.youngs_modulus, std::max(needed, smallest_modulus / softening));
+}
+
+}  // namespace
+
+double Stiffness::of_ball(double diameter) const {
+  if (soften_below <= 0) return modulus;
+  return modulus * std::min(std::pow(diameter / soften_below, 2.5), 1.0);
+}
+
+double expected_impact_speed(const meshing::Mill& mill) {
+  return std::sqrt(2 * meshing::gravity * mill.geometry.diameter) +
+         std::abs(mill.angular_velocity) * mill.geometry.radius();
+}
+
+ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& stiffness) {
+  const double speed = expected_impact_speed(mill);
+  ExpectedOverlap worst;
+  for (const auto& named : all_pairs(mill, stiffness)) {
+    const double ratio = largest_overlap(named.pair, speed, named.restitution) / named.smaller_diameter;
+    if (ratio > worst.ratio) worst = {named.name, ratio};
+  }
+  return worst;
+}
+
+Stiffness choose_stiffness(const meshing::Mill& mill) {
+  const double modulus = mill.dem.largest_overlap > 0 ? modulus_for_overlap(mill) : mill.dem.youngs_modulus;
+  const Stiffness stiffness{modulus, mill.dem.soften_below};
+  check_modulus(stiffness, smallest_simulated(mill));
+  return stiffness;
+}
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "dem_driver/contact.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// Softest modulus that LIGGGHTS accepts in SI units, Pa.
+inline constexpr double smallest_modulus = 5e6;
+
+/// How soft the balls and walls of a simulation are.
+struct Stiffness {
+  double modulus = 0;       ///< Pa, of the walls and of all balls that are not softened further
+  double soften_below = 0;  ///< m: smaller balls have modulus (d/soften_below)^2.5; 0 for none
+  /// Young's modulus of a ball of that diameter (m), Pa: Brosh's k min((d/d_threshold)^2.5, 1), with which
+  /// the smallest balls allow as long a time-step as those of the threshold. T. Brosh, H. Kalman & A. Levy,
+  /// Particuology (2013/14).
+  double of_ball(double diameter) const;
+};
+
+/// The pair of bodies that is pressed the furthest together.
+struct ExpectedOverlap {
+  std::string pair;  ///< for example "2 mm on 8 mm"
+  double ratio = 0;  ///< overlap over the smaller diameter
+};
+
+/// Hardest impact to expect: a free fall through the mill's diameter plus the shell's speed, m/s.
+double expected_impact_speed(const meshing::Mill& mill);
+
+/// The largest overlap over the smaller diameter of all pairs at the expected impact speed.
+ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& stiffness);
+
+/// The stiffness that `mill.yaml` asks for: dem.youngs_modulus as it stands, or the softest with which the
+/// largest expected overlap stays within dem.largest_overlap, never stiffer than the real ball. Throws
+/// std::runtime_error naming the key when a modulus is softer than LIGGGHTS accepts.
+Stiffness choose_stiffness(const meshing::Mill& mill);
+
+}  // namespace millfoam::dem_driver
