@@ -17,6 +17,7 @@
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/charge_plan.hpp"
 #include "dem_driver/deck.hpp"
+#include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
@@ -113,6 +114,14 @@ void run(const Options& options) {
   dem_driver::print_results(std::cout, plan, results);
 }
 
+void plan(const Options& options) {
+  const auto mill = meshing::read_mill(options.mill_file);
+  const auto plan = dem_driver::plan_dem(mill);
+  print_plan(mill, plan);
+  const auto cost = dem_driver::measure_cost(mill, options.ranks);
+  dem_driver::print_forecast(std::cout, dem_driver::forecast(plan, cost, options.ranks), cost, options.ranks);
+}
+
 /// CLI11 knows no long option with one dash, but `-np` is what every user of MPI types.
 std::vector<std::string> arguments(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
@@ -121,24 +130,46 @@ std::vector<std::string> arguments(int argc, char** argv) {
   return words;
 }
 
+using Action = void (*)(const Options&);
+
+void add_common(CLI::App& app, Options& options) {
+  app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
+  app.add_option("--np", options.ranks, "number of MPI ranks (also -np)")->check(CLI::PositiveNumber);
+}
+
+/// `millDem plan …` or `millDem …`: the run has no name of its own, because it is what everybody wants.
+Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
+  if (!words.empty() && words.back() == "plan") {
+    words.pop_back();
+    app.description(
+        "Predicts steps, wall time, disk and memory of a dry run, from a trial of half a minute.");
+    add_common(app, options);
+    app.parse(words);
+    return plan;
+  }
+  app.footer("millDem plan mill.yaml [-np N] predicts what the run will cost.");
+  add_common(app, options);
+  app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made")->required();
+  app.add_flag("--resume", options.resume, "go on with a run that was broken off; a whole one is kept");
+  app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
+  app.parse(words);
+  return run;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
+  Action action = nullptr;
   CLI::App app{"Dry run of a tumbling mill with LIGGGHTS: DIR/walls/*.stl to DIR/dumps/dump.*.txt",
                "millDem"};
-  app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
-  app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made")->required();
-  app.add_option("--np", options.ranks, "number of MPI ranks (also -np)")->check(CLI::PositiveNumber);
-  app.add_flag("--resume", options.resume, "go on with a run that was broken off; a whole one is kept");
-  app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   try {
-    app.parse(arguments(argc, argv));
+    action = parse(app, options, arguments(argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   }
   try {
-    run(options);
+    action(options);
   } catch (const std::exception& error) {
     std::cerr << "millDem: error: " << error.what() << '\n';
     return 1;

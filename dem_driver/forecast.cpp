@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/forecast.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include "dem_driver/case_folder.hpp"
+#include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/pairs.hpp"
+#include "meshing/cross_section.hpp"
+#include "meshing/wall_files.hpp"
+#include "meshing/wall_surface.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double trial_steps = 2000;
+// Both measured on 55 000 balls of 5 mm, on one and on two ranks.
+constexpr double memory_per_ball = 2000;
+constexpr double restart_per_ball = 440;
+
+class TrialFolder {
+ public:
+  TrialFolder() {
+    std::string name = (fs::temp_directory_path() / "millDem-plan-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": no temporary folder");
+    path_ = name;
+  }
+  ~TrialFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TrialFolder(const TrialFolder&) = delete;
+  TrialFolder& operator=(const TrialFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Balls times steps over the time of LIGGGHTS' loops while the mill turned.
+double logged_rate(const fs::path& file) {
+  std::ifstream in(file);
+  bool turning = false;
+  double time = 0;
+  double work = 0;
+  for (std::string line; std::getline(in, line);) {
+    turning = turning || line.rfind(turning_mark, 0) == 0;
+    if (!turning || line.rfind("Loop time of", 0) != 0) continue;
+    // Loop time of 4.2 on 2 procs for 1130 steps with 3521 atoms
+    std::istringstream words(line);
+    std::string word;
+    double seconds = 0;
+    double ranks = 0;
+    double steps = 0;
+    double balls = 0;
+    words >> word >> word >> word >> seconds >> word >> ranks >> word >> word >> steps >> word >> word >>
+        balls;
+    time += seconds;
+    work += steps * balls;
+  }
+  if (!(time > 0)) throw RunError(file.string() + ": no time of a loop, expected that of the turning mill");
+  return work / time;
+}
+
+double bytes_per_ball(const CaseFolder& folder, long balls) {
+  double bytes = 0;
+  const auto dumps = find_dumps(folder);
+  for (const auto& dump : dumps) bytes += static_cast<double>(fs::file_size(dump));
+  return bytes / static_cast<double>(dumps.size()) / static_cast<double>(balls);
+}
+
+/// Of the largest process that this one has waited for, bytes.
+double largest_child() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Balls times steps of the whole run: those of a round move from their insertion on.
+double work_of(const DemPlan& plan) {
+  double inserted = 0;
+  double work = 0;
+  const auto& rounds = plan.charge.rounds;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    for (const auto& insertion : rounds[i]) inserted += static_cast<double>(insertion.count);
+    work += inserted * static_cast<double>(i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps);
+  }
+  return work + inserted * static_cast<double>(plan.turning_steps);
+}
+
+}  // namespace
+
+meshing::Mill trial_mill(const meshing::Mill& mill) {
+  meshing::Mill trial = mill;
+  trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
+  trial.dem.largest_overlap = 0;
+  trial.dem.soften_below = 0;
+
+  const DemPlan whole = plan_dem(trial);
+  const double shortest = std::min(mill.geometry.length, 2.5 * whole.charge.classes.front().diameter);
+  const double wanted = mill.geometry.length * trial_balls / static_cast<double>(whole.charge.balls());
+  trial.geometry.length = std::clamp(wanted, shortest, mill.geometry.length);
+  trial.geometry.ends = meshing::Ends::periodic;
+  for (auto& size : trial.charge.classes) size.mass *= trial.geometry.length / mill.geometry.length;
+
+  trial.dem.settle_time = 0.1;
+  trial.dem.record_interval = trial_steps / 10 * whole.step.value;
+  trial.dem.duration = trial_steps * whole.step.value;
+  return trial;
+}
+
+Cost measure_cost(const meshing::Mill& mill, int ranks) {
+  const TrialFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  const meshing::Mill trial = trial_mill(mill);
+  const auto section = meshing::make_cross_section(trial.geometry, trial.resolution.cell_size);
+  meshing::write_walls(meshing::make_wall_surface(section, trial.geometry.length), trial.geometry.ends,
+                       folder.walls());
+  const DemPlan plan = plan_dem(trial);
+  prepare_folders(folder);
+  write_whole_file(folder.deck(), [&](std::ostream& out) {
+    write_deck(out, trial, plan, find_walls(folder, trial), ranks);
+  });
+  std::ostringstream unseen;
+  run_liggghts(folder, plan, ranks, {unseen, false});
+  return {logged_rate(folder.log()), bytes_per_ball(folder, plan.charge.balls()),
+          largest_child() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks};
+}
+
+Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks) {
+  const auto balls = static_cast<double>(plan.charge.balls());
+  Forecast result;
+  result.steps = plan.total_steps();
+  result.wall_time = work_of(plan) / cost.rate;
+  const double histogram = 2 * overlap_bins * 16.0 * static_cast<double>(plan.turning_steps) /
+                           static_cast<double>(plan.restart_steps);
+  result.disk = balls * (cost.dump * static_cast<double>(plan.dumps) + restart_per_ball) + histogram;
+  result.memory = ranks * cost.memory + balls * memory_per_ball;
+  return result;
+}
+
+void print_forecast(std::ostream& out, const Forecast& forecast, const Cost& cost, int ranks) {
+  const long minutes = std::lround(forecast.wall_time / 60);
+  out << std::setprecision(3) << "plan for " << ranks << " rank(s), from a trial at " << cost.rate / 1e6
+      << " million particle-steps per second\n"
+      << "  steps      " << forecast.steps << "\n  wall time  ";
+  if (forecast.wall_time < 120)
+    out << forecast.wall_time << " s";
+  else
+    out << minutes / 60 << " h " << std::setw(2) << std::setfill('0') << minutes % 60 << " min"
+        << std::setfill(' ');
+  out << "\n  disk       " << forecast.disk / 1e9 << " GB\n  memory     " << forecast.memory / 1e9 << " GB\n";
+}
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+
+#include "dem_driver/deck.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// What a dry run costs on this machine.
+struct Cost {
+  double rate = 0;    ///< balls moved by one step, per second
+  double dump = 0;    ///< bytes per ball of one dump
+  double memory = 0;  ///< bytes of one rank, without those of the balls beyond the trial's
+};
+
+/// What a dry run will take.
+struct Forecast {
+  long steps = 0;
+  double wall_time = 0;  ///< s
+  double disk = 0;       ///< bytes of dumps, restart file and histories
+  double memory = 0;     ///< bytes of all ranks
+};
+
+/// A short periodic slice of the mill with about `trial_balls` balls, soft and quickly settled: it costs as
+/// much per ball and step as the whole mill.
+inline constexpr double trial_balls = 3000;
+meshing::Mill trial_mill(const meshing::Mill& mill);
+
+/// Runs the trial mill in a temporary folder and measures it, half a minute. Throws RunError as run_liggghts
+/// does.
+Cost measure_cost(const meshing::Mill& mill, int ranks);
+
+/// Steps times balls at that rate, insertion round by round, and what is written.
+Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks);
+
+/// Prints it in words.
+void print_forecast(std::ostream& out, const Forecast& forecast, const Cost& cost, int ranks);
+
+}  // namespace millfoam::dem_driver

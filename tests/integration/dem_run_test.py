@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""millDem killed and resumed, on a drum of a few hundred balls; and what it predicts against what the run then takes."""
+import os
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.run import run
+
+MILL = """
+geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
+speed: {fraction_of_critical: 0.7, sense: clockwise}
+charge:
+  classes:
+    - {diameter: 0.004, mass: 0.02}
+    - {diameter: 0.002, mass: 0.002}
+materials: {ball: glass, wall: HDPE}
+dem: {youngs_modulus: 1e7, rayleigh_fraction: 0.2, settle_time: 0.1, duration: 1.0, record_interval: 0.005, seed: 3}
+slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16, level: -0.002}
+resolution: {cell_size: 0.003, layers: 4}
+"""
+RECORDS = 200  # of the whole run
+
+
+def wait_for(condition, seconds):
+    """Whether the condition comes true within so many seconds."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def descendants(pid):
+    """All processes that a process has begun, and theirs."""
+    listing = subprocess.run(["ps", "-eo", "pid=,ppid="], capture_output=True, text=True, check=True).stdout
+    pairs = [tuple(map(int, line.split())) for line in listing.splitlines()]
+    found, last = [], [pid]
+    while last:
+        last = [child for child, parent in pairs if parent in last]
+        found += last
+    return found
+
+
+def read_dump(path):
+    """(step, ids, positions, velocities) of a dump, sorted by id."""
+    lines = path.read_text().splitlines()
+    table = np.array([line.split() for line in lines[9:]], dtype=float)
+    table = table[np.argsort(table[:, 0])]
+    return int(lines[1]), table[:, 0].astype(int), table[:, 2:5], table[:, 5:8]
+
+
+class DemRun(unittest.TestCase):
+    def make_case(self, text=MILL):
+        case = Path(tempfile.mkdtemp(prefix="dem-run-"))
+        self.addCleanup(shutil.rmtree, case)
+        (case / "mill.yaml").write_text(text)
+        run(case, "millMesh", "mill.yaml", "--case", ".")
+        return case
+
+    def start_and_kill(self, case, restarts_before, ranks=1):
+        """Starts or resumes the run and kills millDem when so many restart files more have been written."""
+        before = self.last_restart(case)
+        process = subprocess.Popen(["millDem", "mill.yaml", "--case", ".", "-np", str(ranks), "--resume"], cwd=case,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        seen = set()
+
+        def enough():
+            seen.add(self.last_restart(case))
+            return len(seen - {before, None}) >= restarts_before
+
+        self.assertTrue(wait_for(enough, 120))
+        children = descendants(process.pid)
+        self.assertTrue(children)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        gone = lambda: not any(Path(f"/proc/{pid}").exists() for pid in children)
+        self.assertTrue(wait_for(gone, 30), "LIGGGHTS outlives millDem")
+
+    @staticmethod
+    def last_restart(case):
+        steps = [int(path.suffix[1:]) for path in (case / "dem").glob("restart.*") if path.suffix[1:].isdigit()]
+        return max(steps, default=None)
+
+    def assert_whole(self, case):
+        """Every record once, every ball in each, no ball further from one record to the next than it can fly."""
+        notes = dict(line.split() for line in (case / "dumps" / "run.txt").read_text().splitlines())
+        interval, step = int(notes["interval"]), float(notes["timestep"])
+        dumps = sorted((read_dump(path) for path in (case / "dumps").glob("dump.*.txt")), key=lambda dump: dump[0])
+        self.assertEqual([dump[0] for dump in dumps], [record * interval for record in range(RECORDS + 1)])
+        for before, after in zip(dumps, dumps[1:]):
+            np.testing.assert_array_equal(after[1], dumps[0][1])
+            moved = after[2] - before[2]
+            moved[:, 2] -= 0.03 * np.round(moved[:, 2] / 0.03)
+            fastest = max(np.linalg.norm(before[3], axis=1).max(), np.linalg.norm(after[3], axis=1).max())
+            self.assertLess(np.linalg.norm(moved, axis=1).max(), (fastest + 0.5) * interval * step)
+        energy = np.genfromtxt(case / "dumps" / "energy.csv", delimiter=",", names=True)
+        np.testing.assert_allclose(energy["time_s"], np.arange(1, RECORDS + 1) * interval * step, rtol=1e-6)
+        self.assertTrue(np.all(np.isfinite(energy["power_W"])))
+        self.assertIn("\nlost_balls 0\n", (case / "dumps" / "results.txt").read_text())
+
+    def test_a_run_that_is_killed_twice_is_whole_in_the_end(self):
+        case = self.make_case()
+        self.start_and_kill(case, 2)
+        self.assertFalse((case / "dumps" / "run.txt").exists())
+        first = self.last_restart(case)
+        self.start_and_kill(case, 3, ranks=2)
+        self.assertGreater(self.last_restart(case), first)
+        log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
+        self.assertIn("resumed at step", log)
+        self.assert_whole(case)
+
+        self.assertIn("nothing to do", run(case, "millDem", "mill.yaml", "--case", ".", "--resume"))
+
+    def test_a_longer_run_goes_on_and_another_mill_is_refused(self):
+        case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.4"))
+        run(case, "millDem", "mill.yaml", "--case", ".")
+        (case / "mill.yaml").write_text(MILL)
+        self.assertIn("resumed at step", run(case, "millDem", "mill.yaml", "--case", ".", "--resume"))
+        self.assert_whole(case)
+
+        (case / "mill.yaml").write_text(MILL.replace("fraction_of_critical: 0.7", "fraction_of_critical: 0.8"))
+        done = subprocess.run(["millDem", "mill.yaml", "--case", ".", "--resume"], cwd=case, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot be resumed", done.stderr)
+        self.assert_whole(case)
+
+    def test_the_plan_names_steps_disk_and_memory_of_the_run(self):
+        case = self.make_case()
+        plan = run(case, "millDem", "plan", "mill.yaml")
+        predicted = {key: float(re.search(rf"^  {key} +([0-9.e+-]+)", plan, re.M).group(1))
+                     for key in ("steps", "disk", "memory")}
+        run(case, "millDem", "mill.yaml", "--case", ".")
+        results = dict(line.split() for line in (case / "dumps" / "results.txt").read_text().splitlines())
+        self.assertEqual(predicted["steps"], float(results["steps"]))
+        files = [path for folder in ("dumps", "dem") for path in (case / folder).iterdir()]
+        used = sum(path.stat().st_size for path in files) / 1e9
+        self.assertLess(max(predicted["disk"] / used, used / predicted["disk"]), 1.5)
+        self.assertIn("wall time", plan)
+
+
+if __name__ == "__main__":
+    os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
+    unittest.main(verbosity=2)
