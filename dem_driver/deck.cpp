@@ -101,12 +101,18 @@ void write_matrix(std::ostream& out, const char* id, const char* property, const
   out << '\n';
 }
 
+/// Thickness of the layer in which neighbours are looked for ahead of time, m. A tenth of the largest ball,
+/// but 0.4 to 1 of the smallest's diameter: of 0.2 to 1.2 that was fastest for balls of 5 mm, of 2 to 8 mm
+/// and of 1.25 to 10 mm (dem_driver/README.md). LIGGGHTS allows no other style than `bin` beside walls of
+/// triangles, and other bins than its own were slower.
+double neighbour_skin(const ChargePlan& charge) {
+  const double smallest = charge.classes.back().diameter;
+  return std::clamp(0.1 * charge.classes.front().diameter, 0.4 * smallest, smallest);
+}
+
 void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                    const AtomTypes& types) {
-  const auto& smallest = plan.charge.classes.back();
-  // Of skins of 0.2, 0.4 and 0.75 smallest diameters, 0.4 was the fastest while a mill with 2, 4 and 8 mm
-  // balls turns.
-  out << "neighbor " << 0.4 * smallest.diameter << " bin\nneigh_modify delay 0\n"
+  out << "neighbor " << neighbour_skin(plan.charge) << " bin\nneigh_modify delay 0\n"
       << "fix youngs all property/global youngsModulus peratomtype";
   for (const double modulus : types.ball_moduli()) out << ' ' << modulus;
   out << ' ' << types.wall_modulus() << "\nfix poisson all property/global poissonsRatio peratomtype";

@@ -144,6 +144,7 @@ void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Re
   write_whole_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
   write_whole_file(folder.results(), [&](std::ostream& out) {
     out << std::setprecision(8) << "balls " << results.balls << "\nlost_balls 0\nsteps " << plan.total_steps()
+        << "\ntimestep " << plan.step.value << "\nsmallest_diameter " << plan.charge.classes.back().diameter
         << "\nwall_time " << results.run.wall_time << "\nranks " << results.run.ranks << "\nmodulus "
         << plan.step.stiffness.modulus << "\nsteady " << yes_or_no(results.steady()) << "\nsteady_from "
         << results.steady_from() << "\npower " << results.power_steadiness.mean << "\npower_error "

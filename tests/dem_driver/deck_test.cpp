@@ -205,6 +205,18 @@ TEST(Deck, SofterSmallBallsAreATypeOfTheirOwnAndTheWallIsTheLast) {
   EXPECT_EQ(after(deck, "atom_type"), (std::vector<std::string>{"1", "2", "2"}));
 }
 
+TEST(Deck, TheNeighbourSkinGrowsWithTheRangeOfSizes) {
+  auto mill = small_mill();
+  mill.geometry.length = 0.03;
+  const auto skin = [&](double largest) {
+    mill.charge.classes.back() = {largest, 1e-3};
+    return after(deck_of(mill), "neighbor").front();
+  };
+  EXPECT_EQ(skin(0.004), "0.0008");
+  EXPECT_EQ(skin(0.012), "0.0012");
+  EXPECT_EQ(skin(0.028), "0.002");
+}
+
 TEST(Deck, ARestartFileGetsItsNameWhenItIsWhole) {
   const std::string deck = deck_of(small_mill());
   const auto part = deck.find("write_restart restart.part");

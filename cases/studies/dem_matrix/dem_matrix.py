@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dry runs of the published matrix: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds.
+
+Every run has a folder runs/NAME with its mill.yaml, walls, dumps/results.txt, dumps/energy.csv and solids.h5 (its averages on
+65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is kept, what was broken
+off is gone on with; dumps are removed once they are averaged."""
+import argparse
+import csv
+import re
+import sys
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from millfoam.dry_runs import make_dry_run, with_entries
+from millfoam.run import RunError
+
+HERE = Path(__file__).parent.resolve()
+MILLS = HERE.parent.parent / "mills"
+SPEEDS = tuple(range(40, 120, 10))  # % of critical
+LEFT_OUT, WINDOW, VOXELS = 1.0, 0.1, 65  # s, s, across the mill
+COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",
+           "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm", "centroid_y_mm", "wall_time_s")
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One run: mill, share of its volume that the charge fills (%), speed (% of critical)."""
+    mill: str
+    load: str
+    speed: int
+
+    @property
+    def name(self):
+        return f"{self.mill}_load{self.load}_speed{self.speed}"
+
+
+def published_loads():
+    """Load (%) as text -> lines of charge.classes."""
+    with open(HERE / "loads.csv", newline="") as file:
+        table = list(csv.DictReader(file))
+    return {load: [f"    - {{diameter: {line['diameter_m']}, mass: {line[load]}}}" for line in table]
+            for load in table[0] if load != "diameter_m"}
+
+
+def matrix():
+    """Every run of the published matrix by name."""
+    small = [Setting("12cm", load, speed) for load in published_loads() for speed in SPEEDS]
+    large = [Setting("30cm", "31.25", speed) for speed in (60, 75)]
+    return {setting.name: setting for setting in small + large}
+
+
+def mill_text(setting, duration, slice_length):
+    """mill.yaml of a run."""
+    source = MILLS / ("mill_12cm/mill_full.yaml" if setting.mill == "12cm" else "mill_30cm/mill.yaml")
+    text = with_entries(source.read_text(), fraction_of_critical=f"{setting.speed / 100:g}", duration=f"{duration:g}")
+    if setting.mill == "12cm":
+        lines = "\n".join(published_loads()[setting.load])
+        text = re.sub(r"(?m)^  classes:\n(    - .*\n)+", f"  classes:\n{lines}\n", text)
+    if slice_length:
+        text = text.replace("geometry:\n", f"geometry:\n  slice: {slice_length:g}\n", 1)
+    return text
+
+
+def radius_and_length(text):
+    """Of a mill.yaml, m."""
+    value = {key: float(re.search(rf"^  {key}: +(\S+)", text, re.M).group(1)) for key in ("diameter", "length")}
+    sliced = re.search(r"^  slice: (\S+)", text, re.M)
+    return value["diameter"] / 2, float(sliced.group(1)) if sliced else value["length"]
+
+
+def make(setting, options):
+    """Runs one setting, or finds it whole."""
+    text = mill_text(setting, options.duration, options.slice)
+    radius, length = radius_and_length(text)
+    averaging = ["--box", -radius, -radius, 0, radius, radius, length, "--shape", VOXELS, VOXELS, 1, "--start", LEFT_OUT,
+                 "--window", WINDOW]
+    if options.slice:
+        averaging += ["--periodic", "z"]
+    name = setting.name + (f"_slice{1e3 * options.slice:g}mm" if options.slice else "")
+    print(f"{name} …", flush=True)
+    return make_dry_run(HERE / "runs" / name, text, averaging, ranks=options.ranks, keep_dumps=options.keep_dumps)
+
+
+def row(setting, dry):
+    x, y = dry.charge.centroid()
+    return dict(zip(COLUMNS, (dry.name, setting.mill, setting.load, setting.speed, int(dry.number("balls")), dry.number("power"),
+                              dry.number("power_error"), dry.results["steady"], dry.number("steady_from"),
+                              dry.number("kinetic_energy"), dry.number("potential_energy"), 1e6 * dry.number("ball_overlap_99"),
+                              1e6 * dry.number("ball_overlap_largest"), 1e3 * x, 1e3 * y, dry.number("wall_time"))))
+
+
+def write_table(rows):
+    with open(HERE / "dem_matrix.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    print(f"{'run':<32}{'balls':>7}{'power W':>18}{'steady from s':>15}{'centroid mm':>17}{'wall time s':>13}")
+    for r in rows:
+        power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"
+        steady = f"{r['steady_from_s']:.2f}" if r["steady"] == "yes" else "NOT STEADY"
+        centroid = f"{r['centroid_x_mm']:.1f}, {r['centroid_y_mm']:.1f}"
+        print(f"{r['run']:<32}{r['balls']:7d}{power:>18}{steady:>15}{centroid:>17}{r['wall_time_s']:13.0f}")
+
+
+def plot(rows):
+    """Power against speed, a line for each load; and every run's place."""
+    figure, axis = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
+    for mill, load in sorted({(r["mill"], r["load_percent"]) for r in rows}, key=lambda item: (item[0], float(item[1]))):
+        line = sorted((r for r in rows if (r["mill"], r["load_percent"]) == (mill, load)), key=lambda r: r["speed_percent"])
+        axis.errorbar([r["speed_percent"] for r in line], [r["power_W"] for r in line], [r["power_error_W"] for r in line],
+                      marker="o", ms=4, capsize=3, label=f"{mill}, {load} % load")
+    axis.set(xlabel="speed, % of critical", ylabel="power that the charge takes, W", ylim=(0, None))
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8)
+    figure.savefig(HERE / "dem_matrix.png", dpi=110)
+    plt.close(figure)
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", nargs="*", metavar="RUN", help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
+    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("--duration", type=float, default=4.0, help="of the turning mill, s")
+    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH", help="periodic slices of this length (m) instead")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--keep-dumps", action="store_true")
+    return parser.parse_args(), parser
+
+
+def chosen(patterns, settings, parser):
+    """Settings whose names the patterns match, in the matrix' order; a pattern that matches nothing is an error."""
+    patterns = ["*" if pattern == "all" else pattern for pattern in patterns]
+    for pattern in patterns:
+        if not any(fnmatchcase(name, pattern) for name in settings):
+            parser.error(f"no run is named '{pattern}'; --list names them")
+    return [setting for name, setting in settings.items() if any(fnmatchcase(name, pattern) for pattern in patterns)]
+
+
+def main():
+    options, parser = parse()
+    settings = matrix()
+    if options.list or not options.runs:
+        for name in settings:
+            print(name, "whole" if (HERE / "runs" / name / "whole").is_file() else "")
+        return 0
+    rows, failures = [], []
+    for setting in chosen(options.runs, settings, parser):
+        try:
+            rows.append(row(setting, make(setting, options)))
+        except RunError as error:
+            failures.append(f"{setting.name}: {error}")
+            print(failures[-1], flush=True)
+    if rows:
+        write_table(rows)
+        plot(rows)
+    if failures:
+        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(rows)} runs failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

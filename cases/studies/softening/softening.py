@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The 12 cm mill's slice with balls of three moduli: maps of solidity and velocity against the stiffest's, power, overlap and
+cost; and the same mill with another seed, which says how far two equal mills are apart. Runs that are whole are kept."""
+import argparse
+import csv
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from millfoam.compare import difference
+from millfoam.dry_runs import make_dry_run, with_entries
+from millfoam.mill_runs import MILL
+
+HERE = Path(__file__).parent.resolve()
+MODULI = (1e7, 1e8, 1e9)
+SEEDS = (20121, 20122)  # the other seed: of all but the stiffest
+START, LENGTH, VOXELS = 0.6, 0.024, 24  # averages begin, s; the slice's length, m; across the mill
+COLUMNS = ("run", "modulus_Pa", "time_step_us", "wall_time_s", "power_W", "power_error_W", "overlap_largest_percent",
+           "overlap_99_percent", "solidity_difference", "velocity_x_difference", "velocity_y_difference", "centroid_x_mm",
+           "centroid_y_mm")
+
+
+def settings(quick):
+    """(name, modulus, seed) of every run, the stiffest last."""
+    moduli = MODULI[:2] if quick else MODULI
+    for modulus in moduli:
+        exponent = round(np.log10(modulus))
+        for seed in SEEDS[:1] if modulus == moduli[-1] else SEEDS:
+            yield f"1e{exponent}" + ("" if seed == SEEDS[0] else "_other_seed"), modulus, seed
+
+
+def make(name, modulus, seed, quick):
+    head, dem = (MILL / "mill.yaml").read_text().split("\ndem:\n")
+    dem = with_entries(dem, youngs_modulus=f"{modulus:g}", seed=seed, duration=0.2 if quick else 1.6)
+    averaging = ["--box", -0.06, -0.06, 0, 0.06, 0.06, LENGTH, "--shape", VOXELS, VOXELS, 1, "--periodic", "z",
+                 "--start", 0.1 if quick else START, "--window", "whole"]
+    print(f"{name} …", flush=True)
+    return make_dry_run(HERE / ("runs_quick" if quick else "runs") / name, f"{head}\ndem:\n{dem}", averaging)
+
+
+def row(dry, modulus, stiffest):
+    """One line of the table; differences are to the stiffest run's map."""
+    smallest = dry.number("smallest_diameter")
+    apart = difference(dry.charge, stiffest.charge)
+    x, y = dry.charge.centroid()
+    return dict(zip(COLUMNS, (dry.name, modulus, 1e6 * dry.number("timestep"), dry.number("wall_time"), dry.number("power"),
+                              dry.number("power_error"), 100 * dry.number("ball_overlap_largest") / smallest,
+                              100 * dry.number("ball_overlap_99") / smallest, apart.solidity, apart.velocity_x,
+                              apart.velocity_y, 1e3 * x, 1e3 * y)))
+
+
+def write_table(rows, path):
+    with open(path.with_suffix(".csv"), "w", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}{'vel. y':>8}"
+             f"{'centroid mm':>17}"]
+    for r in rows:
+        power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"
+        overlap = f"{r['overlap_99_percent']:.2f} / {r['overlap_largest_percent']:.1f}"
+        centroid = f"{r['centroid_x_mm']:.2f}, {r['centroid_y_mm']:.2f}"
+        lines.append(f"{r['run']:<16}{r['time_step_us']:9.2f}{r['wall_time_s']:8.0f}{power:>16}{overlap:>16}"
+                     f"{r['solidity_difference']:10.4f}{r['velocity_x_difference']:8.4f}{r['velocity_y_difference']:8.4f}"
+                     f"{centroid:>17}")
+    lines.append("overlap: 99 % below / largest, of the smallest diameter; solidity, velocity: mean differences to the last run")
+    path.write_text("\n".join(lines) + "\n")
+
+
+def plot(runs, path):
+    """Solidity of every run, and below it its difference to the last one's."""
+    last = runs[-1].charge
+    figure, axes = plt.subplots(2, len(runs), figsize=(3.1 * len(runs), 6.2), constrained_layout=True, squeeze=False)
+    for column, dry in enumerate(runs):
+        charge = dry.charge
+        inside = charge.inside > 0.01
+        apart = charge.solidity - last.solidity
+        panels = ((charge.solidity, "YlOrBr", (0, 0.65)), (apart, "RdBu_r", (-0.1, 0.1)))
+        for axis, (values, colours, limits) in zip(axes[:, column], panels):
+            image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(inside, values, np.nan), cmap=colours,
+                                    vmin=limits[0], vmax=limits[1])
+            axis.set(aspect="equal", xlabel="x, mm")
+            if column == len(runs) - 1:
+                figure.colorbar(image, ax=axis, shrink=0.8)
+        axes[0, column].set_title(f"{dry.name}: solidity", fontsize=10)
+        axes[1, column].set_title(f"less that of {runs[-1].name}", fontsize=10)
+    figure.savefig(path, dpi=100)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="0.2 s of the two softest: shows that it works, not what it says")
+    quick = parser.parse_args().quick
+    chosen = list(settings(quick))
+    runs = [make(*setting, quick) for setting in chosen]
+    rows = [row(dry, modulus, runs[-1]) for dry, (_, modulus, _) in zip(runs, chosen)]
+    result = HERE / ("softening_quick" if quick else "softening")
+    write_table(rows, result.with_suffix(".txt"))
+    plot(runs, result.with_suffix(".png"))
+    print(result.with_suffix(".txt").read_text())
+
+
+if __name__ == "__main__":
+    main()

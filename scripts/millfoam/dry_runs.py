@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dry runs of studies: a folder per run with mill.yaml, walls, dumps and averages, each made once, gone on with after a kill."""
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from .mill_runs import changed, is_whole, fingerprint
+from .run import run
+from .solids import read_map
+
+
+@dataclass
+class DryRun:
+    """A run's results (dumps/results.txt: name -> number or word) and its map averaged over axis and time."""
+    name: str
+    results: dict
+    charge: object
+
+    def number(self, key):
+        return float(self.results[key])
+
+
+def read_results(path):
+    """Lines `key value` of a results.txt as a dictionary; numbers as text."""
+    return dict(line.split(maxsplit=1) for line in Path(path).read_text().splitlines())
+
+
+def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
+    """Runs millMesh, millDem and millAverage in a folder, unless that was done with the same mill and options before.
+
+    folder: its name is the run's; mill: text of mill.yaml; averaging: millAverage's options but for dumps, walls and file.
+    A run that was broken off is gone on with, of another mill it is made anew. Dumps are large: they are removed once they
+    are averaged, unless `keep_dumps`."""
+    folder = Path(folder)
+    files = {"mill.yaml": mill, "averaging": " ".join(map(str, averaging)) + "\n"}
+    if not is_whole(folder, files):
+        begun = folder / "mill.yaml"
+        if begun.is_file() and begun.read_text() != mill:
+            shutil.rmtree(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, text in files.items():
+            (folder / name).write_text(text)
+        run(folder, "millMesh", "mill.yaml", "--case", ".")
+        run(folder, "millDem", "mill.yaml", "--case", ".", "-np", ranks, "--resume")
+        run(folder, "millAverage", "--dumps", "dumps/dump.*.txt", "--inside", "walls/*.stl", *averaging, "-o", "solids.h5")
+        (folder / "whole").write_text(fingerprint(files))
+    if not keep_dumps:
+        for dump in (folder / "dumps").glob("dump.*.txt"):
+            dump.unlink()
+        for restart in (folder / "dem").glob("restart.*"):
+            restart.unlink()
+    return DryRun(folder.name, read_results(folder / "dumps" / "results.txt"), read_map(folder / "solids.h5"))
+
+
+def with_entries(mill, **entries):
+    """A mill.yaml's text with the entries `key: value` given new values; each key must be there once."""
+    return changed(mill, "mill.yaml", entries)
