@@ -8,6 +8,7 @@
 
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
+#include "meshing/openings.hpp"
 #include "meshing/pi.hpp"
 
 namespace millfoam::meshing {
@@ -29,7 +30,7 @@ double misfit(int cells, double wished) {
 void divide_pitch(const Geometry& geometry, double cell_size, Divisions& divisions) {
   const int count = geometry.lifters.count;
   const double gap_angle = 2 * pi / count - 2 * lifter_foot_half_angle(geometry);
-  const double wished_lifter = geometry.lifters.width / cell_size;
+  const double wished_lifter = geometry.lifters.top_width / cell_size;
   const double wished_gap = gap_angle * geometry.radius() / cell_size;
   const int fewest_gap = static_cast<int>(std::ceil(gap_angle * fewest_around / (2 * pi)));
   const int most_gap = std::max(fewest_gap, rounded(2 * wished_gap)) + 4;
@@ -48,18 +49,60 @@ void divide_pitch(const Geometry& geometry, double cell_size, Divisions& divisio
   assert(divisions.gap > 0);
 }
 
+/// Layers in each band of the ring that would make cells as thick as they are wide.
+std::vector<double> wished_bands(const Geometry& geometry, int core) {
+  std::vector<double> circles = opening_circles(geometry);
+  circles.push_back(lifter_top_distance(geometry));
+  std::vector<double> wished = {ring_layers(circles.front(), core)};
+  for (std::size_t i = 1; i < circles.size(); ++i) {
+    const double width = 2 * pi * (circles[i - 1] + circles[i]) / 2 / (4 * core);
+    wished.push_back((circles[i] - circles[i - 1]) / width);
+  }
+  return wished;
+}
+
+/// Shares out layers, at least one to each band: always to the band whose layers are the thickest still.
+std::vector<int> share_out(const std::vector<double>& wished, int layers) {
+  std::vector<int> bands(wished.size(), 1);
+  assert(layers >= static_cast<int>(bands.size()));
+  for (int given = static_cast<int>(bands.size()); given < layers; ++given) {
+    std::size_t thickest = 0;
+    for (std::size_t i = 1; i < bands.size(); ++i) {
+      if (wished[i] / bands[i] > wished[thickest] / bands[thickest]) thickest = i;
+    }
+    ++bands[thickest];
+  }
+  return bands;
+}
+
 }  // namespace
 
 Divisions choose_divisions(const Geometry& geometry, double cell_size) {
   Divisions divisions;
   int around = 4 * std::max(fewest_around / 4, rounded(pi / 2 * geometry.radius() / cell_size));
   if (geometry.lifters.count > 0) {
+    const Lifters& lifters = geometry.lifters;
     divide_pitch(geometry, cell_size, divisions);
-    divisions.height = rounded(geometry.lifters.height / cell_size);
-    around = geometry.lifters.count * (divisions.lifter + divisions.gap);
+    divisions.height =
+        rounded(std::hypot(lifters.height, (lifters.width - lifters.top_width) / 2) / cell_size);
+    around = lifters.count * (divisions.lifter + divisions.gap);
   }
   divisions.core = around / 4;
-  divisions.ring = ring_layers(geometry.radius() - geometry.lifters.height, divisions.core);
+  for (double wished : wished_bands(geometry, divisions.core)) divisions.bands.push_back(rounded(wished));
+  return divisions;
+}
+
+Divisions given_divisions(const Geometry& geometry, const BlockCounts& counts) {
+  const int around = std::max(1, geometry.lifters.count) * (counts.lifter + counts.gap);
+  assert(around % 4 == 0);
+  Divisions divisions;
+  if (geometry.lifters.count > 0) {
+    divisions.lifter = counts.lifter;
+    divisions.gap = counts.gap;
+    divisions.height = counts.height;
+  }
+  divisions.core = around / 4;
+  divisions.bands = share_out(wished_bands(geometry, divisions.core), counts.ring);
   return divisions;
 }
 
