@@ -108,12 +108,12 @@ void add_lifter_tops(CrossSection& section, const Divisions& divisions, const st
 
 /// Points on an opening's circle, one opposite each of the rim's.
 std::vector<int> add_circle(CrossSection& section, double radius) {
-  const double pitch = 2 * pi / section.around;
+  const double pitch = 2 * pi / section.around();
   const double outside = radius * std::sqrt(pitch / std::sin(pitch));
   std::vector<int> circle;
-  circle.reserve(static_cast<std::size_t>(section.around));
-  for (int p = 0; p < section.around; ++p) {
-    circle.push_back(add_point(section, on_circle(outside, section.first_line_angle + p * pitch)));
+  circle.reserve(static_cast<std::size_t>(section.around()));
+  for (int p = 0; p < section.around(); ++p) {
+    circle.push_back(add_point(section, on_circle(outside, section.first_line_angle() + p * pitch)));
   }
   return circle;
 }
@@ -121,8 +121,6 @@ std::vector<int> add_circle(CrossSection& section, double radius) {
 /// Core and ring: the O-grid inside the smallest circle, and a band between each two.
 void add_core_and_bands(CrossSection& section, const Geometry& geometry, const Divisions& divisions,
                         const std::vector<int>& rim) {
-  section.around = static_cast<int>(rim.size());
-  section.first_line_angle = -pi * divisions.lifter / section.around;
   std::vector<std::vector<int>> rings;
   for (double radius : opening_circles(geometry)) rings.push_back(add_circle(section, radius));
   rings.push_back(rim);
@@ -136,6 +134,7 @@ void add_core_and_bands(CrossSection& section, const Geometry& geometry, const D
 
 CrossSection divided(const Geometry& geometry, const Divisions& divisions) {
   CrossSection section;
+  section.divisions = divisions;
   if (geometry.lifters.count == 0) {
     const std::vector<int> rim = add_smooth_rim(section, geometry, 4 * divisions.core);
     add_core_and_bands(section, geometry, divisions, rim);
@@ -149,6 +148,10 @@ CrossSection divided(const Geometry& geometry, const Divisions& divisions) {
 }
 
 }  // namespace
+
+double CrossSection::first_line_angle() const {
+  return -pi * divisions.lifter / around();
+}
 
 CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution) {
   return resolution.counts ? divided(geometry, given_divisions(geometry, *resolution.counts))

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "meshing/divisions.hpp"
 #include "meshing/mill.hpp"
 
 namespace millfoam::meshing {
@@ -33,9 +34,12 @@ struct CrossSection {
   std::vector<int> columns;  ///< of each quadrilateral: its column around the axis, between the lines
                              ///< `column` and `column` + 1; -1 in the core
   std::vector<WallEdge> walls;
-  int around = 0;  ///< number of columns
-  double first_line_angle =
-      0;  ///< rad, of line 0 on the openings' circles; it ends at lifter 1's first corner
+  Divisions divisions;
+
+  /// Number of columns.
+  int around() const { return 4 * divisions.core; }
+  /// Angle, rad, of line 0 on the openings' circles; the line ends at lifter 1's first corner.
+  double first_line_angle() const;
 };
 
 /// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure), by cell size or

@@ -87,7 +87,9 @@ Grates read_grates(const Section& in, double room) {
       in.number("outer_radius", positive_below("a length", room, " m", "the radius inside the lifters"));
   grates.inner_radius =
       in.number("inner_radius", circle(room, grates.outer_radius, "not above the outer radius"));
-  if (grates.inner_radius == grates.outer_radius) in.refuse("inner_radius", "a length below outer_radius");
+  if (grates.outer_radius - grates.inner_radius < same_circle * grates.outer_radius) {
+    in.refuse("inner_radius", "a length at least 0.5 % below outer_radius");
+  }
   grates.sectors = in.integer("sectors", at_least_one("sectors"));
   grates.sector_share = in.number("sector_share", share("a share of each sector's angle"), 1);
   grates.open_fraction = in.number("open_fraction", share("a share of holes"), 1);
@@ -97,7 +99,9 @@ Grates read_grates(const Section& in, double room) {
 PulpLifters read_pulp_lifters(const Section& in, double room, const Grates& grates) {
   PulpLifters pulp;
   pulp.depth = in.number("depth", positive("a length in m"));
-  pulp.layers = in.integer("layers", at_least_one("layers"));
+  pulp.layers = in.integer("layers", {"a whole number of layers, 2 or more (else cells in corners have two "
+                                      "neighbours only)",
+                                      [](double v) { return v >= 2; }});
   pulp.discharge_radius =
       in.number("discharge_radius", circle(room, grates.inner_radius, "not above the grates' inner radius"));
   return pulp;

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Relative difference below which two lengths are the same.
-constexpr double same = 1e-9;
+/// Relative difference below which two distances are the same.
+constexpr double same_distance = 1e-9;
 
 Vector2d centre(const CrossSection& section, std::size_t quad) {
   Vector2d sum = Vector2d::Zero();
@@ -52,7 +52,7 @@ std::vector<bool> nearest_in_area(const CrossSection& section, double asked) {
   std::vector<std::size_t> order(distance.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return distance[a] < distance[b]; });
-  const double tolerance = same * distance[order.back()];
+  const double tolerance = same_distance * distance[order.back()];
   double sum = 0, least = asked;
   std::size_t best = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -76,13 +76,37 @@ struct Sectors {
   std::vector<int> grates;       ///< number of columns of each sector's grate
 };
 
-Sectors divide(const CrossSection& section, const Grates& grates) {
-  const double width = static_cast<double>(section.around) / grates.sectors;
-  const double line_at_x = -section.first_line_angle / (2 * pi) * section.around;
-  Sectors sectors;
-  for (int k = 0; k <= grates.sectors; ++k) {
-    sectors.first_line.push_back(static_cast<int>(std::lround(line_at_x + k * width)));
+/// Whether a radial wall of the pulp lifters may follow a line. One column away from a lifter's side it would
+/// leave cells at the shell with two neighbours only.
+bool may_carry_wall(const Divisions& divisions, int line) {
+  const int pitch = divisions.lifter + divisions.gap;
+  if (pitch == 0) return true;
+  const int from_lifter = (line % pitch + pitch) % pitch;
+  return from_lifter != divisions.lifter + 1 && from_lifter != pitch - 1;
+}
+
+/// The line nearest to a position in columns, and fit for a wall where one stands there.
+int nearest_line(const Divisions& divisions, double position, bool carries_wall) {
+  const int nearest = static_cast<int>(std::lround(position));
+  if (!carries_wall) return nearest;
+  int best = nearest;
+  double least = divisions.lifter + divisions.gap + 1;
+  for (int line = nearest - 2; line <= nearest + 2; ++line) {
+    if (!may_carry_wall(divisions, line) || std::abs(line - position) >= least) continue;
+    best = line;
+    least = std::abs(line - position);
   }
+  return best;
+}
+
+Sectors divide(const CrossSection& section, const Grates& grates, bool walls) {
+  const double width = static_cast<double>(section.around()) / grates.sectors;
+  const double line_at_x = -section.first_line_angle() / (2 * pi) * section.around();
+  Sectors sectors;
+  for (int k = 0; k < grates.sectors; ++k) {
+    sectors.first_line.push_back(nearest_line(section.divisions, line_at_x + k * width, walls));
+  }
+  sectors.first_line.push_back(sectors.first_line.front() + section.around());
   int taken = 0;
   for (int k = 0; k < grates.sectors; ++k) {
     const auto s = static_cast<std::size_t>(k);
@@ -92,7 +116,7 @@ Sectors divide(const CrossSection& section, const Grates& grates) {
     if (columns < 1) {
       throw std::runtime_error(
           "geometry.grates: sector " + std::to_string(k + 1) + " of " + std::to_string(grates.sectors) +
-          " has no column of the mesh's " + std::to_string(section.around) +
+          " has no column of the mesh's " + std::to_string(section.around()) +
           " for its grate: expected fewer sectors, a larger sector_share, or more cells");
     }
     sectors.first_grate.push_back(sectors.first_line[s] + (room - columns) / 2);
@@ -108,7 +132,8 @@ void for_each_outside(const CrossSection& section, double radius, int first, int
                       const Visit& visit) {
   for (std::size_t q = 0; q < section.quads.size(); ++q) {
     if (section.columns[q] < 0 || centre(section, q).norm() < radius) continue;
-    const int from_first = ((section.columns[q] - first) % section.around + section.around) % section.around;
+    const int from_first =
+        ((section.columns[q] - first) % section.around() + section.around()) % section.around();
     if (from_first < columns) visit(q);
   }
 }
@@ -127,7 +152,7 @@ std::vector<double> opening_circles(const Geometry& geometry) {
   if (geometry.pulp_lifters) circles.push_back(geometry.pulp_lifters->discharge_radius);
   std::sort(circles.begin(), circles.end());
   circles.erase(
-      std::unique(circles.begin(), circles.end(), [](double a, double b) { return b - a < same * b; }),
+      std::unique(circles.begin(), circles.end(), [](double a, double b) { return b - a < same_circle * b; }),
       circles.end());
   return circles;
 }
@@ -153,7 +178,7 @@ Openings find_openings(const CrossSection& section, const Geometry& geometry) {
                                 : nearest_in_area(section, asked_inlet_area(geometry));
   }
   if (geometry.grates) {
-    const Sectors sectors = divide(section, *geometry.grates);
+    const Sectors sectors = divide(section, *geometry.grates, geometry.pulp_lifters.has_value());
     const std::vector<bool> within = inside(section, geometry.grates->outer_radius);
     for (std::size_t k = 0; k < sectors.grates.size(); ++k) {
       for_each_outside(section, geometry.grates->inner_radius, sectors.first_grate[k], sectors.grates[k],

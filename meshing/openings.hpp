@@ -24,6 +24,10 @@ struct Openings {
 /// smaller inlet is made of whole quadrilaterals of the core.
 inline constexpr double smallest_circle = 0.25;
 
+/// Relative difference of radii below which two circles become one, the smaller: an area inside is then at
+/// most 1 % wrong, and cells between the two would be needles.
+inline constexpr double same_circle = 0.005;
+
 /// Radii of inlet, grates and discharge opening, ascending, m: circles that sides of quadrilaterals follow.
 /// An inlet smaller than the smallest circle has none.
 std::vector<double> opening_circles(const Geometry& geometry);
