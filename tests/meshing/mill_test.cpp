@@ -175,11 +175,11 @@ TEST(ReadMill, takes_an_inlet_by_radius_or_area) {
   EXPECT_DOUBLE_EQ(inlet("area: 0.001")->radius, std::sqrt(0.001 / std::acos(-1.0)));
 }
 
-const std::string grates = "  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}\n";
-const std::string pulp_lifters = "  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}\n";
+const std::string grates_lines = "  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}\n";
+const std::string pulp_lifters_lines = "  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}\n";
 
 TEST(ReadMill, takes_grates_that_are_whole_rings_unless_their_share_is_given) {
-  const Mill mill = read(with(example_mill, "speed:", grates + pulp_lifters + "speed:"));
+  const Mill mill = read(with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "speed:"));
   ASSERT_TRUE(mill.geometry.grates && mill.geometry.pulp_lifters);
   EXPECT_EQ(mill.geometry.grates->inner_radius, 0.03);
   EXPECT_EQ(mill.geometry.grates->outer_radius, 0.045);
@@ -194,12 +194,12 @@ TEST(ReadMill, takes_grates_that_are_whole_rings_unless_their_share_is_given) {
 TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
   const auto refused = [](const std::string& from, const std::string& to, const std::string& message) {
     const std::string text =
-        with(example_mill, "speed:", grates + pulp_lifters + "  inlet: {radius: 0.02}\nspeed:");
+        with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "  inlet: {radius: 0.02}\nspeed:");
     EXPECT_NE(refusal(with(text, from, to)).find(message), std::string::npos)
         << refusal(with(text, from, to));
   };
   refused("ends: plain", "ends: periodic", "'geometry.inlet' = {…}: expected it with 'ends: plain' only");
-  refused(grates, "",
+  refused(grates_lines, "",
           "mill.yaml:10: key 'geometry.pulp_lifters' = {…}: expected it with the key grates only");
   refused("radius: 0.02}\nspeed", "radius: 0.06}\nspeed",
           "'geometry.inlet.radius' = 0.06: expected a length (or the key area) above 0 and below the radius "
@@ -253,7 +253,7 @@ TEST(ReadMill, refuses_counts_that_the_blocks_cannot_have) {
               "'resolution.counts.gap' = 10: expected a number that makes the cells around the mill, 143, a "
               "multiple of four"),
       std::string::npos);
-  EXPECT_NE(refused(with(example_mill, "speed:", grates + "speed:"), "ring: 9", "ring: 2")
+  EXPECT_NE(refused(with(example_mill, "speed:", grates_lines + "speed:"), "ring: 9", "ring: 2")
                 .find("'resolution.counts.ring' = 2: expected a whole number of cells, 3 or more"),
             std::string::npos);
   EXPECT_NE(refused(example_mill, "gap: 11, lifter: 3", "gap: 11000, lifter: 3000").find("at most 1e8 cells"),

@@ -3,19 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mill_mesh.hpp"
 #include "meshing/mill_shape.hpp"
+#include "meshing/pi.hpp"
 #include "tests/meshing/test_geometry.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
-constexpr int layers = 4;
-const double pi = std::acos(-1.0);
+constexpr int mill_layers = 4;
 
 /// Settings of the READMEs' tables, and the numbers of quadrilaterals that the source publishes.
 struct Published {
@@ -101,7 +102,7 @@ TEST(Inlet, has_the_area_of_its_circle_wherever_the_grates_are) {
   for (const double cell_size : {0.012, 0.007}) {
     const Geometry mill = mill_with_grates();
     const CrossSection section = make_cross_section(mill, cell_size);
-    const VolumeMesh mesh = make_mill_mesh(section, mill, layers);
+    const VolumeMesh mesh = make_mill_mesh(section, mill, mill_layers);
     EXPECT_NEAR(area_of(mesh, "inlet").z(), -0.01287, 1e-15);
     EXPECT_NEAR(find_openings(section, mill).inlet_area, 0.01287, 1e-15);
     EXPECT_NEAR(area_of(mesh, "feedEnd").z() - 0.01287, -quality(mesh).volume / mill.length, 1e-13);
@@ -135,7 +136,7 @@ TEST(Circles, that_nearly_coincide_become_one) {
 
 TEST(Grates, that_are_whole_rings_have_the_rings_area) {
   const Geometry mill = mill_with_grates(1);
-  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.009), mill, layers);
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.009), mill, mill_layers);
   EXPECT_NEAR(area_of(mesh, "grates").z(), pi * (0.13 * 0.13 - 0.09 * 0.09), 1e-15);
 }
 
@@ -151,7 +152,7 @@ TEST(Grates, stay_within_half_a_column_of_the_area_asked_for) {
 
 TEST(Grates, have_a_zone_of_the_cells_in_front_of_them) {
   const Geometry mill = mill_with_grates();
-  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, layers);
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
   const Patch& grates = patch(mesh, "grates");
   EXPECT_TRUE(grates.open);
   ASSERT_EQ(mesh.cell_zones.size(), 1u);
@@ -194,7 +195,7 @@ std::vector<int> connected_parts(const VolumeMesh& mesh, const std::set<int>& cl
 
 TEST(PulpLifters, are_joined_with_the_mill_through_the_grates_alone) {
   const Geometry mill = mill_with_pulp_lifters();
-  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, layers);
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
   const auto parts = connected_parts(mesh, {});
   EXPECT_EQ(std::set<int>(parts.begin(), parts.end()).size(), 1u);
   ASSERT_EQ(mesh.face_zones.size(), 1u);
@@ -212,7 +213,7 @@ TEST(PulpLifters, are_joined_with_the_mill_through_the_grates_alone) {
 
 TEST(PulpLifters, are_as_many_as_sectors_each_with_a_grate_when_the_discharge_is_closed) {
   const Geometry mill = mill_with_pulp_lifters();
-  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, layers);
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
   const MeshMeasures m = measure(mesh);
   std::set<int> closed(mesh.face_zones[0].members.begin(), mesh.face_zones[0].members.end());
   for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) {
@@ -233,7 +234,7 @@ TEST(PulpLifters, are_as_many_as_sectors_each_with_a_grate_when_the_discharge_is
 
 TEST(PulpLifters, have_walls_of_two_sides_that_share_no_points) {
   const Geometry mill = mill_with_pulp_lifters();
-  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, layers);
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
   std::set<std::set<int>> faces;
   for (const Quad& face : mesh.faces) EXPECT_TRUE(faces.insert({face.begin(), face.end()}).second);
   const double section = quality(mesh).volume / 0.335;
@@ -250,7 +251,7 @@ TEST(PulpLifters, have_walls_of_two_sides_that_share_no_points) {
 TEST(PulpLifters, leave_cells_with_three_neighbours_at_least) {
   for (const double cell_size : {0.006, 0.009, 0.012}) {
     const Geometry mill = mill_with_pulp_lifters();
-    const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, cell_size), mill, layers);
+    const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, cell_size), mill, mill_layers);
     std::vector<int> neighbours(static_cast<std::size_t>(mesh.cells), 0);
     for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) {
       ++neighbours[static_cast<std::size_t>(mesh.owner[f])];
