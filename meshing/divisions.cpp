@@ -26,10 +26,27 @@ double misfit(int cells, double wished) {
   return std::pow(std::log(cells / wished), 2);
 }
 
+/// Cells that share a side stay within this ratio of lengths across it where numbers of cells can bring it
+/// about.
+constexpr double wished_ratio = 2.5;
+
+/// A cost above every misfit where cells beside a lifter's corner at its top differ too much in width.
+double unevenness(double lifter_cell, double gap_cell) {
+  return std::max({lifter_cell / gap_cell, gap_cell / lifter_cell, wished_ratio}) > wished_ratio ? 100 : 0;
+}
+
+/// Length of a lifter's side, its rounding by the shell left out, m.
+double lifter_side(const Geometry& geometry) {
+  const Lifters& lifters = geometry.lifters;
+  return std::hypot(lifters.height, (lifters.width - lifters.top_width) / 2);
+}
+
 /// Chooses lifter and gap so that all pitches together are a multiple of four.
 void divide_pitch(const Geometry& geometry, double cell_size, Divisions& divisions) {
   const int count = geometry.lifters.count;
   const double gap_angle = 2 * pi / count - 2 * lifter_foot_half_angle(geometry);
+  const double gap_at_top =
+      (2 * pi / count - 2 * lifter_top_half_angle(geometry)) * lifter_corner_radius(geometry);
   const double wished_lifter = geometry.lifters.top_width / cell_size;
   const double wished_gap = gap_angle * geometry.radius() / cell_size;
   const int fewest_gap = static_cast<int>(std::ceil(gap_angle * fewest_around / (2 * pi)));
@@ -37,7 +54,8 @@ void divide_pitch(const Geometry& geometry, double cell_size, Divisions& divisio
   double least = std::numeric_limits<double>::max();
   for (int lifter = 1; lifter <= rounded(2 * wished_lifter) + 1; ++lifter) {
     for (int gap = fewest_gap; gap <= most_gap; ++gap) {
-      const double cost = misfit(lifter, wished_lifter) + misfit(gap, wished_gap);
+      const double cost = misfit(lifter, wished_lifter) + misfit(gap, wished_gap) +
+                          unevenness(geometry.lifters.top_width / lifter, gap_at_top / gap);
       const int around = count * (lifter + gap);
       if (around % 4 == 0 && around >= 8 && cost < least) {
         least = cost;
@@ -75,20 +93,35 @@ std::vector<int> share_out(const std::vector<double>& wished, int layers) {
   return bands;
 }
 
+/// Adds rows beside the lifters, or layers to the ring, until the rows on the ring's outside and its layers
+/// are alike.
+void even_out_rim(const Geometry& geometry, Divisions& divisions) {
+  const double side = lifter_side(geometry);
+  const std::vector<double> circles = opening_circles(geometry);
+  const double tip = lifter_top_distance(geometry);
+  const RingThickness ring =
+      circles.empty() ? ring_thickness(tip) : RingThickness{tip - circles.back(), tip - circles.back()};
+  divisions.height =
+      std::max(divisions.height,
+               static_cast<int>(std::ceil(side / (wished_ratio * ring.least / divisions.bands.back()))));
+  divisions.bands.back() =
+      std::max(divisions.bands.back(),
+               static_cast<int>(std::ceil(ring.most / (wished_ratio * side / divisions.height))));
+}
+
 }  // namespace
 
 Divisions choose_divisions(const Geometry& geometry, double cell_size) {
   Divisions divisions;
   int around = 4 * std::max(fewest_around / 4, rounded(pi / 2 * geometry.radius() / cell_size));
   if (geometry.lifters.count > 0) {
-    const Lifters& lifters = geometry.lifters;
     divide_pitch(geometry, cell_size, divisions);
-    divisions.height =
-        rounded(std::hypot(lifters.height, (lifters.width - lifters.top_width) / 2) / cell_size);
-    around = lifters.count * (divisions.lifter + divisions.gap);
+    divisions.height = rounded(lifter_side(geometry) / cell_size);
+    around = geometry.lifters.count * (divisions.lifter + divisions.gap);
   }
   divisions.core = around / 4;
   for (double wished : wished_bands(geometry, divisions.core)) divisions.bands.push_back(rounded(wished));
+  if (geometry.lifters.count > 0) even_out_rim(geometry, divisions);
   return divisions;
 }
 

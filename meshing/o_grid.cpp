@@ -86,13 +86,17 @@ void place_inside(CrossSection& section, const Core& core) {
 
 }  // namespace
 
-double ring_layers(double radius, int side) {
+RingThickness ring_thickness(double radius) {
   const double corner = corner_radius * radius;
-  const double chord = std::sqrt(2.0) * corner;
-  const double middle = chord / 2 * (1 + std::tan(side_turn / 4));
-  const double thickness = radius - (corner + middle) / 2;
+  const double middle = corner / std::sqrt(2.0) * (1 + std::tan(side_turn / 4));
+  return {radius - corner, radius - middle};
+}
+
+double ring_layers(double radius, int side) {
+  const RingThickness thickness = ring_thickness(radius);
+  const double chord = std::sqrt(2.0) * corner_radius * radius;
   const double width = (pi / 2 * radius + chord) / 2 / side;
-  return thickness / width;
+  return (thickness.least + thickness.most) / 2 / width;
 }
 
 void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner, int layers) {

@@ -12,6 +12,14 @@ namespace millfoam::meshing {
 /// the two cells of the ring that meet there. Points inside the core are a Coons patch of its sides, those of
 /// the ring lie on straight lines (W. J. Gordon and C. A. Hall, Int. J. Numer. Methods Eng. 7, 461 (1973)).
 
+/// Distances, m, between the core and a ring whose smallest radius is `radius`: at the core's corners, and at
+/// the middles of its sides.
+struct RingThickness {
+  double least = 0;
+  double most = 0;
+};
+RingThickness ring_thickness(double radius);
+
 /// Layers of cells between core and ring that would make them as thick as they are wide. `radius` is the
 /// ring's smallest, m, `side` the number of cells along a side of the core.
 double ring_layers(double radius, int side);
