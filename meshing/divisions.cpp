@@ -93,20 +93,42 @@ std::vector<int> share_out(const std::vector<double>& wished, int layers) {
   return bands;
 }
 
-/// Adds rows beside the lifters, or layers to the ring, until the rows on the ring's outside and its layers
-/// are alike.
-void even_out_rim(const Geometry& geometry, Divisions& divisions) {
-  const double side = lifter_side(geometry);
-  const std::vector<double> circles = opening_circles(geometry);
-  const double tip = lifter_top_distance(geometry);
-  const RingThickness ring =
-      circles.empty() ? ring_thickness(tip) : RingThickness{tip - circles.back(), tip - circles.back()};
-  divisions.height =
-      std::max(divisions.height,
-               static_cast<int>(std::ceil(side / (wished_ratio * ring.least / divisions.bands.back()))));
-  divisions.bands.back() =
-      std::max(divisions.bands.back(),
-               static_cast<int>(std::ceil(ring.most / (wished_ratio * side / divisions.height))));
+/// Layers of cells that lie upon each other, and the distances, m, that they fill at the thinnest and the
+/// thickest place.
+struct Layers {
+  double least = 0;
+  double most = 0;
+  int* number = nullptr;
+};
+
+/// Adds layers to `layers` where they are too thick beside the other's.
+bool thin_out(const Layers& layers, const Layers& other) {
+  const int enough = static_cast<int>(std::ceil(layers.most * *other.number / (wished_ratio * other.least)));
+  if (*layers.number >= enough) return false;
+  *layers.number = enough;
+  return true;
+}
+
+/// Adds layers to the bands, and rows beside the lifters, until all that touch are alike.
+void even_out(const Geometry& geometry, Divisions& divisions) {
+  std::vector<double> circles = opening_circles(geometry);
+  circles.push_back(lifter_top_distance(geometry));
+  const RingThickness inner = ring_thickness(circles.front());
+  std::vector<Layers> all = {{inner.least, inner.most, &divisions.bands.front()}};
+  for (std::size_t i = 1; i < circles.size(); ++i) {
+    all.push_back({circles[i] - circles[i - 1], circles[i] - circles[i - 1], &divisions.bands[i]});
+  }
+  if (geometry.lifters.count > 0) {
+    all.push_back({lifter_side(geometry), lifter_side(geometry), &divisions.height});
+  }
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (std::size_t i = all.size() - 1; i > 0; --i) {
+      changed = thin_out(all[i], all[i - 1]) || changed;
+      changed = thin_out(all[i - 1], all[i]) || changed;
+    }
+  }
 }
 
 }  // namespace
@@ -121,7 +143,7 @@ Divisions choose_divisions(const Geometry& geometry, double cell_size) {
   }
   divisions.core = around / 4;
   for (double wished : wished_bands(geometry, divisions.core)) divisions.bands.push_back(rounded(wished));
-  if (geometry.lifters.count > 0) even_out_rim(geometry, divisions);
+  even_out(geometry, divisions);
   return divisions;
 }
 

@@ -77,7 +77,8 @@ void write_zones(const fs::path& folder, const std::string& kind, const std::vec
   });
 }
 
-void write_openings(std::ostream& out, const Geometry& geometry, const Openings& openings) {
+void write_openings(std::ostream& out, const Mill& mill, const Openings& openings) {
+  const Geometry& geometry = mill.geometry;
   const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
   if (geometry.inlet) {
     number("inletRadius", geometry.inlet->radius);
@@ -88,6 +89,7 @@ void write_openings(std::ostream& out, const Geometry& geometry, const Openings&
     number("grateOuterRadius", geometry.grates->outer_radius);
     number("grateArea", openings.grate_area);
     number("grateOpenFraction", geometry.grates->open_fraction);
+    number("grateLayerThickness", geometry.length / mill.resolution.layers);
   }
   if (geometry.pulp_lifters) {
     number("pulpLifterDepth", geometry.pulp_lifters->depth);
@@ -149,7 +151,7 @@ void write_mill_properties(const Mill& mill, const Openings& openings, double ti
     number("airDensity", mill.air.density);
     number("airViscosity", mill.air.viscosity);
     number("airKinematicViscosity", mill.air.viscosity / mill.air.density);
-    write_openings(out, mill.geometry, openings);
+    write_openings(out, mill, openings);
   });
 }
 
