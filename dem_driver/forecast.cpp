@@ -114,6 +114,9 @@ meshing::Mill trial_mill(const meshing::Mill& mill) {
   const double wanted = mill.geometry.length * trial_balls / static_cast<double>(whole.charge.balls());
   trial.geometry.length = std::clamp(wanted, shortest, mill.geometry.length);
   trial.geometry.ends = meshing::Ends::periodic;
+  trial.geometry.inlet.reset();
+  trial.geometry.grates.reset();
+  trial.geometry.pulp_lifters.reset();
   for (auto& size : trial.charge.classes) size.mass *= trial.geometry.length / mill.geometry.length;
 
   trial.dem.settle_time = 0.1;
@@ -126,7 +129,7 @@ Cost measure_cost(const meshing::Mill& mill, int ranks) {
   const TrialFolder temporary;
   const CaseFolder folder{temporary.path()};
   const meshing::Mill trial = trial_mill(mill);
-  const auto section = meshing::make_cross_section(trial.geometry, trial.resolution.cell_size);
+  const auto section = meshing::make_cross_section(trial.geometry, trial.resolution);
   meshing::write_walls(meshing::make_wall_surface(section, trial.geometry.length), trial.geometry.ends,
                        folder.walls());
   const DemPlan plan = plan_dem(trial);

@@ -7,6 +7,7 @@
 #include "meshing/divisions.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/o_grid.hpp"
+#include "meshing/openings.hpp"
 #include "meshing/pi.hpp"
 
 namespace millfoam::meshing {
@@ -35,8 +36,8 @@ std::vector<int> add_rim(CrossSection& section, const Geometry& geometry, const 
   for (int k = 0; k < lifters.count; ++k) {
     const Eigen::Rotation2Dd turn(k * pitch);
     for (int i = 0; i < divisions.lifter; ++i) {
-      const double across = (static_cast<double>(i) / divisions.lifter - 0.5) * lifters.width;
-      rim.push_back(add_point(section, turn * Vector2d(geometry.radius() - lifters.height, across)));
+      const double across = (static_cast<double>(i) / divisions.lifter - 0.5) * lifters.top_width;
+      rim.push_back(add_point(section, turn * Vector2d(lifter_top_distance(geometry), across)));
     }
     for (int i = 0; i < divisions.gap; ++i) {
       const double angle = top + (pitch - 2 * top) * i / divisions.gap;
@@ -86,6 +87,7 @@ void add_gap(CrossSection& section, const Geometry& geometry, const Divisions& d
     for (int row = 0; row < rows; ++row) {
       section.quads.push_back(
           {at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)});
+      section.columns.push_back(k * (divisions.lifter + columns) + divisions.lifter + column);
     }
     section.walls.push_back({{at(rows, column), at(rows, column + 1)}, Part::shell});
   }
@@ -104,22 +106,60 @@ void add_lifter_tops(CrossSection& section, const Divisions& divisions, const st
   }
 }
 
-}  // namespace
+/// Points on an opening's circle, one opposite each of the rim's.
+std::vector<int> add_circle(CrossSection& section, double radius) {
+  const double pitch = 2 * pi / section.around();
+  const double outside = radius * std::sqrt(pitch / std::sin(pitch));
+  std::vector<int> circle;
+  circle.reserve(static_cast<std::size_t>(section.around()));
+  for (int p = 0; p < section.around(); ++p) {
+    circle.push_back(add_point(section, on_circle(outside, section.first_line_angle() + p * pitch)));
+  }
+  return circle;
+}
 
-CrossSection make_cross_section(const Geometry& geometry, double cell_size) {
-  const Divisions divisions = choose_divisions(geometry, cell_size);
-  CrossSection section;
+/// Core and ring: the O-grid inside the smallest circle, and a band between each two.
+void add_core_and_bands(CrossSection& section, const Geometry& geometry, const Divisions& divisions,
+                        const std::vector<int>& rim) {
+  std::vector<std::vector<int>> rings;
+  for (double radius : opening_circles(geometry)) rings.push_back(add_circle(section, radius));
+  rings.push_back(rim);
   // Half a side from lifter 1 puts the core's corners on the diagonals.
   const int first_corner = divisions.lifter / 2 + divisions.core / 2;
+  add_o_grid(section, rings.front(), first_corner, divisions.bands.front());
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    add_band(section, rings[i - 1], rings[i], divisions.bands[i], 0);
+  }
+}
+
+CrossSection divided(const Geometry& geometry, const Divisions& divisions) {
+  CrossSection section;
+  section.divisions = divisions;
   if (geometry.lifters.count == 0) {
-    add_o_grid(section, add_smooth_rim(section, geometry, 4 * divisions.core), first_corner, divisions);
+    const std::vector<int> rim = add_smooth_rim(section, geometry, 4 * divisions.core);
+    add_core_and_bands(section, geometry, divisions, rim);
     return section;
   }
   const std::vector<int> rim = add_rim(section, geometry, divisions);
-  add_o_grid(section, rim, first_corner, divisions);
+  add_core_and_bands(section, geometry, divisions, rim);
   for (int k = 0; k < geometry.lifters.count; ++k) add_gap(section, geometry, divisions, rim, k);
   add_lifter_tops(section, divisions, rim);
   return section;
+}
+
+}  // namespace
+
+double CrossSection::first_line_angle() const {
+  return -pi * divisions.lifter / around();
+}
+
+CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution) {
+  return resolution.counts ? divided(geometry, given_divisions(geometry, *resolution.counts))
+                           : make_cross_section(geometry, resolution.cell_size);
+}
+
+CrossSection make_cross_section(const Geometry& geometry, double cell_size) {
+  return divided(geometry, choose_divisions(geometry, cell_size));
 }
 
 }  // namespace millfoam::meshing

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "meshing/divisions.hpp"
 #include "meshing/mill.hpp"
 
 namespace millfoam::meshing {
@@ -15,6 +16,10 @@ namespace millfoam::meshing {
 /// the lifters' tops (an O-grid: the core's corners are its four irregular points); and between each two
 /// lifters a block up to the shell whose outer lines end at the lifters' sides. A smooth drum has no such
 /// blocks: its ring ends at the shell.
+///
+/// Where the mill has openings, the ring consists of bands between their circles (opening_circles), and the
+/// core lies inside the smallest. The points of a circle are equally spaced and lie so far outside it that
+/// their polygon has the circle's area.
 struct CrossSection {
   enum class Part { shell, lifters };
   /// A side of one quadrilateral that lies on a wall; the interior is to the left of the way from the first
@@ -26,10 +31,22 @@ struct CrossSection {
 
   std::vector<Eigen::Vector2d> points;    ///< m; those on the shell lie on its circle
   std::vector<std::array<int, 4>> quads;  ///< anticlockwise
+  std::vector<int> columns;  ///< of each quadrilateral: its column around the axis, between the lines
+                             ///< `column` and `column` + 1; -1 in the core
   std::vector<WallEdge> walls;
+  Divisions divisions;
+
+  /// Number of columns.
+  int around() const { return 4 * divisions.core; }
+  /// Angle, rad, of line 0 on the openings' circles; the line ends at lifter 1's first corner.
+  double first_line_angle() const;
 };
 
-/// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure).
+/// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure), by cell size or
+/// counts.
+CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution);
+
+/// The same by cell size, m.
 CrossSection make_cross_section(const Geometry& geometry, double cell_size);
 
 }  // namespace millfoam::meshing

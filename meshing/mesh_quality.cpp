@@ -70,7 +70,8 @@ double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, co
 [[noreturn]] void refuse(const std::string& what) {
   throw std::runtime_error(
       "the mesh has " + what +
-      ": choose another resolution.cell_size, or lifters that are less high or less wide");
+      ": choose another resolution, lifters that are less high or less wide, or openings whose circles are "
+      "further from each other and from the lifters");
 }
 
 void require_at_most(double limit, double value, const std::string& what, const std::string& unit) {
@@ -123,6 +124,8 @@ MeshQuality quality(const VolumeMesh& mesh) {
       const Vector3d line = m.cell_centre[index(mesh.neighbour[f])] - centre;
       smallest_cosine = std::min(smallest_cosine, line.normalized().dot(normal));
       q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.2));
+      const double ratio = m.cell_volume[index(mesh.owner[f])] / m.cell_volume[index(mesh.neighbour[f])];
+      q.max_volume_ratio = std::max({q.max_volume_ratio, ratio, 1 / ratio});
     } else {
       const Vector3d line = normal * normal.dot(m.face_centre[f] - centre);
       q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.4));
@@ -139,6 +142,8 @@ void require_quality(const MeshQuality& q, double analytic_volume) {
   require_at_most(allowed_non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
                   " degrees");
   require_at_most(allowed_skewness, q.max_skewness, "a largest skewness", "");
+  require_at_most(allowed_volume_ratio, q.max_volume_ratio, "a largest volume ratio of neighbouring cells",
+                  "");
   require_at_most(allowed_volume_error, std::abs(q.volume / analytic_volume - 1),
                   "a relative error in volume", "");
 }

@@ -28,12 +28,14 @@ struct MeshQuality {
   double max_non_orthogonality =
       0;                    ///< degrees between a face's normal and the line between its two cells' centres
   double max_skewness = 0;  ///< distance of that line from the face's centre over the face's half-width
+  double max_volume_ratio = 1;  ///< of the larger of two neighbouring cells to the smaller
 };
 MeshQuality quality(const VolumeMesh& mesh);
 
 /// Largest values that a mill's mesh may have.
-inline constexpr double allowed_non_orthogonality = 50;  // degrees
-inline constexpr double allowed_skewness = 1.5;
+inline constexpr double allowed_non_orthogonality = 45;  // degrees
+inline constexpr double allowed_skewness = 1;
+inline constexpr double allowed_volume_ratio = 3;
 inline constexpr double allowed_volume_error = 0.005;  // relative to the closed form
 
 /// Throws std::runtime_error with the value and the limit for a mesh that is no good; `analytic_volume` in

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "meshing/materials.hpp"
+#include "meshing/mill_geometry.hpp"
 #include "meshing/mill_shape.hpp"
-#include "meshing/pi.hpp"
+#include "meshing/rules.hpp"
 #include "meshing/yaml_section.hpp"
 
 namespace millfoam::meshing {
@@ -14,50 +15,6 @@ namespace {
 
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
-/// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
-constexpr double most_cells = 1e8;
-
-Rule positive(const std::string& what) {
-  return {what + " above 0", [](double v) { return v > 0; }};
-}
-Rule not_negative(const std::string& what) {
-  return {what + " of 0 or more", [](double v) { return v >= 0; }};
-}
-Rule positive_below(const std::string& what, double bound, const std::string& unit, const std::string& of) {
-  return {what + " above 0 and below " + of + ", " + shown(bound) + unit,
-          [bound](double v) { return v > 0 && v < bound; }};
-}
-
-Lifters read_lifters(const Section& in, double radius) {
-  Lifters lifters;
-  lifters.count =
-      in.integer("count", {"a whole number of lifters, 0 or more", [](double v) { return v >= 0; }});
-  if (lifters.count == 0) {
-    in.number("height", not_negative("a length in m"), 0);
-    in.number("width", not_negative("a length in m"), 0);
-    return lifters;
-  }
-  lifters.height = in.number("height", positive_below("a length", radius, " m", "the radius"));
-  const double tip_radius = radius - lifters.height;
-  const double chord = 2 * std::sqrt(radius * radius - tip_radius * tip_radius);
-  const double pitch = lifters.count > 2 ? 2 * tip_radius * std::tan(pi / lifters.count) : 2 * radius;
-  lifters.width =
-      pitch < chord
-          ? in.number("width",
-                      positive_below("a length", pitch, " m", "the pitch of the lifters at their tops"))
-          : in.number("width", positive_below("a length", chord, " m",
-                                              "the shell's chord at the height of the lifters' tops"));
-  return lifters;
-}
-
-Geometry read_geometry(const Section& in) {
-  Geometry geometry;
-  geometry.diameter = in.number("diameter", positive("a length in m"));
-  geometry.length = in.number("length", positive("a length in m"));
-  geometry.ends = in.choice("ends", {"plain", "periodic"}) == "plain" ? Ends::plain : Ends::periodic;
-  geometry.lifters = read_lifters(in.section("lifters", {"count", "height", "width"}), geometry.radius());
-  return geometry;
-}
 
 double read_angular_velocity(const Section& in, const Geometry& geometry) {
   if (in.has("angular_velocity")) {
@@ -213,18 +170,24 @@ Air read_air(const Section& in) {
           in.number("viscosity", positive("a viscosity in Pa s"), 1.8e-5)};
 }
 
-Resolution read_resolution(const Section& in, const Geometry& geometry) {
-  Resolution resolution;
-  resolution.cell_size =
-      in.number("cell_size", positive_below("a length", geometry.radius(), " m", "the radius"));
-  resolution.layers =
-      in.integer("layers", {"a whole number of layers, 1 or more", [](double v) { return v >= 1; }});
-  const double cells =
-      analytic_section(geometry) / (resolution.cell_size * resolution.cell_size) * resolution.layers;
-  if (cells > most_cells) {
-    in.refuse("cell_size", "a length that gives at most 1e8 cells, not " + shown(cells));
-  }
-  return resolution;
+/// Makes a periodic slice of the mill: less length, no openings, and as much less charge and layers.
+void take_slice(const Section& in, Mill& mill) {
+  const auto largest =
+      std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
+                       [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
+  const double whole = mill.geometry.length;
+  const double slice = in.number(
+      "slice", {"a length above the largest ball's diameter, " + shown(largest->diameter) +
+                    " m, and up to the mill's, " + shown(whole) + " m",
+                [&](double v) { return v > largest->diameter && v <= whole; }});
+  mill.geometry.length = slice;
+  mill.geometry.ends = Ends::periodic;
+  mill.geometry.inlet.reset();
+  mill.geometry.grates.reset();
+  mill.geometry.pulp_lifters.reset();
+  for (SizeClass& size : mill.charge.classes) size.mass *= slice / whole;
+  const auto layers = std::lround(mill.resolution.layers * slice / whole);
+  mill.resolution.layers = std::max(1, static_cast<int>(layers));
 }
 
 }  // namespace
@@ -240,7 +203,9 @@ Mill read_mill(const std::filesystem::path& file) {
 
   Mill mill;
   mill.title = in.text("title", file.stem().string());
-  mill.geometry = read_geometry(in.section("geometry", {"diameter", "length", "ends", "lifters"}));
+  const Section geometry = in.section(
+      "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
+  mill.geometry = read_geometry(geometry);
   mill.angular_velocity = read_angular_velocity(
       in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"}), mill.geometry);
   mill.ball = read_material(materials, "ball");
@@ -257,7 +222,9 @@ Mill read_mill(const std::filesystem::path& file) {
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"}),
       mill.geometry.radius());
   mill.air = in.has("air") ? read_air(in.section("air", {"density", "viscosity"})) : Air{1.2, 1.8e-5};
-  mill.resolution = read_resolution(in.section("resolution", {"cell_size", "layers"}), mill.geometry);
+  mill.resolution =
+      read_resolution(in.section("resolution", {"cell_size", "counts", "layers"}), mill.geometry);
+  if (geometry.has("slice")) take_slice(geometry, mill);
   return mill;
 }
 

@@ -12,19 +12,46 @@ namespace millfoam::meshing {
 /// What closes the mill along its axis: two plain walls, or nothing (a periodic slice of a long mill).
 enum class Ends { plain, periodic };
 
-/// Equally spaced lifters of rectangular section on the shell. Lifter 1 is centred on +x at DEM time 0.
+/// Equally spaced lifters on the shell, whose section is a rectangle or a symmetric trapezoid. Lifter 1 is
+/// centred on +x at DEM time 0.
 struct Lifters {
-  int count = 0;      ///< number of lifters, 0 for a smooth drum
-  double height = 0;  ///< radial protrusion from the shell, m
-  double width = 0;   ///< width across the radius, m
+  int count = 0;         ///< number of lifters, 0 for a smooth drum
+  double height = 0;     ///< radial protrusion from the shell, m
+  double width = 0;      ///< across the radius, between the feet on the shell, m
+  double top_width = 0;  ///< across the radius, of the flat top, m; not above `width`
+};
+
+/// A circular opening of the feed end, centred on the axis.
+struct Inlet {
+  double radius = 0;  ///< m
+};
+
+/// Grates in the discharge end: a ring cut into equal sectors, the first of which begins at +x at DEM time 0,
+/// each with a grate in its middle.
+struct Grates {
+  double inner_radius = 0;   ///< m
+  double outer_radius = 0;   ///< m
+  int sectors = 0;           ///< number of them around the axis
+  double sector_share = 1;   ///< share of each sector's angle that is grate
+  double open_fraction = 1;  ///< share of holes in the grate's area
+};
+
+/// Compartments behind the grates, one for each of their sectors.
+struct PulpLifters {
+  double depth = 0;             ///< along the axis, m
+  int layers = 0;               ///< of cells along the depth
+  double discharge_radius = 0;  ///< m, inside of which there are no radial walls, and the end is open
 };
 
 /// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up.
 struct Geometry {
   double diameter = 0;  ///< inside the shell, m
-  double length = 0;    ///< along the axis, m
+  double length = 0;    ///< along the axis, without the pulp lifters, m
   Ends ends = Ends::plain;
   Lifters lifters;
+  std::optional<Inlet> inlet = std::nullopt;
+  std::optional<Grates> grates = std::nullopt;
+  std::optional<PulpLifters> pulp_lifters = std::nullopt;
   double radius() const { return diameter / 2; }
 };
 
@@ -85,10 +112,19 @@ struct Air {
   double viscosity = 0;  ///< Pa s
 };
 
-/// Size of the flow's cells.
+/// Numbers of cells along the sides of the cross-section's blocks (cross_section.hpp).
+struct BlockCounts {
+  int gap = 0;     ///< along the shell between two lifters, or around a smooth drum
+  int lifter = 0;  ///< along a lifter's top; 0 for a smooth drum
+  int height = 0;  ///< along a lifter's side; 0 for a smooth drum
+  int ring = 0;    ///< between the core and the lifters' tops
+};
+
+/// Size or numbers of the flow's cells.
 struct Resolution {
-  double cell_size = 0;  ///< m, in the mill's cross-section
-  int layers = 0;        ///< of cells along the axis
+  double cell_size = 0;                              ///< m, in the mill's cross-section; 0 with `counts`
+  int layers = 0;                                    ///< of cells along the axis
+  std::optional<BlockCounts> counts = std::nullopt;  ///< instead of the size
 };
 
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.

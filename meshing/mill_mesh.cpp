@@ -7,6 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "meshing/baffles.hpp"
+#include "meshing/openings.hpp"
+
 namespace millfoam::meshing {
 namespace {
 
@@ -48,30 +51,62 @@ SectionEdges find_edges(const CrossSection& section) {
   return edges;
 }
 
-/// Draws a cross-section along z.
+/// Draws a cross-section along z: through the mill and, where there are any, through the pulp lifters.
 class Extrusion {
  public:
-  Extrusion(const CrossSection& section, double length, int layers)
-      : section_(section), edges_(find_edges(section)), layers_(layers) {
-    mesh_.cells = quads() * layers;
-    for (int level = 0; level <= layers; ++level) {
-      const double z = level == layers ? length : length * level / layers;
-      for (const auto& point : section.points) mesh_.points.emplace_back(point.x(), point.y(), z);
+  Extrusion(const CrossSection& section, const Geometry& geometry, int layers)
+      : section_(section),
+        geometry_(geometry),
+        openings_(find_openings(section, geometry)),
+        edges_(find_edges(section)),
+        layers_(layers),
+        all_layers_(layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0)) {
+    mesh_.cells = quads() * all_layers_;
+    for (int level = 0; level <= all_layers_; ++level) {
+      for (const auto& point : section.points) mesh_.points.emplace_back(point.x(), point.y(), height(level));
     }
   }
 
-  VolumeMesh run(Ends ends) && {
+  VolumeMesh run() && {
+    add_zones();
     add_inner_faces();
-    add_wall("shell", CrossSection::Part::shell);
-    add_wall("lifters", CrossSection::Part::lifters);
-    const bool periodic = ends == Ends::periodic;
-    add_end("feedEnd", 0, periodic ? "dischargeEnd" : "");
-    add_end("dischargeEnd", layers_, periodic ? "feedEnd" : "");
+    add_patch("shell", [&] { add_sides(CrossSection::Part::shell, 0, layers_); });
+    add_patch("lifters", [&] { add_sides(CrossSection::Part::lifters, 0, layers_); });
+    add_patch("feedEnd", [&] { add_end(0, [&](std::size_t q) { return !openings_.inlet[q]; }); });
+    add_patch("dischargeEnd", [&] { add_discharge_end(); });
+    if (geometry_.ends == Ends::periodic) {
+      mesh_.patches[2].neighbour = "dischargeEnd";
+      mesh_.patches[3].neighbour = "feedEnd";
+    }
+    if (geometry_.inlet) {
+      add_patch("inlet", [&] { add_end(0, [&](std::size_t q) { return openings_.inlet[q]; }); });
+      mesh_.patches.back().open = true;
+    }
+    if (geometry_.pulp_lifters) {
+      const auto outside = [&](std::size_t q) { return openings_.compartment[q] >= 0; };
+      add_patch("outlet", [&] { add_end(all_layers_, [&](std::size_t q) { return !outside(q); }); });
+      mesh_.patches.back().open = true;
+      add_patch("pulpLifters", [&] {
+        add_sides(CrossSection::Part::shell, layers_, all_layers_);
+        add_sides(CrossSection::Part::lifters, layers_, all_layers_);
+        add_radial_walls();
+        add_end(all_layers_, outside);
+      });
+      separate_points_at_baffles(mesh_);
+    } else if (geometry_.grates) {
+      add_patch("grates", [&] { add_end(layers_, [&](std::size_t q) { return openings_.grates[q]; }); });
+      mesh_.patches.back().open = true;
+    }
     return std::move(mesh_);
   }
 
  private:
   int quads() const { return static_cast<int>(section_.quads.size()); }
+  double height(int level) const {
+    if (level == layers_) return geometry_.length;
+    if (level < layers_) return geometry_.length * level / layers_;
+    return geometry_.length + geometry_.pulp_lifters->depth * (level - layers_) / (all_layers_ - layers_);
+  }
   int point(int level, int p) const { return level * static_cast<int>(section_.points.size()) + p; }
 
   /// The face over the way from `from` to `to`, whose normal points to the right of it.
@@ -92,63 +127,113 @@ class Extrusion {
     mesh_.owner.push_back(owner);
   }
 
+  /// Whether a radial wall of the pulp lifters stands between two quadrilaterals.
+  bool separated(const InnerEdge& edge) const {
+    const int a = openings_.compartment[static_cast<std::size_t>(edge.owner)];
+    const int b = openings_.compartment[static_cast<std::size_t>(edge.neighbour)];
+    return a >= 0 && b >= 0 && a != b;
+  }
+
+  /// Whether the cells on both sides of a level are joined over a quadrilateral.
+  bool joined(int level, int quad) const {
+    return level < all_layers_ && (level != layers_ || openings_.grates[static_cast<std::size_t>(quad)]);
+  }
+
+  /// The cells in front of the grates.
+  void add_zones() {
+    if (!geometry_.grates) return;
+    mesh_.cell_zones.push_back({"grates", {}});
+    for (int quad = 0; quad < quads(); ++quad) {
+      if (!openings_.grates[static_cast<std::size_t>(quad)]) continue;
+      mesh_.cell_zones.back().members.push_back((layers_ - 1) * quads() + quad);
+    }
+    if (geometry_.pulp_lifters) mesh_.face_zones.push_back({"grates", {}});
+  }
+
   void add_inner_faces() {
-    for (int layer = 0; layer < layers_; ++layer) {
+    for (int layer = 0; layer < all_layers_; ++layer) {
       auto edge = edges_.inner.begin();
       const int first = layer * quads();
       for (int quad = 0; quad < quads(); ++quad) {
         for (; edge != edges_.inner.end() && edge->owner == quad; ++edge) {
+          if (layer >= layers_ && separated(*edge)) continue;
           add(side(layer, edge->from, edge->to), first + quad);
           mesh_.neighbour.push_back(first + edge->neighbour);
         }
-        if (layer + 1 < layers_) {
-          add(across(layer + 1, quad), first + quad);
-          mesh_.neighbour.push_back(first + quads() + quad);
+        if (!joined(layer + 1, quad)) continue;
+        if (layer + 1 == layers_) {
+          mesh_.face_zones.back().members.push_back(static_cast<int>(mesh_.faces.size()));
         }
+        add(across(layer + 1, quad), first + quad);
+        mesh_.neighbour.push_back(first + quads() + quad);
       }
     }
   }
 
-  void begin_patch(const std::string& name, const std::string& neighbour) {
-    mesh_.patches.push_back({name, static_cast<int>(mesh_.faces.size()), 0, neighbour});
-  }
-  void end_patch() {
-    mesh_.patches.back().size = static_cast<int>(mesh_.faces.size()) - mesh_.patches.back().start;
+  template <typename AddFaces>
+  void add_patch(const std::string& name, const AddFaces& add_faces) {
+    const int start = static_cast<int>(mesh_.faces.size());
+    add_faces();
+    mesh_.patches.push_back({name, start, static_cast<int>(mesh_.faces.size()) - start, ""});
   }
 
-  void add_wall(const std::string& name, CrossSection::Part part) {
-    begin_patch(name, "");
-    for (int layer = 0; layer < layers_; ++layer) {
+  void add_sides(CrossSection::Part part, int first_layer, int end_layer) {
+    for (int layer = first_layer; layer < end_layer; ++layer) {
       for (std::size_t e = 0; e < section_.walls.size(); ++e) {
         const auto& wall = section_.walls[e];
         if (wall.part != part) continue;
         add(side(layer, wall.points[0], wall.points[1]), layer * quads() + edges_.wall_owner[e]);
       }
     }
-    end_patch();
   }
 
-  void add_end(const std::string& name, int level, const std::string& neighbour) {
-    begin_patch(name, neighbour);
+  void add_radial_walls() {
+    for (int layer = layers_; layer < all_layers_; ++layer) {
+      for (const InnerEdge& edge : edges_.inner) {
+        if (!separated(edge)) continue;
+        add(side(layer, edge.from, edge.to), layer * quads() + edge.owner);
+        add(side(layer, edge.to, edge.from), layer * quads() + edge.neighbour);
+      }
+    }
+  }
+
+  /// The quadrilaterals that `chosen` takes, at a level, with cells in front of it (normal +z) or behind.
+  template <typename Chosen>
+  void add_level(int level, bool in_front, const Chosen& chosen) {
     for (int quad = 0; quad < quads(); ++quad) {
+      if (!chosen(static_cast<std::size_t>(quad))) continue;
       Quad face = across(level, quad);
       // Reversed, but with the same first point: OpenFOAM joins periodic faces by it.
-      if (level == 0) std::reverse(face.begin() + 1, face.end());
-      add(face, std::max(0, level - 1) * quads() + quad);
+      if (!in_front) std::reverse(face.begin() + 1, face.end());
+      add(face, (in_front ? level - 1 : level) * quads() + quad);
     }
-    end_patch();
+  }
+
+  template <typename Chosen>
+  void add_end(int level, const Chosen& chosen) {
+    add_level(level, level > 0, chosen);
+  }
+
+  /// What of the discharge end is no grate; it has two sides where pulp lifters lie behind it.
+  void add_discharge_end() {
+    const auto is_wall = [&](std::size_t q) { return !openings_.grates[q]; };
+    add_level(layers_, true, is_wall);
+    if (geometry_.pulp_lifters) add_level(layers_, false, is_wall);
   }
 
   const CrossSection& section_;
+  const Geometry& geometry_;
+  Openings openings_;
   SectionEdges edges_;
-  int layers_;
+  int layers_;      ///< of the mill
+  int all_layers_;  ///< with those of the pulp lifters
   VolumeMesh mesh_;
 };
 
 }  // namespace
 
 VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers) {
-  return Extrusion(section, geometry.length, layers).run(geometry.ends);
+  return Extrusion(section, geometry, layers).run();
 }
 
 }  // namespace millfoam::meshing

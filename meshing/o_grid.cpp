@@ -86,52 +86,65 @@ void place_inside(CrossSection& section, const Core& core) {
 
 }  // namespace
 
-int ring_layers(double radius, int side) {
+RingThickness ring_thickness(double radius) {
   const double corner = corner_radius * radius;
-  const double chord = std::sqrt(2.0) * corner;
-  const double middle = chord / 2 * (1 + std::tan(side_turn / 4));
-  const double thickness = radius - (corner + middle) / 2;
-  const double width = (pi / 2 * radius + chord) / 2 / side;
-  return std::max(1, static_cast<int>(std::lround(thickness / width)));
+  const double middle = corner / std::sqrt(2.0) * (1 + std::tan(side_turn / 4));
+  return {radius - corner, radius - middle};
 }
 
-void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner,
-                const Divisions& divisions) {
-  const int side = divisions.core;
-  const int around = 4 * side;
-  assert(static_cast<int>(rim.size()) == around);
-  const auto rim_index = [&](int p) { return rim[static_cast<std::size_t>((first_corner + p) % around)]; };
-  std::vector<Vector2d> outer;
-  outer.reserve(rim.size());
-  for (int p = 0; p < around; ++p) outer.push_back(section.points[static_cast<std::size_t>(rim_index(p))]);
+double ring_layers(double radius, int side) {
+  const RingThickness thickness = ring_thickness(radius);
+  const double chord = std::sqrt(2.0) * corner_radius * radius;
+  const double width = (pi / 2 * radius + chord) / 2 / side;
+  return (thickness.least + thickness.most) / 2 / width;
+}
 
-  const Core core{static_cast<int>(section.points.size()), side};
-  section.points.resize(section.points.size() + static_cast<std::size_t>((side + 1) * (side + 1)));
-  place_boundary(section, core, outer);
+void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner, int layers) {
+  const int around = static_cast<int>(rim.size());
+  assert(around % 4 == 0);
+  std::vector<int> outer(rim);
+  std::rotate(outer.begin(), outer.begin() + first_corner % around, outer.end());
+  std::vector<Vector2d> outer_points;
+  outer_points.reserve(rim.size());
+  for (int p : outer) outer_points.push_back(section.points[static_cast<std::size_t>(p)]);
+
+  const Core core{static_cast<int>(section.points.size()), around / 4};
+  section.points.resize(section.points.size() + static_cast<std::size_t>((core.side + 1) * (core.side + 1)));
+  place_boundary(section, core, outer_points);
   place_inside(section, core);
-  for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) {
+  for (int i = 0; i < core.side; ++i) {
+    for (int j = 0; j < core.side; ++j) {
       section.quads.push_back({core.at(i, j), core.at(i + 1, j), core.at(i + 1, j + 1), core.at(i, j + 1)});
+      section.columns.push_back(-1);
     }
   }
+  std::vector<int> inner;
+  inner.reserve(rim.size());
+  for (int p = 0; p < around; ++p) inner.push_back(core.boundary(p));
+  add_band(section, inner, outer, layers, first_corner);
+}
 
-  const int first_ring = static_cast<int>(section.points.size());
-  for (int layer = 1; layer < divisions.ring; ++layer) {
-    const double share = static_cast<double>(layer) / divisions.ring;
-    for (int p = 0; p < around; ++p) {
-      const Vector2d inner = section.points[static_cast<std::size_t>(core.boundary(p))];
-      section.points.push_back((1 - share) * inner + share * outer[static_cast<std::size_t>(p)]);
+void add_band(CrossSection& section, const std::vector<int>& inner, const std::vector<int>& outer, int layers,
+              int first_column) {
+  const std::size_t around = outer.size();
+  const int first = static_cast<int>(section.points.size());
+  for (int layer = 1; layer < layers; ++layer) {
+    const double share = static_cast<double>(layer) / layers;
+    for (std::size_t p = 0; p < around; ++p) {
+      const Vector2d from = section.points[static_cast<std::size_t>(inner[p])];
+      section.points.push_back((1 - share) * from +
+                               share * section.points[static_cast<std::size_t>(outer[p])]);
     }
   }
-  const auto ring = [&](int layer, int p) {
-    if (layer == 0) return core.boundary(p);
-    if (layer == divisions.ring) return rim_index(p);
-    return first_ring + (layer - 1) * around + p % around;
+  const auto at = [&](int layer, std::size_t p) {
+    if (layer == 0) return inner[p % around];
+    if (layer == layers) return outer[p % around];
+    return first + (layer - 1) * static_cast<int>(around) + static_cast<int>(p % around);
   };
-  for (int layer = 0; layer < divisions.ring; ++layer) {
-    for (int p = 0; p < around; ++p) {
-      section.quads.push_back(
-          {ring(layer, p), ring(layer + 1, p), ring(layer + 1, p + 1), ring(layer, p + 1)});
+  for (int layer = 0; layer < layers; ++layer) {
+    for (std::size_t p = 0; p < around; ++p) {
+      section.quads.push_back({at(layer, p), at(layer + 1, p), at(layer + 1, p + 1), at(layer, p + 1)});
+      section.columns.push_back((first_column + static_cast<int>(p)) % static_cast<int>(around));
     }
   }
 }

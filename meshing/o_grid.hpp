@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "meshing/cross_section.hpp"
-#include "meshing/divisions.hpp"
 
 namespace millfoam::meshing {
 
@@ -13,13 +12,27 @@ namespace millfoam::meshing {
 /// the two cells of the ring that meet there. Points inside the core are a Coons patch of its sides, those of
 /// the ring lie on straight lines (W. J. Gordon and C. A. Hall, Int. J. Numer. Methods Eng. 7, 461 (1973)).
 
-/// Layers of cells between core and ring that make them about as thick as they are wide. `radius` is the
-/// ring's smallest, m, `side` the number of cells along a side of the core.
-int ring_layers(double radius, int side);
+/// Distances, m, between the core and a ring whose smallest radius is `radius`: at the core's corners, and at
+/// the middles of its sides.
+struct RingThickness {
+  double least = 0;
+  double most = 0;
+};
+RingThickness ring_thickness(double radius);
 
-/// Adds core and ring to a section. `rim` are the indices of the ring's points, anticlockwise, four times
-/// `divisions.core` of them; the first corner of the core is opposite `rim[first_corner]`.
-void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner,
-                const Divisions& divisions);
+/// Layers of cells between core and ring that would make them as thick as they are wide. `radius` is the
+/// ring's smallest, m, `side` the number of cells along a side of the core.
+double ring_layers(double radius, int side);
+
+/// Adds core and ring to a section. `rim` are the indices of the ring's points, anticlockwise, four times as
+/// many as the core has cells along a side; the first corner of the core is opposite `rim[first_corner]`.
+/// `layers` are the ring's.
+void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner, int layers);
+
+/// Adds the cells between two closed rings of points to a section, in `layers` layers: points on straight
+/// lines between `inner[p]` and `outer[p]`, indices of points in `section`. The p-th of the columns is
+/// numbered `first_column` + p.
+void add_band(CrossSection& section, const std::vector<int>& inner, const std::vector<int>& outer, int layers,
+              int first_column);
 
 }  // namespace millfoam::meshing

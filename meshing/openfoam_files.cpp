@@ -45,7 +45,9 @@ const Eigen::Vector3d& first_point(const VolumeMesh& mesh, const Patch& patch) {
 
 void write_patch(std::ostream& out, const VolumeMesh& mesh, const Patch& patch) {
   out << "    " << patch.name << "\n    {\n";
-  if (patch.neighbour.empty()) {
+  if (patch.open) {
+    out << "        type            patch;\n";
+  } else if (patch.neighbour.empty()) {
     out << "        type            wall;\n        inGroups        1(wall);\n";
   } else {
     const auto other = std::find_if(mesh.patches.begin(), mesh.patches.end(),
@@ -57,6 +59,43 @@ void write_patch(std::ostream& out, const VolumeMesh& mesh, const Patch& patch) 
   }
   out << "        nFaces          " << patch.size << ";\n        startFace       " << patch.start
       << ";\n    }";
+}
+
+/// `kind`: cell or face.
+void write_zones(const fs::path& folder, const std::string& kind, const std::vector<Zone>& zones) {
+  if (zones.empty()) return;
+  const std::string object = kind + "Zones";
+  write_file(folder / object, [&](std::ostream& out) {
+    write_header(out, "regIOobject", "constant/polyMesh", object);
+    write_list(out, zones, [&](const Zone& zone) {
+      out << zone.name << "\n{\n    type " << kind << "Zone;\n    " << kind << "Labels List<label> ";
+      write_list(out, zone.members, [&](int label) { out << label; });
+      out << ";\n";
+      if (kind == "face") out << "    flipMap List<bool> " << zone.members.size() << "{0};\n";
+      out << '}';
+    });
+  });
+}
+
+void write_openings(std::ostream& out, const Mill& mill, const Openings& openings) {
+  const Geometry& geometry = mill.geometry;
+  const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
+  if (geometry.inlet) {
+    number("inletRadius", geometry.inlet->radius);
+    number("inletArea", openings.inlet_area);
+  }
+  if (geometry.grates) {
+    number("grateInnerRadius", geometry.grates->inner_radius);
+    number("grateOuterRadius", geometry.grates->outer_radius);
+    number("grateArea", openings.grate_area);
+    number("grateOpenFraction", geometry.grates->open_fraction);
+    number("grateLayerThickness", geometry.length / mill.resolution.layers);
+  }
+  if (geometry.pulp_lifters) {
+    number("pulpLifterDepth", geometry.pulp_lifters->depth);
+    number("outletRadius", geometry.pulp_lifters->discharge_radius);
+    number("outletArea", openings.outlet_area);
+  }
 }
 
 }  // namespace
@@ -85,11 +124,14 @@ void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
     write_header(out, "polyBoundaryMesh", "constant/polyMesh", "boundary");
     write_list(out, mesh.patches, [&](const Patch& patch) { write_patch(out, mesh, patch); });
   });
+  write_zones(partial, "cell", mesh.cell_zones);
+  write_zones(partial, "face", mesh.face_zones);
   fs::remove_all(whole);
   fs::rename(partial, whole);
 }
 
-void write_mill_properties(const Mill& mill, double time, const fs::path& case_folder) {
+void write_mill_properties(const Mill& mill, const Openings& openings, double time,
+                           const fs::path& case_folder) {
   write_file(case_folder / "constant" / "millProperties", [&](std::ostream& out) {
     write_header(out, "dictionary", "constant", "millProperties");
     const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
@@ -109,6 +151,7 @@ void write_mill_properties(const Mill& mill, double time, const fs::path& case_f
     number("airDensity", mill.air.density);
     number("airViscosity", mill.air.viscosity);
     number("airKinematicViscosity", mill.air.viscosity / mill.air.density);
+    write_openings(out, mill, openings);
   });
 }
 

@@ -17,6 +17,13 @@ struct Patch {
   int start = 0;          ///< index of the first face
   int size = 0;           ///< number of faces, which may be 0
   std::string neighbour;  ///< name of the patch that this one is joined to periodically; empty for a wall
+  bool open = false;      ///< fluid may pass: no wall
+};
+
+/// Cells or faces between two cells that the flow treats alike.
+struct Zone {
+  std::string name;
+  std::vector<int> members;  ///< indices, ascending
 };
 
 /// Cells bounded by quadrilateral faces, in the order that OpenFOAM asks for: first the faces between two
@@ -30,6 +37,8 @@ struct VolumeMesh {
   std::vector<int> neighbour;  ///< of each face between two cells
   std::vector<Patch> patches;
   int cells = 0;
+  std::vector<Zone> cell_zones;
+  std::vector<Zone> face_zones;
 };
 
 /// The same mesh turned by `angle` (rad, right-handed) about the z axis.

@@ -9,16 +9,28 @@ from pathlib import Path
 from millfoam.run import run
 
 ROOT = Path(__file__).resolve().parents[2]
-MILL = ROOT / "cases" / "mills" / "mill_12cm"
+MILLS = ROOT / "cases" / "mills"
+SLICE, SMALL, LARGE = (MILLS / name for name in ("mill_12cm/mill.yaml", "mill_12cm/mill_full.yaml",
+                                                 "mill_30cm/mill.yaml"))
+SYSTEM = SLICE.parent / "system"
+PULP_LIFTERS = (r"\nspeed:", "\n  pulp_lifters: {depth: 0.03, layers: 2, discharge_radius: 0.064}\nspeed:")
+
+
+def counts(gap, lifter, height, ring):
+    return r"(cell_size|counts): .*", f"counts: {{gap: {gap}, lifter: {lifter}, height: {height}, ring: {ring}}}"
+
+
+def layers(number):
+    return r"(?m)^  layers: \d+", f"  layers: {number}"
 
 
 class Mesh(unittest.TestCase):
-    def check(self, *changes, turned_to=0):
-        """Meshes the slice's mill.yaml after the changes [(pattern, new)] and returns what checkMesh says."""
+    def check(self, *changes, mill=SLICE, turned_to=0):
+        """Meshes a mill.yaml after the changes [(pattern, new)] and returns what checkMesh says."""
         case = Path(tempfile.mkdtemp(prefix="mesh-"))
         self.addCleanup(shutil.rmtree, case)
-        shutil.copytree(MILL / "system", case / "system")
-        text = (MILL / "mill.yaml").read_text()
+        shutil.copytree(SYSTEM, case / "system")
+        text = mill.read_text()
         for pattern, new in changes:
             text, count = re.subn(pattern, new, text)
             self.assertEqual(count, 1, pattern)
@@ -26,8 +38,10 @@ class Mesh(unittest.TestCase):
         run(case, "millMesh", "mill.yaml", "--case", ".", "--at-time", turned_to)
         report = run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")
         self.assertIn("\nMesh OK.\n", report, report[-2000:])
-        self.assertLessEqual(float(re.search(r"non-orthogonality Max: (\S+)", report).group(1)), 50)
-        self.assertLessEqual(float(re.search(r"Max skewness = (\S+)", report).group(1)), 1.5)
+        self.assertLessEqual(float(re.search(r"non-orthogonality Max: (\S+)", report).group(1)), 45)
+        self.assertLessEqual(float(re.search(r"Max skewness = (\S+)", report).group(1)), 1)
+        self.assertGreaterEqual(float(re.search(r"Face volume ratio : minimum: (\S+)", report).group(1)), 1 / 3)
+        return report
 
     def test_periodic_slice(self):
         self.check()
@@ -36,7 +50,7 @@ class Mesh(unittest.TestCase):
         self.check(turned_to=1.0)
 
     def test_plain_ends(self):
-        self.check((r"ends: periodic", "ends: plain"), (r"layers: \d+", "layers: 12"), (r"  start_length: \S+\n", ""))
+        self.check((r"ends: periodic", "ends: plain"), layers(12), (r"  start_length: \S+\n", ""))
 
     def test_smooth_drum(self):
         self.check((r"count: 12", "count: 0"), (r"  height: 0.008\n", ""), (r"    width: 0.006\n", ""))
@@ -45,6 +59,31 @@ class Mesh(unittest.TestCase):
         for size in (0.002, 0.006):
             with self.subTest(size=size):
                 self.check((r"cell_size: \S+", f"cell_size: {size}"))
+
+    def test_published_resolutions_of_the_12_cm_mill(self):
+        coarse, fine = counts(11, 3, 5, 9), counts(24, 6, 8, 19)
+        for mill, resolution in ((SLICE, (coarse, layers(1))), (SLICE, (fine, layers(1))),
+                                 (SMALL, (coarse, layers(12))), (SMALL, (fine, layers(12)))):
+            with self.subTest(mill=mill.name, resolution=resolution):
+                self.check(*resolution, mill=mill)
+
+    def test_published_resolutions_of_the_30_cm_mill_with_and_without_pulp_lifters(self):
+        for number in (9, 33):
+            with self.subTest(layers=number):
+                report = self.check(layers(number), mill=LARGE)
+                self.assertRegex(report, r"inlet +\d+ .* ok")
+                self.assertRegex(report, r"grates +\d+ .* ok")
+                report = self.check(layers(number), PULP_LIFTERS, mill=LARGE)
+                self.assertRegex(report, r"outlet +\d+ .* ok")
+                self.assertIn("Number of regions: 1 (OK)", report)
+
+    def test_plain_ends_of_the_30_cm_mill(self):
+        self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), counts(5, 1, 1, 5), layers(9), mill=LARGE)
+
+    def test_trapezoidal_lifters(self):
+        for mill, width, top in ((SMALL, 0.006, 0.003), (LARGE, 0.010, 0.006)):
+            with self.subTest(mill=mill.parent.name):
+                self.check((r"    width: .*\n", f"    width: {width}\n    top_width: {top}\n"), layers(9), mill=mill)
 
 
 if __name__ == "__main__":

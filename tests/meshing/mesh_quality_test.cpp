@@ -65,6 +65,14 @@ TEST(MeshQuality, counts_how_far_the_centres_line_misses_an_inner_face) {
   EXPECT_NEAR(q.max_skewness, s, 1e-14);
 }
 
+TEST(MeshQuality, compares_the_volumes_of_neighbours) {
+  VolumeMesh mesh = two_cells([](double) { return 0.0; });
+  for (Eigen::Vector3d& point : mesh.points) {
+    if (point.x() > 0.5) point.x() = 2.5;
+  }
+  EXPECT_NEAR(quality(mesh).max_volume_ratio, 2.5, 1e-14);
+}
+
 std::string refusal(const MeshQuality& quality, double volume) {
   try {
     require_quality(quality, volume);
@@ -79,10 +87,13 @@ TEST(RequireQuality, names_what_is_above_its_limit) {
   EXPECT_EQ(refusal(q, 2), "accepted");
   EXPECT_NE(refusal(q, 2.02).find("relative error in volume of 0.00990099, above the allowed 0.005"),
             std::string::npos);
+  q.max_volume_ratio = 3.5;
+  EXPECT_NE(refusal(q, 2).find("largest volume ratio of neighbouring cells of 3.5, above the allowed 3"),
+            std::string::npos);
   q.max_skewness = 1.6;
-  EXPECT_NE(refusal(q, 2).find("largest skewness of 1.6, above the allowed 1.5"), std::string::npos);
+  EXPECT_NE(refusal(q, 2).find("largest skewness of 1.6, above the allowed 1:"), std::string::npos);
   q.max_non_orthogonality = 51;
-  EXPECT_NE(refusal(q, 2).find("largest non-orthogonality of 51 degrees, above the allowed 50"),
+  EXPECT_NE(refusal(q, 2).find("largest non-orthogonality of 51 degrees, above the allowed 45"),
             std::string::npos);
   q.smallest_cell = -1;
   EXPECT_NE(refusal(q, 2).find("a cell turned inside out, of -1 m^3"), std::string::npos);

@@ -127,13 +127,14 @@ TEST(MillMesh, has_the_areas_and_the_volume_of_a_mill_with_a_faceted_shell) {
     const VolumeMesh mesh = mesh_of(mill);
     const MeshMeasures m = measure(mesh);
     const Geometry& g = mill.geometry;
-    const double r = g.radius(), width = g.lifters.width, foot = std::sqrt(r * r - width * width / 4);
+    const double r = g.radius(), width = g.lifters.width, top = g.lifters.top_width;
+    const double side =
+        std::hypot(std::sqrt(r * r - width * width / 4) - r + g.lifters.height, (width - top) / 2);
     const int gap = mesh.patches[0].size / layers / g.lifters.count;
     const double facet = (2 * std::acos(-1.0) / g.lifters.count - 2 * std::asin(width / 2 / r)) / gap;
     EXPECT_NEAR(patch_area(mesh, m, "shell"), g.lifters.count * gap * 2 * r * std::sin(facet / 2) * g.length,
                 1e-14);
-    EXPECT_NEAR(patch_area(mesh, m, "lifters"),
-                g.lifters.count * (2 * (foot - r + g.lifters.height) + width) * g.length, 1e-14);
+    EXPECT_NEAR(patch_area(mesh, m, "lifters"), g.lifters.count * (2 * side + top) * g.length, 1e-14);
     const double section = faceted_section(g, gap);
     EXPECT_NEAR(patch_area(mesh, m, "feedEnd"), section, 1e-14);
     EXPECT_NEAR(patch_area(mesh, m, "dischargeEnd"), section, 1e-14);

@@ -118,8 +118,7 @@ TEST(ReadMill, takes_a_smooth_drum_with_or_without_the_size_of_its_lifters) {
 TEST(ReadMill, names_a_misspelt_key_and_the_nearest_known_one) {
   EXPECT_EQ(refusal("count:", "cuont:"),
             "mill.yaml:7: key 'geometry.lifters.cuont' is unknown: did you mean 'count'? known here: count, "
-            "height, "
-            "width");
+            "height, width, top_width");
   EXPECT_EQ(refusal("slurry:", "fluid:").substr(0, 60),
             std::string("mill.yaml:29: key 'fluid' is unknown: known here: title, geometry").substr(0, 60));
 }
@@ -149,6 +148,116 @@ TEST(ReadMill, refuses_lifters_that_overlap_or_reach_through_the_shell) {
   EXPECT_EQ(refusal("width: 0.006", "width: 0.0278"), "accepted");
   EXPECT_NE(refusal(with(with(example_mill, "count: 12", "count: 1"), "width: 0.006", "width: 0.06"))
                 .find("below the shell's chord at the height of the lifters' tops, 0.0598"),
+            std::string::npos);
+}
+
+TEST(ReadMill, takes_lifters_as_rectangles_unless_their_tops_have_a_width) {
+  EXPECT_EQ(read(example_mill).geometry.lifters.top_width, 0.006);
+  const std::string with_top = "width: 0.006\n    top_width: 0.004";
+  EXPECT_EQ(read(with(example_mill, "width: 0.006", with_top)).geometry.lifters.top_width, 0.004);
+  // Feet may be wider than the tops' pitch, up to their own: 0.12 sin(15 degrees) = 0.03106
+  EXPECT_EQ(refusal("width: 0.006", "width: 0.03\n    top_width: 0.004"), "accepted");
+  EXPECT_NE(refusal("width: 0.006", "width: 0.032\n    top_width: 0.004")
+                .find("below the pitch of the lifters' feet on the shell, 0.0310"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal("width: 0.006", "width: 0.006\n    top_width: 0.007")
+          .find("mill.yaml:10: key 'geometry.lifters.top_width' = 0.007: expected a length above 0, not "
+                "above the width, 0.006 m"),
+      std::string::npos);
+}
+
+TEST(ReadMill, takes_an_inlet_by_radius_or_area) {
+  const auto inlet = [](const std::string& value) {
+    return read(with(example_mill, "speed:", "  inlet: {" + value + "}\nspeed:")).geometry.inlet;
+  };
+  EXPECT_FALSE(read(example_mill).geometry.inlet);
+  EXPECT_EQ(inlet("radius: 0.02")->radius, 0.02);
+  EXPECT_DOUBLE_EQ(inlet("area: 0.001")->radius, std::sqrt(0.001 / std::acos(-1.0)));
+}
+
+const std::string grates_lines = "  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}\n";
+const std::string pulp_lifters_lines = "  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}\n";
+
+TEST(ReadMill, takes_grates_that_are_whole_rings_unless_their_share_is_given) {
+  const Mill mill = read(with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "speed:"));
+  ASSERT_TRUE(mill.geometry.grates && mill.geometry.pulp_lifters);
+  EXPECT_EQ(mill.geometry.grates->inner_radius, 0.03);
+  EXPECT_EQ(mill.geometry.grates->outer_radius, 0.045);
+  EXPECT_EQ(mill.geometry.grates->sectors, 6);
+  EXPECT_EQ(mill.geometry.grates->sector_share, 1);
+  EXPECT_EQ(mill.geometry.grates->open_fraction, 1);
+  EXPECT_EQ(mill.geometry.pulp_lifters->depth, 0.01);
+  EXPECT_EQ(mill.geometry.pulp_lifters->layers, 2);
+  EXPECT_EQ(mill.geometry.pulp_lifters->discharge_radius, 0.02);
+}
+
+TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
+  const auto refused = [](const std::string& from, const std::string& to, const std::string& message) {
+    const std::string text =
+        with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "  inlet: {radius: 0.02}\nspeed:");
+    EXPECT_NE(refusal(with(text, from, to)).find(message), std::string::npos)
+        << refusal(with(text, from, to));
+  };
+  refused("ends: plain", "ends: periodic", "'geometry.inlet' = {…}: expected it with 'ends: plain' only");
+  refused(grates_lines, "",
+          "mill.yaml:10: key 'geometry.pulp_lifters' = {…}: expected it with the key grates only");
+  refused("radius: 0.02}\nspeed", "radius: 0.06}\nspeed",
+          "'geometry.inlet.radius' = 0.06: expected a length (or the key area) above 0 and below the radius "
+          "inside "
+          "the lifters, 0.052 m");
+  refused("{radius: 0.02}", "{radius: 0.02, area: 0.001}",
+          "'geometry.inlet.radius' = 0.02: expected either area");
+  refused("{radius: 0.02}", "{area: 0.01}",
+          "'geometry.inlet.area' = 0.01: expected an area above 0 and below");
+  refused("outer_radius: 0.045", "outer_radius: 0.053", "'geometry.grates.outer_radius' = 0.053");
+  refused("inner_radius: 0.03", "inner_radius: 0.046",
+          "'geometry.grates.inner_radius' = 0.046: expected a length of 0.013 m (a quarter of the radius "
+          "inside the "
+          "lifters) or more and not above the outer radius, 0.045 m");
+  refused("inner_radius: 0.03", "inner_radius: 0.0449",
+          "expected a length at least 0.5 % below outer_radius");
+  refused("sectors: 6", "sectors: 0", "'geometry.grates.sectors' = 0: expected a whole number of sectors");
+  refused("sectors: 6", "sectors: 6, sector_share: 1.1", "'geometry.grates.sector_share' = 1.1");
+  refused("sectors: 6", "sectors: 6, open_fraction: 0", "'geometry.grates.open_fraction' = 0");
+  refused("layers: 2", "layers: 1",
+          "'geometry.pulp_lifters.layers' = 1: expected a whole number of layers, 2");
+  refused("discharge_radius: 0.02", "discharge_radius: 0.031",
+          "'geometry.pulp_lifters.discharge_radius' = 0.031");
+}
+
+TEST(ReadMill, takes_counts_of_cells_instead_of_their_size) {
+  const std::string counts = "counts: {gap: 11, lifter: 3, height: 5, ring: 9}";
+  const Resolution resolution = read(with(example_mill, "cell_size: 0.003", counts)).resolution;
+  ASSERT_TRUE(resolution.counts);
+  EXPECT_EQ(resolution.counts->gap, 11);
+  EXPECT_EQ(resolution.counts->lifter, 3);
+  EXPECT_EQ(resolution.counts->height, 5);
+  EXPECT_EQ(resolution.counts->ring, 9);
+  EXPECT_EQ(resolution.cell_size, 0);
+  EXPECT_FALSE(read(example_mill).resolution.counts);
+}
+
+TEST(ReadMill, refuses_counts_that_the_blocks_cannot_have) {
+  const std::string counts = "counts: {gap: 11, lifter: 3, height: 5, ring: 9}";
+  const auto refused = [&](const std::string& text, const std::string& from, const std::string& to) {
+    return refusal(with(with(text, "cell_size: 0.003", counts), from, to));
+  };
+  EXPECT_NE(
+      refused(example_mill, "layers: 8", "cell_size: 0.003\n  layers: 8").find("either cell_size or counts"),
+      std::string::npos);
+  EXPECT_NE(refused(example_mill, "ring: 9", "ring: 0").find("a whole number of cells, 1 or more"),
+            std::string::npos);
+  EXPECT_NE(
+      refused(with(example_mill, "count: 12", "count: 11"), "gap: 11", "gap: 10")
+          .find(
+              "'resolution.counts.gap' = 10: expected a number that makes the cells around the mill, 143, a "
+              "multiple of four"),
+      std::string::npos);
+  EXPECT_NE(refused(with(example_mill, "speed:", grates_lines + "speed:"), "ring: 9", "ring: 2")
+                .find("'resolution.counts.ring' = 2: expected a whole number of cells, 3 or more"),
+            std::string::npos);
+  EXPECT_NE(refused(example_mill, "gap: 11, lifter: 3", "gap: 11000, lifter: 3000").find("at most 1e8 cells"),
             std::string::npos);
 }
 
@@ -300,6 +409,19 @@ TEST(ReadMill, takes_fines_up_to_the_largest_ball) {
   EXPECT_EQ(read(with(example_mill, "charge:\n", "charge:\n  fines_below: 0.003\n")).charge.fines_below,
             0.003);
   EXPECT_NE(refusal("charge:\n", "charge:\n  fines_below: 0.02\n").find("'charge.fines_below' = 0.02"),
+            std::string::npos);
+}
+
+TEST(ReadMill, takes_a_periodic_slice_of_a_whole_mill) {
+  const Mill whole = read(example_mill);
+  const Mill slice = read(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"));
+  EXPECT_EQ(slice.geometry.length, 0.012);
+  EXPECT_EQ(slice.geometry.ends, Ends::periodic);
+  EXPECT_EQ(slice.resolution.layers, 4);
+  EXPECT_NEAR(slice.charge.classes[0].mass, whole.charge.classes[0].mass / 2, 1e-15);
+  EXPECT_NE(refusal("  ends: plain", "  slice: 0.007\n  ends: plain").find("largest ball's diameter, 0.008"),
+            std::string::npos);
+  EXPECT_NE(refusal("  ends: plain", "  slice: 0.03\n  ends: plain").find("'geometry.slice' = 0.03"),
             std::string::npos);
 }
 

@@ -95,7 +95,7 @@ TEST(PolyMesh, says_where_it_cannot_be_written) {
 TEST(MillProperties, hold_one_plain_line_per_number) {
   const TemporaryFolder folder;
   const Mill mill = read_mill(folder.write("mill.yaml", example_mill));
-  write_mill_properties(mill, 0.25, folder.path());
+  write_mill_properties(mill, {}, 0.25, folder.path());
   const std::string text = text_of(folder.path() / "constant" / "millProperties");
   for (const char* line :
        {"\nradius 0.06;\n", "\nlength 0.024;\n", "\nlifterHeight 0.008;\n", "\nendsType plain;\n",
@@ -110,6 +110,48 @@ TEST(MillProperties, hold_one_plain_line_per_number) {
   EXPECT_DOUBLE_EQ(number("omega"), -0.5 * std::sqrt(9.81 / 0.06));
   EXPECT_DOUBLE_EQ(number("slurryKinematicViscosity"), 0.0014 / 1239);
   EXPECT_DOUBLE_EQ(number("airKinematicViscosity"), 1.8e-5 / 1.2);
+}
+
+TEST(MillProperties, hold_the_openings_of_a_mill_that_has_them) {
+  const TemporaryFolder folder;
+  Mill mill = read_mill(folder.write("mill.yaml", example_mill));
+  const auto properties = [&](const Openings& openings) {
+    write_mill_properties(mill, openings, 0, folder.path());
+    return text_of(folder.path() / "constant" / "millProperties");
+  };
+  EXPECT_EQ(properties({}).find("inlet"), std::string::npos);
+  EXPECT_EQ(properties({}).find("grate"), std::string::npos);
+  mill.geometry = mill_with_pulp_lifters();
+  Openings openings;
+  openings.inlet_area = 0.0129;
+  openings.grate_area = 0.022;
+  openings.outlet_area = 0.013;
+  const std::string text = properties(openings);
+  for (const char* line :
+       {"\ninletArea 0.0129;\n", "\ngrateInnerRadius 0.09;\n", "\ngrateOuterRadius 0.13;\n",
+        "\ngrateArea 0.022;\n", "\ngrateOpenFraction 0.3;\n", "\ngrateLayerThickness 0.038125;\n",
+        "\npulpLifterDepth 0.03;\n", "\noutletRadius 0.064;\n", "\noutletArea 0.013;\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  }
+}
+
+TEST(PolyMesh, has_zones_of_the_grates_and_openings_that_are_no_walls) {
+  const TemporaryFolder folder;
+  const Geometry mill = mill_with_pulp_lifters();
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, 3);
+  write_poly_mesh(mesh, folder.path());
+  const auto poly_mesh = folder.path() / "constant" / "polyMesh";
+  const std::string cells = text_of(poly_mesh / "cellZones"), faces = text_of(poly_mesh / "faceZones");
+  const std::string size = std::to_string(mesh.cell_zones.at(0).members.size());
+  EXPECT_NE(cells.find("grates\n{\n    type cellZone;\n    cellLabels List<label> " + size + "\n("),
+            std::string::npos);
+  EXPECT_NE(faces.find("grates\n{\n    type faceZone;\n    faceLabels List<label> " + size + "\n("),
+            std::string::npos);
+  EXPECT_NE(faces.find("flipMap List<bool> " + size + "{0};"), std::string::npos);
+  const std::string boundary = text_of(poly_mesh / "boundary");
+  EXPECT_NE(boundary.find("    inlet\n    {\n        type            patch;"), std::string::npos);
+  EXPECT_NE(boundary.find("    outlet\n    {\n        type            patch;"), std::string::npos);
+  EXPECT_NE(boundary.find("    pulpLifters\n    {\n        type            wall;"), std::string::npos);
 }
 
 }  // namespace

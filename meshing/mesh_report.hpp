@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "meshing/mesh_quality.hpp"
+#include "meshing/mill.hpp"
+#include "meshing/openings.hpp"
+#include "meshing/volume_mesh.hpp"
+
+namespace millfoam::meshing {
+
+/// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
+/// openings against those asked for, and advice on averaging where the cells are smaller than the largest
+/// ball. Lines end with '\n'.
+std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& quality,
+                        const Openings& openings);
+
+}  // namespace millfoam::meshing

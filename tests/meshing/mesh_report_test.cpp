@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mesh_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include "meshing/mill_mesh.hpp"
+#include "tests/meshing/test_geometry.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+std::string report_of(const Geometry& geometry, double ball) {
+  Mill mill;
+  mill.geometry = geometry;
+  mill.charge.classes = {{ball, 1}};
+  const CrossSection section = make_cross_section(geometry, 0.012);
+  const VolumeMesh mesh = make_mill_mesh(section, geometry, 20);
+  return mesh_report(mill, mesh, quality(mesh), find_openings(section, geometry));
+}
+
+void expect_lines(const std::string& report, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(report.find(part), std::string::npos) << part << "\n" << report;
+}
+
+TEST(MeshReport, holds_the_quality_against_its_limits) {
+  expect_lines(report_of(mill_with_grates(), 0.005),
+               {"max non-orthogonality ", " degrees (limit 45)\n", "max skewness ", " (limit 1)\n",
+                "max volume ratio ", " (limit 3)\n", "volume error ", " (limit 0.005)\n"});
+}
+
+TEST(MeshReport, says_which_value_is_too_large) {
+  const Geometry geometry = mill_with_grates();
+  const CrossSection section = make_cross_section(geometry, 0.012);
+  const VolumeMesh mesh = make_mill_mesh(section, geometry, 2);
+  MeshQuality bad = quality(mesh);
+  bad.max_volume_ratio = 4;
+  Mill mill;
+  mill.geometry = geometry;
+  expect_lines(mesh_report(mill, mesh, bad, find_openings(section, geometry)),
+               {"max volume ratio         4.00 (limit 3): too large\n"});
+}
+
+TEST(MeshReport, holds_the_areas_of_the_openings_against_those_asked_for) {
+  expect_lines(report_of(mill_with_pulp_lifters(), 0.005),
+               {"inlet                    128.68 cm^2 (asked for 128.7, relative error",
+                "grates                   221.17 cm^2 (asked for 221.17, relative error",
+                "outlet                   128.68 cm^2 (asked for 128.68, relative error"});
+  Geometry plain = mill_with_grates();
+  plain.inlet.reset();
+  plain.grates.reset();
+  EXPECT_EQ(report_of(plain, 0.005).find("asked for"), std::string::npos);
+}
+
+TEST(MeshReport, names_the_averages_to_use_where_cells_are_smaller_than_the_largest_ball) {
+  const std::string report = report_of(mill_with_grates(), 0.02);
+  expect_lines(report, {"largest ball             20 mm", "advice: a cell is smaller than the largest ball",
+                        "millAverage --box", "--smooth", "averaging/README.md"});
+  EXPECT_EQ(report_of(mill_with_grates(), 0.005).find("advice"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace millfoam::meshing
