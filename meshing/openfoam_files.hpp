@@ -12,6 +12,7 @@ namespace millfoam::meshing {
 /// files are made in `constant/polyMesh.partial`, which then takes the place of an older polyMesh with all
 /// that is in it.
 void write_poly_mesh(const VolumeMesh& mesh, const std::filesystem::path& case_folder);
+void write_poly_mesh(const PolyMesh& mesh, const std::filesystem::path& case_folder);
 
 /// Writes `constant/millProperties`: the mill's numbers as plain `key value;` lines that dictionaries of the
 /// case take in with `#include`. `time` is the DEM time, s, that the case's mesh is turned to. See
