@@ -10,6 +10,7 @@
 #include "meshing/mill_shape.hpp"
 #include "meshing/openfoam_files.hpp"
 #include "meshing/surface_check.hpp"
+#include "meshing/tools/polygon_commands.hpp"
 #include "meshing/wall_files.hpp"
 
 namespace {
@@ -59,14 +60,21 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Writes a mill's walls for LIGGGHTS, and its mesh and numbers for OpenFOAM, from mill.yaml."};
   Options options;
-  app.add_option("mill", options.mill, "the mill's description, mill.yaml")->required();
-  app.add_option("--case", options.case_folder, "folder that receives walls/ and constant/")->required();
+  app.add_option("mill", options.mill, "the mill's description, mill.yaml");
+  app.add_option("--case", options.case_folder, "folder that receives walls/ and constant/");
   app.add_option("--at-time", options.time,
                  "DEM time in s that the flow's mesh is turned to; the walls stay at 0")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  try {
+  add_polygon_commands(app);
+  app.require_subcommand(0, 1);
+  app.callback([&] {
+    if (!app.get_subcommands().empty()) return;
+    if (options.mill.empty()) throw CLI::RequiredError("mill");
+    if (options.case_folder.empty()) throw CLI::RequiredError("--case");
     run(options);
+  });
+  try {
+    CLI11_PARSE(app, argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "millMesh: error: " << error.what() << '\n';
     return 1;
