@@ -18,4 +18,8 @@ struct Crossing {
 /// common point are not looked at: in a mesh they are most of the pairs near each other.
 std::vector<Crossing> find_crossings(const Points& points, const std::vector<Face>& faces);
 
+/// The triangles that cross or overlap, those with a common corner too (CGAL's Polygon_mesh_processing).
+/// Where they are no manifold, or some have no area, as find_crossings() does it.
+std::vector<Crossing> crossing_triangles(const Points& points, const std::vector<Face>& triangles);
+
 }  // namespace millfoam::meshing

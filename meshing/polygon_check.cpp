@@ -106,7 +106,8 @@ void add_chain(const WeldedSet& welded, const EdgeTable& edges, const std::vecto
   const std::string rim = "the edge " + described_edge(welded, first) + " has no other face, one of " +
                           std::to_string(chain.size()) + " such edges around " + described(centre);
   problems.add(hole ? "hole" : "dangling face",
-               place(welded, first.face) + ": " + (hole ? "a hole: " : "a dangling face: ") + rim);
+               place(welded, first.face) + ": " +
+                   (hole ? "a hole: " : "a dangling face, or one beside it is missing: ") + rim);
 }
 
 /// T-junctions into the problems; returns the edges with one face that they explain.
@@ -132,21 +133,24 @@ std::set<std::size_t> add_t_junctions(const WeldedSet& welded, const EdgeTable& 
 
 void Problems::add(const std::string& kind, const std::string& sentence) {
   if (count_[kind]++ == 0) kinds_.push_back(kind);
-  if (count_[kind] <= sentences_of_a_kind) sentences_[kind].push_back(sentence);
+  if (count_[kind] <= sentences_of_a_kind) sentences_of_[kind].push_back(sentence);
 }
 
-std::string Problems::text() const {
-  std::string text;
+std::vector<std::string> Problems::sentences() const {
+  std::vector<std::string> all;
   for (const std::string& kind : kinds_) {
-    for (const std::string& sentence : sentences_.at(kind)) text += (text.empty() ? "" : "\n") + sentence;
-    if (count_.at(kind) > sentences_of_a_kind)
-      text += "\nand " + std::to_string(count_.at(kind) - sentences_of_a_kind) + " more: " + kind;
+    const auto& some = sentences_of_.at(kind);
+    all.insert(all.end(), some.begin(), some.end());
+    if (count_.at(kind) > some.size())
+      all.push_back("and " + std::to_string(count_.at(kind) - some.size()) + " more: " + kind);
   }
-  return text;
+  return all;
 }
 
 void Problems::stop() const {
-  if (!empty()) throw PolygonError(text());
+  std::string text;
+  for (const std::string& sentence : sentences()) text += (text.empty() ? "" : "\n") + sentence;
+  if (!text.empty()) throw PolygonError(text);
 }
 
 void check_groups(const PolygonSet& set, Problems& problems) {

@@ -15,15 +15,14 @@ namespace millfoam::meshing {
 class Problems {
  public:
   void add(const std::string& kind, const std::string& sentence);
-  bool empty() const { return count_.empty(); }
-  /// All sentences, one a line, kinds in the order in which they were first added.
-  std::string text() const;
-  /// Throws PolygonError with the text if there is any.
+  /// All sentences, kinds in the order in which they were first added.
+  std::vector<std::string> sentences() const;
+  /// Throws PolygonError with all sentences, one a line, if there are any.
   void stop() const;
 
  private:
   std::vector<std::string> kinds_;
-  std::map<std::string, std::vector<std::string>> sentences_;
+  std::map<std::string, std::vector<std::string>> sentences_of_;
   std::map<std::string, std::size_t> count_;
 };
 

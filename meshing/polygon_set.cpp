@@ -6,9 +6,10 @@
 namespace millfoam::meshing {
 
 std::string place(const PolygonSet& set, int polygon) {
-  const int line = set.polygons[static_cast<std::size_t>(polygon)].line;
-  if (line > 0) return set.source + ':' + std::to_string(line);
-  return set.source + ": face " + std::to_string(polygon + 1);
+  const Polygon& at = set.polygons[static_cast<std::size_t>(polygon)];
+  const std::string& file = set.files.empty() ? set.source : set.files[static_cast<std::size_t>(at.group)];
+  if (at.line > 0) return file + ':' + std::to_string(at.line);
+  return file + ": face " + std::to_string(at.number > 0 ? at.number : polygon + 1);
 }
 
 int group_index(PolygonSet& set, const std::string& name) {

@@ -19,6 +19,7 @@ struct Polygon {
   std::vector<int> points;  ///< indices in the order around it; the orientation has no meaning
   int group = 0;            ///< index of its group
   int line = 0;             ///< in the file, from 1; 0 where lines have no meaning (binary files)
+  int number = 0;           ///< in its file, from 1; 0 where that is the number in the set
 };
 
 /// Polygons in space, as a file gives them: no cells, no order, any orientation.
@@ -27,6 +28,7 @@ struct PolygonSet {
   std::vector<Eigen::Vector3d> points;
   std::vector<Polygon> polygons;
   std::vector<std::string> groups;  ///< names, in the order in which the file gives them
+  std::vector<std::string> files;   ///< of each group, where each comes from its own; otherwise empty
 };
 
 /// The group of a polygon that has none in its file.

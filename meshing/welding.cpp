@@ -88,6 +88,7 @@ Welding weld(const std::vector<Vector3d>& points, double tolerance) {
     }
     welding.kept.push_back(nearest);
     const double distance = (welding.points[static_cast<std::size_t>(nearest)] - point).norm();
+    if (distance > 0) ++welding.moved;
     if (distance > welding.largest_distance) {
       welding.largest_distance = distance;
       welding.farthest = point;

@@ -46,7 +46,8 @@ void run(const Options& options) {
   const MeshQuality q = quality(mesh);
   require_quality(q, analytic_volume(mill.geometry));
   const WallSurface surface = make_wall_surface(section, mill.geometry.length);
-  require_watertight(surface);
+  require_same_volume(require_watertight(surface), q.volume);
+  require_no_needles(surface);
 
   const fs::path folder = options.case_folder;
   write_walls(surface, mill.geometry.ends, folder / "walls");

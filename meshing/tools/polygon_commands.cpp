@@ -5,10 +5,12 @@
 #include <memory>
 
 #include "meshing/assembly.hpp"
+#include "meshing/cad_surface.hpp"
 #include "meshing/face_file.hpp"
 #include "meshing/mill_mesh.hpp"
 #include "meshing/obj_file.hpp"
 #include "meshing/openfoam_files.hpp"
+#include "meshing/wall_files.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -60,6 +62,44 @@ void run_faces(const FacesOptions& options) {
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);
 }
 
+struct SurfaceOptions {
+  std::vector<std::string> parts;
+  std::string case_folder;
+  double scale = 1;
+  double tolerance = 0;
+};
+
+PartFile part_file(const std::string& argument) {
+  const auto sign = argument.find('=');
+  if (sign == std::string::npos)
+    throw std::runtime_error("'" + argument + "': expected PART=FILE.stl, as in shell=drum.stl");
+  return {argument.substr(0, sign), argument.substr(sign + 1)};
+}
+
+void print(const CadReport& report) {
+  std::printf("triangles  %d\n", report.triangles);
+  std::printf("box        (%g %g %g) to (%g %g %g) m\n", report.low.x(), report.low.y(), report.low.z(),
+              report.high.x(), report.high.y(), report.high.z());
+  if (report.usable()) std::printf("volume     %.9g m^3\n", report.volume);
+  for (const std::string& sentence : report.repairs) std::printf("repaired   %s\n", sentence.c_str());
+  for (const std::string& sentence : report.warnings) std::printf("warning    %s\n", sentence.c_str());
+  for (const std::string& sentence : report.problems) std::printf("problem    %s\n", sentence.c_str());
+}
+
+void run_surface(const SurfaceOptions& options) {
+  std::vector<PartFile> parts;
+  for (const std::string& argument : options.parts) parts.push_back(part_file(argument));
+  const CadReport report = examine(parts, options.scale, options.tolerance);
+  print(report);
+  std::fflush(stdout);
+  if (!report.usable())
+    throw std::runtime_error("LIGGGHTS cannot use this surface: see the problems above; nothing was written");
+  if (options.case_folder.empty()) return;
+  const std::filesystem::path folder = std::filesystem::path(options.case_folder) / "walls";
+  for (const auto& file : write_walls(report.surface, Ends::plain, folder))
+    std::printf("written    %s\n", file.string().c_str());
+}
+
 }  // namespace
 
 void add_polygon_commands(CLI::App& app) {
@@ -82,6 +122,23 @@ void add_polygon_commands(CLI::App& app) {
   faces->add_option("-o", of_faces->file, "OBJ file to write: a group for each patch, and 'internal'")
       ->required();
   faces->callback([of_faces] { run_faces(*of_faces); });
+
+  CLI::App* surface =
+      app.add_subcommand("surface", "Checks walls from CAD, repairs what is safe, and writes them.");
+  const auto of_surface = std::make_shared<SurfaceOptions>();
+  surface
+      ->add_option("parts", of_surface->parts,
+                   "PART=FILE.stl for each of shell, lifters, feedEnd, dischargeEnd that there is")
+      ->required();
+  surface->add_option("--case", of_surface->case_folder,
+                      "folder that receives walls/; only a report without it");
+  surface->add_option("--scale", of_surface->scale, "factor on coordinates: 0.001 for millimetres")
+      ->capture_default_str();
+  surface
+      ->add_option("--tolerance", of_surface->tolerance,
+                   "corners nearer than this, m, are one; 1e-6 of the bounding box's diagonal unless given")
+      ->check(CLI::PositiveNumber);
+  surface->callback([of_surface] { run_surface(*of_surface); });
 }
 
 }  // namespace millfoam::meshing

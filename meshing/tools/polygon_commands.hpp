@@ -5,7 +5,8 @@
 
 namespace millfoam::meshing {
 
-/// Adds the subcommands that turn faces into meshes and back: `assemble` and `faces`.
+/// Adds the subcommands that read what others made: `assemble` (polygons), `surface` (STL), and `faces`,
+/// which writes polygons.
 void add_polygon_commands(CLI::App& app);
 
 }  // namespace millfoam::meshing
