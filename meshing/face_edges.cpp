@@ -24,6 +24,18 @@ Box box_of(const Vector3d& a, const Vector3d& b, double margin, std::size_t info
   return {box, info};
 }
 
+/// The points that are an end of some edge.
+std::vector<std::size_t> ends_of(const EdgeTable& edges, std::size_t points) {
+  std::vector<bool> is_end(points, false);
+  for (const FaceSide& side : edges.sides)
+    is_end[static_cast<std::size_t>(side.low)] = is_end[static_cast<std::size_t>(side.high)] = true;
+  std::vector<std::size_t> ends;
+  for (std::size_t p = 0; p < points; ++p) {
+    if (is_end[p]) ends.push_back(p);
+  }
+  return ends;
+}
+
 bool lies_on(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
   const double along = (point - a).dot(b - a) / (b - a).squaredNorm();
   if (!(along > 0 && along < 1)) return false;
@@ -53,7 +65,8 @@ EdgeTable find_edges(const std::vector<Face>& faces) {
 
 std::vector<TJunction> find_t_junctions(const Points& points, const EdgeTable& edges) {
   std::vector<Box> point_boxes, edge_boxes;
-  for (std::size_t p = 0; p < points.size(); ++p) point_boxes.push_back(box_of(points[p], points[p], 0, p));
+  for (std::size_t p : ends_of(edges, points.size()))
+    point_boxes.push_back(box_of(points[p], points[p], 0, p));
   const auto end = [&](int p) -> const Vector3d& { return points[static_cast<std::size_t>(p)]; };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const Vector3d& a = end(edges.first(e).low);

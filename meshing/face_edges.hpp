@@ -35,7 +35,7 @@ struct TJunction {
   std::size_t edge = 0;
 };
 
-/// Points nearer to an edge, between its ends, than 1e-6 of its length.
+/// Points of faces that are nearer to an edge, between its ends, than 1e-6 of its length.
 std::vector<TJunction> find_t_junctions(const Points& points, const EdgeTable& edges);
 
 }  // namespace millfoam::meshing

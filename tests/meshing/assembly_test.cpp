@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 VolumeMesh mill(const TestMill& mill) {
-  return make_mill_mesh(make_cross_section(mill.geometry, mill.cell_size), mill.geometry, 3);
+  return make_mill_mesh(make_cross_section(mill.geometry, mill.cell_size), mill.geometry, 2);
 }
 
 using Corners = std::vector<std::array<double, 3>>;
@@ -97,7 +97,7 @@ void expect_same(const VolumeMesh& mesh, const Assembly& found) {
 TEST(Assemble, gives_a_mill_that_was_taken_apart_back) {
   unsigned seed = 1;
   for (const TestMill& m : all_mills()) {
-    if (m.cell_size < 0.003) continue;
+    if (m.cell_size < 0.004) continue;
     SCOPED_TRACE(seed);
     const VolumeMesh mesh = mill(m);
     expect_same(mesh, assemble(taken_apart(mesh, seed++)));
@@ -326,16 +326,22 @@ TEST(AssembleRefuses, t_junctions_rather_than_the_holes_that_they_make) {
   EXPECT_EQ(refusal(set).find("hole"), std::string::npos);
 }
 
+TEST(Assemble, leaves_out_points_of_no_face_wherever_they_are) {
+  PolygonSet set = cube();
+  set.points.emplace_back(0.5, 0, 0);  // on an edge
+  EXPECT_EQ(assemble(set).points_unused, 1);
+}
+
 TEST(AssembleRefuses, polygons_that_are_no_faces) {
   PolygonSet set = cube();
   add_polygon(set, {{0, 0, 0}, {1, 0, 0}});
   add_polygon(set, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}});
   add_polygon(set, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  add_polygon(set, {{0, 0, 5}, {1, 1, 5}, {3, 0, 5}, {0, 1, 5}});
+  add_polygon(set, {{0, 0, 5}, {2, 2, 5}, {3, 0, 5}, {0, 1, 5}});
   expect_refusal(set, "hand.obj:70: a face of 2 points around (0.5 0 0): expected three or more");
   expect_refusal(set, "hand.obj:80: the face has the point (0 0 0) twice");
   expect_refusal(set, "hand.obj:90: the face around (1 0 0) has no area");
-  expect_refusal(set, "hand.obj:100: sides of the face around (1 0.5 5) cross");
+  expect_refusal(set, "hand.obj:100: sides of the face around (1.25 0.75 5) cross");
 }
 
 TEST(AssembleRefuses, faces_that_enclose_nothing) {
