@@ -148,4 +148,13 @@ void require_quality(const MeshQuality& q, double analytic_volume) {
                   "a relative error in volume", "");
 }
 
+double chamber_volume(const VolumeMesh& mesh, double length) {
+  const MeshMeasures measures = measure(mesh);
+  double sum = 0;
+  for (std::size_t cell = 0; cell < measures.cell_volume.size(); ++cell) {
+    if (measures.cell_centre[cell].z() < length) sum += measures.cell_volume[cell];
+  }
+  return sum;
+}
+
 }  // namespace millfoam::meshing

@@ -32,6 +32,9 @@ struct MeshQuality {
 };
 MeshQuality quality(const VolumeMesh& mesh);
 
+/// Volume of the cells before z = `length`, m^3: of the mill without compartments behind its grates.
+double chamber_volume(const VolumeMesh& mesh, double length);
+
 /// Largest values that a mill's mesh may have.
 inline constexpr double allowed_non_orthogonality = 45;  // degrees
 inline constexpr double allowed_skewness = 1;

@@ -172,14 +172,13 @@ Air read_air(const Section& in) {
 
 /// Makes a periodic slice of the mill: less length, no openings, and as much less charge and layers.
 void take_slice(const Section& in, Mill& mill) {
-  const auto largest =
-      std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
-                       [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
+  const auto largest = std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
+                                        [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
   const double whole = mill.geometry.length;
-  const double slice = in.number(
-      "slice", {"a length above the largest ball's diameter, " + shown(largest->diameter) +
-                    " m, and up to the mill's, " + shown(whole) + " m",
-                [&](double v) { return v > largest->diameter && v <= whole; }});
+  const double slice =
+      in.number("slice", {"a length above the largest ball's diameter, " + shown(largest->diameter) +
+                              " m, and up to the mill's, " + shown(whole) + " m",
+                          [&](double v) { return v > largest->diameter && v <= whole; }});
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
   mill.geometry.inlet.reset();

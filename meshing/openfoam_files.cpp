@@ -38,12 +38,14 @@ void write_labels(const fs::path& folder, const std::string& object, const std::
 }
 
 /// First point of a patch's first face.
-const Eigen::Vector3d& first_point(const VolumeMesh& mesh, const Patch& patch) {
-  const Quad& face = mesh.faces[static_cast<std::size_t>(patch.start)];
+template <typename Mesh>
+const Eigen::Vector3d& first_point(const Mesh& mesh, const Patch& patch) {
+  const auto& face = mesh.faces[static_cast<std::size_t>(patch.start)];
   return mesh.points[static_cast<std::size_t>(face[0])];
 }
 
-void write_patch(std::ostream& out, const VolumeMesh& mesh, const Patch& patch) {
+template <typename Mesh>
+void write_patch(std::ostream& out, const Mesh& mesh, const Patch& patch) {
   out << "    " << patch.name << "\n    {\n";
   if (patch.open) {
     out << "        type            patch;\n";
@@ -98,9 +100,8 @@ void write_openings(std::ostream& out, const Mill& mill, const Openings& opening
   }
 }
 
-}  // namespace
-
-void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
+template <typename Mesh>
+void write_mesh(const Mesh& mesh, const fs::path& case_folder) {
   const fs::path whole = case_folder / "constant" / "polyMesh";
   const fs::path partial = whole.string() + ".partial";
   fs::remove_all(partial);
@@ -110,8 +111,10 @@ void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
   });
   write_file(partial / "faces", [&](std::ostream& out) {
     write_header(out, "faceList", "constant/polyMesh", "faces");
-    write_list(out, mesh.faces, [&](const Quad& face) {
-      out << "4(" << face[0] << ' ' << face[1] << ' ' << face[2] << ' ' << face[3] << ')';
+    write_list(out, mesh.faces, [&](const auto& face) {
+      out << face.size() << '(';
+      for (std::size_t i = 0; i < face.size(); ++i) out << (i == 0 ? "" : " ") << face[i];
+      out << ')';
     });
   });
   const std::string note = "nPoints:" + std::to_string(mesh.points.size()) +
@@ -128,6 +131,16 @@ void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
   write_zones(partial, "face", mesh.face_zones);
   fs::remove_all(whole);
   fs::rename(partial, whole);
+}
+
+}  // namespace
+
+void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
+  write_mesh(mesh, case_folder);
+}
+
+void write_poly_mesh(const PolyMesh& mesh, const fs::path& case_folder) {
+  write_mesh(mesh, case_folder);
 }
 
 void write_mill_properties(const Mill& mill, const Openings& openings, double time,

@@ -13,6 +13,7 @@ namespace millfoam::meshing {
 /// and cellZones and faceZones where there are any. The files are made in `constant/polyMesh.partial`, which
 /// then takes the place of an older polyMesh with all that is in it.
 void write_poly_mesh(const VolumeMesh& mesh, const std::filesystem::path& case_folder);
+void write_poly_mesh(const PolyMesh& mesh, const std::filesystem::path& case_folder);
 
 /// Writes `constant/millProperties`: the mill's numbers as plain `key value;` lines that dictionaries of the
 /// case take in with `#include`. The areas are those of `openings`, which the mesh has. `time` is the DEM

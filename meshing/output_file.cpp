@@ -20,7 +20,7 @@ std::string exact(const Eigen::Vector3d& vector) {
 
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   const std::filesystem::path partial = file.string() + ".partial";
-  std::filesystem::create_directories(file.parent_path());
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
   {
     std::ofstream stream(partial);
     write(stream);

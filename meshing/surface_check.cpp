@@ -8,7 +8,13 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
+
+#include "meshing/face_geometry.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -46,6 +52,47 @@ double require_watertight(const WallSurface& surface) {
     throw std::runtime_error("the walls are not watertight: some of their triangles cross");
   if (!check.outward) throw std::runtime_error("the walls' normals do not point out of the mill");
   return check.volume;
+}
+
+double flatness(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  return longest > 0 ? (b - a).cross(c - a).norm() / longest : 0;
+}
+
+Needles find_needles(const WallSurface& surface) {
+  Needles needles;
+  const auto at = [&](int p) -> const Eigen::Vector3d& {
+    return surface.points[static_cast<std::size_t>(p)];
+  };
+  for (const WallPart& part : surface.parts) {
+    for (const auto& [a, b, c] : part.triangles) {
+      const double ratio = flatness(at(a), at(b), at(c));
+      if (ratio < needle_ratio) ++needles.count;
+      if (ratio >= needles.smallest_ratio) continue;
+      needles.smallest_ratio = ratio;
+      needles.where = (at(a) + at(b) + at(c)) / 3;
+    }
+  }
+  return needles;
+}
+
+void require_no_needles(const WallSurface& surface) {
+  const Needles needles = find_needles(surface);
+  if (needles.count == 0) return;
+  std::ostringstream text;
+  text << "the walls have " << needles.count << " needle triangles, the worst, of height over longest side "
+       << needles.smallest_ratio << ", at " << described(needles.where) << ": expected at least "
+       << needle_ratio << "; choose another resolution.cell_size";
+  throw std::runtime_error(text.str());
+}
+
+void require_same_volume(double of_walls, double of_mesh) {
+  if (std::abs(of_walls / of_mesh - 1) <= 1e-6) return;
+  std::ostringstream text;
+  text.precision(9);
+  text << "the walls enclose " << of_walls << " m^3, and the mesh fills " << of_mesh
+       << " m^3: expected equal volumes to 1e-6";
+  throw std::runtime_error(text.str());
 }
 
 }  // namespace millfoam::meshing

@@ -18,4 +18,26 @@ SurfaceCheck check_surface(const WallSurface& surface);
 /// std::runtime_error saying which is not so. Returns the enclosed volume, m^3.
 double require_watertight(const WallSurface& surface);
 
+/// A triangle whose height over its longest side is less than this is a needle: LIGGGHTS computes contacts
+/// with it badly.
+inline constexpr double needle_ratio = 1e-3;
+
+/// Height over the longest side of a triangle: 0.87 for an equal-sided one, 0 without area.
+double flatness(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// The needles of all parts.
+struct Needles {
+  int count = 0;
+  double smallest_ratio = 1;                        ///< of all triangles, needles or not
+  Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< middle of the triangle that has it, m
+};
+Needles find_needles(const WallSurface& surface);
+
+/// Throws std::runtime_error with the worst triangle's place for a surface with needles.
+void require_no_needles(const WallSurface& surface);
+
+/// Throws std::runtime_error when the walls enclose another volume than the flow's mesh, m^3, by more than
+/// 1e-6 of it.
+void require_same_volume(double of_walls, double of_mesh);
+
 }  // namespace millfoam::meshing

@@ -26,13 +26,14 @@ struct Zone {
   std::vector<int> members;  ///< indices, ascending
 };
 
-/// Cells bounded by quadrilateral faces, in the order that OpenFOAM asks for: first the faces between two
-/// cells, sorted by owner and then by neighbour, with owner < neighbour; then the patches' faces. A face's
-/// normal points out of its owner. In a pair of periodic patches face i matches face i, and their first
-/// points match.
-struct VolumeMesh {
+/// Cells bounded by faces of type `Face`, a list of point indices, in the order that OpenFOAM asks for: first
+/// the faces between two cells, sorted by owner and then by neighbour, with owner < neighbour; then the
+/// patches' faces. A face's normal points out of its owner. In a pair of periodic patches face i matches face
+/// i, and their first points match.
+template <typename Face>
+struct MeshOf {
   std::vector<Eigen::Vector3d> points;  ///< m
-  std::vector<Quad> faces;
+  std::vector<Face> faces;
   std::vector<int> owner;      ///< of each face
   std::vector<int> neighbour;  ///< of each face between two cells
   std::vector<Patch> patches;
@@ -40,6 +41,12 @@ struct VolumeMesh {
   std::vector<Zone> cell_zones;
   std::vector<Zone> face_zones;
 };
+
+/// A mesh whose faces are quadrilaterals.
+using VolumeMesh = MeshOf<Quad>;
+
+/// A mesh whose faces are polygons of any number of points.
+using PolyMesh = MeshOf<std::vector<int>>;
 
 /// The same mesh turned by `angle` (rad, right-handed) about the z axis.
 VolumeMesh turned(VolumeMesh mesh, double angle);

@@ -3,11 +3,13 @@
 #include <exception>
 #include <iostream>
 
+#include "meshing/mesh_quality.hpp"
 #include "meshing/mesh_report.hpp"
 #include "meshing/mill_mesh.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/openfoam_files.hpp"
 #include "meshing/surface_check.hpp"
+#include "meshing/tools/polygon_commands.hpp"
 #include "meshing/wall_files.hpp"
 
 namespace {
@@ -31,7 +33,8 @@ void run(const Options& options) {
   require_quality(q, flow_volume(mill.geometry));
   if (options.case_folder.empty()) return;
   const WallSurface surface = make_wall_surface(section, mill.geometry.length);
-  require_watertight(surface);
+  require_same_volume(require_watertight(surface), chamber_volume(mesh, mill.geometry.length));
+  require_no_needles(surface);
 
   const fs::path folder = options.case_folder;
   write_walls(surface, mill.geometry.ends, folder / "walls");
@@ -44,21 +47,23 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Writes a mill's walls for LIGGGHTS, and its mesh and numbers for OpenFOAM, from mill.yaml."};
   Options options;
-  app.add_option("mill", options.mill, "the mill's description, mill.yaml")->required();
-  auto* case_folder =
-      app.add_option("--case", options.case_folder, "folder that receives walls/ and constant/");
+  app.add_option("mill", options.mill, "the mill's description, mill.yaml");
+  app.add_option("--case", options.case_folder, "folder that receives walls/ and constant/");
   auto* quality =
       app.add_flag("--quality", "print the mesh's quality against its limits; writes with --case only");
   app.add_option("--at-time", options.time,
                  "DEM time in s that the flow's mesh is turned to; the walls stay at 0")
       ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  if (case_folder->empty() && quality->empty()) {
-    std::cerr << "millMesh: error: expected --case DIR, or --quality to write nothing\n";
-    return 1;
-  }
-  try {
+  add_polygon_commands(app);
+  app.require_subcommand(0, 1);
+  app.callback([&] {
+    if (!app.get_subcommands().empty()) return;
+    if (options.mill.empty()) throw CLI::RequiredError("mill");
+    if (options.case_folder.empty() && quality->empty()) throw CLI::RequiredError("--case or --quality");
     run(options);
+  });
+  try {
+    CLI11_PARSE(app, argc, argv);
   } catch (const std::exception& error) {
     std::cerr << "millMesh: error: " << error.what() << '\n';
     return 1;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""OpenFOAM's own checkMesh finds nothing wrong with the meshes of millMesh."""
+"""OpenFOAM's own checkMesh finds nothing wrong with the meshes of millMesh, those that it makes out of faces too."""
+import random
 import re
 import shutil
 import tempfile
@@ -85,6 +86,55 @@ class Mesh(unittest.TestCase):
             with self.subTest(mill=mill.parent.name):
                 self.check((r"    width: .*\n", f"    width: {width}\n    top_width: {top}\n"), layers(9), mill=mill)
 
+    def assemble(self, lines):
+        """Makes a mesh out of the lines of an OBJ file and returns what checkMesh says."""
+        case = Path(tempfile.mkdtemp(prefix="mesh-"))
+        self.addCleanup(shutil.rmtree, case)
+        shutil.copytree(SYSTEM, case / "system")
+        (case / "faces.obj").write_text("\n".join(lines) + "\n")
+        run(case, "millMesh", "assemble", "faces.obj", "--case", ".")
+        return run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")
+
+    def test_faces_taken_apart_and_assembled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text = SLICE.read_text().replace("ends: periodic", "ends: plain")
+            Path(folder, "mill.yaml").write_text(re.sub(r"  start_length: \S+\n", "", text))
+            run(Path(folder), "millMesh", "faces", "mill.yaml", "-o", "faces.obj")
+            lines = Path(folder, "faces.obj").read_text().splitlines()
+        points, faces, group = [line for line in lines if line.startswith("v")], [], ""
+        for line in lines:
+            if line.startswith("g"):
+                group = line
+            elif line.startswith("f"):
+                corners = line.split()[1:]
+                faces.append(f"{group}\nf {' '.join(corners[::-1] if len(faces) % 3 else corners)}")
+        random.Random(1).shuffle(faces)
+        self.assertIn("\nMesh OK.\n", self.assemble(points + faces))
+
+    def test_faces_of_a_wedge(self):
+        self.assertIn("\nMesh OK.\n", self.assemble(prism([(0, 0), (1, 0), (1, 0.5)], 0, 1)))
+
+    def test_faces_of_cells_that_are_not_convex(self):
+        """A concave cell, and a box inside another: no solver's choice, but of sound topology."""
+        def square(low, high):
+            return [(low, low), (high, low), (high, high), (low, high)]
+
+        for name, cells, lines in (
+                ("concave", 1, prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], 0, 1)),
+                ("nested", 2, prism(square(0, 4), 0, 4) + prism(square(0.5, 1.5), 1, 2, 8))):
+            with self.subTest(name):
+                topology = self.assemble(lines).split("Checking geometry...")[0]
+                self.assertRegex(topology, rf"\n +cells: +{cells}\n")
+                self.assertIn("Topological cell zip-up check OK", topology)
+                self.assertNotIn("***", topology)
+
+
+def prism(section, low, high, points_before=0):
+    """Points and faces of a prism over a polygon [(x, y)], as lines of an OBJ file."""
+    n = len(section)
+    points = [f"v {x} {y} {z}" for z in (low, high) for x, y in section]
+    sides = [[i, (i + 1) % n, (i + 1) % n + n, i + n] for i in range(n)] + [range(n), range(n, 2 * n)]
+    return points + ["f " + " ".join(str(1 + points_before + i) for i in side) for side in sides]
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

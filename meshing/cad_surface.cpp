@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/cad_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "meshing/face_crossings.hpp"
+#include "meshing/polygon_check.hpp"
+#include "meshing/stl_file.hpp"
+#include "meshing/surface_bodies.hpp"
+#include "meshing/surface_check.hpp"
+#include "meshing/welding.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::array<const char*, 4> wall_parts{"shell", "lifters", "feedEnd", "dischargeEnd"};
+constexpr double default_tolerance = 1e-6;  // of the bounding box's diagonal; STL's floats have 7 digits
+constexpr double largest_mill = 20;         // m
+constexpr double smallest_mill = 0.01;      // m
+constexpr double off_frame = 0.01;          // of the bounding box's width or length
+constexpr double no_area = 1e-9;            // height over longest side
+
+std::size_t index(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+template <typename... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(6);
+  (text << ... << parts);
+  return text.str();
+}
+
+PolygonSet read_parts(const std::vector<PartFile>& parts, double scale) {
+  if (!(scale > 0)) throw std::runtime_error(sentence("scale ", scale, ": expected a factor above 0"));
+  PolygonSet set;
+  for (const PartFile& part : parts) {
+    if (std::find(wall_parts.begin(), wall_parts.end(), part.part) == wall_parts.end())
+      throw std::runtime_error("part '" + part.part + "': expected shell, lifters, feedEnd or dischargeEnd");
+    if (std::find(set.groups.begin(), set.groups.end(), part.part) != set.groups.end())
+      throw std::runtime_error("part '" + part.part + "' is given twice");
+    read_stl(part.file, part.part, scale, set);
+    set.files.push_back(part.file.string());
+  }
+  return set;
+}
+
+void check_frame(const PolygonSet& set, CadReport& report) {
+  report.low = report.high = set.points.front();
+  for (const Vector3d& point : set.points) {
+    report.low = report.low.cwiseMin(point);
+    report.high = report.high.cwiseMax(point);
+  }
+  const Vector3d size = report.high - report.low, centre = (report.high + report.low) / 2;
+  const double largest = size.maxCoeff();
+  if (largest > largest_mill) {
+    report.problems.push_back(sentence("the bounding box is ", largest, " m long, above ", largest_mill,
+                                       " m: is this in millimetres? Then say --scale 0.001"));
+  } else if (largest < smallest_mill) {
+    report.warnings.push_back(
+        sentence("the bounding box is only ", largest, " m long: is its unit the metre?"));
+  }
+  const double off_axis = centre.head<2>().norm();
+  if (off_axis > off_frame * std::max(size.x(), size.y()))
+    report.warnings.push_back(sentence("the bounding box's middle is x = ", centre.x(), ", y = ", centre.y(),
+                                       " m: expected the mill's axis at x = y = 0"));
+  if (std::abs(report.low.z()) > off_frame * size.z())
+    report.warnings.push_back(
+        sentence("the bounding box begins at z = ", report.low.z(), " m: expected the feed end at z = 0"));
+}
+
+/// The welded triangles; those with two equal corners are left out.
+struct Welded {
+  PolygonSet set;  ///< polygons that are kept
+  Points points;
+  std::vector<Face> faces;
+};
+
+Welded weld_corners(const PolygonSet& set, double tolerance, CadReport& report) {
+  const double nearest = tolerance > 0 ? tolerance : default_tolerance * extent(set.points);
+  const Welding welding = weld(set.points, nearest);
+  if (welding.moved > 0)
+    report.repairs.push_back(sentence(welding.moved, " corners nearer than ", nearest,
+                                      " m to another were joined to it, the farthest over ",
+                                      welding.largest_distance, " m at ", described(welding.farthest)));
+  Welded welded{set, welding.points, {}};
+  welded.set.polygons.clear();
+  int dropped = 0;
+  std::string first;
+  for (std::size_t t = 0; t < set.polygons.size(); ++t) {
+    Face face;
+    for (int p : set.polygons[t].points) face.push_back(welding.kept[index(p)]);
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+      if (dropped++ == 0)
+        first = place(set, static_cast<int>(t)) + " at " + described(welding.points[index(face[0])]);
+      continue;
+    }
+    welded.faces.push_back(std::move(face));
+    welded.set.polygons.push_back(set.polygons[t]);
+  }
+  if (dropped > 0)
+    report.repairs.push_back(
+        sentence(dropped, " triangles with two equal corners were left out, the first ", first));
+  return welded;
+}
+
+void check_edges(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
+  check_doubled(welded, problems);
+  check_closed(welded, edges, problems);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.faces(e) <= 2) continue;
+    const FaceSide& edge = edges.first(e);
+    problems.add(
+        "edge with more than two triangles",
+        sentence(place(welded.set, edge.face), ": the edge from ", described(welded.points[index(edge.low)]),
+                 " to ", described(welded.points[index(edge.high)]), " has ", edges.faces(e),
+                 " triangles: expected two"));
+  }
+}
+
+void check_areas(const WeldedSet& welded, Problems& problems) {
+  for (std::size_t t = 0; t < welded.faces.size(); ++t) {
+    const auto at = [&](std::size_t i) { return welded.points[index(welded.faces[t][i])]; };
+    if (flatness(at(0), at(1), at(2)) >= no_area) continue;
+    problems.add("triangle without area",
+                 sentence(place(welded.set, static_cast<int>(t)), ": the triangle around ",
+                          described(middle(welded.points, welded.faces[t])), " has no area"));
+  }
+}
+
+/// Turns whole bodies, and reports on all of them.
+void orient_bodies(Welded& welded, const EdgeTable& edges, Problems& problems, CadReport& report) {
+  const Bodies found = find_bodies(welded.points, edges, welded.faces);
+  const auto at = [&](int face) {
+    return sentence(place(welded.set, face), ", around ",
+                    described(middle(welded.points, welded.faces[index(face)])));
+  };
+  if (!found.against_neighbours.empty())
+    report.repairs.push_back(
+        sentence(found.against_neighbours.size(),
+                 " triangles that faced against their neighbours were turned, the first ",
+                 at(found.against_neighbours.front())));
+  int turned = 0;
+  for (const Body& body : found.bodies) {
+    if (!body.two_sided)
+      problems.add("one side only", sentence("the surface that contains ", at(body.faces.front()),
+                                             ", has one side only: its triangles cannot all face outwards"));
+    if (!body.two_sided || !body.closed) continue;
+    const bool wrong = (body.inside_of % 2 == 0) != (body.volume > 0);
+    report.volume += (body.inside_of % 2 == 0 ? 1 : -1) * std::abs(body.volume);
+    if (!wrong) continue;
+    ++turned;
+    for (int face : body.faces)
+      std::reverse(welded.faces[index(face)].begin(), welded.faces[index(face)].end());
+  }
+  if (turned > 0 && found.bodies.size() == 1)
+    report.repairs.push_back("the whole surface faced into the mill's interior and was turned");
+  if (turned > 0 && found.bodies.size() > 1)
+    report.repairs.push_back(sentence(turned, " of ", found.bodies.size(),
+                                      " bodies faced into the mill's interior and were turned"));
+  if (found.bodies.size() == 1) return;
+  std::string list;
+  for (std::size_t b = 0; b < std::min<std::size_t>(found.bodies.size(), 10); ++b) {
+    const Body& body = found.bodies[b];
+    list += sentence(b == 0 ? "" : "; ", body.faces.size(), " triangles with ", at(body.faces.front()),
+                     body.inside_of > 0 ? ", inside another" : "");
+  }
+  report.warnings.push_back(sentence(found.bodies.size(), " bodies that do not hang together: ", list));
+}
+
+WallSurface to_walls(const Welded& welded) {
+  WallSurface surface{welded.points, {}};
+  for (const char* name : wall_parts) {
+    surface.parts.push_back({name, {}});
+    for (std::size_t t = 0; t < welded.faces.size(); ++t) {
+      if (welded.set.groups[index(welded.set.polygons[t].group)] != name) continue;
+      const Face& face = welded.faces[t];
+      surface.parts.back().triangles.push_back({face[0], face[1], face[2]});
+    }
+  }
+  return surface;
+}
+
+void check_crossings(const Welded& welded, Problems& problems) {
+  for (const Crossing& crossing : crossing_triangles(welded.points, welded.faces)) {
+    problems.add("crossing triangles",
+                 sentence(place(welded.set, crossing.faces[0]), ": the triangle crosses ",
+                          place(welded.set, crossing.faces[1]), " near ", described(crossing.where)));
+  }
+}
+
+void check_needles(CadReport& report) {
+  const Needles needles = find_needles(report.surface);
+  if (needles.count == 0) return;
+  report.warnings.push_back(sentence(needles.count, " needle triangles, with a height below ", needle_ratio,
+                                     " of their longest side; the worst has ", needles.smallest_ratio, " at ",
+                                     described(needles.where)));
+}
+
+}  // namespace
+
+CadReport examine(const std::vector<PartFile>& parts, double scale, double tolerance) {
+  const PolygonSet set = read_parts(parts, scale);
+  if (set.polygons.empty()) throw std::runtime_error("no part was given: expected PART=FILE.stl");
+  CadReport report;
+  check_frame(set, report);
+  Welded welded = weld_corners(set, tolerance, report);
+  const EdgeTable edges = find_edges(welded.faces);
+  Problems problems;
+  const WeldedSet view{welded.set, welded.points, welded.faces};
+  check_edges(view, edges, problems);
+  check_areas(view, problems);
+  orient_bodies(welded, edges, problems, report);
+  check_crossings(welded, problems);
+  report.triangles = static_cast<int>(welded.faces.size());
+  report.surface = to_walls(welded);
+  check_needles(report);
+  for (const std::string& problem : problems.sentences()) report.problems.push_back(problem);
+  return report;
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "meshing/polygon_set.hpp"
+
+namespace millfoam::meshing {
+
+/// Reads polygons by the file's extension, `.obj` or `.ply`; see read_obj and read_ply. Throws PolygonError
+/// for another extension and for what those throw.
+PolygonSet read_faces(const std::filesystem::path& file);
+
+}  // namespace millfoam::meshing

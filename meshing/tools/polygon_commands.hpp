@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace millfoam::meshing {
+
+/// Adds the subcommands that read what others made: `assemble` (polygons), `surface` (STL), and `faces`,
+/// which writes polygons.
+void add_polygon_commands(CLI::App& app);
+
+}  // namespace millfoam::meshing
