@@ -2,7 +2,8 @@
 """Reads the slurry/air flow of a mill case: fields averaged over the axis, in the lab frame.
 
 The mesh is a cross-section extruded along the axis and turns rigidly, so that cells stand in columns and a column's
-place at any time follows from its place at the start."""
+place at any time follows from its place at the start. Means over the axis are of the mill itself, without compartments of
+pulp lifters behind its grates."""
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ class MillFlow:
         self.omega = float(properties["omega"])
         self.radius = float(properties["radius"])
         self.time0 = float(properties["time0"])
+        self.length = float(properties["length"])
         # Balls of constant/bedProperties displace slurry; those of an fvOption do not
         self.displaced = (self.case / "constant" / "bedProperties").is_file()
         self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
@@ -31,7 +33,8 @@ class MillFlow:
         _, first, self.column = np.unique(np.round(self.centres[:, :2] / self.radius, 6), axis=0, return_index=True,
                                           return_inverse=True)
         self.column_centres = self.centres[first, :2]
-        self.column_volume = np.bincount(self.column, self.volumes)
+        self.chamber = self.centres[:, 2] < self.length
+        self.column_volume = np.bincount(self.column, self.volumes * self.chamber)
         self._tree = cKDTree(self.column_centres)
 
     def turned(self, points, time):
@@ -45,23 +48,26 @@ class MillFlow:
 
     def over_axis(self, values, weights=1.0):
         """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these vanish."""
-        weight = self.volumes * weights
+        weight = self.volumes * self.chamber * weights
         total = np.bincount(self.column, weight)
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total, np.nan)
 
+    def _end_faces(self):
+        """Numbers of the feed end's faces, those of an inlet in it too."""
+        patches = [self.mesh.patches[name] for name in ("feedEnd", "inlet") if name in self.mesh.patches]
+        return np.concatenate([np.arange(patch.start, patch.start + patch.size) for patch in patches])
+
     def end_wall(self):
         """Quads of the feed end: [faces, 4, 2] (m) at flow time 0, and each one's column [faces]."""
-        patch = self.mesh.patches["feedEnd"]
-        faces = np.array(self.mesh.faces[patch.start:patch.start + patch.size])
-        quads = self.mesh.points[faces][:, :, :2]
-        return quads, self.column[self.mesh.owner[patch.start:patch.start + patch.size]]
+        numbers = self._end_faces()
+        quads = self.mesh.points[np.array([self.mesh.faces[face] for face in numbers])][:, :, :2]
+        return quads, self.column[self.mesh.owner[numbers]]
 
     def outline(self):
         """The mill's inner outline, shell and lifters, as a closed polygon [n + 1, 2] (m) at flow time 0."""
-        patch = self.mesh.patches["feedEnd"]
         following = {}
-        edges = [(face[i], face[(i + 1) % 4]) for face in self.mesh.faces[patch.start:patch.start + patch.size]
+        edges = [(face[i], face[(i + 1) % 4]) for face in (self.mesh.faces[number] for number in self._end_faces())
                  for i in range(4)]
         inner = {(b, a) for a, b in edges}
         for a, b in edges:
