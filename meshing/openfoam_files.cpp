@@ -91,7 +91,9 @@ void write_openings(std::ostream& out, const Mill& mill, const Openings& opening
     number("grateOuterRadius", geometry.grates->outer_radius);
     number("grateArea", openings.grate_area);
     number("grateOpenFraction", geometry.grates->open_fraction);
-    number("grateLayerThickness", geometry.length / mill.resolution.layers);
+    number("grateLayerThickness", geometry.pulp_lifters
+                                      ? geometry.pulp_lifters->depth / geometry.pulp_lifters->layers
+                                      : geometry.length / mill.resolution.layers);
   }
   if (geometry.pulp_lifters) {
     number("pulpLifterDepth", geometry.pulp_lifters->depth);

@@ -239,6 +239,11 @@ class Grates(RefusedTest):
     def test_a_misspelt_entry(self):
         self.assert_grate_refused("cellZone grate; darci 1e7;", "darci", "darcy")
 
+    def test_an_entry_outside_of_a_grate(self):
+        case = self.small()
+        case.write("constant/grateProperties", "thickness 0.01; darcy 1e7;")
+        self.assert_says(case, "grateProperties", "darcy", "braces")
+
 
 if __name__ == "__main__":
     require_environment()

@@ -162,6 +162,17 @@ TEST(Grates, have_a_zone_of_the_cells_in_front_of_them) {
   EXPECT_TRUE(mesh.face_zones.empty());
 }
 
+TEST(Grates, with_pulp_lifters_have_a_zone_of_the_cells_behind_them) {
+  const Geometry mill = mill_with_pulp_lifters();
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
+  ASSERT_EQ(mesh.cell_zones.size(), 1u);
+  ASSERT_EQ(mesh.face_zones.size(), 1u);
+  std::vector<int> behind;
+  for (const int face : mesh.face_zones[0].members)
+    behind.push_back(mesh.neighbour[static_cast<std::size_t>(face)]);
+  EXPECT_EQ(mesh.cell_zones[0].members, behind);
+}
+
 TEST(Grates, with_more_sectors_than_columns_are_refused) {
   Geometry mill = mill_with_grates();
   mill.grates->sectors = 100;

@@ -61,9 +61,22 @@ Foam::grates::grates(
   fluids_(fluids),
   layers_()
 {
+    for (const word& ofLayer : {"cellZone", "darcy", "forchheimer"})
+    {
+        if (dict.found(ofLayer, keyType::LITERAL))
+        {
+            FatalIOErrorInFunction(dict)
+                << ofLayer << " stands by itself; expected it within a grate's"
+                << " braces, name { cellZone ...; }" << exit(FatalIOError);
+        }
+    }
     for (const entry& one : dict)
     {
-        layers_.append(readLayer(dict.subDict(one.keyword())));
+        // Numbers that other entries refer to may stand beside the grates
+        if (one.isDict())
+        {
+            layers_.append(readLayer(one.dict()));
+        }
     }
 }
 

@@ -35,6 +35,7 @@ Usage
 #include "knownEntries.H"
 #include "movingBed.H"
 #include "planeCut.H"
+#include "surfaceFields.H"
 #include "Time.H"
 #include "uniformDimensionedFields.H"
 
@@ -258,6 +259,10 @@ int main(int argc, char* argv[])
         alpha[celli] =
             cut.share(celli, range.second()) - cut.share(celli, range.first());
     }
+    // Conditions of open patches ask for the flow, of which there is none yet.
+    const surfaceScalarField phi(
+        IOobject("phi", runTime.timeName(), mesh), mesh,
+        dimensionedScalar(dimVolume / dimTime, Zero));
     alpha.correctBoundaryConditions();
     alpha.write();
 
