@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose answers
+are known."""
+import importlib.util
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from dem_run_test import MILL
+from millfoam import axial
+from millfoam.compare import difference
+from millfoam.dry_runs import make_dry_run, with_entries
+from millfoam.run import RunError, run
+from millfoam.solids import SolidsMap
+
+ROOT = Path(__file__).resolve().parents[2]
+STARS = "\n// ************************************************************************* //\n"
+
+
+def load(path):
+    """A study's script as a module."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class FolderTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="dry-study-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+
+class Runs(FolderTest):
+    averaging = ["--box", -0.03, -0.03, 0, 0.03, 0.03, 0.03, "--shape", 6, 6, 1, "--periodic", "z", "--start", 0.1, "--window", "whole"]
+
+    def test_a_run_is_made_once_and_its_dumps_go(self):
+        mill = MILL.replace("duration: 1.0", "duration: 0.3")
+        first = make_dry_run(self.folder / "drum", mill, self.averaging, ranks=1)
+        self.assertEqual(first.results["lost_balls"], "0")
+        self.assertLess(first.charge.centroid()[1], -0.002)
+        self.assertEqual(list((self.folder / "drum" / "dumps").glob("dump.*")), [])
+        log = self.folder / "drum" / "log.millDem"
+        log.unlink()
+        again = make_dry_run(self.folder / "drum", mill, self.averaging, ranks=1)
+        self.assertEqual(again.results, first.results)
+        self.assertFalse(log.exists())
+
+    def test_an_entry_that_is_not_there_once_is_refused(self):
+        with self.assertRaisesRegex(RunError, "'seed' was found 0 times"):
+            with_entries("geometry: 1\n", seed=2)
+
+
+class Matrix(FolderTest):
+    def setUp(self):
+        super().setUp()
+        self.study = load(ROOT / "cases" / "studies" / "dem_matrix" / "dem_matrix.py")
+
+    def test_it_is_the_published_one(self):
+        names = list(self.study.matrix())
+        self.assertEqual(len(names), 34)
+        self.assertEqual(len(set(names)), 34)
+        total = sum(float(line.split("mass: ")[1].rstrip("}")) for line in self.study.published_loads()["37.5"])
+        self.assertAlmostEqual(total, 0.824, delta=0.002)
+
+    def test_every_mill_of_it_is_accepted(self):
+        for name, setting in self.study.matrix().items():
+            (self.folder / "mill.yaml").write_text(self.study.mill_text(setting, 4.0, 0.024 if setting.speed == 40 else 0))
+            with self.subTest(name):
+                run(self.folder, "millMesh", "mill.yaml", "--quality")
+
+
+class Difference(unittest.TestCase):
+    def map(self, solidity, velocity):
+        edges = np.linspace(-1, 1, 5)
+        shape = (4, 4)
+        return SolidsMap(edges, edges, np.ones(shape), np.full(shape, solidity), np.broadcast_to(velocity, (*shape, 3)).copy(), 0, 1)
+
+    def test_a_map_is_not_apart_from_itself(self):
+        one = self.map(0.5, (1.0, 0.5, 0))
+        self.assertEqual(difference(one, one).solidity, 0)
+        self.assertEqual(difference(one, one).velocity_x, 0)
+
+    def test_differences_are_normed(self):
+        found = difference(self.map(0.5, (1.0, 0, 0)), self.map(0.5634, (0.5, 0.5, 0)))
+        norm = (1 + np.hypot(0.5, 0.5)) / 2
+        self.assertAlmostEqual(found.solidity, 0.1)
+        self.assertAlmostEqual(found.velocity_x, 0.5 / norm)
+        self.assertAlmostEqual(found.velocity_y, 0.5 / norm)
+
+    def test_other_voxels_are_refused(self):
+        other = self.map(0.5, (0, 0, 0))
+        other.x = 2 * other.x
+        with self.assertRaisesRegex(ValueError, "same voxels"):
+            difference(self.map(0.5, (0, 0, 0)), other)
+
+
+class Axial(unittest.TestCase):
+    def test_two_humps_are_found_where_they_are(self):
+        z = np.linspace(0.005, 0.3, 33)
+        noise = 1e-5 * np.sin(700 * z)
+        height = axial.two_gaussians(z, -0.06, 0.003, 0.08, 0.03, 0.002, 0.21, 0.04) + noise
+        humps = axial.find_humps(z, height)
+        np.testing.assert_allclose(humps.places, (0.08, 0.21), atol=2e-3)
+        self.assertAlmostEqual(humps.distance, 0.13, delta=3e-3)
+        self.assertLess(humps.rmsd, 2e-5)
+
+    def test_discharge_is_the_feed_less_what_is_kept(self):
+        log = "".join(f"Time = {t}\nSlurry {2e-3 + 1e-5 * t} m3, fluid 4e-3 m3\n" for t in (0.5, 1.0, 1.5, 2.0))
+        times, volumes = axial.slurry_volumes(log)
+        self.assertEqual(len(times), 4)
+        self.assertAlmostEqual(axial.discharge(times, volumes, 6e-5, 1.0), 5e-5, delta=1e-12)
+        with self.assertRaisesRegex(RuntimeError, "no two steps"):
+            axial.discharge(times, volumes, 6e-5, 1.9)
+
+
+class HalfWritten(FolderTest):
+    """Times that ranks killed at different moments leave."""
+
+    def write(self, processor, time, end=STARS):
+        folder = self.folder / f"processor{processor}" / time
+        folder.mkdir(parents=True)
+        for name in ("U", "alpha.slurry"):
+            (folder / name).write_text("FoamFile\n{\n}\n" + (end if name == "U" else STARS))
+
+    def drop(self):
+        (self.folder / "system").mkdir()
+        for processor in (0, 1):
+            (self.folder / f"processor{processor}" / "system").mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / f"processor{processor}" / "system")
+        shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / "system")
+        functions = (ROOT / "scripts" / "case_functions").read_text()
+        begin = functions.index("drop_half_written() {")
+        script = "set -eu -o pipefail\n" + functions[begin:functions.index("\n}\n", begin) + 3] + "drop_half_written\n"
+        done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir() if path.name[0].isdigit())
+                for processor in (0, 1)}
+
+    def test_a_time_that_a_rank_wrote_half_goes_from_all_ranks(self):
+        for processor in (0, 1):
+            for time in ("0", "0.05", "0.1"):
+                self.write(processor, time)
+        self.write(0, "0.15")
+        self.write(1, "0.15", end="")
+        self.assertEqual(self.drop(), {0: ["0", "0.05", "0.1"], 1: ["0", "0.05", "0.1"]})
+
+    def test_a_time_that_not_all_ranks_have_goes(self):
+        for processor in (0, 1):
+            self.write(processor, "0")
+        self.write(1, "0.05")
+        self.assertEqual(self.drop(), {0: ["0"], 1: ["0"]})
+
+    def test_whole_times_stay(self):
+        for processor in (0, 1):
+            for time in ("0", "0.05"):
+                self.write(processor, time)
+        self.assertEqual(self.drop(), {0: ["0", "0.05"], 1: ["0", "0.05"]})
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
