@@ -78,12 +78,16 @@ def find_humps(z, height):
 
 
 def slurry_volumes(log):
-    """Times (s) and volumes of slurry (m3) [steps] that a log of slurryFoam tells."""
+    """Times (s) and volumes of slurry (m3) [steps] that a log of slurryFoam tells. Where the time goes back, a flow that was
+    broken off went on from there: what it had computed beyond is left out."""
     times, volumes, now = [], [], None
     for line in log.splitlines():
         if found := re.match(r"Time = (\S+)", line):
             now = float(found.group(1))
         elif now is not None and (found := re.match(r"Slurry (\S+) m3", line)):
+            while times and times[-1] >= now:
+                times.pop()
+                volumes.pop()
             times.append(now)
             volumes.append(float(found.group(1)))
     return np.array(times), np.array(volumes)

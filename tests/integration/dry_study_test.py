@@ -115,6 +115,8 @@ class Axial(unittest.TestCase):
         times, volumes = axial.slurry_volumes(log)
         self.assertEqual(len(times), 4)
         self.assertAlmostEqual(axial.discharge(times, volumes, 6e-5, 1.0), 5e-5, delta=1e-12)
+        again = "Time = 1.2\nSlurry 3e-3 m3, fluid 4e-3 m3\n"
+        np.testing.assert_allclose(axial.slurry_volumes(log + again)[0], (0.5, 1.0, 1.2))
         with self.assertRaisesRegex(RuntimeError, "no two steps"):
             axial.discharge(times, volumes, 6e-5, 1.9)
 

@@ -88,7 +88,8 @@ def main():
     mill_plots.animate(flow, folder / "slurry.gif")
 
     feed = float(foam.read_dictionary(options.case / "constant" / "operation")["feedRate"])
-    times, volumes = slurry_volumes((options.case / "log.flow").read_text())
+    logs = [options.case / name for name in ("log.flow.before", "log.flow")]
+    times, volumes = slurry_volumes("".join(log.read_text() for log in logs if log.is_file()))
     out = discharge(times, volumes, feed, begin)
     print(f"averages from {begin:g} to {last:g} s")
     print(f"slurry: {1e3 * volumes[0]:.3f} l at the start, {1e3 * volumes[-1]:.3f} l at the end")
