@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/forecast.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::small_mill;
+
+/// The small mill, twenty times as long and with as many more balls.
+meshing::Mill long_mill() {
+  auto mill = small_mill();
+  mill.geometry.length *= 20;
+  mill.charge.start_length *= 20;
+  for (auto& size : mill.charge.classes) size.mass *= 20;
+  return mill;
+}
+
+TEST(Forecast, TheTrialIsAPeriodicSliceOfAboutThreeThousandBalls) {
+  auto mill = long_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.grates.emplace();
+  const auto trial = trial_mill(mill);
+  EXPECT_EQ(trial.geometry.ends, meshing::Ends::periodic);
+  EXPECT_FALSE(trial.geometry.grates);
+  EXPECT_NEAR(static_cast<double>(plan_charge(trial).balls()), trial_balls, 2);
+  EXPECT_NEAR(trial.geometry.length / mill.geometry.length, trial_balls / 5000, 1e-3);
+}
+
+TEST(Forecast, TheTrialOfASmallMillIsTheMillItself) {
+  const auto trial = trial_mill(small_mill());
+  EXPECT_EQ(trial.geometry.length, small_mill().geometry.length);
+  EXPECT_EQ(plan_charge(trial).balls(), 250);
+}
+
+TEST(Forecast, TheTrialHasSoftBallsHoweverHardTheMillsAre) {
+  auto mill = long_mill();
+  mill.dem.youngs_modulus = 1e10;
+  EXPECT_LT(plan_dem(trial_mill(mill)).total_steps(), 30000);
+}
+
+TEST(Forecast, WallTimeIsBallsTimesStepsOverTheRateRoundByRound) {
+  auto mill = small_mill();
+  for (auto& size : mill.charge.classes) size.mass *= 2;
+  const DemPlan plan = plan_dem(mill);
+  ASSERT_EQ(plan.charge.rounds.size(), 2u);
+  double first = 0;
+  for (const auto& insertion : plan.charge.rounds[0]) first += static_cast<double>(insertion.count);
+  const double work = first * static_cast<double>(plan.round_steps) +
+                      500.0 * static_cast<double>(plan.settle_steps + plan.turning_steps);
+  const Forecast result = forecast(plan, {1e5, 80, 5e7}, 2);
+  EXPECT_NEAR(result.wall_time / (work / 1e5), 1, 1e-12);
+  EXPECT_EQ(result.steps, plan.total_steps());
+  EXPECT_NEAR(result.memory, 2 * 5e7 + 500 * 2000.0, 1);
+}
+
+TEST(Forecast, DiskIsThatOfTheDumpsAndWhatStandsBesideThem) {
+  const DemPlan plan = plan_dem(small_mill());
+  const double dumps = 250.0 * 80 * 31;
+  const double disk = forecast(plan, {1e5, 80, 5e7}, 1).disk;
+  EXPECT_GT(disk, dumps);
+  EXPECT_LT(disk, dumps + 250 * 1000 + 3 * 2 * overlap_bins * 20);
+}
+
+TEST(Forecast, ItIsPrintedInHoursAndMinutesOrInSeconds) {
+  Forecast result;
+  result.wall_time = 2 * 3600 + 5 * 60;
+  std::ostringstream hours;
+  print_forecast(hours, result, {2e6, 80, 5e7}, 2);
+  EXPECT_NE(hours.str().find("wall time  2 h 05 min"), std::string::npos) << hours.str();
+  result.wall_time = 42;
+  std::ostringstream seconds;
+  print_forecast(seconds, result, {2e6, 80, 5e7}, 2);
+  EXPECT_NE(seconds.str().find("wall time  42 s"), std::string::npos) << seconds.str();
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver
