@@ -48,10 +48,13 @@ TEST(Forecast, WallTimeIsBallsTimesStepsOverTheRateRoundByRound) {
   auto mill = small_mill();
   for (auto& size : mill.charge.classes) size.mass *= 2;
   const DemPlan plan = plan_dem(mill);
-  ASSERT_EQ(plan.charge.rounds.size(), 2u);
-  double first = 0;
-  for (const auto& insertion : plan.charge.rounds[0]) first += static_cast<double>(insertion.count);
-  const double work = first * static_cast<double>(plan.round_steps) +
+  ASSERT_EQ(plan.charge.rounds.size(), 3u);
+  const auto balls_of = [&](std::size_t round) {
+    double sum = 0;
+    for (const auto& insertion : plan.charge.rounds[round]) sum += static_cast<double>(insertion.count);
+    return sum;
+  };
+  const double work = (2 * balls_of(0) + balls_of(1)) * static_cast<double>(plan.round_steps) +
                       500.0 * static_cast<double>(plan.settle_steps + plan.turning_steps);
   const Forecast result = forecast(plan, {1e5, 80, 5e7}, 2);
   EXPECT_NEAR(result.wall_time / (work / 1e5), 1, 1e-12);
