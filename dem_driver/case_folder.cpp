@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/case_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -13,6 +17,12 @@
 namespace millfoam::dem_driver {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int longest_wait = 100;  // tenths of a second
+
+}  // namespace
 
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill) {
   std::vector<std::string> parts{"shell"};
@@ -35,12 +45,33 @@ std::vector<fs::path> find_dumps(const CaseFolder& folder) {
   return dumps;
 }
 
-std::size_t prepare_folders(const CaseFolder& folder) {
-  fs::create_directories(folder.dem());
-  fs::create_directories(folder.dumps());
+FolderLock::FolderLock(const CaseFolder& folder)
+    : file_(open(folder.lock().c_str(), O_RDWR | O_CREAT, 0666)) {
+  if (file_ < 0) throw std::runtime_error(folder.lock().string() + ": cannot be written");
+  for (int tenth = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++tenth) {
+    if (tenth == longest_wait) {
+      close(file_);
+      throw std::runtime_error(folder.dem().string() +
+                               ": another millDem runs there, expected one at a time");
+    }
+    usleep(100000);
+  }
+}
+
+FolderLock::~FolderLock() {
+  close(file_);
+}
+
+void remove_results(const CaseFolder& folder) {
   for (const auto& file :
        {folder.run_file(), folder.results(), folder.energy(), folder.overlaps(), folder.charge()})
     fs::remove(file);
+}
+
+std::size_t prepare_folders(const CaseFolder& folder) {
+  fs::create_directories(folder.dem());
+  fs::create_directories(folder.dumps());
+  remove_results(folder);
   for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
   for (const char* kind : segment_kinds)
     for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);

@@ -22,6 +22,7 @@ struct CaseFolder {
   std::filesystem::path deck() const { return dem() / "in.mill"; }
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
+  std::filesystem::path lock() const { return dem() / "lock"; }
   std::filesystem::path run_file() const { return dumps() / "run.txt"; }
   std::filesystem::path results() const { return dumps() / "results.txt"; }
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
@@ -35,6 +36,23 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
 
 /// Every `dump.*.txt` in the dumps folder.
 std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
+
+/// The right to run in a folder, of this process and the programs that it begins: none of them may write
+/// there beside another. Waits some seconds for what a killed run has left behind. Throws std::runtime_error
+/// when another run holds it.
+class FolderLock {
+ public:
+  explicit FolderLock(const CaseFolder& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+/// Removes run file and results.
+void remove_results(const CaseFolder& folder);
 
 /// Makes the folders and removes dumps, run file, results, restart files and histories of an earlier run, so
 /// that two runs never mix. Nothing else is removed. Returns the number of dumps removed.

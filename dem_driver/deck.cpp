@@ -42,6 +42,15 @@ class Primes {
   int last_;
 };
 
+/// About a fiftieth of all records, so that the run is a whole number of such parts wherever it can be: the
+/// histograms of the overlaps are written one for each part.
+long records_per_restart(long records) {
+  const long wished = std::min(records, std::max(fewest_records_per_restart, records / restarts));
+  for (long part = wished; part <= std::min(records, 4 * wished); ++part)
+    if (records % part == 0) return part;
+  return wished;
+}
+
 bool is_periodic(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic;
 }
@@ -250,7 +259,7 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.dumps = records + 1;
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
-  plan.restart_steps = std::max(fewest_records_per_restart, records / restarts) * plan.step.steps_per_record;
+  plan.restart_steps = records_per_restart(records) * plan.step.steps_per_record;
   return plan;
 }
 

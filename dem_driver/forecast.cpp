@@ -103,14 +103,15 @@ double work_of(const DemPlan& plan) {
 
 }  // namespace
 
-meshing::Mill trial_mill(const meshing::Mill& mill) {
+meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   meshing::Mill trial = mill;
   trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
   trial.dem.largest_overlap = 0;
   trial.dem.soften_below = 0;
 
   const DemPlan whole = plan_dem(trial);
-  const double shortest = std::min(mill.geometry.length, 2.5 * whole.charge.classes.front().diameter);
+  const double largest = whole.charge.classes.front().diameter;
+  const double shortest = std::min(mill.geometry.length, std::max(2.5, 1.6 * ranks) * largest);
   const double wanted = mill.geometry.length * trial_balls / static_cast<double>(whole.charge.balls());
   trial.geometry.length = std::clamp(wanted, shortest, mill.geometry.length);
   trial.geometry.ends = meshing::Ends::periodic;
@@ -128,7 +129,7 @@ meshing::Mill trial_mill(const meshing::Mill& mill) {
 Cost measure_cost(const meshing::Mill& mill, int ranks) {
   const TrialFolder temporary;
   const CaseFolder folder{temporary.path()};
-  const meshing::Mill trial = trial_mill(mill);
+  const meshing::Mill trial = trial_mill(mill, ranks);
   const auto section = meshing::make_cross_section(trial.geometry, trial.resolution);
   meshing::write_walls(meshing::make_wall_surface(section, trial.geometry.length), trial.geometry.ends,
                        folder.walls());

@@ -23,10 +23,10 @@ struct Forecast {
   double memory = 0;     ///< bytes of all ranks
 };
 
-/// A short periodic slice of the mill with about `trial_balls` balls, soft and quickly settled: it costs as
-/// much per ball and step as the whole mill.
+/// A short periodic slice of the mill with about `trial_balls` balls, long enough to be split as the mill is,
+/// soft and quickly settled: it costs as much per ball and step as the whole mill.
 inline constexpr double trial_balls = 3000;
-meshing::Mill trial_mill(const meshing::Mill& mill);
+meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
 /// Runs the trial mill in a temporary folder and measures it, half a minute. Throws RunError as run_liggghts
 /// does.

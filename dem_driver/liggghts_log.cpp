@@ -66,7 +66,8 @@ void LiggghtsLog::read(const std::string& line) {
 
 void LiggghtsLog::read_thermo(const std::vector<std::string>& words) {
   const long step = std::atol(words[0].c_str());
-  check_balls(step, std::atol(words[1].c_str()));
+  balls_ = std::atol(words[1].c_str());
+  check_balls(step, balls_);
   for (std::size_t i = 2; i < words.size(); ++i)
     if (columns_[i] == "KinEng" && !std::isfinite(std::strtod(words[i].c_str(), nullptr)))
       throw RunError("the kinetic energy is not finite at step " + words[0] +

@@ -29,6 +29,7 @@ class LiggghtsLog {
   void read(const std::string& line);
 
   long steps_done() const { return steps_done_; }
+  long balls() const { return balls_; }                ///< of the last line that counts them
   bool turning() const { return turning_; }            ///< DEM time 0 is reached
   bool finished() const { return finished_; }          ///< the deck came to its end
   const std::string& error() const { return error_; }  ///< first line that begins with ERROR, or empty
@@ -45,6 +46,7 @@ class LiggghtsLog {
   std::vector<std::string> columns_;  ///< of the thermo table that is being read, else empty
   std::string error_;
   long expected_balls_ = 0;
+  long balls_ = 0;
   long last_step_ = 0;
   long steps_done_ = 0;
   bool turning_ = false;

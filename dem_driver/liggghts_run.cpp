@@ -112,6 +112,7 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
                    log.last_lines());
   }
   result.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.balls = log.balls();
   result.dumps = find_dumps(folder).size();
   if (static_cast<long>(result.dumps) != plan.dumps)
     throw RunError(folder.dumps().string() + ": " + std::to_string(result.dumps) + " dumps, expected " +

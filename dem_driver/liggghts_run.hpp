@@ -15,6 +15,7 @@ namespace millfoam::dem_driver {
 struct RunResult {
   double wall_time = 0;  ///< s, of a resumed run with all earlier parts
   int ranks = 1;
+  long balls = 0;  ///< that LIGGGHTS counted at the end
   std::size_t dumps = 0;
 };
 

@@ -18,7 +18,9 @@ std::vector<meshing::SizeClass> simulated_classes(const meshing::Mill& mill) {
   std::vector<meshing::SizeClass> classes;
   std::copy_if(mill.charge.classes.begin(), mill.charge.classes.end(), std::back_inserter(classes),
                [&](const auto& size) { return size.diameter >= mill.charge.fines_below; });
-  if (classes.empty()) throw std::runtime_error("the charge has no size class to simulate");
+  if (classes.empty())
+    throw std::runtime_error(
+        "charge.classes: no size class to simulate, expected one not below charge.fines_below");
   return classes;
 }
 

@@ -55,7 +55,9 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder) {
     expect_columns(line, 4);
     const auto row = rows.find(step_of(line));
     if (row == rows.end()) continue;  // step 0, before which there is no torque
-    row->second = {row->first, row->second.torque, line.values[1], line.values[2], line.values[3]};
+    // Without a single contact LIGGGHTS says -1e20
+    row->second = {row->first, row->second.torque, line.values[1], line.values[2],
+                   std::max(0.0, line.values[3])};
   }
   std::vector<HistoryRow> history;
   std::transform(rows.begin(), rows.end(), std::back_inserter(history),
@@ -123,6 +125,8 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   const double largest = plan.charge.classes.front().diameter;
   results.ball_overlaps = read_overlaps(folder, "ballOverlaps", largest);
   results.wall_overlaps = read_overlaps(folder, "wallOverlaps", largest);
+  for (const HistoryRow& row : results.history)
+    results.ball_overlaps.largest = std::max(results.ball_overlaps.largest, row.overlap);
   return results;
 }
 
@@ -143,9 +147,10 @@ void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Re
   });
   write_whole_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
   write_whole_file(folder.results(), [&](std::ostream& out) {
-    out << std::setprecision(8) << "balls " << results.balls << "\nlost_balls 0\nsteps " << plan.total_steps()
-        << "\ntimestep " << plan.step.value << "\nsmallest_diameter " << plan.charge.classes.back().diameter
-        << "\nwall_time " << results.run.wall_time << "\nranks " << results.run.ranks << "\nmodulus "
+    out << std::setprecision(8) << "balls " << results.balls << "\nlost_balls "
+        << results.balls - results.run.balls << "\nsteps " << plan.total_steps() << "\ntimestep "
+        << plan.step.value << "\nsmallest_diameter " << plan.charge.classes.back().diameter << "\nwall_time "
+        << results.run.wall_time << "\nranks " << results.run.ranks << "\nmodulus "
         << plan.step.stiffness.modulus << "\nsteady " << yes_or_no(results.steady()) << "\nsteady_from "
         << results.steady_from() << "\npower " << results.power_steadiness.mean << "\npower_error "
         << results.power_steadiness.standard_error << "\nkinetic_energy " << results.kinetic_steadiness.mean
@@ -160,13 +165,18 @@ void print_results(std::ostream& out, const DemPlan& plan, const Results& result
   const double particle_steps = static_cast<double>(results.balls) * static_cast<double>(plan.total_steps());
   const double smallest = plan.charge.classes.back().diameter;
   const auto print_overlaps = [&](const char* what, const OverlapStatistics& overlaps) {
+    if (overlaps.samples == 0) {
+      out << "overlap of " << what << ": no contact was counted\n";
+      return;
+    }
     out << "overlap of " << what << ": 99 % below " << overlaps.percentile(0.99) * 1e6 << " um, largest "
         << overlaps.largest * 1e6 << " um, " << 100 * overlaps.largest / smallest
         << " % of the smallest diameter\n";
   };
-  out << std::setprecision(4) << "done: " << results.balls << " balls, none lost, " << plan.total_steps()
-      << " steps of " << plan.step.value * 1e6 << " us in " << results.run.wall_time << " s ("
-      << particle_steps / results.run.wall_time / 1e6 << " million particle-steps per second)\n"
+  out << std::setprecision(4) << "done: " << results.balls << " balls, " << results.balls - results.run.balls
+      << " lost, " << plan.total_steps() << " steps of " << plan.step.value * 1e6 << " us in "
+      << results.run.wall_time << " s (" << particle_steps / results.run.wall_time / 1e6
+      << " million particle-steps per second)\n"
       << std::setprecision(3) << "charge at DEM time 0: rms speed " << results.resting_speed << " m/s\n"
       << "power " << results.power_steadiness.mean << " +- " << results.power_steadiness.standard_error
       << " W, kinetic energy " << results.kinetic_steadiness.mean << " J, potential energy "

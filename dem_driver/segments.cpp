@@ -94,6 +94,11 @@ std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::stri
   return all;
 }
 
+long count_dumps_until(const CaseFolder& folder, long step) {
+  const auto dumps = find_numbered(folder.dumps(), "dump.", ".txt");
+  return std::count_if(dumps.begin(), dumps.end(), [&](const auto& dump) { return dump.step <= step; });
+}
+
 void remove_dumps_after(const CaseFolder& folder, long step) {
   for (const auto& dump : find_numbered(folder.dumps(), "dump.", ".txt"))
     if (dump.step > step) fs::remove(dump.file);

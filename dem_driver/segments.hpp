@@ -38,6 +38,9 @@ struct SegmentLine {
 /// one that is not all numbers.
 std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::string& kind, long continued = 0);
 
+/// Number of dumps of steps up to `step`.
+long count_dumps_until(const CaseFolder& folder, long step);
+
 /// Removes dumps later than `step`: they belong to a run that was killed after its last restart file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 

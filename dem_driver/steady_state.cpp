@@ -79,7 +79,8 @@ Steadiness judge_steadiness(const std::vector<double>& values) {
   result.standard_error = batch_error(values, result.begin);
   const std::size_t middle = (result.begin + values.size()) / 2;
   result.drift = mean_of(values, middle, values.size()) - mean_of(values, result.begin, middle);
-  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  const auto [lowest, highest] =
+      std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(result.begin), values.end());
   const double scale = std::max(std::abs(result.mean), *highest - *lowest);
   // The difference of two halves has twice the error of the whole's mean.
   const double allowed = std::max(3 * 2 * result.standard_error, allowed_drift * scale);

@@ -15,8 +15,8 @@ struct Steadiness {
   double drift = 0;           ///< mean of the second half of these values less that of the first half
 };
 
-/// Share of the series' scale (mean or range, whichever is larger) that its drift may be where its noise is
-/// less.
+/// Share of the series' scale (mean or range after the cut, whichever is larger) that its drift may be where
+/// its noise is less.
 inline constexpr double allowed_drift = 0.02;
 /// With fewer values nothing is steady.
 inline constexpr std::size_t fewest_values = 40;

@@ -13,15 +13,17 @@ namespace millfoam::dem_driver {
 namespace {
 
 /// Throws when the softest balls are too soft for LIGGGHTS.
-void check_modulus(const Stiffness& stiffness, double smallest_diameter) {
+void check_modulus(const meshing::Mill& mill, const Stiffness& stiffness) {
+  const double smallest_diameter = smallest_simulated(mill);
   const double softest = std::min(stiffness.modulus, stiffness.of_ball(smallest_diameter));
   // The slack lets through a modulus that was raised to just this limit.
   if (softest >= smallest_modulus * (1 - 1e-12)) return;
   std::ostringstream message;
-  message << (stiffness.modulus < smallest_modulus ? "key 'dem.youngs_modulus': "
-                                                   : "key 'dem.soften_below': ")
-          << softest << " Pa for balls of " << smallest_diameter << " m, expected at least "
-          << smallest_modulus << " Pa, which is the softest that LIGGGHTS accepts";
+  const char* of_all =
+      mill.dem.largest_overlap > 0 ? "key 'materials.ball.youngs_modulus': " : "key 'dem.youngs_modulus': ";
+  message << (stiffness.modulus < smallest_modulus ? of_all : "key 'dem.soften_below': ") << softest
+          << " Pa for balls of " << smallest_diameter << " m, expected at least " << smallest_modulus
+          << " Pa, which is the softest that LIGGGHTS accepts";
   throw std::runtime_error(message.str());
 }
 
@@ -59,7 +61,7 @@ ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& sti
 Stiffness choose_stiffness(const meshing::Mill& mill) {
   const double modulus = mill.dem.largest_overlap > 0 ? modulus_for_overlap(mill) : mill.dem.youngs_modulus;
   const Stiffness stiffness{modulus, mill.dem.soften_below};
-  check_modulus(stiffness, smallest_simulated(mill));
+  check_modulus(mill, stiffness);
   return stiffness;
 }
 

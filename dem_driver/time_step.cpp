@@ -72,8 +72,8 @@ void print_advice(std::ostream& out, const meshing::Mill& mill) {
   const double chosen = choose_time_step(mill).value;
   out << "softness: modulus Pa   largest overlap %   time-step us   cost\n";
   std::vector<double> moduli{smallest_modulus, 1e7, 3e7, 1e8, 1e9, 1e10};
-  while (!moduli.empty() && moduli.back() >= mill.ball.youngs_modulus) moduli.pop_back();
-  moduli.push_back(mill.ball.youngs_modulus);
+  while (moduli.size() > 1 && moduli.back() >= mill.ball.youngs_modulus) moduli.pop_back();
+  if (mill.ball.youngs_modulus > moduli.back()) moduli.push_back(mill.ball.youngs_modulus);
   for (const double modulus : moduli) {
     meshing::Mill other = mill;
     other.dem.youngs_modulus = modulus;

@@ -56,17 +56,36 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// The step at which a run of this very deck goes on; nothing when there is none to go on with. Throws
-/// std::runtime_error when the folder holds another run.
-std::optional<long> resumable(const dem_driver::CaseFolder& folder, const std::string& deck) {
+/// Throws std::runtime_error when the run in the folder cannot be gone on with.
+void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
+                       const std::string& deck, long step) {
+  const std::string otherwise = ", so it cannot be resumed; without --resume it is replaced";
+  if (identity(read_text(folder.deck())) != identity(deck))
+    throw std::runtime_error(folder.deck().string() +
+                             ": the run there is of another mill.yaml or other walls than these" + otherwise);
+  if (step > plan.turning_steps) {
+    std::ostringstream message;
+    message << "key 'dem.duration': " << static_cast<double>(plan.turning_steps) * plan.step.value
+            << " s, expected no less than the " << static_cast<double>(step) * plan.step.value
+            << " s that the run in " << folder.root.string() << " has come to" << otherwise;
+    throw std::runtime_error(message.str());
+  }
+  const long expected = step / plan.step.steps_per_record + 1;
+  const long found = dem_driver::count_dumps_until(folder, step);
+  if (found != expected)
+    throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
+                             std::to_string(step) + ", expected " + std::to_string(expected) +
+                             ": the run has lost some" + otherwise);
+}
+
+/// The step at which a run of this very deck goes on; nothing when there is none to go on with.
+std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
+                              const std::string& deck) {
   const auto restarts = dem_driver::find_restarts(folder);
   if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
-  if (identity(read_text(folder.deck())) != identity(deck))
-    throw std::runtime_error(
-        folder.deck().string() +
-        ": the run there is of another mill.yaml or other walls than these, so it cannot "
-        "be resumed; without --resume it is replaced");
-  return restarts.back().step;
+  const long step = restarts.back().step;
+  require_resumable(folder, plan, deck, step);
+  return step;
 }
 
 void print_plan(const meshing::Mill& mill, const dem_driver::DemPlan& plan) {
@@ -75,36 +94,54 @@ void print_plan(const meshing::Mill& mill, const dem_driver::DemPlan& plan) {
   dem_driver::print_charge(std::cout, plan.charge);
 }
 
+/// Plans the run; what cannot be is refused with the file's name.
+dem_driver::DemPlan plan_of(const Options& options, const meshing::Mill& mill) {
+  try {
+    return dem_driver::plan_dem(mill);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(options.mill_file + ": " + error.what());
+  }
+}
+
+/// Makes the folder ready for LIGGGHTS: from `step` on, or anew.
+void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
+  if (step) {
+    dem_driver::remove_results(folder);
+    dem_driver::remove_dumps_after(folder, *step);
+    return;
+  }
+  const auto removed = dem_driver::prepare_folders(folder);
+  if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
+}
+
 void run(const Options& options) {
   const auto mill = meshing::read_mill(options.mill_file);
   const dem_driver::CaseFolder folder{options.case_folder};
-  const auto plan = dem_driver::plan_dem(mill);
+  const auto plan = plan_of(options, mill);
   const auto parts = dem_driver::find_walls(folder, mill);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
 
-  const auto step = options.resume ? resumable(folder, deck.str()) : std::nullopt;
-  if (step && *step >= plan.turning_steps && fs::exists(folder.run_file())) {
+  fs::create_directories(folder.dem());
+  const dem_driver::FolderLock lock(folder);
+  const auto step = options.resume ? resumable(folder, plan, deck.str()) : std::nullopt;
+  if (step && *step == plan.turning_steps && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is whole, nothing to do\n";
     return;
   }
   print_plan(mill, plan);
+  if (!options.deck_only) prepare(folder, step);
+  dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
+  std::cout << "deck: " << folder.deck().string() << std::endl;
+  if (options.deck_only) return;
   if (step) {
-    dem_driver::remove_dumps_after(folder, *step);
-    fs::remove(folder.run_file());
     dem_driver::write_whole_file(folder.resume_deck(), [&](std::ostream& out) {
       dem_driver::write_resume_deck(out, mill, plan, parts, options.ranks, *step);
     });
     std::cout << "resumed at step " << *step << ", t = " << static_cast<double>(*step) * plan.step.value
-              << " s\n";
-  } else {
-    const auto removed = dem_driver::prepare_folders(folder);
-    if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
+              << " s" << std::endl;
   }
-  dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
-  std::cout << "deck: " << folder.deck().string() << std::endl;
-  if (options.deck_only) return;
   const auto result =
       dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0}, step);
   const auto results = dem_driver::gather_results(folder, mill, plan, result);
@@ -116,7 +153,7 @@ void run(const Options& options) {
 
 void plan(const Options& options) {
   const auto mill = meshing::read_mill(options.mill_file);
-  const auto plan = dem_driver::plan_dem(mill);
+  const auto plan = plan_of(options, mill);
   print_plan(mill, plan);
   const auto cost = dem_driver::measure_cost(mill, options.ranks);
   dem_driver::print_forecast(std::cout, dem_driver::forecast(plan, cost, options.ranks), cost, options.ranks);

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dry runs of studies: a folder per run with mill.yaml, walls, dumps and averages, each made once, gone on with after a kill."""
-import shutil
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from .mill_runs import changed, is_whole, fingerprint
-from .run import run
+from .run import RunError, run
 from .solids import read_map
 
 
@@ -29,14 +29,14 @@ def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
     """Runs millMesh, millDem and millAverage in a folder, unless that was done with the same mill and options before.
 
     folder: its name is the run's; mill: text of mill.yaml; averaging: millAverage's options but for dumps, walls and file.
-    A run that was broken off is gone on with, of another mill it is made anew. Dumps are large: they are removed once they
-    are averaged, unless `keep_dumps`."""
+    A run that was broken off is gone on with, also with another duration; one of another mill is left alone: RunError. Dumps
+    are large: they are removed once they are averaged, unless `keep_dumps`."""
     folder = Path(folder)
     files = {"mill.yaml": mill, "averaging": " ".join(map(str, averaging)) + "\n"}
     if not is_whole(folder, files):
         begun = folder / "mill.yaml"
-        if begun.is_file() and begun.read_text() != mill:
-            shutil.rmtree(folder)
+        if begun.is_file() and (without_duration(begun.read_text()) != without_duration(mill) or (folder / "whole").is_file()):
+            raise RunError(f"{folder}: holds a run of another mill.yaml or other averages; remove it, or keep it elsewhere")
         folder.mkdir(parents=True, exist_ok=True)
         for name, text in files.items():
             (folder / name).write_text(text)
@@ -45,11 +45,15 @@ def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
         run(folder, "millAverage", "--dumps", "dumps/dump.*.txt", "--inside", "walls/*.stl", *averaging, "-o", "solids.h5")
         (folder / "whole").write_text(fingerprint(files))
     if not keep_dumps:
-        for dump in (folder / "dumps").glob("dump.*.txt"):
-            dump.unlink()
-        for restart in (folder / "dem").glob("restart.*"):
-            restart.unlink()
+        # The restart files first: without them nobody goes on with a run that lacks dumps
+        for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
+            large.unlink()
     return DryRun(folder.name, read_results(folder / "dumps" / "results.txt"), read_map(folder / "solids.h5"))
+
+
+def without_duration(mill):
+    """A mill.yaml's text but for the dry run's length."""
+    return re.sub(r"duration: +[^\s,}]+", "duration", mill)
 
 
 def with_entries(mill, **entries):

@@ -25,7 +25,7 @@ TEST(Forecast, TheTrialIsAPeriodicSliceOfAboutThreeThousandBalls) {
   auto mill = long_mill();
   mill.geometry.ends = meshing::Ends::plain;
   mill.geometry.grates.emplace();
-  const auto trial = trial_mill(mill);
+  const auto trial = trial_mill(mill, 1);
   EXPECT_EQ(trial.geometry.ends, meshing::Ends::periodic);
   EXPECT_FALSE(trial.geometry.grates);
   EXPECT_NEAR(static_cast<double>(plan_charge(trial).balls()), trial_balls, 2);
@@ -33,15 +33,22 @@ TEST(Forecast, TheTrialIsAPeriodicSliceOfAboutThreeThousandBalls) {
 }
 
 TEST(Forecast, TheTrialOfASmallMillIsTheMillItself) {
-  const auto trial = trial_mill(small_mill());
+  const auto trial = trial_mill(small_mill(), 1);
   EXPECT_EQ(trial.geometry.length, small_mill().geometry.length);
   EXPECT_EQ(plan_charge(trial).balls(), 250);
+}
+
+TEST(Forecast, TheTrialIsLongEnoughToBeSplitAsTheMillIs) {
+  const auto mill = long_mill();
+  const auto trial = trial_mill(mill, 40);
+  EXPECT_EQ(split_ranks(40, mill.geometry.length, 0.003).z, 40);
+  EXPECT_EQ(split_ranks(40, trial.geometry.length, 0.003).z, 40);
 }
 
 TEST(Forecast, TheTrialHasSoftBallsHoweverHardTheMillsAre) {
   auto mill = long_mill();
   mill.dem.youngs_modulus = 1e10;
-  EXPECT_LT(plan_dem(trial_mill(mill)).total_steps(), 30000);
+  EXPECT_LT(plan_dem(trial_mill(mill, 1)).total_steps(), 30000);
 }
 
 TEST(Forecast, WallTimeIsBallsTimesStepsOverTheRateRoundByRound) {

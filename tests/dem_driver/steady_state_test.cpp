@@ -47,6 +47,12 @@ TEST(SteadyState, ATransientLongerThanTheSeriesIsNotSteady) {
   EXPECT_FALSE(judge_steadiness(series(1000, 0.02, [](double i) { return 3 * std::exp(-i / 800); })).steady);
 }
 
+TEST(SteadyState, AHighPeakAtTheStartHidesNoDriftAfterIt) {
+  const auto result =
+      judge_steadiness(series(1000, 0.01, [](double i) { return 30 * std::exp(-i / 10) + i / 2500; }));
+  EXPECT_FALSE(result.steady);
+}
+
 TEST(SteadyState, AConstantSeriesIsSteadyFromItsBeginning) {
   const auto result = judge_steadiness(std::vector<double>(100, 2.5));
   EXPECT_TRUE(result.steady);

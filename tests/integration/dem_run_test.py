@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """millDem killed and resumed, on a drum of a few hundred balls; and what it predicts against what the run then takes."""
+import fcntl
 import os
 import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -13,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.run import run
+from millfoam.run import RunError, run
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -114,7 +116,16 @@ class DemRun(unittest.TestCase):
         self.start_and_kill(case, 2)
         self.assertFalse((case / "dumps" / "run.txt").exists())
         first = self.last_restart(case)
+        # What the killed run computed after its last restart file
+        later = sorted((read_dump(path) for path in (case / "dumps").glob("dump.*.txt") if path.read_text().endswith("\n")),
+                       key=lambda dump: dump[0])
+        expected = next((dump for dump in later if dump[0] > first and len(dump[1]) == len(later[0][1])), None)
         self.start_and_kill(case, 3, ranks=2)
+        if expected:
+            _, ids, positions, _ = read_dump(case / "dumps" / f"dump.{expected[0]}.txt")
+            np.testing.assert_array_equal(ids, expected[1])
+            moved = np.linalg.norm(positions - expected[2], axis=1)
+            self.assertLess(np.median(moved), 1e-7)
         self.assertGreater(self.last_restart(case), first)
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertIn("resumed at step", log)
@@ -135,18 +146,54 @@ class DemRun(unittest.TestCase):
         self.assertIn("cannot be resumed", done.stderr)
         self.assert_whole(case)
 
-    def test_the_plan_names_steps_disk_and_memory_of_the_run(self):
+    def test_a_deck_alone_takes_nothing_away_and_lost_dumps_or_less_time_are_refused(self):
+        case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.1"))
+        run(case, "millDem", "mill.yaml", "--case", ".")
+        before = sorted(path.name for path in (case / "dumps").iterdir())
+        run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+        self.assertEqual(sorted(path.name for path in (case / "dumps").iterdir()), before)
+
+        (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
+        with self.assertRaisesRegex(RunError, "dem.duration.*0.05 s.*0.1 s"):
+            run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
+        (case / "mill.yaml").write_text(MILL)
+        next((case / "dumps").glob("dump.*.txt")).unlink()
+        with self.assertRaisesRegex(RunError, "20 dumps up to step .* expected 21"):
+            run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
+        self.assertTrue((case / "dumps" / "run.txt").is_file())
+
+    def test_two_runs_in_one_folder_are_refused(self):
+        case = self.make_case()
+        first = subprocess.Popen(["millDem", "mill.yaml", "--case", "."], cwd=case, stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL)
+        self.addCleanup(first.kill)
+        self.assertTrue(wait_for(lambda: (case / "dem" / "log.liggghts").is_file(), 30))
+        with open(case / "dem" / "lock") as lock:
+            with self.assertRaises(BlockingIOError):
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        first.send_signal(signal.SIGKILL)
+        first.wait()
+
+    def test_the_plan_names_steps_time_disk_and_memory_of_the_run(self):
         case = self.make_case()
         plan = run(case, "millDem", "plan", "mill.yaml")
         predicted = {key: float(re.search(rf"^  {key} +([0-9.e+-]+)", plan, re.M).group(1))
                      for key in ("steps", "disk", "memory")}
-        run(case, "millDem", "mill.yaml", "--case", ".")
+        # The largest of millDem's children: LIGGGHTS
+        measure = "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True); " \
+                  "print('peak', resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
+        log = run(case, sys.executable, "-c", measure, "millDem", "mill.yaml", "--case", ".", name="peak")
+        peak = 1024e-9 * float(re.search(r"peak (\d+)", log).group(1))
+        self.assertLess(max(predicted["memory"] / peak, peak / predicted["memory"]), 1.5)
         results = dict(line.split() for line in (case / "dumps" / "results.txt").read_text().splitlines())
         self.assertEqual(predicted["steps"], float(results["steps"]))
         files = [path for folder in ("dumps", "dem") for path in (case / folder).iterdir()]
         used = sum(path.stat().st_size for path in files) / 1e9
         self.assertLess(max(predicted["disk"] / used, used / predicted["disk"]), 1.5)
-        self.assertIn("wall time", plan)
+        # Seconds, so short that what starts and ends a run counts, on a machine that may be doing other things
+        time_taken = float(results["wall_time"])
+        expected = float(re.search(r"wall time +([0-9.]+) s", plan).group(1))
+        self.assertLess(max(expected / time_taken, time_taken / expected), 4)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 """What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose answers
 are known."""
 import importlib.util
+import re
 import shutil
 import subprocess
 import tempfile
@@ -51,6 +52,13 @@ class Runs(FolderTest):
         self.assertEqual(again.results, first.results)
         self.assertFalse(log.exists())
 
+    def test_a_run_of_another_mill_is_not_replaced(self):
+        mill = MILL.replace("duration: 1.0", "duration: 0.1")
+        make_dry_run(self.folder / "drum", mill, [*self.averaging[:-3], 0.05, "--window", "whole"], ranks=1)
+        with self.assertRaisesRegex(RunError, "of another mill.yaml"):
+            make_dry_run(self.folder / "drum", mill.replace("seed: 3", "seed: 4"), self.averaging, ranks=1)
+        self.assertTrue((self.folder / "drum" / "solids.h5").is_file())
+
     def test_an_entry_that_is_not_there_once_is_refused(self):
         with self.assertRaisesRegex(RunError, "'seed' was found 0 times"):
             with_entries("geometry: 1\n", seed=2)
@@ -70,9 +78,16 @@ class Matrix(FolderTest):
 
     def test_every_mill_of_it_is_accepted(self):
         for name, setting in self.study.matrix().items():
-            (self.folder / "mill.yaml").write_text(self.study.mill_text(setting, 4.0, 0.024 if setting.speed == 40 else 0))
+            text = self.study.mill_text(setting, 4.0, 0.024 if setting.mill == "12cm" and setting.speed == 40 else 0)
+            (self.folder / "mill.yaml").write_text(text)
             with self.subTest(name):
-                run(self.folder, "millMesh", "mill.yaml", "--quality")
+                self.assertIn(f"fraction_of_critical: {setting.speed / 100:g}", text)
+                self.assertIn("duration: 4\n", text)
+                masses = [float(mass) for mass in re.findall(r"mass: ([0-9.]+)", text)]
+                total = {"12.5": 0.275, "25": 0.549, "37.5": 0.824, "50": 1.098, "31.25": 9.662}[setting.load]
+                self.assertAlmostEqual(sum(masses), total, delta=0.002)
+                run(self.folder, "millMesh", "mill.yaml", "--case", ".")
+                run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
 
 
 class Difference(unittest.TestCase):
@@ -124,10 +139,10 @@ class Axial(unittest.TestCase):
 class HalfWritten(FolderTest):
     """Times that ranks killed at different moments leave."""
 
-    def write(self, processor, time, end=STARS):
+    def write(self, processor, time, end=STARS, names=("U", "alpha.slurry")):
         folder = self.folder / f"processor{processor}" / time
         folder.mkdir(parents=True)
-        for name in ("U", "alpha.slurry"):
+        for name in names:
             (folder / name).write_text("FoamFile\n{\n}\n" + (end if name == "U" else STARS))
 
     def drop(self):
@@ -137,8 +152,8 @@ class HalfWritten(FolderTest):
             shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / f"processor{processor}" / "system")
         shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / "system")
         functions = (ROOT / "scripts" / "case_functions").read_text()
-        begin = functions.index("drop_half_written() {")
-        script = "set -eu -o pipefail\n" + functions[begin:functions.index("\n}\n", begin) + 3] + "drop_half_written\n"
+        begin = functions.index("written() {")
+        script = "set -eu -o pipefail\n" + functions[begin:functions.index("\nparallel() {")] + "drop_half_written\n"
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir() if path.name[0].isdigit())
@@ -151,6 +166,13 @@ class HalfWritten(FolderTest):
         self.write(0, "0.15")
         self.write(1, "0.15", end="")
         self.assertEqual(self.drop(), {0: ["0", "0.05", "0.1"], 1: ["0", "0.05", "0.1"]})
+
+    def test_a_time_without_all_fields_goes(self):
+        for processor in (0, 1):
+            self.write(processor, "0", names=("U",))
+            self.write(processor, "0.05")
+            self.write(processor, "0.1", names=("U",))
+        self.assertEqual(self.drop(), {0: ["0", "0.05"], 1: ["0", "0.05"]})
 
     def test_a_time_that_not_all_ranks_have_goes(self):
         for processor in (0, 1):

@@ -26,6 +26,8 @@ HERE = Path(__file__).parent.resolve()
 MILLS = HERE.parent.parent / "mills"
 SPEEDS = tuple(range(40, 120, 10))  # % of critical
 LEFT_OUT, WINDOW, VOXELS = 1.0, 0.1, 65  # s, s, across the mill
+DURATIONS = {("30cm", 60): 6.25, ("30cm", 75): 5.0}  # s; of the 12 cm mill:
+DURATION = 4.0
 COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",
            "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm", "centroid_y_mm", "wall_time_s")
 
@@ -63,9 +65,17 @@ def mill_text(setting, duration, slice_length):
     text = with_entries(source.read_text(), fraction_of_critical=f"{setting.speed / 100:g}", duration=f"{duration:g}")
     if setting.mill == "12cm":
         lines = "\n".join(published_loads()[setting.load])
-        text = re.sub(r"(?m)^  classes:\n(    - .*\n)+", f"  classes:\n{lines}\n", text)
+        text = replaced(text, r"(?m)^  classes:\n(    - .*\n)+", f"  classes:\n{lines}\n")
     if slice_length:
-        text = text.replace("geometry:\n", f"geometry:\n  slice: {slice_length:g}\n", 1)
+        text = replaced(text, r"(?m)^geometry:\n", f"geometry:\n  slice: {slice_length:g}\n")
+    return text
+
+
+def replaced(text, pattern, new):
+    """The text with what the pattern finds, which must be there once, replaced."""
+    text, count = re.subn(pattern, new, text)
+    if count != 1:
+        raise RunError(f"mill.yaml: '{pattern}' was found {count} times; expected once")
     return text
 
 
@@ -76,17 +86,23 @@ def radius_and_length(text):
     return value["diameter"] / 2, float(sliced.group(1)) if sliced else value["length"]
 
 
+def folder_of(setting, slice_length):
+    """The folder of a run; slices have folders of their own."""
+    return HERE / "runs" / (setting.name + (f"_slice{1e3 * slice_length:g}mm" if slice_length else ""))
+
+
 def make(setting, options):
     """Runs one setting, or finds it whole."""
-    text = mill_text(setting, options.duration, options.slice)
+    duration = options.duration or DURATIONS.get((setting.mill, setting.speed), DURATION)
+    text = mill_text(setting, duration, options.slice)
     radius, length = radius_and_length(text)
     averaging = ["--box", -radius, -radius, 0, radius, radius, length, "--shape", VOXELS, VOXELS, 1, "--start", LEFT_OUT,
                  "--window", WINDOW]
     if options.slice:
         averaging += ["--periodic", "z"]
-    name = setting.name + (f"_slice{1e3 * options.slice:g}mm" if options.slice else "")
-    print(f"{name} …", flush=True)
-    return make_dry_run(HERE / "runs" / name, text, averaging, ranks=options.ranks, keep_dumps=options.keep_dumps)
+    folder = folder_of(setting, options.slice)
+    print(f"{folder.name} …", flush=True)
+    return make_dry_run(folder, text, averaging, ranks=options.ranks, keep_dumps=options.keep_dumps)
 
 
 def row(setting, dry):
@@ -128,7 +144,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="*", metavar="RUN", help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
     parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
-    parser.add_argument("--duration", type=float, default=4.0, help="of the turning mill, s")
+    parser.add_argument("--duration", type=float, help="of the turning mill, s [4; of the 30 cm mill 6.25 and 5]")
     parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH", help="periodic slices of this length (m) instead")
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--keep-dumps", action="store_true")
@@ -148,14 +164,14 @@ def main():
     options, parser = parse()
     settings = matrix()
     if options.list or not options.runs:
-        for name in settings:
-            print(name, "whole" if (HERE / "runs" / name / "whole").is_file() else "")
+        for name, setting in settings.items():
+            print(name, "whole" if (folder_of(setting, options.slice) / "whole").is_file() else "")
         return 0
     rows, failures = [], []
     for setting in chosen(options.runs, settings, parser):
         try:
             rows.append(row(setting, make(setting, options)))
-        except RunError as error:
+        except RuntimeError as error:
             failures.append(f"{setting.name}: {error}")
             print(failures[-1], flush=True)
     if rows:
