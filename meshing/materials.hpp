@@ -9,7 +9,7 @@
 namespace millfoam::meshing {
 
 /// Largest overlap over the smaller diameter that the softened modulus is chosen for where `mill.yaml` says
-/// neither a modulus nor an overlap. Study: cases/studies/softening.
+/// neither a modulus nor an overlap: about half of what softened balls are good for (Brosh, Kalman & Levy).
 inline constexpr double default_largest_overlap = 0.07;
 
 /// Names that `materials.ball` and `materials.wall` know.
