@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The fed mill's first hundredths of a second, coarse and without balls: what is fed is there, what is written can go on."""
+import re
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam import axial, foam
+from millfoam.mill_flow import MillFlow
+from millfoam.run import run
+from mill_run_test import replace
+
+CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
+FEED, HALF, END = 65.3e-6, 0.01, 0.02  # m3/s, s
+
+
+class FedMill(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = Path(tempfile.mkdtemp(prefix="mill-30cm-"))
+        cls.addClassCleanup(shutil.rmtree, cls.case)
+        for part in ("system", "constant", "0.orig"):
+            shutil.copytree(CASE / part, cls.case / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
+        shutil.copy(CASE / "mill.yaml", cls.case)
+        replace(cls.case / "mill.yaml", (r"counts: .*", "counts: {gap: 2, lifter: 1, height: 1, ring: 10}"),
+                (r"^  layers: \d+", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2"))
+        replace(cls.case / "system" / "controlDict", (r"^writeInterval +[^;]+", f"writeInterval {HALF}"))
+        (cls.case / "constant" / "operation").write_text(f"feedRate {FEED};\nlaw none;\n")
+        (cls.case / "constant" / "bedProperties").unlink()
+        shutil.copytree(cls.case / "0.orig", cls.case / "0")
+        run(cls.case, "millMesh", "mill.yaml", "--case", ".")
+        cls.start = run(cls.case, "slurryStart")
+        cls.log = ""
+        for end in (HALF, END):  # the second goes on from the first's last time
+            replace(cls.case / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {end}"))
+            cls.log += run(cls.case, "slurryFoam")
+        cls.flow = MillFlow(cls.case)
+
+    def test_the_slurry_grows_by_the_feed(self):
+        times, volumes = axial.slurry_volumes(self.log)
+        self.assertAlmostEqual(times[-1], END, delta=1e-9)
+        start = float(re.search(r"m: (\S+) m3", self.start).group(1))
+        # At rest the pool just reaches the outlet's lip: next to nothing leaves in this time
+        self.assertAlmostEqual((volumes[-1] - start) / (FEED * END), 1, delta=0.02)
+
+    def test_the_pool_is_that_of_the_level(self):
+        radius, level, length = 0.15, -0.0467, 0.305 + 0.033
+        segment = radius ** 2 * np.arccos(-level / radius) + level * np.sqrt(radius ** 2 - level ** 2)
+        start = float(re.search(r"m: (\S+) m3", self.start).group(1))
+        # Eight lifters of 1 cm2 stand below that level
+        self.assertAlmostEqual(start / ((segment - 8e-4) * length), 1, delta=0.005)
+
+    def test_the_profile_along_the_axis_is_flat_at_first(self):
+        profile = axial.axial_profile(self.flow, 0)
+        self.assertEqual(len(profile.z), 9)
+        self.assertLess(np.ptp(profile.height[:-1]), 2e-3)
+        self.assertAlmostEqual(profile.height.mean(), -0.09, delta=0.01)
+
+    def test_slurry_enters_by_the_feed_alone(self):
+        alpha = foam.read_field(self.flow.frames[-1][1] / "alpha.slurry", self.flow.mesh.cells)
+        self.assertGreaterEqual(alpha.min(), -1e-8)
+        self.assertLessEqual(alpha.max(), 1 + 1e-8)
+        height = self.flow.turned(self.flow.centres[:, :2], END)[:, 1]
+        away = (self.flow.centres[:, 2] > 0.1) & (height > 0.0) & (np.hypot(*self.flow.centres[:, :2].T) < 0.12)
+        self.assertLess(alpha[away].max(), 1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
