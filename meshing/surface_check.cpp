@@ -80,14 +80,14 @@ void require_no_needles(const WallSurface& surface) {
   const Needles needles = find_needles(surface);
   if (needles.count == 0) return;
   std::ostringstream text;
-  text << "the walls have " << needles.count << " needle triangles, the worst, of height over longest side "
-       << needles.smallest_ratio << ", at " << described(needles.where) << ": expected at least "
+  text << "the walls have " << needles.count << (needles.count == 1 ? " needle triangle" : " needle triangles")
+       << ", the worst, of height over longest side " << needles.smallest_ratio << ", at " << described(needles.where) << ": expected at least "
        << needle_ratio << "; choose another resolution.cell_size";
   throw std::runtime_error(text.str());
 }
 
 void require_same_volume(double of_walls, double of_mesh) {
-  if (std::abs(of_walls / of_mesh - 1) <= 1e-6) return;
+  if (std::abs(of_walls / of_mesh - 1) <= allowed_volume_difference) return;
   std::ostringstream text;
   text.precision(9);
   text << "the walls enclose " << of_walls << " m^3, and the mesh fills " << of_mesh

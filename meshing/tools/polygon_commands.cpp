@@ -55,7 +55,7 @@ struct FacesOptions {
 
 void run_faces(const FacesOptions& options) {
   const Mill mill = read_mill(options.mill);
-  const CrossSection section = make_cross_section(mill.geometry, mill.resolution.cell_size);
+  const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   write_obj(mesh, options.file);
   std::printf("%s: %zu points, %zu faces, %zu of them in the group %s\n", options.file.c_str(),
