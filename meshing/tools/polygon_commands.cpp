@@ -23,9 +23,13 @@ struct AssembleOptions {
 
 void print(const PolygonSet& set, const Assembly& found) {
   const PolyMesh& mesh = found.mesh;
-  std::printf("points    %zu (%zu in the file, %d welded to others, %d in no face)\n", mesh.points.size(),
+  std::printf("points    %zu (%zu in the file, %d welded to others, %d in no face", mesh.points.size(),
               set.points.size(), found.points_joined, found.points_unused);
+  if (found.baffles > 0) std::printf(", %d for the second sides of baffles", found.points_separated);
+  std::printf(")\n");
   std::printf("faces     %zu, %zu between two cells\n", mesh.faces.size(), mesh.neighbour.size());
+  if (found.baffles > 0)
+    std::printf("baffles   %d pairs of faces that coincide, walls between two cells\n", found.baffles);
   std::printf("cells     %d in %d %s, of %.3g to %.3g m^3\n", mesh.cells, found.bodies,
               found.bodies == 1 ? "body" : "bodies", found.smallest_cell, found.largest_cell);
   std::printf("volume    %.9g m^3\n", found.volume);
@@ -39,6 +43,7 @@ void print(const PolygonSet& set, const Assembly& found) {
       std::printf("no patch  %s: %d faces, all between two cells\n", patch.name.c_str(), patch.between_cells);
     }
   }
+  for (const std::string& warning : found.warnings) std::printf("warning   %s\n", warning.c_str());
 }
 
 void run_assemble(const AssembleOptions& options) {
@@ -54,7 +59,13 @@ struct FacesOptions {
 };
 
 void run_faces(const FacesOptions& options) {
+  if (!has_extension(options.file, ".obj"))
+    throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
   const Mill mill = read_mill(options.mill);
+  if (mill.geometry.ends == Ends::periodic)
+    throw std::runtime_error(options.mill +
+                             ": the mill's ends are periodic, and cells out of faces know no cyclic patches: "
+                             "expected 'ends: plain' without 'slice'");
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   write_obj(mesh, options.file);
