@@ -17,8 +17,8 @@ struct FacePairs {
   std::vector<int> other;   ///< and that of the one that coincides with it; -1 for none
 };
 
-/// Finds the pairs: two polygons, of groups other than `internal`, whose points are welded to the same but are
-/// not the same in the file. All others that coincide are problems; `refused` are passed over.
+/// Finds the pairs: two polygons, of groups other than `internal`, whose points are welded to the same but
+/// are not the same in the file. All others that coincide are problems; `refused` are passed over.
 FacePairs find_pairs(const WeldedSet& whole, const std::set<int>& refused, Problems& problems);
 
 /// The groups of a pair on both sides of the first polygon. A polygon is on the side of the cell with whose

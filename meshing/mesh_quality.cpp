@@ -75,7 +75,8 @@ double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, co
 /// What to change in mill.yaml; cells from z = `length` on are as long as the pulp lifters' layers.
 std::string advice(const Vector3d& place, double length) {
   if (place.z() >= length * (1 - same_level))
-    return "choose another pulp_lifters.layers or pulp_lifters.depth, so that the layers behind the grates are "
+    return "choose another pulp_lifters.layers or pulp_lifters.depth, so that the layers behind the grates "
+           "are "
            "about as thick as the mill's, or another resolution";
   return "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
          "further from each other and from the lifters";
@@ -86,7 +87,8 @@ struct Judge {
   double length;
 
   [[noreturn]] void refuse(const std::string& what, const Vector3d& place) const {
-    throw std::runtime_error("the mesh has " + what + " at " + described(place) + " m: " + advice(place, length));
+    throw std::runtime_error("the mesh has " + what + " at " + described(place) +
+                             " m: " + advice(place, length));
   }
 
   void require_at_most(double limit, double value, const std::string& what, const std::string& unit,

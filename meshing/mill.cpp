@@ -6,8 +6,8 @@
 
 #include "meshing/materials.hpp"
 #include "meshing/mill_geometry.hpp"
-#include "meshing/openings.hpp"
 #include "meshing/mill_shape.hpp"
+#include "meshing/openings.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/yaml_section.hpp"
 

@@ -45,8 +45,8 @@ double asked_grate_area(const Geometry& geometry);
 /// nearest to the axis whose area is nearest to the asked one, those at equal distances together. Sectors and
 /// grates begin and end at the mesh's lines nearest to theirs; the numbers of columns in the grates are
 /// chosen one after the other so that their sum stays within half a column of what is asked. Throws
-/// std::runtime_error where a sector has no column for its grate, and where an inlet without a circle is wrong
-/// by more than allowed_inlet_error.
+/// std::runtime_error where a sector has no column for its grate, and where an inlet without a circle is
+/// wrong by more than allowed_inlet_error.
 Openings find_openings(const CrossSection& section, const Geometry& geometry);
 
 }  // namespace millfoam::meshing

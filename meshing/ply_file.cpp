@@ -135,7 +135,8 @@ class Reader {
     }
     if (!has_format) refuse("the header has no 'format'");
     for (const Element& element : elements_) {
-      const bool lists_points = std::any_of(element.properties.begin(), element.properties.end(), names_points);
+      const bool lists_points =
+          std::any_of(element.properties.begin(), element.properties.end(), names_points);
       if (element.name == "face" && !lists_points)
         refuse("the header's element 'face' has no list 'vertex_indices' or 'vertex_index'");
     }
@@ -241,7 +242,8 @@ class Reader {
   void add_face(Polygon polygon, const std::map<std::string, double>& values) {
     const auto patch = values.find("patch");
     std::string name = default_group;
-    if (patch != values.end()) name = "patch" + std::to_string(to_index(patch->second, "patch", "a whole number"));
+    if (patch != values.end())
+      name = "patch" + std::to_string(to_index(patch->second, "patch", "a whole number"));
     polygon.group = group_index(set_, name);
     polygon.line = format_ == Format::ascii ? line_ : 0;
     set_.polygons.push_back(std::move(polygon));

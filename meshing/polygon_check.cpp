@@ -160,12 +160,18 @@ void Problems::stop() const {
 
 void check_groups(const PolygonSet& set, Problems& problems) {
   for (const std::string& name : set.groups) {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    const auto may_follow = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '-'; };
-    if (!name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), may_follow)) continue;
-    problems.add("group name", set.source + ": the group '" + name +
-                                   "' cannot name a patch of OpenFOAM: expected a letter or '_', then letters, "
-                                   "digits, '_', '-' or '.'");
+    const auto is_letter = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    const auto may_follow = [&](char c) {
+      return is_letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '-';
+    };
+    if (!name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), may_follow))
+      continue;
+    problems.add("group name",
+                 set.source + ": the group '" + name +
+                     "' cannot name a patch of OpenFOAM: expected a letter or '_', then letters, "
+                     "digits, '_', '-' or '.'");
   }
 }
 
@@ -200,7 +206,8 @@ std::vector<std::vector<int>> faces_of_equal_points(const std::vector<Face>& fac
   std::vector<std::vector<int>> groups;
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first != sorted[i - 1].first) continue;
-    if (groups.empty() || groups.back().back() != sorted[i - 1].second) groups.push_back({sorted[i - 1].second});
+    if (groups.empty() || groups.back().back() != sorted[i - 1].second)
+      groups.push_back({sorted[i - 1].second});
     groups.back().push_back(sorted[i].second);
   }
   return groups;
@@ -265,7 +272,8 @@ void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_sid
   }
 }
 
-void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings) {
+void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side,
+                           Problems& warnings) {
   const auto at_boundary = [&](std::size_t f) {
     return cell_of_side[2 * f + in_front] < 0 || cell_of_side[2 * f + behind] < 0;
   };

@@ -54,8 +54,8 @@ void check_manifold(const WeldedSet& welded, const EdgeTable& edges, const std::
                     Problems& problems);
 /// Polygons of the group `internal` with a cell on one side only.
 void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
-/// No errors, but what a missing face looks like: faces at the boundary of groups that have more faces between
-/// two cells, unless one group holds the whole boundary; and cells with several faces between them.
+/// No errors, but what a missing face looks like: faces at the boundary of groups that have more faces
+/// between two cells, unless one group holds the whole boundary; and cells with several faces between them.
 void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
 void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
 

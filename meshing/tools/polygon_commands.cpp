@@ -78,6 +78,7 @@ struct SurfaceOptions {
   std::string case_folder;
   double scale = 1;
   double tolerance = 0;
+  std::string ends = "plain";
 };
 
 PartFile part_file(const std::string& argument) {
@@ -100,14 +101,15 @@ void print(const CadReport& report) {
 void run_surface(const SurfaceOptions& options) {
   std::vector<PartFile> parts;
   for (const std::string& argument : options.parts) parts.push_back(part_file(argument));
-  const CadReport report = examine(parts, options.scale, options.tolerance);
+  const Ends ends = options.ends == "plain" ? Ends::plain : Ends::periodic;
+  const CadReport report = examine(parts, options.scale, options.tolerance, ends);
   print(report);
   std::fflush(stdout);
   if (!report.usable())
     throw std::runtime_error("LIGGGHTS cannot use this surface: see the problems above; nothing was written");
   if (options.case_folder.empty()) return;
   const std::filesystem::path folder = std::filesystem::path(options.case_folder) / "walls";
-  for (const auto& file : write_walls(report.surface, Ends::plain, folder))
+  for (const auto& file : write_walls(report.surface, ends, folder))
     std::printf("written    %s\n", file.string().c_str());
 }
 
@@ -149,6 +151,11 @@ void add_polygon_commands(CLI::App& app) {
       ->add_option("--tolerance", of_surface->tolerance,
                    "corners nearer than this, m, are one; 1e-6 of the bounding box's diagonal unless given")
       ->check(CLI::PositiveNumber);
+  surface
+      ->add_option("--ends", of_surface->ends,
+                   "'periodic': walls of a slice, which may be open at its two ends; 'plain': closed walls")
+      ->check(CLI::IsMember({"plain", "periodic"}))
+      ->capture_default_str();
   surface->callback([of_surface] { run_surface(*of_surface); });
 }
 
