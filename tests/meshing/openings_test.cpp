@@ -100,7 +100,9 @@ TEST(PulpLifters, of_three_layers_behind_nine_are_refused_with_their_keys) {
 /// cases/mills/mill_30cm/mill.yaml with one line more.
 Mill shipped_mill_with(const std::string& line) {
   std::ostringstream text;
-  text << std::ifstream(TEST_DATA_DIR "/../../../cases/mills/mill_30cm/mill.yaml").rdbuf();
+  text << std::ifstream(std::filesystem::path(TEST_DATA_DIR).parent_path() /
+                        "../../cases/mills/mill_30cm/mill.yaml")
+              .rdbuf();
   const TemporaryFolder folder;
   return read_mill(folder.write("mill.yaml", with(text.str(), "  ends: plain\n", "  ends: plain\n" + line)));
 }
