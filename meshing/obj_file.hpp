@@ -16,7 +16,8 @@ namespace millfoam::meshing {
 PolygonSet read_obj(const std::filesystem::path& file);
 
 /// Writes the faces of a mesh as OBJ, in groups named after their patches, those between two cells in the
-/// group `internal`. Open patches get the second word `patch`; zones are left out. Throws std::runtime_error when the file cannot be written.
+/// group `internal`. Open patches get the second word `patch`; zones are left out. Throws std::runtime_error
+/// when the file cannot be written.
 void write_obj(const VolumeMesh& mesh, const std::filesystem::path& file);
 
 }  // namespace millfoam::meshing

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mesh_report.hpp"
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
   app.callback([&] {
     if (!app.get_subcommands().empty()) return;
     if (options.mill.empty()) throw CLI::RequiredError("mill");
-    if (options.case_folder.empty() && quality->empty()) throw CLI::RequiredError("--case or --quality");
+    if (options.case_folder.empty() && quality->empty())
+      throw std::runtime_error("expected --case DIR, or --quality");
     run(options);
   });
   try {
