@@ -6,6 +6,8 @@
 #include <queue>
 #include <tuple>
 
+#include "meshing/baffles.hpp"
+#include "meshing/face_pairs.hpp"
 #include "meshing/polygon_check.hpp"
 #include "meshing/union_find.hpp"
 #include "meshing/welding.hpp"
@@ -17,6 +19,15 @@ constexpr double default_tolerance = 1e-9;  // of the bounding box's diagonal
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
+}
+
+/// Corners of cells on the two sides of a baffle get points of their own.
+void separate(const FacePairs& pairs, Assembly& assembly) {
+  for (int other : pairs.other) assembly.baffles += other >= 0 ? 1 : 0;
+  if (assembly.baffles == 0) return;
+  const std::size_t before = assembly.mesh.points.size();
+  separate_points_at_baffles(assembly.mesh);
+  assembly.points_separated = static_cast<int>(assembly.mesh.points.size() - before);
 }
 
 WeldedSet welded_set(const PolygonSet& set, double tolerance, Assembly& assembly) {
@@ -35,6 +46,7 @@ WeldedSet welded_set(const PolygonSet& set, double tolerance, Assembly& assembly
 /// The cell on each side of each face.
 struct Sides {
   std::vector<int> cell;
+  std::vector<int> open_cell;  ///< the same, but no cell behind a baffle: what cells are joined through
   std::vector<double> volume;  ///< of each cell, m^3
 };
 
@@ -43,7 +55,7 @@ Sides find_sides(const WeldedSet& welded, const EdgeTable& edges, Problems& prob
   check_crossings(welded, edges, shells.overlaps, problems);
   problems.stop();
   const ShellCells cells = find_cells(welded.points, welded.faces, shells);
-  Sides sides{{}, cells.volume};
+  Sides sides{{}, {}, cells.volume};
   if (!cells.flat.empty()) {
     check_dangling(welded, shells.of_side, problems);
     for (int shell : cells.flat) {
@@ -59,12 +71,25 @@ Sides find_sides(const WeldedSet& welded, const EdgeTable& edges, Problems& prob
   return sides;
 }
 
+/// Pairs of faces must have a cell on both sides.
+void check_pairs(const WeldedSet& whole, const FacePairs& pairs, const std::vector<PairGroups>& groups,
+                 Sides& sides, Problems& problems) {
+  sides.open_cell = sides.cell;
+  for (std::size_t f = 0; f < pairs.faces.size(); ++f) {
+    if (pairs.other[f] < 0) continue;
+    const int front = sides.cell[2 * f + in_front], back = sides.cell[2 * f + behind];
+    if (front < 0 || back < 0 || front == back || !groups[f].known)
+      add_doubled(whole, pairs.other[f], pairs.one[f], problems);
+    sides.open_cell[2 * f + behind] = -1;
+  }
+}
+
 /// The cells' numbers in the order in which neighbours reach each other from the first cell of each body, so
 /// that neighbours have near numbers whatever the order of the polygons. Counts the bodies.
 std::vector<int> numbers_by_neighbourhood(const Sides& sides, int& bodies) {
   std::vector<std::vector<int>> neighbours(sides.volume.size());
-  for (std::size_t s = 0; s < sides.cell.size(); s += 2) {
-    const int a = sides.cell[s], b = sides.cell[s + 1];
+  for (std::size_t s = 0; s < sides.open_cell.size(); s += 2) {
+    const int a = sides.open_cell[s], b = sides.open_cell[s + 1];
     if (a < 0 || b < 0) continue;
     neighbours[index(a)].push_back(b);
     neighbours[index(b)].push_back(a);
@@ -96,12 +121,17 @@ struct Placed {
   bool reversed;
 };
 
-std::vector<Placed> placed_faces(const WeldedSet& welded, const Sides& sides,
-                                 const std::vector<int>& number) {
+std::vector<Placed> placed_faces(const WeldedSet& welded, const Sides& sides, const FacePairs& pairs,
+                                 const std::vector<PairGroups>& groups, const std::vector<int>& number) {
   std::vector<Placed> faces;
   for (std::size_t f = 0; f < welded.faces.size(); ++f) {
     const auto numbered = [&](int cell) { return cell < 0 ? -1 : number[index(cell)]; };
     const int front = numbered(sides.cell[2 * f + in_front]), back = numbered(sides.cell[2 * f + behind]);
+    if (pairs.other[f] >= 0) {
+      faces.push_back({groups[f].behind, back, -1, static_cast<int>(f), false});
+      faces.push_back({groups[f].in_front, front, -1, static_cast<int>(f), true});
+      continue;
+    }
     const bool inner = front >= 0 && back >= 0;
     const bool reversed = inner ? front < back : back < 0;
     faces.push_back({inner ? -1 : welded.set.polygons[f].group, reversed ? front : back,
@@ -137,7 +167,7 @@ void build_mesh(const WeldedSet& welded, const std::vector<Placed>& faces, Assem
   for (const Placed& placed : faces) {
     Face face = welded.faces[index(placed.polygon)];
     if (placed.reversed) std::reverse(face.begin() + 1, face.end());
-    const int group = welded.set.polygons[index(placed.polygon)].group;
+    const int group = placed.group >= 0 ? placed.group : welded.set.polygons[index(placed.polygon)].group;
     PatchMeasure& measure = assembly.patches[index(group)];
     mesh.owner.push_back(placed.owner);
     if (placed.neighbour >= 0) {
@@ -145,7 +175,8 @@ void build_mesh(const WeldedSet& welded, const std::vector<Placed>& faces, Assem
       ++measure.between_cells;
     } else {
       if (measure.faces++ == 0)
-        mesh.patches.push_back({measure.name, static_cast<int>(mesh.faces.size()), 0, ""});
+        mesh.patches.push_back({measure.name, static_cast<int>(mesh.faces.size()), 0, "",
+                                welded.set.open.count(measure.name) > 0});
       ++mesh.patches.back().size;
       measure.area += area_vector(welded.points, face).norm();
     }
@@ -159,24 +190,31 @@ void build_mesh(const WeldedSet& welded, const std::vector<Placed>& faces, Assem
 Assembly assemble(const PolygonSet& set, double tolerance) {
   Assembly assembly;
   Problems problems;
-  const WeldedSet welded = welded_set(set, tolerance, assembly);
+  const WeldedSet whole = welded_set(set, tolerance, assembly);
   check_groups(set, problems);
-  check_faces(welded, problems);
-  check_doubled(welded, problems);
+  const FacePairs pairs = find_pairs(whole, check_faces(whole, problems), problems);
   problems.stop();
+  const WeldedSet welded{pairs.set, whole.points, pairs.faces};
   const EdgeTable edges = find_edges(welded.faces);
   check_closed(welded, edges, problems);
   problems.stop();
-  const Sides sides = find_sides(welded, edges, problems);
+  Sides sides = find_sides(welded, edges, problems);
+  const std::vector<PairGroups> groups = groups_of_sides(set, pairs, sides.cell);
+  check_pairs(whole, pairs, groups, sides, problems);
   check_dangling(welded, sides.cell, problems);
   problems.stop();
   check_manifold(welded, edges, sides.cell, problems);
   check_internal(welded, sides.cell, problems);
   problems.stop();
+  Problems warnings;
+  warn_of_rare_boundary(welded, sides.open_cell, warnings);
+  warn_of_shared_faces(welded, sides.open_cell, warnings);
+  assembly.warnings = warnings.sentences();
 
   const std::vector<int> number = numbers_by_neighbourhood(sides, assembly.bodies);
-  build_mesh(welded, placed_faces(welded, sides, number), assembly);
+  build_mesh(welded, placed_faces(welded, sides, pairs, groups, number), assembly);
   assembly.mesh.cells = static_cast<int>(sides.volume.size());
+  separate(pairs, assembly);
   for (double volume : sides.volume) assembly.volume += volume;
   const auto [smallest, largest] = std::minmax_element(sides.volume.begin(), sides.volume.end());
   assembly.smallest_cell = *smallest;

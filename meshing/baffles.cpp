@@ -2,8 +2,10 @@
 #include "meshing/baffles.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
+#include <vector>
+
+#include "meshing/union_find.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -11,19 +13,10 @@ namespace {
 /// Corners of cells, (point, cell), in groups that are joined through inner faces.
 class CornerGroups {
  public:
-  explicit CornerGroups(const VolumeMesh& mesh) {
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-      for (int p : mesh.faces[f]) {
-        corners_.emplace_back(p, mesh.owner[f]);
-        if (f < mesh.neighbour.size()) corners_.emplace_back(p, mesh.neighbour[f]);
-      }
-    }
-    std::sort(corners_.begin(), corners_.end());
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-    parent_.resize(corners_.size());
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  template <typename Mesh>
+  explicit CornerGroups(const Mesh& mesh) : corners_(corners(mesh)), groups_(corners_.size()) {
     for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) {
-      for (int p : mesh.faces[f]) join(find(p, mesh.owner[f]), find(p, mesh.neighbour[f]));
+      for (int p : mesh.faces[f]) groups_.join(find(p, mesh.owner[f]), find(p, mesh.neighbour[f]));
     }
   }
 
@@ -34,25 +27,29 @@ class CornerGroups {
     return static_cast<std::size_t>(at - corners_.begin());
   }
   /// The group's first corner.
-  std::size_t first(std::size_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
+  std::size_t first(std::size_t corner) { return groups_.find(corner); }
 
  private:
-  void join(std::size_t a, std::size_t b) {
-    a = first(a);
-    b = first(b);
-    parent_[std::max(a, b)] = std::min(a, b);
+  template <typename Mesh>
+  static std::vector<std::pair<int, int>> corners(const Mesh& mesh) {
+    std::vector<std::pair<int, int>> corners;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      for (int p : mesh.faces[f]) {
+        corners.emplace_back(p, mesh.owner[f]);
+        if (f < mesh.neighbour.size()) corners.emplace_back(p, mesh.neighbour[f]);
+      }
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
   }
 
   std::vector<std::pair<int, int>> corners_;
-  std::vector<std::size_t> parent_;
+  UnionFind groups_;
 };
 
-}  // namespace
-
-void separate_points_at_baffles(VolumeMesh& mesh) {
+template <typename Mesh>
+void separate_points(Mesh& mesh) {
   CornerGroups groups(mesh);
   std::vector<int> point_of(groups.size());
   for (std::size_t c = 0; c < groups.size(); ++c) {
@@ -69,6 +66,16 @@ void separate_points_at_baffles(VolumeMesh& mesh) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (int& p : mesh.faces[f]) p = point_of[groups.find(p, mesh.owner[f])];
   }
+}
+
+}  // namespace
+
+void separate_points_at_baffles(VolumeMesh& mesh) {
+  separate_points(mesh);
+}
+
+void separate_points_at_baffles(PolyMesh& mesh) {
+  separate_points(mesh);
 }
 
 }  // namespace millfoam::meshing

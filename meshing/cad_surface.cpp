@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "meshing/face_crossings.hpp"
 #include "meshing/polygon_check.hpp"
@@ -38,7 +40,12 @@ std::string sentence(const Parts&... parts) {
   return text.str();
 }
 
-PolygonSet read_parts(const std::vector<PartFile>& parts, double scale) {
+/// A number of things, as in `1 corner` or `2 corners`.
+std::string counted(std::size_t number, const std::string& thing, const std::string& things) {
+  return std::to_string(number) + ' ' + (number == 1 ? thing : things);
+}
+
+PolygonSet read_parts(const std::vector<PartFile>& parts, double scale, Ends ends) {
   if (!(scale > 0)) throw std::runtime_error(sentence("scale ", scale, ": expected a factor above 0"));
   PolygonSet set;
   for (const PartFile& part : parts) {
@@ -46,6 +53,9 @@ PolygonSet read_parts(const std::vector<PartFile>& parts, double scale) {
       throw std::runtime_error("part '" + part.part + "': expected shell, lifters, feedEnd or dischargeEnd");
     if (std::find(set.groups.begin(), set.groups.end(), part.part) != set.groups.end())
       throw std::runtime_error("part '" + part.part + "' is given twice");
+    if (ends == Ends::periodic && (part.part == "feedEnd" || part.part == "dischargeEnd"))
+      throw std::runtime_error("part '" + part.part +
+                               "': a slice with periodic ends has shell and lifters only");
     read_stl(part.file, part.part, scale, set);
     set.files.push_back(part.file.string());
   }
@@ -83,16 +93,16 @@ struct Welded {
   std::vector<Face> faces;
 };
 
-Welded weld_corners(const PolygonSet& set, double tolerance, CadReport& report) {
-  const double nearest = tolerance > 0 ? tolerance : default_tolerance * extent(set.points);
+Welded weld_corners(const PolygonSet& set, double nearest, CadReport& report) {
   const Welding welding = weld(set.points, nearest);
   if (welding.moved > 0)
-    report.repairs.push_back(sentence(welding.moved, " corners nearer than ", nearest,
-                                      " m to another were joined to it, the farthest over ",
-                                      welding.largest_distance, " m at ", described(welding.farthest)));
+    report.repairs.push_back(sentence(
+        counted(static_cast<std::size_t>(welding.moved), "corner", "corners"), " nearer than ", nearest,
+        " m to another ", welding.moved == 1 ? "was" : "were", " joined to it, the farthest over ",
+        welding.largest_distance, " m at ", described(welding.farthest)));
   Welded welded{set, welding.points, {}};
   welded.set.polygons.clear();
-  int dropped = 0;
+  std::size_t dropped = 0;
   std::string first;
   for (std::size_t t = 0; t < set.polygons.size(); ++t) {
     Face face;
@@ -106,8 +116,8 @@ Welded weld_corners(const PolygonSet& set, double tolerance, CadReport& report) 
     welded.set.polygons.push_back(set.polygons[t]);
   }
   if (dropped > 0)
-    report.repairs.push_back(
-        sentence(dropped, " triangles with two equal corners were left out, the first ", first));
+    report.repairs.push_back(sentence(counted(dropped, "triangle", "triangles"), " with two equal corners ",
+                                      dropped == 1 ? "was" : "were", " left out, the first ", first));
   return welded;
 }
 
@@ -125,6 +135,37 @@ void check_edges(const WeldedSet& welded, const EdgeTable& edges, Problems& prob
   }
 }
 
+/// A face over each closed rim at the two ends of a periodic slice: where all edges with one triangle that
+/// lie in the plane of an end, to `tolerance`, meet in pairs.
+std::vector<Face> rim_covers(const Welded& welded, const CadReport& report, double tolerance) {
+  const EdgeTable edges = find_edges(welded.faces);
+  std::vector<Face> covers;
+  for (const double level : {report.low.z(), report.high.z()}) {
+    const auto in_plane = [&](int p) { return std::abs(welded.points[index(p)].z() - level) <= tolerance; };
+    std::map<int, std::vector<int>> next;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const FaceSide& edge = edges.first(e);
+      if (edges.faces(e) != 1 || !in_plane(edge.low) || !in_plane(edge.high)) continue;
+      next[edge.low].push_back(edge.high);
+      next[edge.high].push_back(edge.low);
+    }
+    while (!next.empty()) {
+      Face cover;
+      bool closed = true;
+      for (int from = -1, at = next.begin()->first; next.count(at) > 0;) {
+        const std::vector<int> ways = next.at(at);
+        closed = closed && ways.size() == 2;
+        cover.push_back(at);
+        next.erase(at);
+        const int to = ways.front() == from ? ways.back() : ways.front();
+        from = std::exchange(at, to);
+      }
+      if (closed && cover.size() > 2) covers.push_back(std::move(cover));
+    }
+  }
+  return covers;
+}
+
 void check_areas(const WeldedSet& welded, Problems& problems) {
   for (std::size_t t = 0; t < welded.faces.size(); ++t) {
     const auto at = [&](std::size_t i) { return welded.points[index(welded.faces[t][i])]; };
@@ -135,18 +176,37 @@ void check_areas(const WeldedSet& welded, Problems& problems) {
   }
 }
 
-/// Turns whole bodies, and reports on all of them.
-void orient_bodies(Welded& welded, const EdgeTable& edges, Problems& problems, CadReport& report) {
-  const Bodies found = find_bodies(welded.points, edges, welded.faces);
+/// Bodies are cut at edges with more than two triangles, so that their number there means nothing.
+bool has_branching_edge(const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.faces(e) > 2) return true;
+  }
+  return false;
+}
+
+/// Turns whole bodies, and reports on all of them. `edges` are those of the triangles and the covers of rims.
+void orient_bodies(Welded& welded, const std::vector<Face>& covers, const EdgeTable& edges,
+                   Problems& problems, CadReport& report) {
+  std::vector<Face> faces = welded.faces;
+  faces.insert(faces.end(), covers.begin(), covers.end());
+  Bodies found = find_bodies(welded.points, edges, faces);
+  const auto is_cover = [&](int face) { return index(face) >= welded.faces.size(); };
+  const auto drop_covers = [&](std::vector<int>& list) {
+    list.erase(std::remove_if(list.begin(), list.end(), is_cover), list.end());
+  };
+  drop_covers(found.against_neighbours);
+  for (Body& body : found.bodies) drop_covers(body.faces);
+  faces.resize(welded.faces.size());
+  welded.faces = std::move(faces);
   const auto at = [&](int face) {
     return sentence(place(welded.set, face), ", around ",
                     described(middle(welded.points, welded.faces[index(face)])));
   };
   if (!found.against_neighbours.empty())
     report.repairs.push_back(
-        sentence(found.against_neighbours.size(),
-                 " triangles that faced against their neighbours were turned, the first ",
-                 at(found.against_neighbours.front())));
+        sentence(counted(found.against_neighbours.size(), "triangle that faced against its neighbours was",
+                         "triangles that faced against their neighbours were"),
+                 " turned, the first ", at(found.against_neighbours.front())));
   int turned = 0;
   for (const Body& body : found.bodies) {
     if (!body.two_sided)
@@ -164,13 +224,14 @@ void orient_bodies(Welded& welded, const EdgeTable& edges, Problems& problems, C
     report.repairs.push_back("the whole surface faced into the mill's interior and was turned");
   if (turned > 0 && found.bodies.size() > 1)
     report.repairs.push_back(sentence(turned, " of ", found.bodies.size(),
-                                      " bodies faced into the mill's interior and were turned"));
-  if (found.bodies.size() == 1) return;
+                                      " bodies faced into the mill's interior and ",
+                                      turned == 1 ? "was" : "were", " turned"));
+  if (found.bodies.size() == 1 || has_branching_edge(edges)) return;
   std::string list;
   for (std::size_t b = 0; b < std::min<std::size_t>(found.bodies.size(), 10); ++b) {
     const Body& body = found.bodies[b];
-    list += sentence(b == 0 ? "" : "; ", body.faces.size(), " triangles with ", at(body.faces.front()),
-                     body.inside_of > 0 ? ", inside another" : "");
+    list += sentence(b == 0 ? "" : "; ", counted(body.faces.size(), "triangle", "triangles"), " with ",
+                     at(body.faces.front()), body.inside_of > 0 ? ", inside another" : "");
   }
   report.warnings.push_back(sentence(found.bodies.size(), " bodies that do not hang together: ", list));
 }
@@ -199,25 +260,31 @@ void check_crossings(const Welded& welded, Problems& problems) {
 void check_needles(CadReport& report) {
   const Needles needles = find_needles(report.surface);
   if (needles.count == 0) return;
-  report.warnings.push_back(sentence(needles.count, " needle triangles, with a height below ", needle_ratio,
-                                     " of their longest side; the worst has ", needles.smallest_ratio, " at ",
-                                     described(needles.where)));
+  report.warnings.push_back(
+      sentence(counted(static_cast<std::size_t>(needles.count), "needle triangle", "needle triangles"),
+               ", with a height below ", needle_ratio, " of the longest side; the worst has ",
+               needles.smallest_ratio, " at ", described(needles.where)));
 }
 
 }  // namespace
 
-CadReport examine(const std::vector<PartFile>& parts, double scale, double tolerance) {
-  const PolygonSet set = read_parts(parts, scale);
+CadReport examine(const std::vector<PartFile>& parts, double scale, double tolerance, Ends ends) {
+  const PolygonSet set = read_parts(parts, scale, ends);
   if (set.polygons.empty()) throw std::runtime_error("no part was given: expected PART=FILE.stl");
   CadReport report;
   check_frame(set, report);
-  Welded welded = weld_corners(set, tolerance, report);
-  const EdgeTable edges = find_edges(welded.faces);
+  const double nearest = tolerance > 0 ? tolerance : default_tolerance * extent(set.points);
+  Welded welded = weld_corners(set, nearest, report);
+  const std::vector<Face> covers =
+      ends == Ends::periodic ? rim_covers(welded, report, nearest) : std::vector<Face>();
+  std::vector<Face> all = welded.faces;
+  all.insert(all.end(), covers.begin(), covers.end());
+  const EdgeTable edges = find_edges(all);
   Problems problems;
   const WeldedSet view{welded.set, welded.points, welded.faces};
   check_edges(view, edges, problems);
   check_areas(view, problems);
-  orient_bodies(welded, edges, problems, report);
+  orient_bodies(welded, covers, edges, problems, report);
   check_crossings(welded, problems);
   report.triangles = static_cast<int>(welded.faces.size());
   report.surface = to_walls(welded);

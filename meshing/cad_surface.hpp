@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "meshing/mill.hpp"
 #include "meshing/wall_surface.hpp"
 
 namespace millfoam::meshing {
@@ -32,6 +33,10 @@ struct CadReport {
 
 /// Reads the parts, coordinates times `scale`, and checks them together.
 ///
+/// The walls of a periodic slice (`ends`) have no end parts, and are open at both: edges with one triangle
+/// that lie at the smallest z or at the largest, to `tolerance`, and make closed rims, are allowed. The
+/// volume is that between the rims' planes.
+///
 /// Repaired: corners nearer than `tolerance` (m; 0: 1e-6 of the bounding box's diagonal) become one;
 /// triangles that lose a side by that are left out; triangles that face against their neighbours are turned;
 /// so is each body whose normals point the wrong way: out of the mill's interior they must point, so out of
@@ -45,7 +50,8 @@ struct CadReport {
 /// of its length.
 ///
 /// Throws PolygonError for a file that cannot be read, and std::runtime_error for a part that is unknown or
-/// given twice, or a scale that is not above 0.
-CadReport examine(const std::vector<PartFile>& parts, double scale = 1, double tolerance = 0);
+/// given twice, an end of a periodic slice, or a scale that is not above 0.
+CadReport examine(const std::vector<PartFile>& parts, double scale = 1, double tolerance = 0,
+                  Ends ends = Ends::plain);
 
 }  // namespace millfoam::meshing

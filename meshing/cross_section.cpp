@@ -154,12 +154,8 @@ double CrossSection::first_line_angle() const {
 }
 
 CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution) {
-  return resolution.counts ? divided(geometry, given_divisions(geometry, *resolution.counts))
-                           : make_cross_section(geometry, resolution.cell_size);
-}
-
-CrossSection make_cross_section(const Geometry& geometry, double cell_size) {
-  return divided(geometry, choose_divisions(geometry, cell_size));
+  return divided(geometry, resolution.counts ? given_divisions(geometry, *resolution.counts)
+                                             : choose_divisions(geometry, resolution.cell_size));
 }
 
 }  // namespace millfoam::meshing

@@ -46,7 +46,4 @@ struct CrossSection {
 /// counts.
 CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution);
 
-/// The same by cell size, m.
-CrossSection make_cross_section(const Geometry& geometry, double cell_size);
-
 }  // namespace millfoam::meshing

@@ -134,6 +134,7 @@ void even_out(const Geometry& geometry, Divisions& divisions) {
 }  // namespace
 
 Divisions choose_divisions(const Geometry& geometry, double cell_size) {
+  assert(cell_size > 0);
   Divisions divisions;
   int around = 4 * std::max(fewest_around / 4, rounded(pi / 2 * geometry.radius() / cell_size));
   if (geometry.lifters.count > 0) {

@@ -2,33 +2,27 @@
 #include "meshing/face_crossings.hpp"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "meshing/cgal_mesh.hpp"
+
 namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangle = Kernel::Triangle_3;
+using Triangle = CgalKernel::Triangle_3;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
 bool share_a_point(const Face& a, const Face& b) {
   return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
-Kernel::Point_3 to_cgal(const Vector3d& point) {
-  return {point.x(), point.y(), point.z()};
-}
-
-std::vector<Triangle> to_cgal(const Points& points, const Face& face) {
+std::vector<Triangle> filled(const Points& points, const Face& face) {
   const auto at = [&](int p) { return to_cgal(points[static_cast<std::size_t>(p)]); };
   std::vector<Triangle> triangles;
   for (const auto& [a, b, c] : triangles_of(points, face)) {
@@ -78,7 +72,7 @@ std::vector<Crossing> find_crossings(const Points& points, const std::vector<Fac
     const Face& one = faces[static_cast<std::size_t>(first)];
     const Face& other = faces[static_cast<std::size_t>(second)];
     if (share_a_point(one, other)) return;
-    const auto where = meeting(to_cgal(points, one), to_cgal(points, other));
+    const auto where = meeting(filled(points, one), filled(points, other));
     if (where) crossings.push_back({{first, second}, *where});
   });
   sort_by_faces(crossings);
@@ -87,25 +81,18 @@ std::vector<Crossing> find_crossings(const Points& points, const std::vector<Fac
 
 std::vector<Crossing> crossing_triangles(const Points& points, const std::vector<Face>& triangles) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  std::vector<std::vector<std::size_t>> corners;
-  for (const Face& face : triangles) {
-    if (to_cgal(points, face).empty()) return find_crossings(points, triangles);
-    corners.emplace_back(face.begin(), face.end());
-  }
-  if (!pmp::is_polygon_soup_a_polygon_mesh(corners)) return find_crossings(points, triangles);
-  std::vector<Kernel::Point_3> cgal_points;
-  for (const Vector3d& point : points) cgal_points.push_back(to_cgal(point));
-  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-  Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(cgal_points, corners, mesh);
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  pmp::self_intersections(mesh, std::back_inserter(pairs));
+  const bool some_flat = std::any_of(triangles.begin(), triangles.end(),
+                                     [&](const Face& face) { return filled(points, face).empty(); });
+  const auto mesh = some_flat ? std::nullopt : to_cgal(points, triangles);
+  if (!mesh) return find_crossings(points, triangles);
+  std::vector<std::pair<CgalMesh::Face_index, CgalMesh::Face_index>> pairs;
+  pmp::self_intersections(*mesh, std::back_inserter(pairs));
   std::vector<Crossing> crossings;
   for (const auto& [one, other] : pairs) {
     const auto [first, second] =
         std::minmax({static_cast<std::size_t>(one), static_cast<std::size_t>(other)});
-    const Vector3d where = between(to_cgal(points, triangles[first]).front().bbox(),
-                                   to_cgal(points, triangles[second]).front().bbox());
+    const Vector3d where = between(filled(points, triangles[first]).front().bbox(),
+                                   filled(points, triangles[second]).front().bbox());
     crossings.push_back({{static_cast<int>(first), static_cast<int>(second)}, where});
   }
   sort_by_faces(crossings);

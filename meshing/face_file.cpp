@@ -9,12 +9,16 @@
 
 namespace millfoam::meshing {
 
-PolygonSet read_faces(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
+bool has_extension(const std::filesystem::path& file, const std::string& extension) {
+  std::string found = file.extension().string();
+  std::transform(found.begin(), found.end(), found.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".obj") return read_obj(file);
-  if (extension == ".ply") return read_ply(file);
+  return found == extension;
+}
+
+PolygonSet read_faces(const std::filesystem::path& file) {
+  if (has_extension(file, ".obj")) return read_obj(file);
+  if (has_extension(file, ".ply")) return read_ply(file);
   throw PolygonError(file.string() + ": expected a file of faces that ends in .obj or .ply");
 }
 

@@ -11,4 +11,7 @@ namespace millfoam::meshing {
 /// for another extension and for what those throw.
 PolygonSet read_faces(const std::filesystem::path& file);
 
+/// Whether a file's name ends in `extension` (in small letters, with its dot), in small letters or capitals.
+bool has_extension(const std::filesystem::path& file, const std::string& extension);
+
 }  // namespace millfoam::meshing

@@ -8,10 +8,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "meshing/face_geometry.hpp"
+
 namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Relative difference below which two levels are the same.
+constexpr double same_level = 1e-9;
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -67,17 +72,38 @@ double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, co
   return miss.norm() / half_width(mesh, f, m.face_centre[f], direction, share * line.norm());
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::runtime_error(
-      "the mesh has " + what +
-      ": choose another resolution, lifters that are less high or less wide, or openings whose circles are "
-      "further from each other and from the lifters");
+/// What to change in mill.yaml; cells from z = `length` on are as long as the pulp lifters' layers.
+std::string advice(const Vector3d& place, double length) {
+  if (place.z() >= length * (1 - same_level))
+    return "choose another pulp_lifters.layers or pulp_lifters.depth, so that the layers behind the grates "
+           "are "
+           "about as thick as the mill's, or another resolution";
+  return "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
+         "further from each other and from the lifters";
 }
 
-void require_at_most(double limit, double value, const std::string& what, const std::string& unit) {
-  std::ostringstream text;
-  text << what << " of " << value << unit << ", above the allowed " << limit << unit;
-  if (!(value <= limit)) refuse(text.str());
+/// Refuses meshes; `length` as in require_quality.
+struct Judge {
+  double length;
+
+  [[noreturn]] void refuse(const std::string& what, const Vector3d& place) const {
+    throw std::runtime_error("the mesh has " + what + " at " + described(place) +
+                             " m: " + advice(place, length));
+  }
+
+  void require_at_most(double limit, double value, const std::string& what, const std::string& unit,
+                       const Vector3d& place) const {
+    std::ostringstream text;
+    text << what << " of " << value << unit << ", above the allowed " << limit << unit << ",";
+    if (!(value <= limit)) refuse(text.str(), place);
+  }
+};
+
+/// Keeps the larger of two values and its place.
+void keep_larger(double& value, Vector3d& place, double other, const Vector3d& at) {
+  if (!(other > value)) return;
+  value = other;
+  place = at;
 }
 
 }  // namespace
@@ -107,10 +133,12 @@ MeshMeasures measure(const VolumeMesh& mesh) {
 MeshQuality quality(const VolumeMesh& mesh) {
   const MeshMeasures m = measure(mesh);
   MeshQuality q;
-  q.smallest_cell = *std::min_element(m.cell_volume.begin(), m.cell_volume.end());
+  const auto smallest = std::min_element(m.cell_volume.begin(), m.cell_volume.end());
+  q.smallest_cell = *smallest;
+  q.smallest_cell_at = m.cell_centre[static_cast<std::size_t>(smallest - m.cell_volume.begin())];
   for (double volume : m.cell_volume) q.volume += volume;
   q.smallest_edge = std::numeric_limits<double>::max();
-  double smallest_cosine = 1;
+  double most_oblique = -1;  // negative cosine between normal and centres' line
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (std::size_t i = 0; i < 4; ++i) {
       const Quad& face = mesh.faces[f];
@@ -122,30 +150,35 @@ MeshQuality quality(const VolumeMesh& mesh) {
     const Vector3d normal = m.face_area[f].normalized();
     if (f < mesh.neighbour.size()) {
       const Vector3d line = m.cell_centre[index(mesh.neighbour[f])] - centre;
-      smallest_cosine = std::min(smallest_cosine, line.normalized().dot(normal));
-      q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.2));
+      keep_larger(most_oblique, q.max_non_orthogonality_at, -line.normalized().dot(normal), m.face_centre[f]);
+      keep_larger(q.max_skewness, q.max_skewness_at, skewness(mesh, m, f, line, 0.2), m.face_centre[f]);
       const double ratio = m.cell_volume[index(mesh.owner[f])] / m.cell_volume[index(mesh.neighbour[f])];
-      q.max_volume_ratio = std::max({q.max_volume_ratio, ratio, 1 / ratio});
+      keep_larger(q.max_volume_ratio, q.max_volume_ratio_at, std::max(ratio, 1 / ratio), m.face_centre[f]);
     } else {
       const Vector3d line = normal * normal.dot(m.face_centre[f] - centre);
-      q.max_skewness = std::max(q.max_skewness, skewness(mesh, m, f, line, 0.4));
+      keep_larger(q.max_skewness, q.max_skewness_at, skewness(mesh, m, f, line, 0.4), m.face_centre[f]);
     }
   }
-  q.max_non_orthogonality = std::acos(smallest_cosine) * 180 / std::acos(-1.0);
+  q.max_non_orthogonality = std::acos(std::min(1.0, -most_oblique)) * 180 / std::acos(-1.0);
   return q;
 }
 
-void require_quality(const MeshQuality& q, double analytic_volume) {
-  std::ostringstream inverted;
-  inverted << "a cell turned inside out, of " << q.smallest_cell << " m^3";
-  if (!(q.smallest_cell > 0)) refuse(inverted.str());
-  require_at_most(allowed_non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
-                  " degrees");
-  require_at_most(allowed_skewness, q.max_skewness, "a largest skewness", "");
-  require_at_most(allowed_volume_ratio, q.max_volume_ratio, "a largest volume ratio of neighbouring cells",
-                  "");
-  require_at_most(allowed_volume_error, std::abs(q.volume / analytic_volume - 1),
-                  "a relative error in volume", "");
+void require_quality(const MeshQuality& q, double analytic_volume, double length) {
+  const Judge judge{length};
+  std::ostringstream text;
+  text << "a cell turned inside out, of " << q.smallest_cell << " m^3,";
+  if (!(q.smallest_cell > 0)) judge.refuse(text.str(), q.smallest_cell_at);
+  judge.require_at_most(allowed_non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
+                        " degrees", q.max_non_orthogonality_at);
+  judge.require_at_most(allowed_skewness, q.max_skewness, "a largest skewness", "", q.max_skewness_at);
+  judge.require_at_most(allowed_volume_ratio, q.max_volume_ratio,
+                        "a largest volume ratio of neighbouring cells", "", q.max_volume_ratio_at);
+  const double error = std::abs(q.volume / analytic_volume - 1);
+  if (error <= allowed_volume_error) return;  // refuses nan too
+  text.str("");
+  text << "the mesh has a relative error in volume of " << error << ", above the allowed "
+       << allowed_volume_error << ": choose another resolution, or lifters that are less high or less wide";
+  throw std::runtime_error(text.str());
 }
 
 double chamber_volume(const VolumeMesh& mesh, double length) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "meshing/volume_mesh.hpp"
@@ -29,6 +30,12 @@ struct MeshQuality {
       0;                    ///< degrees between a face's normal and the line between its two cells' centres
   double max_skewness = 0;  ///< distance of that line from the face's centre over the face's half-width
   double max_volume_ratio = 1;  ///< of the larger of two neighbouring cells to the smaller
+
+  /// Where the smallest cell and these maxima are, m.
+  Eigen::Vector3d smallest_cell_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_non_orthogonality_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_skewness_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_volume_ratio_at = Eigen::Vector3d::Zero();
 };
 MeshQuality quality(const VolumeMesh& mesh);
 
@@ -41,8 +48,9 @@ inline constexpr double allowed_skewness = 1;
 inline constexpr double allowed_volume_ratio = 3;
 inline constexpr double allowed_volume_error = 0.005;  // relative to the closed form
 
-/// Throws std::runtime_error with the value and the limit for a mesh that is no good; `analytic_volume` in
-/// m^3.
-void require_quality(const MeshQuality& quality, double analytic_volume);
+/// Throws std::runtime_error with the value, the limit, the place and advice for a mesh that is no good;
+/// `analytic_volume` in m^3. From z = `length`, m, on, cells are those of pulp lifters.
+void require_quality(const MeshQuality& quality, double analytic_volume,
+                     double length = std::numeric_limits<double>::infinity());
 
 }  // namespace millfoam::meshing

@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "meshing/mill_shape.hpp"
 #include "meshing/pi.hpp"
+#include "meshing/surface_check.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -43,17 +45,24 @@ std::string openings_lines(const Geometry& geometry, const Openings& openings) {
   return text;
 }
 
-std::string ball_lines(double ball, double cell) {
-  std::string text = line("largest ball             %.3g mm, %.2g cells of %.3g mm (the mean volume's)",
-                          1e3 * ball, ball / cell, 1e3 * cell);
-  if (cell >= ball) return text;
-  const double balls = charge_solidity * std::pow(cell / ball, 3) * 6 / pi;
+std::string ball_lines(double ball, const std::vector<double>& volumes) {
+  const double smallest = std::cbrt(*std::min_element(volumes.begin(), volumes.end()));
+  const double mean =
+      std::cbrt(std::accumulate(volumes.begin(), volumes.end(), 0.0) / static_cast<double>(volumes.size()));
+  std::string text =
+      line("largest ball             %.3g mm; cells %.3g mm (smallest), %.3g mm (mean volume's)", 1e3 * ball,
+           1e3 * smallest, 1e3 * mean);
+  if (smallest >= ball) return text;
+  const auto below = static_cast<double>(
+      std::count_if(volumes.begin(), volumes.end(), [&](double volume) { return std::cbrt(volume) < ball; }));
+  const double balls = charge_solidity * std::pow(smallest / ball, 3) * 6 / pi;
   return text +
          line(
-             "advice: a cell is smaller than the largest ball and holds %.2g of them in a dense charge; "
-             "drag laws were derived on averages over 8 to 64: average on voxels coarser than the cells "
-             "(millAverage --box), or on the mesh with --smooth; see averaging/README.md",
-             balls);
+             "advice: %.3g %% of the cells are smaller than the largest ball, of which the smallest holds "
+             "%.2g "
+             "in a dense charge; drag laws were derived on averages over 8 to 64: average on voxels coarser "
+             "than the cells (millAverage --box), or on the mesh with --smooth; see averaging/README.md",
+             100 * below / static_cast<double>(volumes.size()), balls);
 }
 
 }  // namespace
@@ -73,7 +82,16 @@ std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQual
          quality_line("max skewness", "%.2f", q.max_skewness, allowed_skewness) +
          quality_line("max volume ratio", "%.2f", q.max_volume_ratio, allowed_volume_ratio) +
          line("edges                    %.3g to %.3g mm", 1e3 * q.smallest_edge, 1e3 * q.largest_edge) +
-         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, std::cbrt(q.volume / mesh.cells));
+         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume);
+}
+
+std::string wall_report(const WallSurface& walls, double volume, double mesh_volume) {
+  std::size_t triangles = 0;
+  for (const WallPart& part : walls.parts) triangles += part.triangles.size();
+  return line(
+      "walls                    %zu triangles, the flattest %.3g (limit %g), volume error %.1e (limit %g)",
+      triangles, find_needles(walls).smallest_ratio, needle_ratio, std::abs(volume / mesh_volume - 1),
+      allowed_volume_difference);
 }
 
 }  // namespace millfoam::meshing

@@ -7,13 +7,18 @@
 #include "meshing/mill.hpp"
 #include "meshing/openings.hpp"
 #include "meshing/volume_mesh.hpp"
+#include "meshing/wall_surface.hpp"
 
 namespace millfoam::meshing {
 
 /// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
-/// openings against those asked for, and advice on averaging where the cells are smaller than the largest
-/// ball. Lines end with '\n'.
+/// openings against those asked for, and advice on averaging where cells are smaller than the largest ball.
+/// Lines end with '\n'.
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& quality,
                         const Openings& openings);
+
+/// The line on the walls: their triangles, the flattest one's height over its longest side, and the
+/// difference between the volume that they enclose and the mesh's, m^3.
+std::string wall_report(const WallSurface& walls, double volume, double mesh_volume);
 
 }  // namespace millfoam::meshing

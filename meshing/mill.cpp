@@ -7,6 +7,7 @@
 #include "meshing/materials.hpp"
 #include "meshing/mill_geometry.hpp"
 #include "meshing/mill_shape.hpp"
+#include "meshing/openings.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/yaml_section.hpp"
 
@@ -170,7 +171,8 @@ Air read_air(const Section& in) {
           in.number("viscosity", positive("a viscosity in Pa s"), 1.8e-5)};
 }
 
-/// Makes a periodic slice of the mill: less length, no openings, and as much less charge and layers.
+/// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which
+/// the whole mill's layers of the ring would not fit), and as much less charge and layers.
 void take_slice(const Section& in, Mill& mill) {
   const auto largest = std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
                                         [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
@@ -181,6 +183,7 @@ void take_slice(const Section& in, Mill& mill) {
                           [&](double v) { return v > largest->diameter && v <= whole; }});
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
+  mill.geometry.circles_of_whole = opening_circles(mill.geometry);
   mill.geometry.inlet.reset();
   mill.geometry.grates.reset();
   mill.geometry.pulp_lifters.reset();
@@ -221,9 +224,13 @@ Mill read_mill(const std::filesystem::path& file) {
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"}),
       mill.geometry.radius());
   mill.air = in.has("air") ? read_air(in.section("air", {"density", "viscosity"})) : Air{1.2, 1.8e-5};
-  mill.resolution =
-      read_resolution(in.section("resolution", {"cell_size", "counts", "layers"}), mill.geometry);
+  const Section resolution = in.section("resolution", {"cell_size", "counts", "layers"});
+  mill.resolution = read_resolution(resolution, mill.geometry);
   if (geometry.has("slice")) take_slice(geometry, mill);
+  if (mill.geometry.ends == Ends::plain && mill.resolution.layers < 2)
+    resolution.refuse("layers",
+                      "2 or more layers between two walls, or 'ends: periodic' (else cells have no neighbour "
+                      "along the axis)");
   return mill;
 }
 

@@ -52,6 +52,9 @@ struct Geometry {
   std::optional<Inlet> inlet = std::nullopt;
   std::optional<Grates> grates = std::nullopt;
   std::optional<PulpLifters> pulp_lifters = std::nullopt;
+  /// Of a periodic slice: the openings' circles of the whole mill, m, ascending; the slice has no openings,
+  /// but the whole mill's cross-section.
+  std::vector<double> circles_of_whole = {};
   double radius() const { return diameter / 2; }
 };
 

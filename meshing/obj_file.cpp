@@ -18,6 +18,9 @@ const std::set<std::string> passed_over{
     "vn", "vt", "vp", "o",   "s",          "usemtl", "mtllib",   "usemap",   "maplib",
     "l",  "p",  "mg", "lod", "shadow_obj", "bevel",  "c_interp", "d_interp", "trace_obj"};
 
+/// Second word of a group whose patch is no wall.
+constexpr const char* open_word = "patch";
+
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : stream_(file) {
@@ -62,8 +65,9 @@ class Reader {
     } else if (keyword == "f") {
       read_face(words);
     } else if (keyword == "g") {
-      std::string name;
+      std::string name, type;
       group_ = group_index(set_, words >> name ? name : default_group);
+      if (words >> type && type == open_word) set_.open.insert(name);
     } else {
       refuse("'" + keyword + "': expected v, f, g or another keyword of a polygonal OBJ file");
     }
@@ -124,10 +128,10 @@ PolygonSet read_obj(const std::filesystem::path& file) {
 
 void write_obj(const VolumeMesh& mesh, const std::filesystem::path& file) {
   write_file(file, [&](std::ostream& out) {
-    out << "# faces of a mesh in m: a group for each patch, and those between two cells\n";
+    out << "# faces of a mesh in m: a group for each patch ('patch': no wall), and those between two cells\n";
     for (const Eigen::Vector3d& point : mesh.points) out << "v " << exact(point) << '\n';
     for (const Patch& patch : mesh.patches) {
-      out << "g " << patch.name << '\n';
+      out << "g " << patch.name << (patch.open ? std::string(" ") + open_word : "") << '\n';
       write_faces(out, mesh, patch.start, patch.size);
     }
     out << "g " << internal_group << '\n';

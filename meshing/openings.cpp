@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -138,9 +139,24 @@ void for_each_outside(const CrossSection& section, double radius, int first, int
   }
 }
 
+/// An inlet of whole quadrilaterals must have about the area that feed rates are given for.
+void require_inlet_area(double area, const Geometry& geometry) {
+  const double asked = asked_inlet_area(geometry), error = area / asked - 1;
+  if (std::abs(error) <= allowed_inlet_error) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "geometry.inlet: the whole cells about the axis that come nearest to " << 1e4 * asked
+       << " cm^2 have " << 1e4 * area << " cm^2, " << 100 * std::abs(error) << " % too "
+       << (error > 0 ? "much" : "little") << ": expected at most " << 100 * allowed_inlet_error
+       << " %; choose smaller cells, an inlet of that area, or one of a radius of "
+       << smallest_circle * lifter_top_distance(geometry) << " m or more, which has a circle in the mesh";
+  throw std::runtime_error(text.str());
+}
+
 }  // namespace
 
 std::vector<double> opening_circles(const Geometry& geometry) {
+  if (!geometry.circles_of_whole.empty()) return geometry.circles_of_whole;
   std::vector<double> circles;
   if (geometry.inlet && geometry.inlet->radius >= smallest_circle * lifter_top_distance(geometry)) {
     circles.push_back(geometry.inlet->radius);
@@ -176,6 +192,7 @@ Openings find_openings(const CrossSection& section, const Geometry& geometry) {
     const bool has_circle = geometry.inlet->radius >= smallest_circle * lifter_top_distance(geometry);
     openings.inlet = has_circle ? inside(section, geometry.inlet->radius)
                                 : nearest_in_area(section, asked_inlet_area(geometry));
+    if (!has_circle) require_inlet_area(area(section, openings.inlet), geometry);
   }
   if (geometry.grates) {
     const Sectors sectors = divide(section, *geometry.grates, geometry.pulp_lifters.has_value());

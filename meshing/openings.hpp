@@ -28,8 +28,11 @@ inline constexpr double smallest_circle = 0.25;
 /// most 1 % wrong, and cells between the two would be needles.
 inline constexpr double same_circle = 0.005;
 
+/// Largest relative error in area of an inlet that is made of whole quadrilaterals.
+inline constexpr double allowed_inlet_error = 0.05;
+
 /// Radii of inlet, grates and discharge opening, ascending, m: circles that sides of quadrilaterals follow.
-/// An inlet smaller than the smallest circle has none.
+/// An inlet smaller than the smallest circle has none. A periodic slice has those of the whole mill.
 std::vector<double> opening_circles(const Geometry& geometry);
 
 /// Area of the inlet as mill.yaml asks for it, m^2; 0 without one.
@@ -42,7 +45,8 @@ double asked_grate_area(const Geometry& geometry);
 /// nearest to the axis whose area is nearest to the asked one, those at equal distances together. Sectors and
 /// grates begin and end at the mesh's lines nearest to theirs; the numbers of columns in the grates are
 /// chosen one after the other so that their sum stays within half a column of what is asked. Throws
-/// std::runtime_error where a sector has no column for its grate.
+/// std::runtime_error where a sector has no column for its grate, and where an inlet without a circle is
+/// wrong by more than allowed_inlet_error.
 Openings find_openings(const CrossSection& section, const Geometry& geometry);
 
 }  // namespace millfoam::meshing

@@ -33,6 +33,11 @@ struct Property {
   Type count_type = Type::uint8;
 };
 
+/// Whether a property holds the points around a face.
+bool names_points(const Property& property) {
+  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 struct Element {
   std::string name;
   long count = 0;
@@ -129,6 +134,12 @@ class Reader {
       }
     }
     if (!has_format) refuse("the header has no 'format'");
+    for (const Element& element : elements_) {
+      const bool lists_points =
+          std::any_of(element.properties.begin(), element.properties.end(), names_points);
+      if (element.name == "face" && !lists_points)
+        refuse("the header's element 'face' has no list 'vertex_indices' or 'vertex_index'");
+    }
     in_header_ = false;
   }
 
@@ -201,10 +212,10 @@ class Reader {
       }
       const double count = read_number(property.count_type, words);
       if (!(count >= 0 && count <= size_)) refuse("a list longer than the file");
-      const bool is_face = property.name == "vertex_indices" || property.name == "vertex_index";
+      const bool is_face = names_points(property);
       for (int k = 0; k < static_cast<int>(count); ++k) {
         const double value = read_number(property.type, words);
-        if (is_face) polygon.points.push_back(to_index(value));
+        if (is_face) polygon.points.push_back(to_index(value, "point", "an index"));
       }
     }
     if (element.name == "vertex") add_point(values);
@@ -212,9 +223,9 @@ class Reader {
     item_.clear();
   }
 
-  int to_index(double value) const {
+  int to_index(double value, const std::string& what, const std::string& expected) const {
     if (!(value >= 0 && value < 2147483647 && value == std::floor(value)))
-      refuse("point " + std::to_string(value) + ": expected an index from 0");
+      refuse(what + ' ' + std::to_string(value) + ": expected " + expected + " from 0");
     return static_cast<int>(value);
   }
 
@@ -230,8 +241,9 @@ class Reader {
 
   void add_face(Polygon polygon, const std::map<std::string, double>& values) {
     const auto patch = values.find("patch");
-    const std::string name =
-        patch == values.end() ? default_group : "patch" + std::to_string(std::lround(patch->second));
+    std::string name = default_group;
+    if (patch != values.end())
+      name = "patch" + std::to_string(to_index(patch->second, "patch", "a whole number"));
     polygon.group = group_index(set_, name);
     polygon.line = format_ == Format::ascii ? line_ : 0;
     set_.polygons.push_back(std::move(polygon));

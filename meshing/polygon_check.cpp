@@ -33,14 +33,15 @@ std::string described_edge(const WeldedSet& welded, const FaceSide& edge) {
          described(welded.points[index(edge.high)]);
 }
 
-void check_face(const WeldedSet& welded, int f, Problems& problems) {
+/// Whether a polygon is a face; if not, the problems say why.
+bool check_face(const WeldedSet& welded, int f, Problems& problems) {
   const Polygon& polygon = welded.set.polygons[index(f)];
   const Face& face = welded.faces[index(f)];
   if (polygon.points.size() < 3) {
     problems.add("too few points", place(welded, f) + ": a face of " + std::to_string(polygon.points.size()) +
                                        " points" + (face.empty() ? "" : ' ' + around(welded, f)) +
                                        ": expected three or more");
-    return;
+    return false;
   }
   Face sorted = face;
   std::sort(sorted.begin(), sorted.end());
@@ -49,17 +50,21 @@ void check_face(const WeldedSet& welded, int f, Problems& problems) {
     problems.add("repeated point", place(welded, f) + ": the face has the point " +
                                        described(welded.points[index(*twice)]) +
                                        " twice, or two points within the welding tolerance");
-    return;
+    return false;
   }
   double width = 0;
   for (int p : face)
     width = std::max(width, (welded.points[index(p)] - welded.points[index(face[0])]).norm());
   if (area_vector(welded.points, face).norm() <= no_area * width * width) {
     problems.add("no area", place(welded, f) + ": the face " + around(welded, f) + " has no area");
-  } else if (crosses_itself(welded.points, face)) {
+    return false;
+  }
+  if (crosses_itself(welded.points, face)) {
     problems.add("crossing sides", place(welded, f) + ": sides of the face " + around(welded, f) +
                                        " cross each other: are its points in order?");
+    return false;
   }
+  return true;
 }
 
 /// Edges with one face that hang together by their ends.
@@ -155,30 +160,57 @@ void Problems::stop() const {
 
 void check_groups(const PolygonSet& set, Problems& problems) {
   for (const std::string& name : set.groups) {
-    if (name.find_first_of("\"'/;{}()[]$#*?|\\") != std::string::npos)
-      problems.add("group name",
-                   set.source + ": the group '" + name +
-                       "' cannot name a patch of OpenFOAM: expected letters, digits, '_', '-' or '.'");
+    const auto is_letter = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    };
+    const auto may_follow = [&](char c) {
+      return is_letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '-';
+    };
+    if (!name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), may_follow))
+      continue;
+    problems.add("group name",
+                 set.source + ": the group '" + name +
+                     "' cannot name a patch of OpenFOAM: expected a letter or '_', then letters, "
+                     "digits, '_', '-' or '.'");
   }
 }
 
-void check_faces(const WeldedSet& welded, Problems& problems) {
-  for (int f = 0; f < static_cast<int>(welded.faces.size()); ++f) check_face(welded, f, problems);
+std::set<int> check_faces(const WeldedSet& welded, Problems& problems) {
+  std::set<int> refused;
+  for (int f = 0; f < static_cast<int>(welded.faces.size()); ++f) {
+    if (!check_face(welded, f, problems)) refused.insert(f);
+  }
+  return refused;
+}
+
+void add_doubled(const WeldedSet& welded, int face, int other, Problems& problems) {
+  problems.add("doubled face", place(welded, face) + ": a doubled face: the same points as " +
+                                   place(welded, other) + ", " + around(welded, face));
 }
 
 void check_doubled(const WeldedSet& welded, Problems& problems) {
+  for (const std::vector<int>& same : faces_of_equal_points(welded.faces, {})) {
+    for (std::size_t i = 1; i < same.size(); ++i) add_doubled(welded, same[i], same[i - 1], problems);
+  }
+}
+
+std::vector<std::vector<int>> faces_of_equal_points(const std::vector<Face>& faces,
+                                                    const std::set<int>& passed_over) {
   std::vector<std::pair<Face, int>> sorted;
-  for (std::size_t f = 0; f < welded.faces.size(); ++f) {
-    sorted.emplace_back(welded.faces[f], static_cast<int>(f));
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (passed_over.count(static_cast<int>(f)) > 0) continue;
+    sorted.emplace_back(faces[f], static_cast<int>(f));
     std::sort(sorted.back().first.begin(), sorted.back().first.end());
   }
   std::sort(sorted.begin(), sorted.end());
+  std::vector<std::vector<int>> groups;
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     if (sorted[i].first != sorted[i - 1].first) continue;
-    problems.add("doubled face", place(welded, sorted[i].second) + ": a doubled face: the same points as " +
-                                     place(welded, sorted[i - 1].second) + ", " +
-                                     around(welded, sorted[i].second));
+    if (groups.empty() || groups.back().back() != sorted[i - 1].second)
+      groups.push_back({sorted[i - 1].second});
+    groups.back().push_back(sorted[i].second);
   }
+  return groups;
 }
 
 void check_closed(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
@@ -237,6 +269,43 @@ void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_sid
     problems.add("internal face at the boundary",
                  place(welded, face) + ": the face " + around(welded, face) +
                      " of the group 'internal' has a cell on one side only: a face beside it is missing");
+  }
+}
+
+void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side,
+                           Problems& warnings) {
+  const auto at_boundary = [&](std::size_t f) {
+    return cell_of_side[2 * f + in_front] < 0 || cell_of_side[2 * f + behind] < 0;
+  };
+  std::vector<std::size_t> boundary(welded.set.groups.size(), 0), inner(welded.set.groups.size(), 0);
+  for (std::size_t f = 0; f < welded.faces.size(); ++f)
+    ++(at_boundary(f) ? boundary : inner)[index(welded.set.polygons[f].group)];
+  const auto groups_with_boundary =
+      std::count_if(boundary.begin(), boundary.end(), [](std::size_t faces) { return faces > 0; });
+  for (std::size_t f = 0; f < welded.faces.size() && groups_with_boundary > 1; ++f) {
+    const std::size_t group = index(welded.set.polygons[f].group);
+    if (!at_boundary(f) || boundary[group] >= inner[group]) continue;
+    const int face = static_cast<int>(f);
+    warnings.add("faces of such groups at the boundary",
+                 place(welded, face) + ": the face " + around(welded, face) + " of the group '" +
+                     welded.set.groups[group] + "' is at the boundary, and " + std::to_string(inner[group]) +
+                     " of that group lie between two cells: is a face of the outer wall missing?");
+  }
+}
+
+void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings) {
+  std::map<std::pair<int, int>, std::vector<int>> between;
+  for (std::size_t f = 0; f < welded.faces.size(); ++f) {
+    const auto cells = std::minmax(cell_of_side[2 * f + in_front], cell_of_side[2 * f + behind]);
+    if (cells.first >= 0) between[cells].push_back(static_cast<int>(f));
+  }
+  for (const auto& entry : between) {
+    const std::vector<int>& faces = entry.second;
+    if (faces.size() < 2) continue;
+    warnings.add("two cells with several faces between them",
+                 place(welded, faces[1]) + ": the face " + around(welded, faces[1]) +
+                     " lies between the same two cells as " + place(welded, faces[0]) + ", one of " +
+                     std::to_string(faces.size()) + " such faces: is one between others missing?");
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,11 @@ struct WeldedSet {
 /// Each of these adds what it finds to the problems; assemble() says what they look for. Names that cannot
 /// name a patch, and polygons that are no faces:
 void check_groups(const PolygonSet& set, Problems& problems);
-void check_faces(const WeldedSet& welded, Problems& problems);
-/// Polygons with the same points.
+/// (returns those that are not).
+std::set<int> check_faces(const WeldedSet& welded, Problems& problems);
+/// Polygons with the same points, or one such pair.
 void check_doubled(const WeldedSet& welded, Problems& problems);
+void add_doubled(const WeldedSet& welded, int face, int other, Problems& problems);
 /// Edges with one face, and T-junctions, which explain most of those.
 void check_closed(const WeldedSet& welded, const EdgeTable& edges, Problems& problems);
 /// Faces that overlap at an edge, or cross.
@@ -51,5 +54,13 @@ void check_manifold(const WeldedSet& welded, const EdgeTable& edges, const std::
                     Problems& problems);
 /// Polygons of the group `internal` with a cell on one side only.
 void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
+/// No errors, but what a missing face looks like: faces at the boundary of groups that have more faces
+/// between two cells, unless one group holds the whole boundary; and cells with several faces between them.
+void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
+void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
+
+/// Numbers of faces with the same points, in groups of two or more; those passed over are in none.
+std::vector<std::vector<int>> faces_of_equal_points(const std::vector<Face>& faces,
+                                                    const std::set<int>& passed_over);
 
 }  // namespace millfoam::meshing

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct PolygonSet {
   std::vector<Eigen::Vector3d> points;
   std::vector<Polygon> polygons;
   std::vector<std::string> groups;  ///< names, in the order in which the file gives them
+  std::set<std::string> open;       ///< groups whose patches are of the type `patch`, no walls
   std::vector<std::string> files;   ///< of each group, where each comes from its own; otherwise empty
 };
 

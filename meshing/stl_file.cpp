@@ -2,6 +2,7 @@
 #include "meshing/stl_file.hpp"
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -34,6 +35,17 @@ bool is_binary(const std::string& bytes) {
          bytes.size() == header_size + triangle_size * number_at<std::uint32_t>(bytes, header_size - 4);
 }
 
+std::string in_small_letters(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word;
+}
+
+/// As text begins; blank files have no triangles in either form.
+bool begins_with_solid(const std::string& bytes) {
+  const auto begin = bytes.find_first_not_of(" \t\r\n");
+  return begin == std::string::npos || in_small_letters(bytes.substr(begin, 5)) == "solid";
+}
+
 class Reader {
  public:
   Reader(std::string file, const std::string& group, double scale, PolygonSet& set)
@@ -63,16 +75,19 @@ class Reader {
       std::istringstream words(line);
       std::string keyword;
       words >> keyword;
+      const std::string as_written = keyword;
+      keyword = in_small_letters(keyword);
       if (keyword == "facet") {
         if (corners != 3)
-          refuse(at, "the facet before this has " + std::to_string(corners) + " corners: expected 3");
+          refuse(at, "the facet before this has " + std::to_string(corners) +
+                         (corners == 1 ? " corner" : " corners") + ": expected 3");
         begin_triangle(number);
         corners = 0;
       } else if (keyword == "vertex") {
         if (++corners > 3) refuse(at, "a fourth corner of a facet: expected 3");
         add_corner(read_corner(words, at));
       } else if (structural_words.count(keyword) == 0) {
-        refuse(at, "'" + keyword + "': expected the text of an STL file");
+        refuse(at, "'" + as_written + "': expected the text of an STL file");
       }
     }
     if (corners != 3) refuse(':' + std::to_string(number), "the file ends within a facet");
@@ -123,7 +138,7 @@ void read_stl(const std::filesystem::path& file, const std::string& group, doubl
   if (!stream.is_open() || stream.bad()) reader.refuse("", "cannot be read");
   if (is_binary(bytes)) {
     reader.read_binary(bytes);
-  } else if (bytes.find("solid") == bytes.find_first_not_of(" \t\r\n")) {
+  } else if (begins_with_solid(bytes)) {
     reader.read_text(bytes);
   } else {
     reader.refuse(

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/surface_check.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -14,34 +11,30 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "meshing/cgal_mesh.hpp"
 #include "meshing/face_geometry.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 }  // namespace
 
 SurfaceCheck check_surface(const WallSurface& surface) {
-  std::vector<Kernel::Point_3> points;
-  for (const Eigen::Vector3d& p : surface.points) points.emplace_back(p.x(), p.y(), p.z());
-  std::vector<std::vector<std::size_t>> triangles;
+  std::vector<Face> triangles;
   for (const WallPart& part : surface.parts) {
     for (const auto& triangle : part.triangles) triangles.emplace_back(triangle.begin(), triangle.end());
   }
   SurfaceCheck check;
-  if (!pmp::is_polygon_soup_a_polygon_mesh(triangles)) return check;
-  Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
-  check.closed = CGAL::is_closed(mesh);
-  check.self_intersecting = pmp::does_self_intersect(mesh);
+  const auto mesh = to_cgal(surface.points, triangles);
+  if (!mesh) return check;
+  check.closed = CGAL::is_closed(*mesh);
+  check.self_intersecting = pmp::does_self_intersect(*mesh);
   if (!check.closed) return check;
-  check.volume = pmp::volume(mesh);
+  check.volume = pmp::volume(*mesh);
   check.outward =
-      !check.self_intersecting && pmp::does_bound_a_volume(mesh) && pmp::is_outward_oriented(mesh);
+      !check.self_intersecting && pmp::does_bound_a_volume(*mesh) && pmp::is_outward_oriented(*mesh);
   return check;
 }
 
@@ -80,14 +73,16 @@ void require_no_needles(const WallSurface& surface) {
   const Needles needles = find_needles(surface);
   if (needles.count == 0) return;
   std::ostringstream text;
-  text << "the walls have " << needles.count << " needle triangles, the worst, of height over longest side "
-       << needles.smallest_ratio << ", at " << described(needles.where) << ": expected at least "
-       << needle_ratio << "; choose another resolution.cell_size";
+  text << "the walls have " << needles.count
+       << (needles.count == 1 ? " needle triangle" : " needle triangles")
+       << ", the worst, of height over longest side " << needles.smallest_ratio << ", at "
+       << described(needles.where) << ": expected at least " << needle_ratio
+       << "; choose another resolution.cell_size";
   throw std::runtime_error(text.str());
 }
 
 void require_same_volume(double of_walls, double of_mesh) {
-  if (std::abs(of_walls / of_mesh - 1) <= 1e-6) return;
+  if (std::abs(of_walls / of_mesh - 1) <= allowed_volume_difference) return;
   std::ostringstream text;
   text.precision(9);
   text << "the walls enclose " << of_walls << " m^3, and the mesh fills " << of_mesh

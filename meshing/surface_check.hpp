@@ -36,8 +36,11 @@ Needles find_needles(const WallSurface& surface);
 /// Throws std::runtime_error with the worst triangle's place for a surface with needles.
 void require_no_needles(const WallSurface& surface);
 
+/// Largest relative difference between the volumes of walls and mesh.
+inline constexpr double allowed_volume_difference = 1e-6;
+
 /// Throws std::runtime_error when the walls enclose another volume than the flow's mesh, m^3, by more than
-/// 1e-6 of it.
+/// that.
 void require_same_volume(double of_walls, double of_mesh);
 
 }  // namespace millfoam::meshing

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mesh_report.hpp"
@@ -30,11 +31,14 @@ void run(const Options& options) {
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   const MeshQuality q = quality(mesh);
   std::cout << mesh_report(mill, mesh, q, openings) << std::flush;
-  require_quality(q, flow_volume(mill.geometry));
-  if (options.case_folder.empty()) return;
+  require_quality(q, flow_volume(mill.geometry), mill.geometry.length);
   const WallSurface surface = make_wall_surface(section, mill.geometry.length);
-  require_same_volume(require_watertight(surface), chamber_volume(mesh, mill.geometry.length));
+  const double of_walls = require_watertight(surface);
+  const double of_mesh = chamber_volume(mesh, mill.geometry.length);
+  std::cout << wall_report(surface, of_walls, of_mesh) << std::flush;
+  require_same_volume(of_walls, of_mesh);
   require_no_needles(surface);
+  if (options.case_folder.empty()) return;
 
   const fs::path folder = options.case_folder;
   write_walls(surface, mill.geometry.ends, folder / "walls");
@@ -59,7 +63,8 @@ int main(int argc, char** argv) {
   app.callback([&] {
     if (!app.get_subcommands().empty()) return;
     if (options.mill.empty()) throw CLI::RequiredError("mill");
-    if (options.case_folder.empty() && quality->empty()) throw CLI::RequiredError("--case or --quality");
+    if (options.case_folder.empty() && quality->empty())
+      throw std::runtime_error("expected --case DIR, or --quality");
     run(options);
   });
   try {

@@ -23,9 +23,13 @@ struct AssembleOptions {
 
 void print(const PolygonSet& set, const Assembly& found) {
   const PolyMesh& mesh = found.mesh;
-  std::printf("points    %zu (%zu in the file, %d welded to others, %d in no face)\n", mesh.points.size(),
+  std::printf("points    %zu (%zu in the file, %d welded to others, %d in no face", mesh.points.size(),
               set.points.size(), found.points_joined, found.points_unused);
+  if (found.baffles > 0) std::printf(", %d for the second sides of baffles", found.points_separated);
+  std::printf(")\n");
   std::printf("faces     %zu, %zu between two cells\n", mesh.faces.size(), mesh.neighbour.size());
+  if (found.baffles > 0)
+    std::printf("baffles   %d pairs of faces that coincide, walls between two cells\n", found.baffles);
   std::printf("cells     %d in %d %s, of %.3g to %.3g m^3\n", mesh.cells, found.bodies,
               found.bodies == 1 ? "body" : "bodies", found.smallest_cell, found.largest_cell);
   std::printf("volume    %.9g m^3\n", found.volume);
@@ -39,6 +43,7 @@ void print(const PolygonSet& set, const Assembly& found) {
       std::printf("no patch  %s: %d faces, all between two cells\n", patch.name.c_str(), patch.between_cells);
     }
   }
+  for (const std::string& warning : found.warnings) std::printf("warning   %s\n", warning.c_str());
 }
 
 void run_assemble(const AssembleOptions& options) {
@@ -54,8 +59,14 @@ struct FacesOptions {
 };
 
 void run_faces(const FacesOptions& options) {
+  if (!has_extension(options.file, ".obj"))
+    throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
   const Mill mill = read_mill(options.mill);
-  const CrossSection section = make_cross_section(mill.geometry, mill.resolution.cell_size);
+  if (mill.geometry.ends == Ends::periodic)
+    throw std::runtime_error(options.mill +
+                             ": the mill's ends are periodic, and cells out of faces know no cyclic patches: "
+                             "expected 'ends: plain' without 'slice'");
+  const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   write_obj(mesh, options.file);
   std::printf("%s: %zu points, %zu faces, %zu of them in the group %s\n", options.file.c_str(),
@@ -67,6 +78,7 @@ struct SurfaceOptions {
   std::string case_folder;
   double scale = 1;
   double tolerance = 0;
+  std::string ends = "plain";
 };
 
 PartFile part_file(const std::string& argument) {
@@ -89,14 +101,15 @@ void print(const CadReport& report) {
 void run_surface(const SurfaceOptions& options) {
   std::vector<PartFile> parts;
   for (const std::string& argument : options.parts) parts.push_back(part_file(argument));
-  const CadReport report = examine(parts, options.scale, options.tolerance);
+  const Ends ends = options.ends == "plain" ? Ends::plain : Ends::periodic;
+  const CadReport report = examine(parts, options.scale, options.tolerance, ends);
   print(report);
   std::fflush(stdout);
   if (!report.usable())
     throw std::runtime_error("LIGGGHTS cannot use this surface: see the problems above; nothing was written");
   if (options.case_folder.empty()) return;
   const std::filesystem::path folder = std::filesystem::path(options.case_folder) / "walls";
-  for (const auto& file : write_walls(report.surface, Ends::plain, folder))
+  for (const auto& file : write_walls(report.surface, ends, folder))
     std::printf("written    %s\n", file.string().c_str());
 }
 
@@ -138,6 +151,11 @@ void add_polygon_commands(CLI::App& app) {
       ->add_option("--tolerance", of_surface->tolerance,
                    "corners nearer than this, m, are one; 1e-6 of the bounding box's diagonal unless given")
       ->check(CLI::PositiveNumber);
+  surface
+      ->add_option("--ends", of_surface->ends,
+                   "'periodic': walls of a slice, which may be open at its two ends; 'plain': closed walls")
+      ->check(CLI::IsMember({"plain", "periodic"}))
+      ->capture_default_str();
   surface->callback([of_surface] { run_surface(*of_surface); });
 }
 

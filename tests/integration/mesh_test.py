@@ -14,7 +14,8 @@ MILLS = ROOT / "cases" / "mills"
 SLICE, SMALL, LARGE = (MILLS / name for name in ("mill_12cm/mill.yaml", "mill_12cm/mill_full.yaml",
                                                  "mill_30cm/mill.yaml"))
 SYSTEM = SLICE.parent / "system"
-PULP_LIFTERS = (r"\nspeed:", "\n  pulp_lifters: {depth: 0.03, layers: 2, discharge_radius: 0.064}\nspeed:")
+NO_PULP_LIFTERS = r"  pulp_lifters:.*\n", ""
+NINE_LAYERS = (r"(?m)^  layers: 33", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2")
 
 
 def counts(gap, lifter, height, ring):
@@ -69,22 +70,26 @@ class Mesh(unittest.TestCase):
                 self.check(*resolution, mill=mill)
 
     def test_published_resolutions_of_the_30_cm_mill_with_and_without_pulp_lifters(self):
-        for number in (9, 33):
+        for number, changes in ((9, NINE_LAYERS), (33, ())):
             with self.subTest(layers=number):
-                report = self.check(layers(number), mill=LARGE)
+                report = self.check(*changes, mill=LARGE)
                 self.assertRegex(report, r"inlet +\d+ .* ok")
-                self.assertRegex(report, r"grates +\d+ .* ok")
-                report = self.check(layers(number), PULP_LIFTERS, mill=LARGE)
                 self.assertRegex(report, r"outlet +\d+ .* ok")
                 self.assertIn("Number of regions: 1 (OK)", report)
+                report = self.check(layers(number), NO_PULP_LIFTERS, mill=LARGE)
+                self.assertRegex(report, r"grates +\d+ .* ok")
 
     def test_plain_ends_of_the_30_cm_mill(self):
-        self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), counts(5, 1, 1, 5), layers(9), mill=LARGE)
+        self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), NO_PULP_LIFTERS, counts(5, 1, 1, 5), layers(9),
+                   mill=LARGE)
+
+    def test_periodic_slice_of_the_30_cm_mill(self):
+        self.check((r"  ends: plain\n", "  slice: 0.0165\n  ends: plain\n"), mill=LARGE)
 
     def test_trapezoidal_lifters(self):
-        for mill, width, top in ((SMALL, 0.006, 0.003), (LARGE, 0.010, 0.006)):
+        for mill, width, top, changes in ((SMALL, 0.006, 0.003, [layers(9)]), (LARGE, 0.010, 0.006, NINE_LAYERS)):
             with self.subTest(mill=mill.parent.name):
-                self.check((r"    width: .*\n", f"    width: {width}\n    top_width: {top}\n"), layers(9), mill=mill)
+                self.check((r"    width: .*\n", f"    width: {width}\n    top_width: {top}\n"), *changes, mill=mill)
 
     def assemble(self, lines):
         """Makes a mesh out of the lines of an OBJ file and returns what checkMesh says."""
@@ -96,9 +101,23 @@ class Mesh(unittest.TestCase):
         return run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")
 
     def test_faces_taken_apart_and_assembled(self):
+        text = SLICE.read_text().replace("ends: periodic", "ends: plain")
+        lines = self.shuffled_faces(re.sub(r"  start_length: \S+\n", "", text))
+        self.assertIn("\nMesh OK.\n", self.assemble(lines))
+
+    def test_faces_of_a_mill_with_pulp_lifters_taken_apart_and_assembled(self):
+        text = LARGE.read_text()
+        for pattern, new in NINE_LAYERS:
+            text = re.sub(pattern, new, text)
+        report = self.assemble(self.shuffled_faces(text))
+        self.assertIn("\nMesh OK.\n", report)
+        self.assertRegex(report, r"outlet +\d+ .* ok")
+        self.assertIn("Number of regions: 1 (OK)", report)
+
+    def shuffled_faces(self, mill):
+        """Lines of an OBJ file of a mill's faces, which are in any order and every third turned."""
         with tempfile.TemporaryDirectory() as folder:
-            text = SLICE.read_text().replace("ends: periodic", "ends: plain")
-            Path(folder, "mill.yaml").write_text(re.sub(r"  start_length: \S+\n", "", text))
+            Path(folder, "mill.yaml").write_text(mill)
             run(Path(folder), "millMesh", "faces", "mill.yaml", "-o", "faces.obj")
             lines = Path(folder, "faces.obj").read_text().splitlines()
         points, faces, group = [line for line in lines if line.startswith("v")], [], ""
@@ -109,7 +128,7 @@ class Mesh(unittest.TestCase):
                 corners = line.split()[1:]
                 faces.append(f"{group}\nf {' '.join(corners[::-1] if len(faces) % 3 else corners)}")
         random.Random(1).shuffle(faces)
-        self.assertIn("\nMesh OK.\n", self.assemble(points + faces))
+        return points + faces
 
     def test_faces_of_few_cells(self):
         """No solver's choice, but of sound topology."""

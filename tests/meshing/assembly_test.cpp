@@ -53,6 +53,34 @@ Content content(const Mesh& mesh) {
   return content;
 }
 
+/// Sizes and kinds of the patches that have faces.
+template <typename Mesh>
+std::map<std::string, std::pair<int, bool>> patches(const Mesh& mesh) {
+  std::map<std::string, std::pair<int, bool>> found;
+  for (const Patch& patch : mesh.patches) {
+    if (patch.size > 0) found[patch.name] = {patch.size, patch.open};
+  }
+  return found;
+}
+
+/// For each place the numbers of cells that each of the points there belongs to.
+template <typename Mesh>
+std::map<std::array<double, 3>, std::multiset<std::size_t>> corners_in_cells(const Mesh& mesh) {
+  std::vector<std::set<int>> cells(mesh.points.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (int p : mesh.faces[f]) {
+      cells[static_cast<std::size_t>(p)].insert(mesh.owner[f]);
+      if (f < mesh.neighbour.size()) cells[static_cast<std::size_t>(p)].insert(mesh.neighbour[f]);
+    }
+  }
+  std::map<std::array<double, 3>, std::multiset<std::size_t>> found;
+  for (std::size_t p = 0; p < cells.size(); ++p) {
+    const Vector3d& point = mesh.points[p];
+    found[{point.x(), point.y(), point.z()}].insert(cells[p].size());
+  }
+  return found;
+}
+
 /// Volumes of the cells from faces that point out of their owners.
 std::vector<double> cell_volumes(const PolyMesh& mesh) {
   std::vector<double> volumes(static_cast<std::size_t>(mesh.cells), 0);
@@ -83,6 +111,11 @@ void expect_same(const VolumeMesh& mesh, const Assembly& found) {
   const Content before = content(mesh), after = content(found.mesh);
   EXPECT_EQ(found.mesh.cells, mesh.cells);
   EXPECT_EQ(found.mesh.points.size(), mesh.points.size());
+  EXPECT_EQ(found.mesh.faces.size(), mesh.faces.size());
+  EXPECT_EQ(found.bodies, 1);
+  EXPECT_EQ(found.warnings, std::vector<std::string>());
+  EXPECT_EQ(patches(found.mesh), patches(mesh));
+  EXPECT_EQ(corners_in_cells(found.mesh), corners_in_cells(mesh));
   EXPECT_TRUE(before.patch_of == after.patch_of);
   EXPECT_TRUE(before.cells == after.cells);
   expect_openfoams_order(found.mesh);
@@ -102,6 +135,105 @@ TEST(Assemble, gives_a_mill_that_was_taken_apart_back) {
     const VolumeMesh mesh = mill(m);
     expect_same(mesh, assemble(taken_apart(mesh, seed++)));
   }
+}
+
+TEST(Assemble, gives_a_mill_with_grates_back_and_their_patches_types) {
+  const Geometry geometry = mill_with_grates();
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(geometry, 0.012), geometry, 3);
+  const Assembly found = assemble(taken_apart(mesh, 3));
+  expect_same(mesh, found);
+  EXPECT_TRUE(patches(found.mesh).at("grates").second);
+  EXPECT_TRUE(patches(found.mesh).at("inlet").second);
+  EXPECT_EQ(found.baffles, 0);
+}
+
+TEST(Assemble, gives_a_mill_with_pulp_lifters_back_with_both_sides_of_their_walls) {
+  for (const Geometry& geometry : {mill_with_pulp_lifters(), shipped_mill(2)}) {
+    const VolumeMesh mesh = make_mill_mesh(make_cross_section(geometry, 0.012), geometry, 3);
+    const Assembly found = assemble(taken_apart(mesh, 4));
+    expect_same(mesh, found);
+    EXPECT_GT(found.baffles, 100);
+    EXPECT_EQ(found.points_joined, found.points_separated);
+  }
+}
+
+/// Two cubes beside each other, each with all its faces.
+PolygonSet two_whole_cubes() {
+  PolygonSet set = cube();
+  add_cube(set, {1, 0, 0}, 1);
+  return set;
+}
+
+TEST(Assemble, takes_a_pair_of_faces_between_two_cells_for_a_wall) {
+  PolygonSet set = two_whole_cubes();
+  set.polygons[1].group = group_index(set, "left");  // the first cube's side to +x
+  set.polygons[9].group = group_index(set, "right");
+  for (std::size_t f = 0; f < 6; ++f) {  // points that the cube's faces share, as the sides of a wall need
+    for (std::size_t cube : {0u, 6u}) {
+      for (int& p : set.polygons[f + cube].points) {
+        for (std::size_t first = cube; first < f + cube; ++first) {
+          for (int q : set.polygons[first].points) {
+            if (set.points[static_cast<std::size_t>(q)] == set.points[static_cast<std::size_t>(p)]) p = q;
+          }
+        }
+      }
+    }
+  }
+  const Assembly found = assemble(set);
+  EXPECT_EQ(found.mesh.cells, 2);
+  EXPECT_EQ(found.bodies, 2);
+  EXPECT_EQ(found.baffles, 1);
+  EXPECT_EQ(found.mesh.points.size(), 16u);
+  EXPECT_TRUE(found.mesh.neighbour.empty());
+  EXPECT_EQ(patches(found.mesh).at("left").first, 1);
+  for (const Patch& patch : found.mesh.patches) {
+    const double x =
+        found.mesh
+            .points[static_cast<std::size_t>(found.mesh.faces[static_cast<std::size_t>(patch.start)][0])]
+            .x();
+    if (patch.name != "left" && patch.name != "right") continue;
+    EXPECT_EQ(x, 1);
+    double largest = 0;  // of the cell's points
+    for (std::size_t f = 0; f < found.mesh.faces.size(); ++f) {
+      if (found.mesh.owner[f] != found.mesh.owner[static_cast<std::size_t>(patch.start)]) continue;
+      for (int p : found.mesh.faces[f])
+        largest = std::max(largest, found.mesh.points[static_cast<std::size_t>(p)].x());
+    }
+    EXPECT_EQ(largest, patch.name == "left" ? 1 : 2);
+  }
+  for (double volume : cell_volumes(found.mesh)) EXPECT_NEAR(volume, 1, 1e-15);
+}
+
+TEST(Assemble, warns_of_a_hole_in_the_outer_wall_of_many_cells) {
+  VolumeMesh mesh = mill(ordinary_mills()[3]);
+  PolygonSet set = taken_apart(mesh, 1);
+  set.groups[static_cast<std::size_t>(group_index(set, "internal"))] = "inside";
+  EXPECT_EQ(assemble(set).warnings, std::vector<std::string>());
+  const auto wall = std::find_if(set.polygons.begin(), set.polygons.end(), [&](const Polygon& polygon) {
+    return set.groups[static_cast<std::size_t>(polygon.group)] == "feedEnd" &&
+           middle(set.points, polygon.points).norm() < 0.01;
+  });
+  set.polygons.erase(wall);
+  const Assembly found = assemble(set);
+  EXPECT_EQ(found.mesh.cells, mesh.cells - 1);
+  ASSERT_EQ(found.warnings.size(), 5u);
+  for (const std::string& warning : found.warnings) {
+    EXPECT_NE(warning.find(" of the group 'inside' is at the boundary, and "), std::string::npos) << warning;
+    EXPECT_NE(warning.find("around ("), std::string::npos) << warning;
+  }
+}
+
+TEST(Assemble, warns_of_two_cells_with_several_faces_between_them) {
+  PolygonSet set = empty_set();
+  add_prism(set, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 0, 1);
+  EXPECT_EQ(assemble(set).warnings, std::vector<std::string>());
+  add_prism(set, {{1, 1}, {2, 1}, {2, 2}, {1, 2}}, 0, 1);
+  set.polygons.erase(set.polygons.begin() + 8);
+  set.polygons.erase(set.polygons.begin() + 10);
+  EXPECT_EQ(
+      assemble(set).warnings,
+      std::vector<std::string>{"hand.obj:40: the face around (1 1.5 0.5) lies between the same two cells as "
+                               "hand.obj:30, one of 2 such faces: is one between others missing?"});
 }
 
 TEST(Assemble, gives_a_mill_with_warped_faces_back) {
@@ -292,6 +424,31 @@ TEST(AssembleRefuses, a_doubled_face) {
   expect_refusal(set, "hand.obj:70: a doubled face: the same points as hand.obj:10, around (0.5 0 0.5)");
 }
 
+TEST(AssembleRefuses, pairs_of_faces_that_are_no_wall_between_two_cells) {
+  PolygonSet same_points = two_whole_cubes();
+  same_points.polygons[9].points = same_points.polygons[1].points;
+  expect_refusal(same_points,
+                 "hand.obj:100: a doubled face: the same points as hand.obj:20, around (1 0.5 0.5)");
+  PolygonSet internal = two_whole_cubes();
+  internal.polygons[9].group = group_index(internal, "internal");
+  expect_refusal(internal, "hand.obj:100: a doubled face: the same points as hand.obj:20");
+  PolygonSet thrice = two_whole_cubes();
+  add_polygon(thrice, {{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}});
+  expect_refusal(thrice, "hand.obj:130: a doubled face: the same points as hand.obj:100");
+  PolygonSet unknown = two_whole_cubes();  // no face of either cube shares a point with it
+  unknown.polygons[9].group = group_index(unknown, "right");
+  expect_refusal(unknown, "hand.obj:100: a doubled face: the same points as hand.obj:20");
+}
+
+TEST(AssembleRefuses, doubled_faces_that_are_no_faces_once_only) {
+  PolygonSet set = cube();
+  add_polygon(set, {});
+  add_polygon(set, {});
+  EXPECT_EQ(refusal(set),
+            "hand.obj:70: a face of 0 points: expected three or more\n"
+            "hand.obj:80: a face of 0 points: expected three or more");
+}
+
 TEST(AssembleRefuses, bodies_that_touch_in_an_edge_only) {
   PolygonSet set = cube();
   add_cube(set, {1, 1, 0}, 1);
@@ -351,7 +508,15 @@ TEST(AssembleRefuses, faces_that_enclose_nothing) {
   add_polygon(set, {a, c, d});
   add_polygon(set, {a, b, d});
   add_polygon(set, {b, c, d});
-  EXPECT_NE(refusal(set), "accepted");
+  expect_refusal(set, "hand.obj:10: the face overlaps with hand.obj:");
+}
+
+TEST(AssembleRefuses, sheets_that_enclose_nothing) {
+  PolygonSet set = empty_set();  // a square and its four triangles, all in one plane
+  const Vector3d a(0, 0, 0), b(1, 0, 0), c(1, 1, 0), d(0, 1, 0), m(0.5, 0.5, 0);
+  add_polygon(set, {a, b, c, d});
+  for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, d}, {d, a}}) add_polygon(set, {from, to, m});
+  expect_refusal(set, "hand.obj:10: the face overlaps with hand.obj:20 at the edge from (0 0 0) to (1 0 0)");
 }
 
 TEST(AssembleRefuses, an_internal_face_at_the_boundary) {
@@ -367,9 +532,17 @@ TEST(AssembleRefuses, an_internal_face_at_the_boundary) {
 }
 
 TEST(AssembleRefuses, a_name_that_cannot_name_a_patch) {
-  PolygonSet set = cube();
-  set.groups[1] = "a/b";
-  expect_refusal(set, "hand.obj: the group 'a/b' cannot name a patch of OpenFOAM");
+  for (const std::string name : {"a/b", "1wall", "-", "in let", "a\u00e9", "a:b", ""}) {
+    PolygonSet set = cube();
+    set.groups[1] = name;
+    expect_refusal(
+        set, "hand.obj: the group '" + name + "' cannot name a patch of OpenFOAM: expected a letter or '_'");
+  }
+  for (const std::string name : {"a", "_", "wall.1-B_2"}) {
+    PolygonSet set = cube();
+    set.groups[1] = name;
+    EXPECT_EQ(refusal(set), "accepted");
+  }
 }
 
 TEST(AssembleRefuses, with_ten_sentences_of_a_kind_and_the_number_of_the_rest) {

@@ -73,9 +73,23 @@ TEST(MeshQuality, compares_the_volumes_of_neighbours) {
   EXPECT_NEAR(quality(mesh).max_volume_ratio, 2.5, 1e-14);
 }
 
-std::string refusal(const MeshQuality& quality, double volume) {
+TEST(MeshQuality, says_where_the_worst_is) {
+  VolumeMesh mesh = two_cells([](double x) { return x > 0 ? 0.4 * x : 0; });
+  for (Eigen::Vector3d& point : mesh.points) {
+    if (point.x() > 0.5) point.x() = 2.5;
+    point += Eigen::Vector3d(1, 2, 3);
+  }
+  const MeshQuality q = quality(mesh);
+  const Eigen::Vector3d between(1, 2, 3);
+  EXPECT_LT((q.max_volume_ratio_at - between).norm(), 1e-14);
+  EXPECT_LT((q.max_non_orthogonality_at - between).norm(), 1e-14);
+  EXPECT_LT((q.max_skewness_at - Eigen::Vector3d(3.5, 2.4, 3)).norm(), 1e-14);
+  EXPECT_LT((q.smallest_cell_at - Eigen::Vector3d(0.5, 2, 3)).norm(), 1e-14);
+}
+
+std::string refusal(const MeshQuality& quality, double volume, double length = 100) {
   try {
-    require_quality(quality, volume);
+    require_quality(quality, volume, length);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -88,15 +102,27 @@ TEST(RequireQuality, names_what_is_above_its_limit) {
   EXPECT_NE(refusal(q, 2.02).find("relative error in volume of 0.00990099, above the allowed 0.005"),
             std::string::npos);
   q.max_volume_ratio = 3.5;
-  EXPECT_NE(refusal(q, 2).find("largest volume ratio of neighbouring cells of 3.5, above the allowed 3"),
+  q.max_volume_ratio_at = {1, 0.5, 3};
+  EXPECT_EQ(
+      refusal(q, 2),
+      "the mesh has a largest volume ratio of neighbouring cells of 3.5, above the allowed 3, at (1 0.5 3) "
+      "m: "
+      "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
+      "further from each other and from the lifters");
+  EXPECT_NE(refusal(q, 2, 3).find("at (1 0.5 3) m: choose another pulp_lifters.layers or pulp_lifters.depth"),
             std::string::npos);
   q.max_skewness = 1.6;
-  EXPECT_NE(refusal(q, 2).find("largest skewness of 1.6, above the allowed 1:"), std::string::npos);
+  q.max_skewness_at = {0, 0, 1};
+  EXPECT_NE(refusal(q, 2).find("largest skewness of 1.6, above the allowed 1, at (0 0 1) m"),
+            std::string::npos);
   q.max_non_orthogonality = 51;
-  EXPECT_NE(refusal(q, 2).find("largest non-orthogonality of 51 degrees, above the allowed 45"),
+  q.max_non_orthogonality_at = {0, 2, 0};
+  EXPECT_NE(refusal(q, 2).find(
+                "largest non-orthogonality of 51 degrees, above the allowed 45 degrees, at (0 2 0) m"),
             std::string::npos);
   q.smallest_cell = -1;
-  EXPECT_NE(refusal(q, 2).find("a cell turned inside out, of -1 m^3"), std::string::npos);
+  q.smallest_cell_at = {3, 0, 0};
+  EXPECT_NE(refusal(q, 2).find("a cell turned inside out, of -1 m^3, at (3 0 0) m"), std::string::npos);
 }
 
 }  // namespace

@@ -314,6 +314,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"cell_size: 0.003", "cell_size: 0.06", "'resolution.cell_size' = 0.06"},
         Refused{"cell_size: 0.003", "cell_size: 1e-7", "at most 1e8 cells"},
         Refused{"layers: 8", "layers: 0", "'resolution.layers' = 0"},
+        Refused{"layers: 8", "layers: 1",
+                "mill.yaml:36: key 'resolution.layers' = 1: expected 2 or more layers between two walls"},
         Refused{"  classes", "  start_radius: 0.053\n  classes", "'charge.start_radius' = 0.053"},
         Refused{"  classes", "  start_length: 0.03\n  classes", "'charge.start_length' = 0.03"},
         Refused{"  classes", "  fill: 0.3\n  classes",
@@ -423,6 +425,16 @@ TEST(ReadMill, takes_a_periodic_slice_of_a_whole_mill) {
             std::string::npos);
   EXPECT_NE(refusal("  ends: plain", "  slice: 0.03\n  ends: plain").find("'geometry.slice' = 0.03"),
             std::string::npos);
+}
+
+TEST(ReadMill, takes_one_layer_where_the_ends_are_periodic) {
+  EXPECT_EQ(read(with(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"), "layers: 8",
+                      "layers: 2"))
+                .resolution.layers,
+            1);
+  EXPECT_EQ(read(with(with(example_mill, "ends: plain", "ends: periodic"), "layers: 8", "layers: 1"))
+                .resolution.layers,
+            1);
 }
 
 }  // namespace

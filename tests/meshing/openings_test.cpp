@@ -4,14 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mill_mesh.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/pi.hpp"
 #include "tests/meshing/test_geometry.hpp"
+#include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -23,16 +26,18 @@ struct Published {
   Geometry geometry;
   BlockCounts counts;
   int quads;
+  int layers;
 };
 
 std::vector<Published> published() {
   const Geometry small = {0.12, 0.12, Ends::plain, {12, 0.008, 0.006, 0.006}};
   const Geometry large = {0.3, 0.305, Ends::plain, {20, 0.01, 0.01, 0.01}};
-  return {{small, {11, 3, 5, 9}, 3948},
-          {small, {24, 6, 8, 19}, 17328},
-          {large, {5, 1, 1, 5}, 1616},
-          {mill_with_grates(), {3, 1, 2, 14}, 1616},
-          {mill_with_pulp_lifters(), {3, 1, 2, 14}, 1616}};
+  return {{small, {11, 3, 5, 9}, 3948, 12},
+          {small, {24, 6, 8, 19}, 17328, 12},
+          {large, {5, 1, 1, 5}, 1616, 9},
+          {mill_with_grates(), {3, 1, 2, 14}, 1616, 9},
+          {shipped_mill(2), {3, 1, 2, 14}, 1616, 9},
+          {shipped_mill(3), {3, 1, 2, 14}, 1616, 33}};
 }
 
 CrossSection section_of(const Published& mill) {
@@ -67,10 +72,58 @@ TEST(CrossSection, at_published_resolutions_has_the_quality_that_the_flow_needs)
     for (const double top : {1.0, 0.6}) {
       Published trapezoid = mill;
       trapezoid.geometry.lifters.top_width = top * mill.geometry.lifters.width;
-      const VolumeMesh mesh = make_mill_mesh(section_of(trapezoid), trapezoid.geometry, 9);
+      const VolumeMesh mesh = make_mill_mesh(section_of(trapezoid), trapezoid.geometry, mill.layers);
       EXPECT_NO_THROW(require_quality(quality(mesh), flow_volume(trapezoid.geometry)));
     }
   }
+}
+
+TEST(PulpLifters, of_three_layers_behind_nine_are_refused_with_their_keys) {
+  const Geometry mill = shipped_mill(3);
+  const Resolution resolution{0, 9, BlockCounts{3, 1, 2, 14}};
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, resolution), mill, 9);
+  try {
+    require_quality(quality(mesh), flow_volume(mill), mill.length);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(
+        message.find("a largest volume ratio of neighbouring cells of 3.08081, above the allowed 3, at ("),
+        std::string::npos)
+        << message;
+    EXPECT_NE(message.find(" 0.305) m: choose another pulp_lifters.layers or pulp_lifters.depth"),
+              std::string::npos)
+        << message;
+  }
+}
+
+/// cases/mills/mill_30cm/mill.yaml with one line more.
+Mill shipped_mill_with(const std::string& line) {
+  std::ostringstream text;
+  text << std::ifstream(std::filesystem::path(TEST_DATA_DIR).parent_path() /
+                        "../../cases/mills/mill_30cm/mill.yaml")
+              .rdbuf();
+  const TemporaryFolder folder;
+  return read_mill(folder.write("mill.yaml", with(text.str(), "  ends: plain\n", "  ends: plain\n" + line)));
+}
+
+TEST(ShippedMill, is_the_one_of_these_tests_and_good_enough) {
+  const Mill mill = shipped_mill_with("");
+  EXPECT_EQ(opening_circles(mill.geometry), opening_circles(shipped_mill(3)));
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill.geometry, mill.resolution), mill.geometry,
+                                         mill.resolution.layers);
+  EXPECT_NO_THROW(require_quality(quality(mesh), flow_volume(mill.geometry), mill.geometry.length));
+}
+
+TEST(ShippedMill, has_slices_with_the_whole_mills_cross_section) {
+  const Mill whole = shipped_mill_with(""), slice = shipped_mill_with("  slice: 0.0165\n");
+  EXPECT_FALSE(slice.geometry.inlet || slice.geometry.grates || slice.geometry.pulp_lifters);
+  const CrossSection section = make_cross_section(slice.geometry, slice.resolution);
+  EXPECT_EQ(section.points, make_cross_section(whole.geometry, whole.resolution).points);
+  const VolumeMesh mesh = make_mill_mesh(section, slice.geometry, slice.resolution.layers);
+  EXPECT_NO_THROW(require_quality(quality(mesh), flow_volume(slice.geometry), slice.geometry.length));
+  EXPECT_EQ(mesh.patches.size(), 4u);
+  EXPECT_TRUE(mesh.cell_zones.empty() && mesh.face_zones.empty());
 }
 
 TEST(CrossSection, comes_closer_to_the_mills_area_with_every_refinement) {
@@ -124,6 +177,24 @@ TEST(Inlet, too_small_for_a_circle_is_made_of_whole_cells_about_the_axis) {
     for (int p : section.quads[q]) middle += section.points[static_cast<std::size_t>(p)];
   }
   EXPECT_LT(middle.norm(), 1e-12);
+}
+
+TEST(Inlet, whose_whole_cells_have_another_area_is_refused_with_the_areas) {
+  Geometry mill = mill_with_grates();
+  mill.grates.reset();
+  mill.inlet->radius = 0.005;
+  try {
+    find_openings(make_cross_section(mill, 0.012), mill);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(
+        message.find("geometry.inlet: the whole cells about the axis that come nearest to 0.785 cm^2 have "),
+        0u)
+        << message;
+    EXPECT_NE(message.find(": expected at most 5 %; choose smaller cells"), std::string::npos) << message;
+    EXPECT_NE(message.find("one of a radius of 0.035 m or more"), std::string::npos) << message;
+  }
 }
 
 TEST(Circles, that_nearly_coincide_become_one) {

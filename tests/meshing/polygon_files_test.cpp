@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
 
 #include "meshing/assembly.hpp"
 #include "meshing/face_file.hpp"
@@ -110,6 +111,25 @@ TEST(WriteObj, gives_a_mesh_back_to_the_last_bit) {
   }
 }
 
+TEST(WriteObj, says_which_patches_are_no_walls) {
+  const TemporaryFolder folder;
+  const Geometry geometry = mill_with_grates();
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(geometry, 0.012), geometry, 2);
+  write_obj(mesh, folder.path() / "mesh.obj");
+  std::ifstream file(folder.path() / "mesh.obj");
+  std::vector<std::string> groups;
+  for (std::string line; std::getline(file, line);) {
+    if (line[0] == 'g') groups.push_back(line);
+  }
+  EXPECT_EQ(groups, (std::vector<std::string>{"g shell", "g lifters", "g feedEnd", "g dischargeEnd",
+                                              "g inlet patch", "g grates patch", "g internal"}));
+  EXPECT_EQ(read_faces(folder.path() / "mesh.obj").open, (std::set<std::string>{"inlet", "grates"}));
+}
+
+TEST(ReadObj, takes_no_other_word_for_a_type) {
+  EXPECT_TRUE(read("t.obj", tetrahedron).open.empty());
+}
+
 std::string ply_header(const std::string& format) {
   return "ply\nformat " + format + R"( 1.0
 comment a tetrahedron with an element that is passed over
@@ -185,6 +205,14 @@ TEST(ReadPly, refuses_what_it_cannot_read_with_the_line_or_the_item) {
             "t.ply:19: point 4: expected an index from 0 to 3");
   EXPECT_EQ(read_refusal("t.ply", text + "2 3 0 1 -1\n"),
             "t.ply:19: face 1: point -1.000000: expected an index from 0");
+  EXPECT_EQ(read_refusal("t.ply", text + "2.4 3 0 1 2\n"),
+            "t.ply:19: face 1: patch 2.400000: expected a whole number from 0");
+  EXPECT_EQ(read_refusal("t.ply", text + "-2 3 0 1 2\n"),
+            "t.ply:19: face 1: patch -2.000000: expected a whole number from 0");
+  EXPECT_EQ(read_refusal("t.ply", with(text, "vertex_indices", "corners")),
+            "t.ply:14: the header's element 'face' has no list 'vertex_indices' or 'vertex_index'");
+  EXPECT_EQ(read_refusal("t.ply", with(text, "list uchar int vertex_indices", "int vertex_index")),
+            "t.ply:14: the header's element 'face' has no list 'vertex_indices' or 'vertex_index'");
   std::string binary = binary_tetrahedron(false);
   binary.resize(binary.size() - 8);
   EXPECT_EQ(read_refusal("t.ply", binary), "t.ply: face 4: the file ends here");

@@ -73,6 +73,7 @@ inline PolygonSet taken_apart(const VolumeMesh& mesh, unsigned seed) {
   };
   for (std::size_t f = 0; f < mesh.neighbour.size(); ++f) add(f, "internal");
   for (const Patch& patch : mesh.patches) {
+    if (patch.open) set.open.insert(patch.name);
     for (int f = patch.start; f < patch.start + patch.size; ++f) add(static_cast<std::size_t>(f), patch.name);
   }
   std::shuffle(set.polygons.begin(), set.polygons.end(), random);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "meshing/cross_section.hpp"
 #include "meshing/mill.hpp"
 
 namespace millfoam::meshing {
@@ -25,6 +26,11 @@ inline TestMill with_top_width(TestMill mill, double top_width) {
   return mill;
 }
 
+/// The cross-section by cell size, m.
+inline CrossSection make_cross_section(const Geometry& geometry, double cell_size) {
+  return make_cross_section(geometry, Resolution{cell_size, 1, std::nullopt});
+}
+
 /// The 30 cm mill with a feed opening of 128.7 cm^2 and grates.
 inline Geometry mill_with_grates(double sector_share = 0.8) {
   Geometry geometry = {0.3, 0.305, Ends::plain, {20, 0.01, 0.01, 0.01}};
@@ -33,10 +39,17 @@ inline Geometry mill_with_grates(double sector_share = 0.8) {
   return geometry;
 }
 
-/// The same with pulp lifters.
+/// The same with pulp lifters whose discharge circle all but coincides with the inlet's.
 inline Geometry mill_with_pulp_lifters() {
   Geometry geometry = mill_with_grates();
   geometry.pulp_lifters = PulpLifters{0.03, 2, 0.064};
+  return geometry;
+}
+
+/// The same with the pulp lifters of cases/mills/mill_30cm: `layers` is 3 with 33 in the mill, and 2 with 9.
+inline Geometry shipped_mill(int layers) {
+  Geometry geometry = mill_with_grates();
+  geometry.pulp_lifters = PulpLifters{0.033, layers, 0.0467};
   return geometry;
 }
 
