@@ -90,6 +90,21 @@ class Matrix(FolderTest):
                 run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
 
 
+class Softening(FolderTest):
+    def test_its_mills_differ_in_modulus_and_seed_and_are_accepted(self):
+        study = load(ROOT / "cases" / "studies" / "softening" / "softening.py")
+        made = []
+        study.make_dry_run = lambda folder, mill, averaging: made.append((folder.name, mill))
+        for setting in study.settings(quick=False):
+            study.make(*setting, quick=False)
+        self.assertEqual([name for name, _ in made], ["1e7", "1e7_other_seed", "1e8", "1e8_other_seed", "1e9"])
+        for name, mill in made:
+            (self.folder / "mill.yaml").write_text(mill)
+            run(self.folder, "millMesh", "mill.yaml", "--case", ".")
+            deck = run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+            self.assertIn(f"softened modulus of balls and walls: {float(name.split('_')[0]):.4g} Pa", deck)
+
+
 class Difference(unittest.TestCase):
     def map(self, solidity, velocity):
         edges = np.linspace(-1, 1, 5)
