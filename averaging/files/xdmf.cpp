@@ -76,8 +76,8 @@ class Geometry {
 };
 
 /// A field of one window as a slab of the data set over all windows.
-void write_attribute(std::ostream& out, const Grid& grid, const layout::Field& field,
-                     const std::string& data_set, std::size_t window, std::size_t windows) {
+void write_attribute(std::ostream& out, const Grid& grid, const std::string& file, const XdmfField& field,
+                     std::size_t window, std::size_t windows) {
   std::vector<std::size_t> shape = field_shape(grid);
   if (field.vector) shape.push_back(3);
   const std::string sizes = joined(shape);
@@ -87,7 +87,7 @@ void write_attribute(std::ostream& out, const Grid& grid, const layout::Field& f
       << "          <DataItem ItemType=\"HyperSlab\" Dimensions=\"" << sizes << "\">\n"
       << "            <DataItem Dimensions=\"3 " << shape.size() + 1 << "\" Format=\"XML\">" << window << ' '
       << joined(zeros) << "  1 " << joined(ones) << "  1 " << sizes << "</DataItem>\n  "
-      << data_item(std::to_string(windows) + ' ' + sizes, false, true, data_set)
+      << data_item(std::to_string(windows) + ' ' + sizes, false, true, file + ":/" + field.data_set)
       << "          </DataItem>\n        </Attribute>\n";
 }
 
@@ -128,28 +128,22 @@ std::filesystem::path xdmf_path(const std::filesystem::path& solids_file) {
   return path;
 }
 
-std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
-  std::filesystem::path path = xdmf_path(solids_file);
-  const SolidsReader solids(solids_file);
-  const std::string file = escaped(solids_file.filename().string());
-  const auto [points, topology] = geometry_sizes(solids_file, solids.grid());
+std::filesystem::path write_xdmf(const std::filesystem::path& fields_file, const std::string& title,
+                                 const Grid& grid, const std::vector<double>& times,
+                                 const std::vector<XdmfField>& fields) {
+  std::filesystem::path path = xdmf_path(fields_file);
+  const std::string file = escaped(fields_file.filename().string());
+  const auto [points, topology] = geometry_sizes(fields_file, grid);
   const std::filesystem::path part = path.string() + ".part";
   std::ofstream out(part);
   out.precision(17);
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
-      << "    <Grid Name=\"solids\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  const std::vector<TimeWindow>& windows = solids.windows();
-  for (std::size_t w = 0; w < windows.size(); ++w) {
+      << "    <Grid Name=\"" << title << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (std::size_t w = 0; w < times.size(); ++w) {
     out << "      <Grid Name=\"window " << w << "\" GridType=\"Uniform\">\n"
-        << "        <Time Value=\"" << windows[w].begin << "\"/>\n";
-    std::visit(Geometry(out, file, points, topology), solids.grid());
-    for (const layout::Field& field : layout::fields) {
-      write_attribute(out, solids.grid(), field, file + ":/" + field.name, w, windows.size());
-    }
-    if (solids.header().inside_fractions) {
-      write_attribute(out, solids.grid(), layout::inside_fraction,
-                      file + ":/grid/" + layout::inside_fraction.name, w, windows.size());
-    }
+        << "        <Time Value=\"" << times[w] << "\"/>\n";
+    std::visit(Geometry(out, file, points, topology), grid);
+    for (const XdmfField& field : fields) write_attribute(out, grid, file, field, w, times.size());
     out << "      </Grid>\n";
   }
   out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
@@ -162,6 +156,20 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
     throw SolidsFileError(path.string() + ": cannot write this file (is the disk full?)");
   }
   return path;
+}
+
+std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
+  xdmf_path(solids_file);
+  const SolidsReader solids(solids_file);
+  std::vector<XdmfField> fields;
+  for (const layout::Field& field : layout::fields) fields.push_back({field.name, field.name, field.vector});
+  if (solids.header().inside_fractions) {
+    const std::string name = layout::inside_fraction.name;
+    fields.push_back({name, "grid/" + name, layout::inside_fraction.vector});
+  }
+  std::vector<double> times;
+  for (const TimeWindow& window : solids.windows()) times.push_back(window.begin);
+  return write_xdmf(solids_file, "solids", solids.grid(), times, fields);
 }
 
 }  // namespace millfoam::averaging

@@ -4,44 +4,8 @@
 \*---------------------------------------------------------------------------*/
 
 #include "ballLoad.H"
-#include "ListListOps.H"
 #include "OStringStream.H"
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::ballLoad::weigh()
-{
-    List<scalarField> ratios(Pstream::nProcs());
-    List<scalarField> volumes(Pstream::nProcs());
-    ratios[Pstream::myProcNo()] = ratio_.primitiveField();
-    volumes[Pstream::myProcNo()] =
-        bed_.solidity().primitiveField() * ratio_.mesh().V();
-    Pstream::gatherList(ratios);
-    Pstream::gatherList(volumes);
-
-    mean_ = 0;
-    high_ = 0;
-    if (Pstream::master())
-    {
-        const scalarField ratio(
-            ListListOps::combine<scalarField>(ratios, accessOp<scalarField>()));
-        const scalarField volume(ListListOps::combine<scalarField>(
-            volumes, accessOp<scalarField>()));
-        const scalar all = sum(volume);
-        mean_ = all > 0 ? sum(ratio * volume) / all : 0;
-
-        scalar below = 0;
-        for (const label celli : sortedOrder(ratio))
-        {
-            if (below < 0.95 * all)
-            {
-                high_ = ratio[celli];
-            }
-            below += volume[celli];
-        }
-    }
-}
-
+#include "weightedSpread.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -91,7 +55,11 @@ void Foam::ballLoad::update(
             ratio_[celli] = mag(force) / (phi * density_ * mag(g_));
         }
     }
-    weigh();
+    const weightedSpread spread = spreadOf(
+        ratio_.primitiveField(),
+        bed_.solidity().primitiveField() * ratio_.mesh().V());
+    mean_ = spread.mean;
+    high_ = spread.high;
     meanSum_ += mean_;
     highSum_ += high_;
     ++updates_;

@@ -8,6 +8,7 @@
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
+#include "mixtureFluids.H"
 #include "geometricOneField.H"
 #include "MULES.H"
 #include "staticFvMesh.H"
@@ -52,30 +53,6 @@ FieldType Foam::slurryFlow::continued(
 }
 
 
-Foam::bedFluids Foam::slurryFlow::fluids() const
-{
-    const dictionary& slurry = mixture_.subDict(mixture_.phase1Name());
-    bedFluids result;
-    result.air = {
-        mixture_.rho2().value(),
-        mixture_.rho2().value() * gMax(mixture_.nuModel2().nu()())};
-    result.slurry.density = mixture_.rho1().value();
-    if (const dictionary* bingham = slurry.findDict("BinghamCoeffs"))
-    {
-        result.slurry.viscosity = bingham->get<scalar>("plasticViscosity");
-        result.yieldStress = bingham->get<scalar>("yieldStress");
-        result.largestViscosity =
-            result.slurry.viscosity * bingham->get<scalar>("viscosityRatio");
-    }
-    else
-    {
-        result.slurry.viscosity =
-            mixture_.rho1().value() * gMax(mixture_.nuModel1().nu()());
-    }
-    return result;
-}
-
-
 void Foam::slurryFlow::readBed()
 {
     Info << "Bed: " << bed_.description().c_str() << nl;
@@ -88,7 +65,7 @@ void Foam::slurryFlow::readBed()
 
         const dictionary& drag = bedDict_.subDict("drag");
         requireKnownEntries(drag, bedDrag::entries());
-        drag_.reset(new bedDrag(drag, fluids()));
+        drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
         Info << "Drag: " << drag_->description().c_str() << nl;
     }
     if (bedDict_.found("ballDensity"))
@@ -167,11 +144,16 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       IOdictionary(IOobject(
           "grateProperties", mesh.time().constant(), mesh,
           IOobject::READ_IF_PRESENT, IOobject::NO_WRITE)),
-      mesh, fluids()),
+      mesh, fluidsOf(mixture_)),
   forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
   fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),
   massMoved_(continued<surfaceScalarField>("massMoved", dimMass)),
+  slurryFlux_(
+      IOobject(
+          IOobject::groupName("alphaPhi", mixture_.phase1Name()),
+          mesh.time().timeName(), mesh),
+      mesh, dimensionedScalar(dimVolume / dimTime, Zero)),
   turbulence_(incompressible::turbulenceModel::New(U_, phi_, mixture_)),
   fvOptions_(fv::options::New(mesh)),
   state_(IOobject(
@@ -190,6 +172,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
     swept_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();
+    slurryFlux_.setOriented();
     turbulence_->validate();
     voidage_.oldTime();
     pressure_.update(p_rgh_, rho_);
@@ -234,14 +217,14 @@ void Foam::slurryFlow::transport()
 {
     const vectorField relative(
         fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
-    surfaceScalarField slurry(transport_.flux(phi_, relative));
+    slurryFlux_ = transport_.flux(phi_, relative);
     MULES::explicitSolve(
-        voidage_, alpha_, phi_, slurry, zeroField(), zeroField(), oneField(),
-        zeroField());
+        voidage_, alpha_, phi_, slurryFlux_, zeroField(), zeroField(),
+        oneField(), zeroField());
 
-    massMoved_ =
-        mesh_.time().deltaT() *
-        (slurry * (mixture_.rho1() - mixture_.rho2()) + phi_ * mixture_.rho2());
+    massMoved_ = mesh_.time().deltaT() *
+                 (slurryFlux_ * (mixture_.rho1() - mixture_.rho2()) +
+                  phi_ * mixture_.rho2());
 
     surface_.reconstruct();
     surface_.locate();

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/files/slurry_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "averaging/files/grid_io.hpp"
+#include "averaging/files/hdf5_file.hpp"
+#include "averaging/files/hdf5_io.hpp"
+#include "averaging/files/solids_file.hpp"
+#include "averaging/files/xdmf.hpp"
+
+namespace millfoam::averaging {
+
+namespace {
+
+constexpr const char* slurry_format = "millfoam-slurry";
+constexpr const char* segment_format = "millfoam-slurry-segment";
+
+/// Share of a window by which its ends may be missed: flow times are sums of time-steps.
+constexpr double slack = 1e-6;
+
+/// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.
+struct Field {
+  const char* name;
+  const char* units;
+  bool vector;
+  std::size_t first;  ///< of the voxel's components
+  bool by_slurry;     ///< divided by the slurry's sum, not by the volume
+};
+
+constexpr std::array<Field, 5> fields{{{"slurry", "1", false, 0, false},
+                                       {"voidage", "1", false, 1, false},
+                                       {"velocity", "m/s", true, 2, true},
+                                       {"pressure", "Pa", false, 5, true},
+                                       {"p_rgh", "Pa", false, 6, true}}};
+
+/// A field's means over the voxels; 0 where there is nothing to divide by.
+std::vector<double> means(const SlurrySegment& sums, const Field& field) {
+  const std::size_t width = field.vector ? 3 : 1;
+  std::vector<double> result(sums.volume.size() * width, 0.0);
+  for (std::size_t voxel = 0; voxel < sums.volume.size(); ++voxel) {
+    const double* components = &sums.components[voxel * slurry_components];
+    // Less slurry than this has no velocity that means something
+    const bool enough = components[0] > 1e-9 * sums.volume[voxel];
+    const double divisor = field.by_slurry && enough ? components[0] : sums.volume[voxel];
+    if (!(divisor > 0) || (field.by_slurry && !enough)) continue;
+    for (std::size_t k = 0; k < width; ++k) {
+      result[voxel * width + k] = components[field.first + k] / divisor;
+    }
+  }
+  return result;
+}
+
+/// Shares of the voxels that lie in the flow's mesh, in the mean over the time.
+std::vector<double> inside_fraction(const SlurrySegment& sums, const BoxGrid& grid) {
+  std::vector<double> result = sums.volume;
+  const double whole = grid.voxel_volume() * (sums.end - sums.begin);
+  for (double& share : result) share /= whole;
+  return result;
+}
+
+std::vector<hsize_t> row_dimensions(const BoxGrid& grid, bool vector) {
+  const auto [nx, ny, nz] = grid.shape();
+  std::vector<hsize_t> row{static_cast<hsize_t>(nz), static_cast<hsize_t>(ny), static_cast<hsize_t>(nx)};
+  if (vector) row.push_back(3);
+  return row;
+}
+
+/// An open slurry.h5 that grows by windows.
+class Rows {
+ public:
+  Rows(const std::filesystem::path& part, const BoxGrid& grid, const SlurryHeader& header)
+      : grid_(grid), file_(hdf5::create_file(part)) {
+    const hid_t root = file_.get();
+    hdf5::write_attribute(root, "format", std::string(slurry_format));
+    hdf5::write_attribute(root, "version", slurry_version);
+    hdf5::write_attribute(root, "complete", 0);
+    hdf5::write_attribute(root, "time0", header.time0);
+    hdf5::write_attribute(root, "window", header.window);
+    const hdf5::Handle grid_group = hdf5::create_group(root, "grid");
+    hdf5::write_grid(grid_group.get(), grid);
+    inside_.push_back(create(grid_group.get(), "insideFraction", false, "1"));
+    for (const Field& field : fields) fields_.push_back(create(root, field.name, field.vector, field.units));
+    const hdf5::Handle windows = hdf5::create_group(root, "window");
+    for (const char* name : {"begin", "end"}) {
+      times_.push_back(hdf5::create_rows(windows.get(), name, {}, H5T_NATIVE_DOUBLE, "s"));
+    }
+    for (const char* name : {"samples", "starts_late", "ends_short"}) {
+      times_.push_back(hdf5::create_rows(windows.get(), name, {}, H5T_NATIVE_LLONG, "1"));
+    }
+    const hdf5::Handle ledger = hdf5::create_group(root, "ledger");
+    for (const char* name : {"volume_in", "deposited", "outside"}) {
+      ledger_.push_back(hdf5::create_rows(ledger.get(), name, {}, H5T_NATIVE_DOUBLE, "m3"));
+    }
+  }
+
+  void append(const SlurrySegment& sums, double time0, bool starts_late, bool ends_short) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      hdf5::append_row(fields_[f], means(sums, fields[f]).data());
+    }
+    hdf5::append_row(inside_[0], inside_fraction(sums, grid_).data());
+    const double begin = time0 + sums.begin, end = time0 + sums.end;
+    hdf5::append_row(times_[0], &begin);
+    hdf5::append_row(times_[1], &end);
+    hdf5::append_row(times_[2], sums.samples);
+    hdf5::append_row(times_[3], starts_late ? 1LL : 0LL);
+    hdf5::append_row(times_[4], ends_short ? 1LL : 0LL);
+    double deposited = 0;
+    for (std::size_t i = 0; i < sums.components.size(); i += slurry_components)
+      deposited += sums.components[i];
+    const double duration = sums.end - sums.begin;
+    const std::array<double, 3> volumes{sums.slurry / duration, deposited / duration,
+                                        (sums.slurry - deposited) / duration};
+    for (std::size_t k = 0; k < volumes.size(); ++k) hdf5::append_row(ledger_[k], &volumes[k]);
+    begins_.push_back(begin);
+  }
+
+  void write_mean(const SlurrySegment& sums, double time0) const {
+    const hdf5::Handle group = hdf5::create_group(file_.get(), "mean");
+    hdf5::write_attribute(group.get(), "begin", time0 + sums.begin);
+    hdf5::write_attribute(group.get(), "end", time0 + sums.end);
+    for (const Field& field : fields) {
+      hdf5::write_array(group.get(), field.name, means(sums, field), row_dimensions(grid_, field.vector),
+                        field.units);
+    }
+    hdf5::write_array(group.get(), "insideFraction", inside_fraction(sums, grid_),
+                      row_dimensions(grid_, false), "1");
+  }
+
+  /// Marks the file complete and closes it.
+  void finish() {
+    for (auto* handles : {&fields_, &inside_, &times_, &ledger_}) handles->clear();
+    hdf5::flush(file_.get());
+    hdf5::overwrite_attribute(file_.get(), "complete", 1);
+    file_.close("close the file");
+  }
+
+  const std::vector<double>& begins() const { return begins_; }  ///< of the windows, DEM time, s
+
+ private:
+  hdf5::Handle create(hid_t parent, const char* name, bool vector, const char* units) const {
+    return hdf5::create_rows(parent, name, row_dimensions(grid_, vector), H5T_NATIVE_DOUBLE, units);
+  }
+
+  const BoxGrid& grid_;
+  hdf5::Handle file_;
+  std::vector<hdf5::Handle> fields_, inside_, times_, ledger_;
+  std::vector<double> begins_;
+};
+
+/// Adds up segments to windows and to the mean over the run.
+class Assembly {
+ public:
+  Assembly(Rows& rows, const BoxGrid& grid, const SlurryHeader& header)
+      : rows_(rows), grid_(grid), header_(header), mean_(grid.size()), window_(grid.size()) {}
+
+  void take(const std::filesystem::path& path) {
+    const SlurrySegment segment = read_segment(path, grid_);
+    const auto number = static_cast<long long>(std::floor(segment.begin / header_.window + slack));
+    if (segment.end > (static_cast<double>(number + 1) + slack) * header_.window) {
+      throw SlurryFileError(path.string() + ": goes from " + std::to_string(segment.begin) + " to " +
+                            std::to_string(segment.end) + " s and so lies in two windows of " +
+                            std::to_string(header_.window) + " s; expected the windows of the run before");
+    }
+    if (filled_ && number != number_) close_window();
+    number_ = number;
+    filled_ = true;
+    window_.add(segment);
+    if (segment.begin >= header_.start - slack * header_.window) mean_.add(segment);
+  }
+
+  void finish() {
+    if (filled_) close_window();
+    if (mean_.samples > 0) rows_.write_mean(mean_, header_.time0);
+  }
+
+ private:
+  void close_window() {
+    const double begin = static_cast<double>(number_) * header_.window, margin = slack * header_.window;
+    rows_.append(window_, header_.time0, window_.begin > begin + margin,
+                 window_.end < begin + header_.window - margin);
+    window_ = SlurrySegment(grid_.size());
+    filled_ = false;
+  }
+
+  Rows& rows_;
+  const BoxGrid& grid_;
+  const SlurryHeader& header_;
+  SlurrySegment mean_, window_;
+  long long number_ = 0;
+  bool filled_ = false;
+};
+
+void check_same(const BoxGrid& found, const BoxGrid& expected) {
+  if (found.shape() == expected.shape() && found.lower() == expected.lower() &&
+      found.upper() == expected.upper() && found.periodic() == expected.periodic()) {
+    return;
+  }
+  throw hdf5::Error("was written for another grid; keep it elsewhere or remove it");
+}
+
+}  // namespace
+
+void SlurrySegment::add(const VoxelSums& sample, double slurry_volume, double duration) {
+  for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += duration * sample.volume[i];
+  for (std::size_t i = 0; i < components.size(); ++i) components[i] += duration * sample.values[i];
+  slurry += duration * slurry_volume;
+  ++samples;
+}
+
+void SlurrySegment::add(const SlurrySegment& other) {
+  begin = samples > 0 ? std::min(begin, other.begin) : other.begin;
+  end = samples > 0 ? std::max(end, other.end) : other.end;
+  for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += other.volume[i];
+  for (std::size_t i = 0; i < components.size(); ++i) components[i] += other.components[i];
+  slurry += other.slurry;
+  samples += other.samples;
+}
+
+void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const SlurrySegment& segment) {
+  const std::filesystem::path part = path.string() + ".part";
+  hdf5::naming_file<SlurryFileError>(part, [&] {
+    hdf5::Handle file = hdf5::create_file(part);
+    const hid_t root = file.get();
+    hdf5::write_attribute(root, "format", std::string(segment_format));
+    hdf5::write_attribute(root, "version", slurry_version);
+    hdf5::write_attribute(root, "complete", 1);
+    hdf5::write_attribute(root, "begin", segment.begin);
+    hdf5::write_attribute(root, "end", segment.end);
+    hdf5::write_attribute(root, "samples", static_cast<int>(segment.samples));
+    hdf5::write_attribute(root, "slurry", segment.slurry);
+    const hdf5::Handle group = hdf5::create_group(root, "grid");
+    hdf5::write_grid(group.get(), grid);
+    const hsize_t n = segment.volume.size();
+    hdf5::append_row(hdf5::create_rows(root, "volume", {n}, H5T_NATIVE_DOUBLE, "m3 s"),
+                     segment.volume.data());
+    hdf5::append_row(hdf5::create_rows(root, "components", {n, slurry_components}, H5T_NATIVE_DOUBLE, "SI"),
+                     segment.components.data());
+    file.close("close the file");
+    hdf5::rename_file(part, path);
+  });
+}
+
+SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid) {
+  return hdf5::naming_file<SlurryFileError>(path, [&] {
+    const hdf5::Handle file = hdf5::open_file(path);
+    const hid_t root = file.get();
+    hdf5::check_format(root, segment_format, slurry_version, "run the flow again");
+    const hdf5::Handle group = hdf5::open_group(root, "grid");
+    check_same(std::get<BoxGrid>(hdf5::read_grid(group.get())), grid);
+    SlurrySegment segment;
+    segment.begin = hdf5::read_double_attribute(root, "begin", 1)[0];
+    segment.end = hdf5::read_double_attribute(root, "end", 1)[0];
+    segment.samples = hdf5::read_int_attribute(root, "samples", 1)[0];
+    segment.slurry = hdf5::read_double_attribute(root, "slurry", 1)[0];
+    segment.volume = hdf5::read_row(root, "volume", 0);
+    segment.components = hdf5::read_row(root, "components", 0);
+    return segment;
+  });
+}
+
+void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
+                     const std::vector<std::filesystem::path>& segments) {
+  if (segments.empty()) throw SlurryFileError(path.string() + ": nothing was averaged");
+  const std::filesystem::path part = path.string() + ".part";
+  std::vector<double> begins;
+  hdf5::naming_file<SlurryFileError>(part, [&] {
+    Rows rows(part, grid, header);
+    Assembly assembly(rows, grid, header);
+    for (const std::filesystem::path& segment : segments) assembly.take(segment);
+    assembly.finish();
+    begins = rows.begins();
+    rows.finish();
+    hdf5::rename_file(part, path);
+  });
+  std::vector<XdmfField> shown;
+  for (const Field& field : fields) shown.push_back({field.name, field.name, field.vector});
+  shown.push_back({"insideFraction", "grid/insideFraction", false});
+  try {
+    write_xdmf(path, "slurry", grid, begins, shown);
+  } catch (const SolidsFileError& error) {
+    throw SlurryFileError(error.what());
+  }
+}
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+#include "averaging/fields/cell_points.hpp"
+#include "averaging/grids/box_grid.hpp"
+
+/// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Its layout is listed in
+/// averaging/README.md.
+namespace millfoam::averaging {
+
+/// The version of the layout that is written.
+inline constexpr int slurry_version = 1;
+
+/// A slurry file or a segment that cannot be read or written; the message names the file and the reason.
+class SlurryFileError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What is summed in a voxel, per volume of the cells: with fluid's share epsilon, slurry's share alpha of
+/// the fluid, velocity u, pressure p and p_rgh: epsilon alpha, epsilon, epsilon alpha u (3), epsilon alpha p,
+/// epsilon alpha p_rgh.
+inline constexpr std::size_t slurry_components = 7;
+
+/// A stretch of a flow, in sums over time and volume.
+struct SlurrySegment {
+  double begin = 0;                ///< flow time, s
+  double end = 0;                  ///< s
+  long long samples = 0;           ///< times at which the fields were taken
+  double slurry = 0;               ///< integral over time of the slurry's volume in the cells, m^3 s
+  std::vector<double> volume;      ///< [n] of the cells' parts in each voxel, m^3 s
+  std::vector<double> components;  ///< [n][slurry_components], see there, times m^3 s
+
+  /// An empty one of n voxels.
+  explicit SlurrySegment(std::size_t voxels = 0)
+      : volume(voxels, 0.0), components(voxels * slurry_components, 0.0) {}
+
+  /// Adds fields that were sampled once, for this length of time (s).
+  /// @param sample  with slurry_components components
+  /// @param slurry_volume  in all cells, m^3
+  void add(const VoxelSums& sample, double slurry_volume, double duration);
+
+  /// Adds another stretch's sums; the times become those that both cover.
+  void add(const SlurrySegment& other);
+};
+
+/// Writes a segment; a run that is killed leaves nothing that looks whole. Throws SlurryFileError.
+void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const SlurrySegment& segment);
+
+/// Reads it back. Throws SlurryFileError, also when it was written for another grid.
+SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid);
+
+/// What holds for a whole slurry file.
+struct SlurryHeader {
+  double time0 = 0;   ///< DEM time at flow time 0, s
+  double window = 0;  ///< length of the windows, s
+  double start = 0;   ///< flow time from which the mean over the run is taken, s
+};
+
+/// Puts a flow's segments, in order of time, together: means over windows [k w, (k+1) w) of flow time, and
+/// over all from `start` on. Writes slurry.h5 and beside it slurry.xdmf; memory does not grow with the number
+/// of windows. Windows that the segments do not fill are marked. Throws SlurryFileError, also when there is
+/// no segment or one lies in two windows.
+void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
+                     const std::vector<std::filesystem::path>& segments);
+
+}  // namespace millfoam::averaging

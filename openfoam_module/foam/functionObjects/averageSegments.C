@@ -1,0 +1,236 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "averageSegments.H"
+#include "IOdictionary.H"
+#include "OSspecific.H"
+#include "Pstream.H"
+#include "Switch.H"
+#include "untrapped.H"
+#include "vector.H"
+
+#include <algorithm>
+#include <cstdio>
+
+using namespace millfoam::averaging;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Times closer than this are the same, s
+static constexpr scalar instant_ = 1e-9;
+
+
+//- The box of the entries lower, upper, shape and periodic
+static BoxGrid readGrid(const dictionary& dict)
+{
+    const vector lower(dict.get<vector>("lower"));
+    const vector upper(dict.get<vector>("upper"));
+    const FixedList<label, 3> shape(dict.get<FixedList<label, 3>>("shape"));
+    const FixedList<Switch, 3> periodic(
+        dict.lookupOrDefault("periodic", FixedList<Switch, 3>(Switch(false))));
+
+    std::unique_ptr<BoxGrid> grid;
+    const auto reason = untrapped(
+        [&]
+        {
+            grid = std::make_unique<BoxGrid>(
+                Vector3{lower.x(), lower.y(), lower.z()},
+                Vector3{upper.x(), upper.y(), upper.z()},
+                VoxelIndex{int(shape[0]), int(shape[1]), int(shape[2])},
+                std::array<bool, 3>{periodic[0], periodic[1], periodic[2]});
+        });
+    if (reason)
+    {
+        FatalIOErrorInFunction(dict)
+            << "lower " << lower << ", upper " << upper << ", shape " << shape
+            << ": " << reason->c_str() << exit(FatalIOError);
+    }
+    return *grid;
+}
+
+
+//- Times of windows and of the run
+static SlurryHeader readHeader(const dictionary& dict, const Time& time)
+{
+    const IOdictionary mill(IOobject(
+        "millProperties", time.constant(), time, IOobject::READ_IF_PRESENT,
+        IOobject::NO_WRITE, false));
+    SlurryHeader header;
+    header.time0 = mill.lookupOrDefault<scalar>("time0", 0);
+    header.window = dict.get<scalar>("window");
+    header.start = dict.lookupOrDefault<scalar>("start", 0);
+    if (!(header.window > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "window is " << header.window
+            << " s; expected a length of time above 0" << exit(FatalIOError);
+    }
+    return header;
+}
+
+
+//- Begin and end of a segment, s, by its file's name
+static FixedList<scalar, 2> timesOf(const fileName& file)
+{
+    FixedList<scalar, 2> result(Zero);
+    std::sscanf(file.name().c_str(), "%lf_%lf.h5", &result[0], &result[1]);
+    return result;
+}
+
+
+//- Stop the run with what a file could not do
+static void stopWith(const std::optional<std::string>& reason)
+{
+    if (reason)
+    {
+        FatalErrorInFunction << reason->c_str() << exit(FatalError);
+    }
+}
+
+
+//- Add up the values of all ranks on the master
+static void gather(std::vector<double>& values)
+{
+    scalarList sums(UList<scalar>(values.data(), values.size()));
+    Pstream::listCombineGather(sums, plusEqOp<scalar>());
+    std::copy(sums.begin(), sums.end(), values.begin());
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::averageSegments::windowEnd(const scalar t) const
+{
+    return header_.window * (std::floor((t + instant_) / header_.window) + 1);
+}
+
+
+void Foam::averageSegments::dropLater() const
+{
+    const scalar now = time_.value();
+    for (const std::filesystem::path& path : files())
+    {
+        const FixedList<scalar, 2> times(timesOf(path.string()));
+        if (times[1] > now + instant_)
+        {
+            rm(path.string());
+            if (times[0] < now - instant_)
+            {
+                WarningInFunction
+                    << path.string() << " goes beyond the time " << now
+                    << " s at which the flow goes on, and is removed: its"
+                    << " window will be marked as not filled" << endl;
+            }
+        }
+    }
+}
+
+
+void Foam::averageSegments::close(const scalar end)
+{
+    sums_.end = end;
+    gather(sums_.volume);
+    gather(sums_.components);
+    reduce(sums_.slurry, sumOp<scalar>());
+    if (Pstream::master())
+    {
+        char name[64];
+        std::snprintf(
+            name, sizeof(name), "%017.9f_%017.9f.h5", sums_.begin, sums_.end);
+        stopWith(untrapped(
+            [&] { write_segment((folder_ / name).c_str(), grid_, sums_); }));
+    }
+    sums_ = SlurrySegment(grid_.size());
+    sums_.begin = end;
+}
+
+
+std::vector<std::filesystem::path> Foam::averageSegments::files() const
+{
+    std::vector<std::filesystem::path> result;
+    for (const fileName& name : readDir(folder_, fileName::FILE))
+    {
+        if (name.hasExt("h5"))
+        {
+            result.emplace_back((folder_ / name).c_str());
+        }
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::averageSegments::averageSegments(
+    const word& name, const Time& time, const dictionary& dict)
+: time_(time),
+  grid_(readGrid(dict)),
+  header_(readHeader(dict, time)),
+  folder_(time.globalPath() / "postProcessing" / name / "segments"),
+  file_(
+      time.globalPath() / dict.lookupOrDefault<fileName>("file", "slurry.h5")),
+  sums_(grid_.size())
+{
+    sums_.begin = time.value();
+    if (Pstream::master())
+    {
+        mkDir(folder_);
+        dropLater();
+        for (const std::filesystem::path& path : files())
+        {
+            stopWith(untrapped([&] { read_segment(path, grid_); }));
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::averageSegments::add(
+    const VoxelSums& sample, const scalar slurry, const scalar from,
+    const scalar to)
+{
+    scalar begin = from;
+    while (begin < to - instant_)
+    {
+        const scalar windowEnds = windowEnd(begin);
+        const scalar end = min(to, windowEnds);
+        sums_.add(sample, slurry, end - begin);
+        if (windowEnds <= to + instant_)
+        {
+            close(windowEnds);
+        }
+        begin = end;
+    }
+}
+
+
+void Foam::averageSegments::keep()
+{
+    if (sums_.samples > 0)
+    {
+        close(time_.value());
+    }
+}
+
+
+void Foam::averageSegments::assemble() const
+{
+    if (Pstream::master())
+    {
+        stopWith(untrapped(
+            [&] { assemble_slurry(file_.c_str(), grid_, header_, files()); }));
+        Info << "Slurry on voxels: " << file_ << endl;
+    }
+}
+
+
+// ************************************************************************* //

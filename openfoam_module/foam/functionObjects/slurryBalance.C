@@ -1,0 +1,166 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryBalance.H"
+#include "addToRunTimeSelectionTable.H"
+#include "mixtureFluids.H"
+#include "weightedSpread.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+defineTypeNameAndDebug(slurryBalance, 0);
+addToRunTimeSelectionTable(functionObject, slurryBalance, dictionary);
+} // End namespace functionObjects
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::functionObjects::slurryBalance::begin()
+{
+    writeHeader(file(), "Slurry: balance, centre, torque about +z, slip");
+    writeCommented(file(), "Time_s");
+    for (const char* column :
+         {"holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3",
+          "missing_m3", "x_m", "y_m", "z_m"})
+    {
+        writeTabbed(file(), column);
+    }
+    for (const word& patch : torque_.names())
+    {
+        writeTabbed(file(), "torque_" + patch + "_Nm");
+    }
+    writeTabbed(file(), "torque_all_Nm");
+    writeTabbed(file(), "power_W");
+    if (fields_.bed<volScalarField>("solidity"))
+    {
+        for (const char* column : {"Re_mean", "Re_95", "slip_max_m/s"})
+        {
+            writeTabbed(file(), column);
+        }
+    }
+    file() << endl;
+}
+
+
+Foam::vector Foam::functionObjects::slurryBalance::centre() const
+{
+    const scalarField volumes(fields_.volumes());
+    return gSum((volumes * mesh_.C().primitiveField())()) /
+           max(gSum(volumes), VSMALL);
+}
+
+
+void Foam::functionObjects::slurryBalance::writeSlip()
+{
+    const scalarField& solidity =
+        fields_.bed<volScalarField>("solidity")->primitiveField();
+    const volVectorField* balls = fields_.bed<volVectorField>("solidsVelocity");
+    const volScalarField* diameter =
+        fields_.bed<volScalarField>("solidsDiameter");
+    const bedFluids fluids =
+        fluidsOf(mesh_.lookupObject<incompressibleTwoPhaseMixture>(
+            "transportProperties"));
+    const scalarField slip(
+        mag(balls->primitiveField() - fields_.U().primitiveField()));
+    const scalarField reynolds(
+        fluids.slurry.density * (1 - solidity) * slip *
+        diameter->primitiveField() / fluids.slurry.viscosity);
+    const scalarField weights(
+        solidity * mesh_.V() * pos(fields_.alpha().primitiveField() - 0.5));
+
+    const weightedSpread spread = spreadOf(reynolds, weights);
+    const weightedSpread slips = spreadOf(slip, weights);
+    file() << tab << spread.mean << tab << spread.high << tab << slips.largest;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::slurryBalance::slurryBalance(
+    const word& name, const Time& runTime, const dictionary& dict)
+: fvMeshFunctionObject(name, runTime, dict),
+  writeFile(mesh_, name, typeName, dict),
+  fields_(mesh_, dict),
+  torque_(fields_, dict),
+  holdUp_(gSum(fields_.volumes()())),
+  feed_(0),
+  discharge_(0),
+  firstHoldUp_(getProperty<scalar>("firstHoldUp", scalar(holdUp_))),
+  fed_(getProperty<scalar>("fed")),
+  discharged_(getProperty<scalar>("discharged")),
+  momentum_(torque_.momentum()),
+  torqueAll_(0)
+{
+    slurryFields::refuseOthers(dict, {"walls", "speed"});
+    begin();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::slurryBalance::execute()
+{
+    holdUp_ = gSum(fields_.volumes()());
+    feed_ = 0;
+    discharge_ = 0;
+    forAll(mesh_.boundary(), patchi)
+    {
+        if (!mesh_.boundary()[patchi].coupled())
+        {
+            const scalarField& flux = fields_.flux().boundaryField()[patchi];
+            feed_ -= sum(min(flux, scalar(0)));
+            discharge_ += sum(max(flux, scalar(0)));
+        }
+    }
+    reduce(feed_, sumOp<scalar>());
+    reduce(discharge_, sumOp<scalar>());
+
+    const scalar deltaT = mesh_.time().deltaTValue();
+    fed_ += deltaT * feed_;
+    discharged_ += deltaT * discharge_;
+    const scalar momentum = torque_.momentum();
+    torqueAll_ = (momentum - momentum_) / deltaT + torque_.drain();
+    momentum_ = momentum;
+
+    setProperty("firstHoldUp", firstHoldUp_);
+    setProperty("fed", fed_);
+    setProperty("discharged", discharged_);
+    return true;
+}
+
+
+bool Foam::functionObjects::slurryBalance::write()
+{
+    const vector middle(centre());
+    const scalarField walls(torque_.ofWalls());
+    const scalar missing = holdUp_ - firstHoldUp_ - fed_ + discharged_;
+
+    writeCurrentTime(file());
+    for (const scalar value :
+         {holdUp_, feed_, discharge_, fed_, discharged_, missing, middle.x(),
+          middle.y(), middle.z()})
+    {
+        file() << tab << value;
+    }
+    for (const scalar value : walls)
+    {
+        file() << tab << value;
+    }
+    file() << tab << torqueAll_ << tab << torqueAll_ * torque_.speed();
+    if (fields_.bed<volScalarField>("solidity"))
+    {
+        writeSlip();
+    }
+    file() << endl;
+    return true;
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,163 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryTorque.H"
+#include "turbulentTransportModel.H"
+#include "uniformDimensionedFields.H"
+#include "wallPolyPatch.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Numbers of the patches of these names; all walls without the entry
+static labelList
+wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
+{
+    if (!dict.found("walls"))
+    {
+        return patches.findPatchIDs<wallPolyPatch>().toc();
+    }
+    const wordRes names(dict.get<wordRes>("walls"));
+    const labelList found(patches.patchSet(names, false).sortedToc());
+    if (found.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "walls is " << names << ": no patch is called so, there are "
+            << patches.names() << exit(FatalIOError);
+    }
+    return found;
+}
+
+
+//- Angular speed of the mill about z, rad/s
+static scalar speedOf(const fvMesh& mesh, const dictionary& dict)
+{
+    const IOdictionary mill(IOobject(
+        "millProperties", mesh.time().constant(), mesh.time(),
+        IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
+    scalar speed = 0;
+    if (!dict.readIfPresent("speed", speed) &&
+        !mill.readIfPresent("omega", speed))
+    {
+        FatalIOErrorInFunction(dict)
+            << "neither the entry 'speed' nor omega of " << mill.objectPath()
+            << " gives the mill's angular speed, rad/s" << exit(FatalIOError);
+    }
+    return speed;
+}
+
+//- Component along z of the sum of moments
+static scalar moment(const vectorField& places, const vectorField& forces)
+{
+    return sum((places ^ forces)().component(vector::Z));
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::tmp<Foam::vectorField>
+Foam::slurryTorque::friction(const label patchi) const
+{
+    const fvMesh& mesh = fields_.mesh();
+    const fvPatch& patch = mesh.boundary()[patchi];
+    const auto& turbulence = mesh.lookupObject<incompressible::turbulenceModel>(
+        turbulenceModel::propertiesName);
+    const scalarField voidage(
+        fields_.displaced() ? mesh.lookupObject<volScalarField>("flowVoidage")
+                                  .boundaryField()[patchi]
+                                  .patchInternalField()
+                            : tmp<scalarField>::New(patch.size(), 1.0));
+    const scalarField density(
+        mesh.lookupObject<volScalarField>("rho").boundaryField()[patchi]);
+
+    const vectorField normal(patch.nf());
+    vectorField gradient(fields_.U().boundaryField()[patchi].snGrad());
+    gradient -= normal * (normal & gradient);
+    return voidage * density * turbulence.nuEff(patchi) * patch.magSf() *
+           gradient;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::slurryTorque::slurryTorque(
+    const slurryFields& fields, const dictionary& dict)
+: fields_(fields),
+  walls_(wallsOf(fields.mesh().boundaryMesh(), dict)),
+  speed_(speedOf(fields.mesh(), dict))
+{
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::wordList Foam::slurryTorque::names() const
+{
+    wordList result;
+    for (const label patchi : walls_)
+    {
+        result.append(fields_.mesh().boundary()[patchi].name());
+    }
+    return result;
+}
+
+
+Foam::scalarField Foam::slurryTorque::ofWalls() const
+{
+    scalarField result(walls_.size(), Zero);
+    forAll(walls_, i)
+    {
+        const fvPatch& patch = fields_.mesh().boundary()[walls_[i]];
+        const scalarField& p = fields_.p().boundaryField()[walls_[i]];
+        const vectorField force(friction(walls_[i]) - p * patch.Sf());
+        result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
+    }
+    return result;
+}
+
+
+Foam::scalar Foam::slurryTorque::momentum() const
+{
+    const fvMesh& mesh = fields_.mesh();
+    const scalarField& density =
+        mesh.lookupObject<volScalarField>("rho").primitiveField();
+    const scalar result = moment(
+        mesh.C().primitiveField(),
+        fields_.voidage() * mesh.V() * density * fields_.U().primitiveField());
+    return returnReduce(result, sumOp<scalar>());
+}
+
+
+Foam::scalar Foam::slurryTorque::drain() const
+{
+    const fvMesh& mesh = fields_.mesh();
+    const volScalarField& rho = mesh.lookupObject<volScalarField>("rho");
+    const auto& phi = mesh.lookupObject<surfaceScalarField>("phi");
+    const vector& g =
+        mesh.lookupObject<uniformDimensionedVectorField>("g").value();
+
+    scalar result = -moment(
+        mesh.C().primitiveField(),
+        fields_.voidage() * mesh.V() * rho.primitiveField() * g);
+    forAll(mesh.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh.boundary()[patchi];
+        if (!patch.coupled())
+        {
+            result += moment(
+                patch.Cf(), phi.boundaryField()[patchi] *
+                                rho.boundaryField()[patchi] *
+                                fields_.U().boundaryField()[patchi]);
+        }
+    }
+    return returnReduce(result, sumOp<scalar>());
+}
+
+
+// ************************************************************************* //

@@ -1,0 +1,149 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "voxelAverages.H"
+#include "addToRunTimeSelectionTable.H"
+#include "averagingMesh.H"
+#include "untrapped.H"
+
+using namespace millfoam::averaging;
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+defineTypeNameAndDebug(voxelAverages, 0);
+addToRunTimeSelectionTable(functionObject, voxelAverages, dictionary);
+} // End namespace functionObjects
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+std::optional<Eigen::Isometry3d>
+Foam::functionObjects::voxelAverages::place() const
+{
+    static_assert(sizeof(point) == 3 * sizeof(double), "points are doubles");
+    using Points = Eigen::Map<const Eigen::Matrix3Xd>;
+    const pointField& now = mesh_.points();
+    const Points from(made_.cdata()->cdata(), 3, made_.size());
+    const Points to(now.cdata()->cdata(), 3, now.size());
+
+    Eigen::Isometry3d motion;
+    motion.matrix() = Eigen::umeyama(from, to, false);
+    const scalar off =
+        ((motion.linear() * from).colwise() + motion.translation() - to)
+            .cwiseAbs()
+            .maxCoeff();
+    // Round-off of the points against the size of the mesh
+    const scalar size = to.cwiseAbs().maxCoeff();
+    return off < 1e-10 * size ? std::optional(motion) : std::nullopt;
+}
+
+
+VoxelSums Foam::functionObjects::voxelAverages::sample()
+{
+    const scalarField voidage(fields_.voidage());
+    const scalarField& alpha = fields_.alpha().primitiveField();
+    const vectorField& U = fields_.U().primitiveField();
+    const scalarField& p = fields_.p().primitiveField();
+    const scalarField& p_rgh = fields_.p_rgh().primitiveField();
+    std::vector<double> values;
+    values.reserve(alpha.size() * slurry_components);
+    forAll(alpha, celli)
+    {
+        const scalar slurry = voidage[celli] * alpha[celli];
+        const vector flux(slurry * U[celli]);
+        values.insert(
+            values.end(), {slurry, voidage[celli], flux.x(), flux.y(), flux.z(),
+                           slurry * p[celli], slurry * p_rgh[celli]});
+    }
+
+    VoxelSums sums(segments_.grid().size(), slurry_components);
+    const auto reason = untrapped(
+        [&]
+        {
+            std::optional<Eigen::Isometry3d> motion;
+            if (cells_)
+            {
+                motion = place();
+            }
+            if (!motion)
+            {
+                const MeshGeometry geometry(
+                    averagingTopology(
+                        mesh_.nPoints(), mesh_.nCells(), mesh_.faces(),
+                        mesh_.faceOwner(), mesh_.faceNeighbour()),
+                    averagingPoints(mesh_.points()));
+                cells_ = std::make_unique<CellPoints>(geometry, divisions_);
+                made_ = mesh_.points();
+                motion = Eigen::Isometry3d::Identity();
+            }
+            cells_->deposit(segments_.grid(), *motion, values, sums);
+        });
+    if (reason)
+    {
+        FatalErrorInFunction << reason->c_str() << exit(FatalError);
+    }
+    return sums;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::voxelAverages::voxelAverages(
+    const word& name, const Time& runTime, const dictionary& dict)
+: fvMeshFunctionObject(name, runTime, dict),
+  fields_(mesh_, dict),
+  segments_(name, runTime, dict),
+  interval_(dict.lookupOrDefault<scalar>("interval", 0)),
+  divisions_(dict.lookupOrDefault<label>("divisions", 1)),
+  last_(runTime.value())
+{
+    slurryFields::refuseOthers(
+        dict, {"lower", "upper", "shape", "periodic", "window", "start",
+               "interval", "divisions", "file"});
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::voxelAverages::execute()
+{
+    const scalar now = mesh_.time().value();
+    const bool written = mesh_.time().writeTime();
+    // A time-step more would go beyond the interval
+    const bool due =
+        now - last_ + 0.5 * mesh_.time().deltaTValue() >= interval_;
+    if (now > last_ && (written || due))
+    {
+        segments_.add(sample(), sum(fields_.volumes()()), last_, now);
+        last_ = now;
+    }
+    if (written)
+    {
+        segments_.keep();
+    }
+    return true;
+}
+
+
+bool Foam::functionObjects::voxelAverages::write()
+{
+    return true;
+}
+
+
+bool Foam::functionObjects::voxelAverages::end()
+{
+    segments_.keep();
+    segments_.assemble();
+    return true;
+}
+
+
+// ************************************************************************* //
