@@ -120,6 +120,7 @@ Foam::functionObjects::axialProfiles::axialProfiles(
     writeFile::read(dict);
     place(dict);
     open();
+    strict_.relax();
 }
 
 

@@ -100,6 +100,7 @@ Foam::functionObjects::slurryBalance::slurryBalance(
 {
     slurryFields::refuseOthers(dict, {"walls", "speed"});
     begin();
+    strict_.relax();
 }
 
 

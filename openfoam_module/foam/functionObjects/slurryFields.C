@@ -16,7 +16,7 @@ const FieldType& Foam::slurryFields::find(const word& name) const
     {
         FatalErrorInFunction
             << "the flow has no " << FieldType::typeName << " '" << name
-            << "', it has " << mesh_.sortedNames<FieldType>()
+            << "', it has " << flatOutput(mesh_.sortedNames<FieldType>())
             << "; give the right name by the entries phase, U, p or p_rgh"
             << exit(FatalError);
     }
@@ -84,7 +84,12 @@ const Foam::volScalarField& Foam::slurryFields::p_rgh() const
 
 const Foam::surfaceScalarField& Foam::slurryFields::flux() const
 {
-    return find<surfaceScalarField>(IOobject::groupName("alphaPhi", phase_));
+    // interFoam's, or slurryFoam's
+    const word inter(IOobject::groupName("alphaPhi0", phase_));
+    return find<surfaceScalarField>(
+        mesh_.foundObject<surfaceScalarField>(inter)
+            ? inter
+            : IOobject::groupName("alphaPhi", phase_));
 }
 
 

@@ -107,6 +107,7 @@ Foam::functionObjects::voxelAverages::voxelAverages(
     slurryFields::refuseOthers(
         dict, {"lower", "upper", "shape", "periodic", "window", "start",
                "interval", "divisions", "file"});
+    strict_.relax();
 }
 
 

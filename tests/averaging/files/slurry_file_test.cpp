@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/files/slurry_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "averaging/files/hdf5_file.hpp"
+#include "averaging/files/hdf5_io.hpp"
+#include "tests/averaging/test_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+/// Two voxels of 1 m^3 along x.
+const BoxGrid two_voxels({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+
+/// A sample in which the first voxel is in the mill and has this share of slurry at this speed along x,
+/// between balls that leave 0.8 of the space; the second voxel has 0.5 m^3 in the mill and no slurry.
+VoxelSums sample_of(double share, double speed) {
+  VoxelSums sums(2, slurry_components);
+  sums.volume = {1, 0.5};
+  const double pressure = 100, head = 40;
+  sums.values = {share, 0.8, share * speed, 0, 0, share * pressure, share * head, 0, 0.4, 0, 0, 0, 0, 0};
+  return sums;
+}
+
+/// A stretch of a flow with that sample.
+SlurrySegment stretch(double begin, double end, double share, double speed) {
+  SlurrySegment segment(2);
+  segment.begin = begin;
+  segment.end = end;
+  segment.add(sample_of(share, speed), share, end - begin);
+  return segment;
+}
+
+struct SlurryFile : ::testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path whole = folder / "slurry.h5";
+
+  std::filesystem::path write(const std::string& name, const SlurrySegment& segment) const {
+    write_segment(folder / name, two_voxels, segment);
+    return folder / name;
+  }
+
+  /// A data set of the whole file holds these values, C order.
+  void expect(const std::string& name, const std::vector<double>& values) const {
+    const hdf5::Handle file = hdf5::open_file(whole);
+    const std::vector<double> found = hdf5::read_all(file.get(), name);
+    ASSERT_EQ(found.size(), values.size()) << name;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      EXPECT_NEAR(found[i], values[i], 1e-14 * (1 + std::abs(values[i]))) << name << ", entry " << i;
+    }
+  }
+};
+
+TEST_F(SlurryFile, SegmentIsReadBackAsItWas) {
+  const SlurrySegment segment = stretch(0.25, 0.5, 0.3, 2);
+  const SlurrySegment read = read_segment(write("a.h5", segment), two_voxels);
+  EXPECT_EQ(read.begin, 0.25);
+  EXPECT_EQ(read.end, 0.5);
+  EXPECT_EQ(read.samples, 1);
+  EXPECT_EQ(read.slurry, segment.slurry);
+  EXPECT_EQ(read.volume, segment.volume);
+  EXPECT_EQ(read.components, segment.components);
+}
+
+TEST_F(SlurryFile, WindowsAreMeansWeightedByTimeAndTheirVelocityBySlurry) {
+  // Half of the first window has a share of 0.2 at 1 m/s, half 0.6 at 3 m/s
+  const SlurryHeader header{1.5, 1.0, 1.0};
+  assemble_slurry(whole, two_voxels, header,
+                  {write("a.h5", stretch(0, 0.5, 0.2, 1)), write("b.h5", stretch(0.5, 1, 0.6, 3)),
+                   write("c.h5", stretch(1, 2, 0.1, 7))});
+  expect("slurry", {0.4, 0.0, 0.1, 0.0});
+  expect("voidage", {0.8, 0.8, 0.8, 0.8});
+  expect("velocity", {2.5, 0., 0., 0., 0., 0., 7., 0., 0., 0., 0., 0.});
+  expect("pressure", {100., 0., 100., 0.});
+  expect("p_rgh", {40., 0., 40., 0.});
+  expect("grid/insideFraction", {1., 0.5, 1., 0.5});
+  expect("window/begin", {1.5, 2.5});
+  expect("window/samples", {2, 1});
+  expect("ledger/volume_in", {0.4, 0.1});
+  expect("ledger/outside", {0., 0.});
+}
+
+TEST_F(SlurryFile, MeanOverTheRunBeginsWhereItIsAsked) {
+  assemble_slurry(whole, two_voxels, {0, 1.0, 1.0},
+                  {write("a.h5", stretch(0, 1, 0.2, 1)), write("b.h5", stretch(1, 2, 0.6, 3)),
+                   write("c.h5", stretch(2, 3, 0.2, 7))});
+  expect("mean/slurry", {0.4, 0.0});
+  expect("mean/velocity", {4., 0., 0., 0., 0., 0.});
+}
+
+TEST_F(SlurryFile, WindowsThatAreNotFilledAreMarked) {
+  assemble_slurry(whole, two_voxels, {0, 1.0, 0},
+                  {write("a.h5", stretch(0.25, 1, 0.2, 1)), write("b.h5", stretch(1, 1.5, 0.6, 3))});
+  expect("window/starts_late", {1, 0});
+  expect("window/ends_short", {0, 1});
+}
+
+TEST_F(SlurryFile, WhatLiesBeyondTheBoxIsTold) {
+  SlurrySegment segment = stretch(0, 1, 0.2, 1);
+  segment.slurry = 0.25;
+  assemble_slurry(whole, two_voxels, {0, 1.0, 0}, {write("a.h5", segment)});
+  expect("ledger/deposited", {0.2});
+  expect("ledger/outside", {0.05});
+}
+
+TEST_F(SlurryFile, ParaViewFindsTheWindows) {
+  assemble_slurry(whole, two_voxels, {2, 1.0, 0}, {write("a.h5", stretch(0, 1, 0.2, 1))});
+  std::ifstream file(folder / "slurry.xdmf");
+  std::stringstream text;
+  text << file.rdbuf();
+  EXPECT_NE(text.str().find("<Time Value=\"2\"/>"), std::string::npos);
+  EXPECT_NE(text.str().find("slurry.h5:/velocity"), std::string::npos);
+}
+
+TEST_F(SlurryFile, SegmentsOfOtherGridsAndWindowsAreRefused) {
+  const auto segment = write("a.h5", stretch(0, 1, 0.2, 1));
+  const BoxGrid other({0, 0, 0}, {2, 1, 1}, {1, 2, 1});
+  EXPECT_NE(message_of<SlurryFileError>([&] { read_segment(segment, other); }).find("another grid"),
+            std::string::npos);
+  EXPECT_NE(message_of<SlurryFileError>([&] {
+              assemble_slurry(whole, two_voxels, {0, 0.4, 0}, {segment});
+            }).find("lies in two windows"),
+            std::string::npos);
+  EXPECT_NE(message_of<SlurryFileError>([&] {
+              assemble_slurry(whole, two_voxels, {0, 1, 0}, {});
+            }).find("nothing was averaged"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(whole));
+}
+
+TEST_F(SlurryFile, AFileThatIsCutShortIsRefusedByName) {
+  const auto segment = write("a.h5", stretch(0, 1, 0.2, 1));
+  std::filesystem::resize_file(segment, std::filesystem::file_size(segment) / 2);
+  EXPECT_NE(message_of<SlurryFileError>([&] { read_segment(segment, two_voxels); }).find("a.h5"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace millfoam::averaging

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same after a
+restart and on two ranks, and what cannot be is refused."""
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from millfoam import foam
+from millfoam.mill_flow import MillFlow
+from millfoam.run import RunError, run
+from millfoam.tables import read_columns, read_table
+from mill_run_test import replace
+from slurry_case import SLURRY, SlurryTest
+
+CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
+FEED, HALF, END, WINDOW = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s
+OBJECTS = f"""
+functions
+{{
+    slurryBalance {{ type slurryBalance; libs ("libmillFoam.so"); writePrecision 14; }}
+    axialProfiles {{ type axialProfiles; libs ("libmillFoam.so"); slices 13; ends (0 0.338); writePrecision 14; }}
+    voxelAverages
+    {{
+        type voxelAverages; libs ("libmillFoam.so");
+        lower (-0.15 -0.15 0); upper (0.15 0.15 0.338); shape (30 30 13);
+        window {WINDOW}; start {WINDOW}; interval 0.001;
+    }}
+}}
+"""
+FIELDS = ("slurry", "voidage", "velocity", "pressure", "p_rgh", "grid/insideFraction", "window/begin", "window/end",
+          "ledger/volume_in", "mean/slurry", "mean/velocity")
+
+
+def end_at(case, end):
+    replace(case / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {end}"))
+
+
+class FedMill(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="function-objects-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.case = cls.folder / "whole"
+        for part in ("system", "constant", "0.orig"):
+            shutil.copytree(CASE / part, cls.case / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
+        shutil.copy(CASE / "mill.yaml", cls.case)
+        replace(cls.case / "mill.yaml", (r"counts: .*", "counts: {gap: 2, lifter: 1, height: 1, ring: 10}"),
+                (r"^  layers: \d+", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2"))
+        control = cls.case / "system" / "controlDict"
+        replace(control, (r"^writeInterval +[^;]+", f"writeInterval {HALF}"), (r"^writePrecision +\d+", "writePrecision 17"))
+        control.write_text(control.read_text().split("functions")[0] + OBJECTS)
+        (cls.case / "constant" / "operation").write_text(f"feedRate {FEED};\nlaw none;\n")
+        (cls.case / "constant" / "bedProperties").unlink()
+        shutil.copytree(cls.case / "0.orig", cls.case / "0")
+        run(cls.case, "millMesh", "mill.yaml", "--case", ".")
+        run(cls.case, "slurryStart")
+        end_at(cls.case, END)
+        cls.split = cls.folder / "ranks"
+        shutil.copytree(cls.case, cls.split)
+        run(cls.case, "slurryFoam")
+        cls.columns = read_columns(cls.case, "slurryBalance")
+
+    def test_slurry_is_balanced(self):
+        told = self.columns
+        # A little slurry may come back at the outlet for a step
+        np.testing.assert_allclose(told["feed"], FEED, rtol=1e-4)
+        np.testing.assert_allclose(told["fed"], FEED * told["Time"], rtol=1e-4)
+        self.assertLess(np.abs(told["missing"]).max(), 1e-9 * told["holdUp"][0])
+
+    def test_hold_up_is_that_of_the_written_fields(self):
+        flow = MillFlow(self.case)
+        time, path = flow.frames[-1]
+        volumes = flow.slurry(path)
+        self.assertAlmostEqual(volumes.sum() / self.columns["holdUp"][-1], 1, delta=1e-9)
+        for axis, value in zip("xy", flow.slurry_centroid(time, path)):
+            self.assertAlmostEqual(value, self.columns[axis][-1], delta=1e-7)
+
+    def test_a_mill_has_to_be_driven(self):
+        self.assertTrue(np.all(self.columns["power"][self.columns["Time"] > 0.004] > 0))
+
+    def test_slices_add_up_to_the_hold_up(self):
+        _, holdup = read_table(self.case, "axialProfiles", "holdUp")
+        _, height = read_table(self.case, "axialProfiles", "height")
+        np.testing.assert_allclose(holdup[:, 1:].sum(axis=1), self.columns["holdUp"], rtol=1e-10)
+        np.testing.assert_allclose((holdup * height)[:, 1:].sum(axis=1) / holdup[:, 1:].sum(axis=1), self.columns["y"], rtol=1e-8)
+
+    def test_voxels_hold_what_the_cells_hold(self):
+        with h5py.File(self.case / "slurry.h5") as file:
+            self.assertEqual(file.attrs["complete"], 1)
+            np.testing.assert_allclose(file["window/begin"][:], [0, WINDOW, 2 * WINDOW], atol=1e-9)
+            self.assertEqual(list(file["window/ends_short"][:]), [0, 0, 1])
+            voxel = 0.3 * 0.3 * 0.338 / (30 * 30 * 13)
+            inside = file["grid/insideFraction"][:] * voxel
+            slurry = (inside * file["slurry"][:]).sum(axis=(1, 2, 3))
+            np.testing.assert_allclose(slurry, file["ledger/volume_in"][:], rtol=1e-6)
+            np.testing.assert_allclose(inside.sum(axis=(1, 2, 3)), MillFlow(self.case).volumes.sum(), rtol=1e-6)
+            self.assertAlmostEqual(slurry[0] / self.columns["holdUp"][0], 1, delta=1e-3)
+            y = -0.15 + 0.01 * (np.arange(30) + 0.5)
+            height = (inside * file["slurry"][:] * y[:, None]).sum(axis=(1, 2, 3)) / slurry
+            for k, time in enumerate((0.004, 0.012, 0.018)):
+                self.assertAlmostEqual(height[k], np.interp(time, self.columns["Time"], self.columns["y"]), delta=2e-4)
+
+    def assert_same(self, case, rtol):
+        """Tables and averages of a case are those of the whole run; velocities on the scale of the mill's speed."""
+        columns = read_columns(case, "slurryBalance")
+        for name in ("holdUp", "fed", "x", "y", "z"):
+            np.testing.assert_allclose(np.interp(columns["Time"], self.columns["Time"], self.columns[name]), columns[name],
+                                       rtol=rtol, atol=1e-9, err_msg=name)
+        self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
+        with h5py.File(case / "slurry.h5") as found, h5py.File(self.case / "slurry.h5") as expected:
+            for name in FIELDS:
+                self.assertEqual(found[name].shape, expected[name].shape)
+                a, b = self.weighted(found, name), self.weighted(expected, name)
+                np.testing.assert_allclose(a, b, atol=rtol * np.abs(b).max(), rtol=0, err_msg=name)
+
+    @staticmethod
+    def weighted(file, name):
+        """A field; velocity and pressure times the share of slurry: of a film next to nothing can be said."""
+        values = file[name][()]
+        folder, _, field = name.rpartition("/")
+        if field in ("velocity", "pressure", "p_rgh"):
+            share = file[f"{folder}/slurry".lstrip("/")][()]
+            values = values * (share[..., None] if field == "velocity" else share)
+        return values
+
+    def test_a_restart_changes_nothing(self):
+        case = self.folder / "restart"
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*"))
+        shutil.rmtree(case / f"{END:g}")
+        run(case, "slurryFoam")
+        self.assert_same(case, 1e-9)
+
+    def test_two_ranks_give_the_same(self):
+        (self.split / "system" / "decomposeParDict").write_text(
+            "FoamFile { version 2; format ascii; class dictionary; object decomposeParDict; }\n"
+            "numberOfSubdomains 2; method simple; simpleCoeffs { n (1 1 2); delta 0.001; }\n")
+        run(self.split, "decomposePar")
+        run(self.split, "mpirun", "-np", 2, "slurryFoam", "-parallel")
+        self.assert_same(self.split, 1e-3)
+
+    def refused(self, pattern, new):
+        case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("0.*[0-9]"))
+        replace(case / "system" / "controlDict", (pattern, new))
+        with self.assertRaises(RunError) as caught:
+            run(case, "slurryFoam")
+        return str(caught.exception)
+
+    def test_what_cannot_be_is_refused(self):
+        for pattern, new, words in (
+                (r"interval 0.001;", "intervall 0.001;", "intervall"),
+                (r"window 0.008;", "window 0;", "above 0"),
+                (r"shape \(30 30 13\)", "shape (30 0 13)", "shape"),
+                (r"slices 13;", "slices 0;", "one or more"),
+                (r"type slurryBalance;", "type slurryBalance; phase mud;", "alpha.mud"),
+                (r"type slurryBalance;", "type slurryBalance; walls (shel);", "shel"),
+                (r"shape \(30 30 13\)", "shape (20 30 13)", "another grid")):
+            self.assertIn(words, self.refused(pattern, new))
+
+
+class InABox(SlurryTest):
+    def told(self, case):
+        """Columns of a balance in a run of the case."""
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text() + """
+            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed 1; writePrecision 12; } }""")
+        self.assert_runs(case, "slurryFoam")
+        return read_columns(case.path, "slurryBalance")
+
+    def test_without_balls_the_walls_give_all_the_torque(self):
+        told = self.told(self.slurry_case(end_time=0.1))
+        walls = sum(values for name, values in told.items() if name.startswith("torque_") and name != "torque_all")
+        late = told["Time"] > 0.02  # the impulsive start is over
+        np.testing.assert_allclose(walls[late], told["torque_all"][late], rtol=0.02)
+        # A pool that sloshes: its weight's moment is no more than near
+        weight = SLURRY * told["holdUp"] * 9.81 * told["x"]
+        self.assertGreater(np.abs(told["torque_all"][late] / weight[late] - 1).max(), 0.01)
+
+    def test_slip_is_that_of_the_written_fields(self):
+        case = self.slurry_case(end_time=0.01)
+        case.bed("block { box (-1 -1 -1) (1 0.03 1); edge 0.02; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; "
+                 "velocity (0.2 0 0); }")
+        told = self.told(case)
+        time = case.path / "0.01"
+        cells = int(np.prod(case.shape))
+        phi, alpha, d = (foam.read_field(time / name, cells) for name in ("solidity", "alpha.slurry", "solidsDiameter"))
+        slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells), axis=1)
+        wet = (alpha > 0.5) & (phi > 0)
+        reynolds = SLURRY * (1 - phi) * slip * d / 1.4e-3
+        self.assertAlmostEqual(told["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
+        self.assertAlmostEqual(told["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]), delta=1e-6 * reynolds.max())
+
+
+if __name__ == "__main__":
+    unittest.main()
