@@ -76,7 +76,7 @@ def plot_maps(flow, solids, begin, out):
     panels = [
         (1e3 * solids.x, 1e3 * solids.y, charge, SOLIDITY, (0, 0.65), "charge: solidity, –"),
         (1e3 * solids.x, 1e3 * solids.y, masked_speed, SPEED, (0, top), "charge: speed, m/s"),
-        (edges, edges, share, SLURRY, (0, 1), "slurry: share of the volume, –"),
+        (edges, edges, share, SLURRY, (0, 1), "slurry: share of the fluid, –"),
         (edges, edges, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),
     ]
     for axis, (ex, ey, values, colours, limits, title) in zip(axes.flat, panels):

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, logs."""
+import re
+from functools import cached_property
+from pathlib import Path
+
+import h5py
+import numpy as np
+import yaml
+
+from .. import solids, tables
+from ..axial import slurry_volumes
+from ..dry_runs import read_results
+from ..mill_flow import MillFlow
+
+
+class NoMill(RuntimeError):
+    """A folder that is no mill's case; the message says what was looked for."""
+
+
+class MillCase:
+    """A mill's run in a folder; parts that are not there are None.
+
+    begin: flow time from which averages are taken, s; None: 2 s, or half of a flow of 3 s or less. A dry run is averaged
+    from the same time of its own, or from when it is steady."""
+
+    def __init__(self, folder, begin=None):
+        self.folder = Path(folder)
+        self.asked_begin = begin
+        path = self.folder / "mill.yaml"
+        if not path.is_file():
+            raise NoMill(f"{self.folder}: no mill.yaml; expected the folder of a mill's case that was run")
+        self.mill_text = path.read_text()
+        self.mill = yaml.safe_load(self.mill_text)
+        if self.flow is None and self.solids is None and self.dry is None:
+            raise NoMill(f"{self.folder}: neither a flow (times with alpha.slurry), nor solids.h5, nor dumps/results.txt; "
+                         "has the case run to its end?")
+
+    @property
+    def name(self):
+        return self.folder.resolve().name
+
+    @property
+    def radius(self):
+        return self.mill["geometry"]["diameter"] / 2
+
+    @cached_property
+    def length(self):
+        return self.flow.length if self.flow else self.mill["geometry"]["length"]
+
+    @cached_property
+    def omega(self):
+        """Angular speed about z, right-handed, rad/s."""
+        if self.flow:
+            return self.flow.omega
+        run_file = self.dry / "run.txt" if self.dry else None
+        if run_file and run_file.is_file():
+            return float(read_results(run_file)["angular_velocity"])
+        speed = self.mill["speed"]
+        magnitude = speed.get("angular_velocity") or speed["fraction_of_critical"] * np.sqrt(9.81 / self.radius)
+        return -magnitude if speed.get("sense", "clockwise") == "clockwise" else magnitude
+
+    # The charge
+
+    @cached_property
+    def solids(self):
+        """solids.h5, with links followed."""
+        path = self.folder / "solids.h5"
+        return path.resolve() if path.is_file() else None
+
+    @cached_property
+    def dry(self):
+        """The folder of the dry run's results."""
+        places = [self.folder / "dumps"] + ([self.solids.parent / "dumps"] if self.solids else [])
+        return next((place for place in places if (place / "results.txt").is_file()), None)
+
+    @cached_property
+    def results(self):
+        """results.txt of the dry run: name -> text."""
+        return read_results(self.dry / "results.txt") if self.dry else None
+
+    @cached_property
+    def energy(self):
+        """energy.csv of the dry run: column -> values over its records."""
+        if not self.dry or not (self.dry / "energy.csv").is_file():
+            return None
+        path = self.dry / "energy.csv"
+        names = path.read_text().split("\n", 1)[0].split(",")
+        return dict(zip(names, np.loadtxt(path, delimiter=",", skiprows=1, unpack=True, ndmin=2)))
+
+    @cached_property
+    def overlaps(self):
+        """overlaps.csv: overlap (m), contacts of balls, contacts with walls."""
+        path = self.dry / "overlaps.csv" if self.dry else None
+        return np.loadtxt(path, delimiter=",", skiprows=1, unpack=True, ndmin=2) if path and path.is_file() else None
+
+    @cached_property
+    def charge_span(self):
+        """DEM times between which the charge is averaged, s."""
+        with h5py.File(self.solids) as file:
+            first, last = file["window/begin"][0], file["window/end"][-1]
+        if self.flow:
+            return self.flow.time0 + self.begin, min(last, self.flow.time0 + self.last)
+        if self.asked_begin is not None:
+            return self.asked_begin, last
+        steady = float(self.results.get("steady_from", 0)) if self.results else 0
+        return min(max(first, steady, 2.0 if last > 3 else 0), (first + last) / 2), last
+
+    @cached_property
+    def charge(self):
+        """SolidsMap of the charge over charge_span."""
+        return solids.read_map(self.solids, *self.charge_span) if self.solids else None
+
+    # The flow
+
+    @cached_property
+    def flow(self):
+        if not (self.folder / "constant" / "millProperties").is_file():
+            return None
+        try:
+            return MillFlow(self.folder)
+        except RuntimeError:
+            return None
+
+    @cached_property
+    def last(self):
+        """Flow time of the last written fields, s."""
+        return self.flow.frames[-1][0]
+
+    @cached_property
+    def begin(self):
+        if self.asked_begin is not None:
+            return self.asked_begin
+        return 2.0 if self.last > 3 else self.last / 2
+
+    @cached_property
+    def balance(self):
+        """Columns of slurryBalance."""
+        return self._table(lambda: tables.read_columns(self.folder, "slurryBalance"))
+
+    def axial(self, quantity):
+        """Places (m) [slices], times (s) [n] and values [n, slices] of axialProfiles, or None."""
+        found = self._table(lambda: tables.read_table(self.folder, "axialProfiles", quantity))
+        if found is None:
+            return None
+        names, rows = found
+        return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
+
+    @staticmethod
+    def _table(read):
+        try:
+            return read()
+        except tables.TableError:
+            return None
+
+    @cached_property
+    def slurry(self):
+        """slurry.h5, where it is whole."""
+        path = self.folder / "slurry.h5"
+        if not path.is_file():
+            return None
+        with h5py.File(path) as file:
+            return path if file.attrs.get("complete", 0) == 1 else None
+
+    @cached_property
+    def feed(self):
+        """Feed rate that was asked for, m3/s, or None."""
+        path = self.folder / "constant" / "operation"
+        found = re.search(r"feedRate\s+([^;\s]+)", path.read_text()) if path.is_file() else None
+        return float(found.group(1)) if found else None
+
+    @cached_property
+    def law(self):
+        """The drag law's name, or None without balls."""
+        path = self.folder / "constant" / "bedProperties"
+        found = re.search(r"^Drag: (\w+)", self.log("flow"), re.M)
+        if found:
+            return found.group(1)
+        found = re.search(r"^\s*law\s+(\w+);", path.read_text(), re.M) if path.is_file() else None
+        return found.group(1) if found else None
+
+    @cached_property
+    def logged_volumes(self):
+        """Times and slurry volumes by the flow's log."""
+        return slurry_volumes(self.log("flow"))
+
+    @cached_property
+    def _logs(self):
+        return {}
+
+    def log(self, name):
+        """Text of log.NAME, after what was kept of it before a restart; of the charge's stages where that was made. Empty where
+        there is none."""
+        if name not in self._logs:
+            folders = [self.folder] + ([self.solids.parent] if self.solids else [])
+            places = [[folder / f"log.{name}{end}" for end in (".before", "")] for folder in folders]
+            found = next(([p for p in pair if p.is_file()] for pair in places if any(p.is_file() for p in pair)), [])
+            self._logs[name] = "".join(path.read_text(errors="replace") for path in found)
+        return self._logs[name]
+
+    def summary(self):
+        """One line: what was run."""
+        geometry, speed = self.mill["geometry"], self.mill["speed"]
+        share = abs(self.omega) / np.sqrt(9.81 / self.radius)
+        words = [f"{1e3 * geometry['diameter']:.0f} × {1e3 * geometry['length']:.0f} mm",
+                 f"{100 * speed.get('fraction_of_critical', share):.0f} % of critical ({abs(self.omega):.2f} rad/s)"]
+        if self.results:
+            words.append(f"{int(self.results['balls'])} balls")
+        if self.flow:
+            words.append(f"slurry {self.mill['slurry']['density']:.0f} kg/m³")
+            words.append(f"drag: {self.law}" if self.law else "no balls in the flow")
+        return ", ".join(words)

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads slurry.h5, a flow's slurry on voxels (layout: averaging/README.md)."""
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+
+@dataclass
+class SlurryMap:
+    """Slurry averaged over the axis and over time, on the box's x-y voxels.
+
+    x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill; share [ny, nx], of the
+    fluid (what balls leave) that is slurry, NaN outside the mill; holdup [ny, nx], of the mill's space that is slurry;
+    velocity [ny, nx, 3] (m/s) and pressure [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
+    x: np.ndarray
+    y: np.ndarray
+    inside: np.ndarray
+    share: np.ndarray
+    holdup: np.ndarray
+    velocity: np.ndarray
+    pressure: np.ndarray
+    begin: float
+    end: float
+
+    def centroid(self):
+        """Centre (x, y) of the slurry's volume, m."""
+        x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+        volume = self.holdup * self.inside
+        return float((volume.sum(axis=0) * x).sum() / volume.sum()), float((volume.sum(axis=1) * y).sum() / volume.sum())
+
+
+def read_slurry_map(path, begin=None, end=None, length=np.inf):
+    """Mean over the axis up to z = length (m) and over the windows that lie in [begin, end) of DEM time; of all that the file's
+    own mean over the run takes where no times are given. RuntimeError for a file that is not whole or times without a window."""
+    with h5py.File(path, "r") as file:
+        if file.attrs.get("complete", 0) != 1:
+            raise RuntimeError(f"{path}: not complete; let the flow run to its end")
+        grid = file["grid"]
+        lower, upper, shape = (np.asarray(grid.attrs[name]) for name in ("lower", "upper", "shape"))
+        if begin is None and end is None:
+            if "mean" not in file:
+                raise RuntimeError(f"{path}: no mean over the run: the flow ended before its averages' start")
+            means = [(file["mean"], ())]
+            inside_of = [file["mean/insideFraction"][()]]
+            span = tuple(float(file["mean"].attrs[name]) for name in ("begin", "end"))
+        else:
+            begins, ends = file["window/begin"][:], file["window/end"][:]
+            slack = 1e-6 * file.attrs["window"]
+            chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= (np.inf if end is None else end) + slack))
+            if len(chosen) == 0:
+                raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
+            means = [(file, window) for window in chosen]
+            inside_of = (grid["insideFraction"][window] for window in chosen)
+            span = float(begins[chosen[0]]), float(ends[chosen[-1]])
+        z = lower[2] + (np.arange(shape[2]) + 0.5) * (upper[2] - lower[2]) / shape[2]
+        return _over_axis(means, inside_of, z < length, [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)],
+                          span)
+
+
+def _over_axis(means, inside_of, layers, edges, span):
+    """The SlurryMap of sums over the chosen layers of (group, row) pairs of an open file."""
+    room = slurry = fluid = flux = head = 0.0
+    for (group, row), inside in zip(means, inside_of):
+        part = inside[layers]
+        held = part * group["slurry"][row][layers]
+        room = room + part.sum(axis=0)
+        slurry = slurry + held.sum(axis=0)
+        fluid = fluid + (part * group["voidage"][row][layers]).sum(axis=0)
+        flux = flux + (held[..., None] * group["velocity"][row][layers]).sum(axis=0)
+        head = head + (held * group["pressure"][row][layers]).sum(axis=0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        enough = slurry > 1e-6 * room.max()
+        return SlurryMap(*edges, room / (layers.sum() * len(means)), np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
+                         np.where(room > 0, slurry / room, 0.0), np.where(enough[..., None], flux / slurry[..., None], np.nan),
+                         np.where(enough, head / slurry, np.nan), *span)
