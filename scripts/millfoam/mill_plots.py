@@ -18,9 +18,14 @@ def draw_mill(axis, flow, time):
     """The mill's outline at flow time `time` and an arrow for its sense of rotation; axes in mm."""
     outline = 1e3 * flow.turned(flow.outline(), time)
     axis.plot(*outline.T, color="0.15", lw=1.2)
-    radius = 1e3 * flow.radius
-    start = np.radians(60 if flow.omega < 0 else 30)
-    end = np.radians(30 if flow.omega < 0 else 60)
+    draw_sense(axis, flow.radius, flow.omega)
+
+
+def draw_sense(axis, radius, omega):
+    """An arrow for the sense of rotation at `omega` (rad/s) of a mill of `radius` (m), and the axes' limits in mm."""
+    radius = 1e3 * radius
+    start = np.radians(60 if omega < 0 else 30)
+    end = np.radians(30 if omega < 0 else 60)
     arc = 1.09 * radius * np.array([[np.cos(a), np.sin(a)] for a in np.linspace(start, end, 20)])
     axis.plot(*arc[:-1].T, color="0.15", lw=1.5)
     axis.annotate("", arc[-1], arc[-4], arrowprops={"arrowstyle": "-|>", "color": "0.15", "lw": 1.5})
@@ -112,7 +117,7 @@ def mean_load(flow, begin):
         return x, y, np.where(solidity > 0.02 * frames, weighted / solidity, np.nan)
 
 
-def plot_load(flow, begin, out):
+def load_figure(flow, begin):
     """Map of the one-way verdict: where the fluid's force on the balls nears their weight."""
     x, y, ratio = mean_load(flow, begin)
     mean, high = flow.load(begin)
@@ -125,7 +130,12 @@ def plot_load(flow, begin, out):
     draw_mill(axis, flow, flow.frames[-1][0])
     axis.set_title(f"mean over the balls {mean:.2f}, 95 % below {high:.2f}\n"
                    f"flow time {begin:.3g} to {flow.frames[-1][0]:.3g} s", fontsize=10)
-    figure.savefig(out, dpi=110)
+    return figure
+
+
+def save(figure, out, dpi=110):
+    """Writes a figure to a file and closes it."""
+    figure.savefig(out, dpi=dpi)
     plt.close(figure)
 
 
@@ -162,16 +172,33 @@ def plot_strip(flow, out, count=6):
     plt.close(figure)
 
 
+def frame_figure(flow, time, path, ends=None):
+    """Figure of the slurry at a written time; `ends`: what flow.end_wall() gives, for many frames."""
+    figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
+    patches = draw_frame(axis, flow, time, path, *(ends or flow.end_wall()))
+    figure.colorbar(patches, ax=axis, shrink=0.8, label="slurry share over the axis, –")
+    return figure
+
+
+def charge_figure(charge, radius, omega):
+    """Figure of a SolidsMap's solidity in the circle of a mill of `radius` (m) that turns at `omega` (rad/s)."""
+    figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
+    solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
+    image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
+    figure.colorbar(image, ax=axis, shrink=0.85, label="solidity over the axis, –")
+    turn = np.linspace(0, 2 * np.pi, 361)
+    axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="0.15", lw=1.2)
+    draw_sense(axis, radius, omega)
+    axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10)
+    return figure
+
+
 def animate(flow, out):
     """The frames as an endless GIF."""
-    quads, columns = flow.end_wall()
+    ends = flow.end_wall()
     pictures = []
     for time, path in flow.frames:
-        figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
-        patches = draw_frame(axis, flow, time, path, quads, columns)
-        figure.colorbar(patches, ax=axis, shrink=0.8, label="slurry share over the axis, –")
         buffer = io.BytesIO()
-        figure.savefig(buffer, dpi=80)
-        plt.close(figure)
+        save(frame_figure(flow, time, path, ends), buffer, dpi=80)
         pictures.append(Image.open(buffer).convert("P", palette=Image.ADAPTIVE, colors=128))
     pictures[0].save(out, save_all=True, append_images=pictures[1:], duration=100, loop=0)

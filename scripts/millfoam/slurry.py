@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
+from . import slurry_maps
+
 
 @dataclass
 class SlurryMap:
@@ -28,6 +30,10 @@ class SlurryMap:
         x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
         volume = self.holdup * self.inside
         return float((volume.sum(axis=0) * x).sum() / volume.sum()), float((volume.sum(axis=1) * y).sum() / volume.sum())
+
+    def pixels(self):
+        """The same as millfoam.slurry_maps reads it."""
+        return slurry_maps.SlurryMap((self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2, self.share, self.velocity)
 
 
 def read_slurry_map(path, begin=None, end=None, length=np.inf):

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Figures of the report that are about time, the axis and the run; maps are in mill_plots and charge_plots."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import LineCollection
+
+from .. import mill_plots
+
+# Okabe & Ito's colours, which colour-blind readers can tell apart
+BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
+COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY)
+
+
+def axes_of(rows=1, *, width=6.4, height=2.7, sharex=True):
+    """A figure with panels below each other in the report's style."""
+    figure, axes = plt.subplots(rows, 1, figsize=(width, height * rows if rows > 1 else 3.4), sharex=sharex,
+                                constrained_layout=True, squeeze=False)
+    for axis in axes[:, 0]:
+        axis.grid(alpha=0.25)
+        axis.spines[["top", "right"]].set_visible(False)
+    return figure, axes[:, 0]
+
+
+def running_mean(times, values, width):
+    """Mean over the time `width` (s) before each time; steps count by their length."""
+    steps = np.diff(times, prepend=times[0] - (times[1] - times[0]))
+    total = np.concatenate([[0], np.cumsum(values * steps)])
+    clock = np.concatenate([[times[0] - steps[0]], times])
+    begin = np.maximum(times - width, clock[0])
+    return (total[1:] - np.interp(begin, clock, total)) / (times - begin)
+
+
+def energy(case):
+    """Power and energies of the dry run against time."""
+    figure, (top, bottom) = axes_of(2)
+    time, told = case.energy["time_s"], case.energy
+    turn = 2 * np.pi / abs(case.omega)
+    top.plot(time, told["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
+    top.plot(time, running_mean(time, told["power_W"], turn / 4), color=BLUE, label="mean over a quarter of a turn")
+    late = told["power_W"][len(time) // 4:]
+    top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
+    top.set_ylabel("power, W")
+    top.legend(fontsize=8, loc="lower right")
+    bottom.plot(time, told["kinetic_J"], color=RED, label="kinetic")
+    bottom.plot(time, told["potential_J"] - told["potential_J"][0], color=GREEN, label="potential, less the first")
+    bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
+    bottom.legend(fontsize=8, loc="lower right")
+    if case.results["steady"] == "yes":
+        for axis in (top, bottom):
+            axis.axvline(float(case.results["steady_from"]), color=GREY, ls="--", lw=1)
+    return figure
+
+
+def overlaps(case):
+    """Histogram of the contacts' overlaps."""
+    figure, (axis,) = axes_of()
+    overlap, balls, walls = case.overlaps
+    diameter = min(c["diameter"] for c in case.mill["charge"]["classes"])
+    for counts, colour, label in ((balls, BLUE, "ball on ball"), (walls, ORANGE, "ball on wall")):
+        axis.step(100 * overlap / diameter, counts / max(counts.sum(), 1), where="mid", color=colour, label=label)
+    axis.set(yscale="log", xlabel="overlap, % of the smallest diameter", ylabel="share of the contacts")
+    axis.legend(fontsize=8)
+    return figure
+
+
+def holdup(case):
+    """Hold-up, feed and discharge of the slurry against time."""
+    told, turn = case.balance, 2 * np.pi / abs(case.omega)
+    flows = told["feed"].max() > 0 or told["discharge"].max() > 1e-12
+    figure, axes = axes_of(2 if flows else 1)
+    axes[0].plot(told["Time"], 1e6 * told["holdUp"], color=BLUE)
+    axes[0].set_ylabel("hold-up, ml")
+    if not flows:  # a closed mill: the line would be stretched to its round-off
+        axes[0].set_ylim(0, 1.2e6 * told["holdUp"].max())
+    else:
+        for key, colour in (("feed", GREEN), ("discharge", RED)):
+            axes[1].plot(told["Time"], 1e6 * running_mean(told["Time"], told[key], turn / 4), color=colour, label=key)
+        axes[1].set_ylabel("ml/s, mean over a\nquarter of a turn")
+        axes[1].set_ylim(bottom=0)
+        axes[1].legend(fontsize=8)
+    axes[-1].set_xlabel("flow time, s")
+    return figure
+
+
+def centre_and_power(case):
+    """Centre of the slurry and the power that it takes against time."""
+    told, turn = case.balance, 2 * np.pi / abs(case.omega)
+    figure, (top, bottom) = axes_of(2)
+    top.plot(told["Time"], 1e3 * told["x"], color=BLUE, label="x (the rising side is negative)")
+    top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
+    top.set_ylabel("centre of the slurry, mm")
+    top.legend(fontsize=8)
+    bottom.plot(told["Time"][1:], running_mean(told["Time"], told["power"], turn / 4)[1:], color=BLUE)
+    late = running_mean(told["Time"], told["power"], turn / 4)[told["Time"] >= min(turn / 4, told["Time"][-1] / 2)]
+    bottom.set_ylim(min(0, late.min()), 1.2 * max(late.max(), 1e-12))
+    bottom.set(ylabel="power for the slurry, W\n(mean over a quarter turn)", xlabel="flow time, s")
+    return figure
+
+
+def reynolds(case):
+    """Particle Reynolds numbers in slurry against time."""
+    told = case.balance
+    figure, (axis,) = axes_of()
+    axis.plot(told["Time"], told["Re_mean"], color=BLUE, label="mean over the balls")
+    axis.plot(told["Time"], told["Re_95"], color=RED, label="95 % of the balls below")
+    axis.set(xlabel="flow time, s", ylabel="particle Reynolds number", yscale="log")
+    axis.legend(fontsize=8)
+    return figure
+
+
+def axial(profile, fits):
+    """Height of the slurry's centre of mass, hold-up and head along the axis; fits: curves (label, z, height)."""
+    figure, (height, held, head) = axes_of(3, height=2.3)
+    z = 1e3 * profile.z
+    height.fill_between(z, 1e3 * (profile.height - profile.height_spread), 1e3 * (profile.height + profile.height_spread),
+                        alpha=0.2, color=BLUE, label="standard deviation over time")
+    height.plot(z, 1e3 * profile.height, "o", ms=4, color=BLUE, label="mean over time")
+    for (label, at, curve), colour in zip(fits, (RED, GREEN)):
+        height.plot(1e3 * at, 1e3 * curve, color=colour, lw=1.2, label=label)
+    height.set_ylabel("height of the\ncentre, mm")
+    height.legend(fontsize=7)
+    held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
+    held.set_ylabel("hold-up, ml per mm")
+    head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)
+    head.set(ylabel="p_rgh, Pa", xlabel="z from the feed end, mm")
+    return figure
+
+
+def axial_against_time(places, times, values):
+    """Height of the centre of mass over axis and time."""
+    figure, axis = plt.subplots(figsize=(6.4, 3.4), constrained_layout=True)
+    lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
+    image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower, vmax=upper,
+                            rasterized=True)
+    figure.colorbar(image, ax=axis, label="height of the centre, mm")
+    axis.set(xlabel="flow time, s", ylabel="z from the feed end, mm")
+    return figure
+
+
+def z_velocity(slurry, case):
+    """The slurry's velocity along the axis where its share of the fluid is over a half."""
+    velocity = np.where(slurry.share > 0.5, slurry.velocity[..., 2], np.nan)
+    limit = np.nanpercentile(np.abs(velocity), 99) if np.isfinite(velocity).any() else 1
+    figure, axis = plt.subplots(figsize=(5.6, 4.6), constrained_layout=True)
+    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * velocity, cmap="RdBu_r", vmin=-1e3 * limit, vmax=1e3 * limit)
+    figure.colorbar(image, ax=axis, label="velocity along the axis, mm/s (red: to the discharge)")
+    mill_plots.draw_mill(axis, case.flow, case.last)
+    return figure
+
+
+def slurry_maps(slurry, case):
+    """Share and speed of the slurry, with arrows, averaged over axis and time."""
+    figure, axes = plt.subplots(1, 2, figsize=(10.6, 4.5), constrained_layout=True)
+    speed = np.linalg.norm(slurry.velocity[..., :2], axis=-1)
+    known = slurry.share > 0.3
+    fast = np.nanpercentile(np.where(known, speed, np.nan), 99) if known.any() else 1
+    panels = ((slurry.share, mill_plots.SLURRY, 1, "share of the fluid, –"),
+              (np.where(slurry.share > 0.05, speed, np.nan), mill_plots.SPEED, fast, "speed, m/s"))
+    for axis, (values, colours, top, label) in zip(axes, panels):
+        image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, values, cmap=colours, vmin=0, vmax=top)
+        figure.colorbar(image, ax=axis, shrink=0.9, label=label)
+        mill_plots.draw_mill(axis, case.flow, case.last)
+    x, y = (slurry.x[1:] + slurry.x[:-1]) / 2, (slurry.y[1:] + slurry.y[:-1]) / 2
+    arrows = np.where(known[..., None], slurry.velocity, np.nan)[::2, ::2]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        axes[1].quiver(1e3 * x[::2], 1e3 * y[::2], arrows[..., 0] / speed[::2, ::2], arrows[..., 1] / speed[::2, ::2], scale=24,
+                       width=0.005, pivot="mid", alpha=0.8)
+    return figure
+
+
+def lines_against(curves, xlabel, ylabel):
+    """Curves (label, x, y) of several cases in one panel."""
+    figure, (axis,) = axes_of()
+    for (label, x, y), colour in zip(curves, COLOURS):
+        axis.plot(x, y, color=colour, label=label, lw=1.3)
+    axis.set(xlabel=xlabel, ylabel=ylabel)
+    axis.legend(fontsize=8)
+    return figure
+
+
+def surfaces(lines, radius):
+    """Free surfaces (label, [n, 2] m) in the mill's circle."""
+    figure, axis = plt.subplots(figsize=(5.2, 4.8), constrained_layout=True)
+    angle = np.linspace(0, 2 * np.pi, 200)
+    axis.add_collection(LineCollection([1e3 * radius * np.column_stack([np.cos(angle), np.sin(angle)])], color="0.2"))
+    for (label, points), colour in zip(lines, COLOURS):
+        axis.plot(*(1e3 * np.asarray(points).T), color=colour, label=label, lw=1.6)
+    axis.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", xlim=(-1050 * radius, 1050 * radius), ylim=(-1050 * radius, 1050 * radius))
+    axis.legend(fontsize=8, loc="upper right")
+    return figure
