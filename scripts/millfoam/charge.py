@@ -34,6 +34,11 @@ def stream_function(charge):
     return idstn(transformed, type=1)[1:-1, 1:-1]
 
 
+def _moving(charge):
+    """Share of each column's volume that balls of known velocity fill [ny, nx]."""
+    return np.where(np.isfinite(charge.velocity[..., 0]), charge.balls(), 0.0)
+
+
 def _stagnation_point(charge, guess, width):
     """Where the velocity vanishes near a guess [2]: of u = u0 + G (x - guess) fitted with the balls' volume and a Gaussian of
     `width` (m) as weights, again and again round the point found, until that stays."""
@@ -41,7 +46,7 @@ def _stagnation_point(charge, guess, width):
     velocity, point = np.nan_to_num(charge.velocity[..., :2]).reshape(-1, 2), np.asarray(guess, dtype=float)
     for _ in range(50):
         away = np.column_stack([xx.ravel() - point[0], yy.ravel() - point[1]])
-        weight = np.sqrt(charge.balls().ravel() * np.exp(-(away**2).sum(axis=1) / (2 * width**2)))
+        weight = np.sqrt(_moving(charge).ravel() * np.exp(-(away**2).sum(axis=1) / (2 * width**2)))
         near = weight > 1e-4
         terms = np.column_stack([np.ones(near.sum()), away[near] / width])
         fit = np.linalg.lstsq(weight[near, None] * terms, weight[near, None] * velocity[near], rcond=None)[0]
@@ -131,7 +136,7 @@ def tangential_profile(charge, radius, wall=WALL):
     distance = np.linspace(begin, radius - wall, POINTS)
     points = distance[:, None] * outwards
     flux = [at_points(charge, charge.flux()[..., axis], points) for axis in (0, 1)]
-    balls = at_points(charge, np.nan_to_num(charge.balls()), points)
+    balls = at_points(charge, _moving(charge), points)
     if balls.min() <= 0:
         raise RuntimeError(f"no velocity {1e3 * distance[np.argmin(balls)]:.1f} mm from the mill's centre: there are no balls")
     velocity = (flux[0] * outwards[1] - flux[1] * outwards[0]) / balls

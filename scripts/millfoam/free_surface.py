@@ -25,7 +25,8 @@ def smoothed(charge, radius):
     """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of SMOOTHING radii. Balls and room are smoothed apart, so that
     the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is no charge."""
     widths = [SMOOTHING * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
-    balls, room = (gaussian_filter(values, widths, mode="constant") for values in (np.nan_to_num(charge.balls()), charge.inside))
+    balls, room = (gaussian_filter(values, widths, mode="constant") for values in (
+        charge.balls(), np.where(np.isfinite(charge.solidity), charge.inside, 0.0)))
     solidity = np.where(room > 1e-3, balls / np.maximum(room, 1e-3), 0.0)
     if solidity.max() < FEWEST:
         raise RuntimeError(f"no charge: the largest smoothed solidity is {solidity.max():.3g}, less than {FEWEST}")

@@ -14,8 +14,8 @@ class SolidsMap:
     """Charge averaged over the axis and over windows, on the box's x-y voxels.
 
     x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill's walls (1 where
-    they were not told); solidity [ny, nx], of that share; velocity [ny, nx, 3] (m/s), NaN where there are no balls;
-    begin, end: DEM time covered (s)."""
+    they were not told); solidity [ny, nx], of that share, NaN where a measured map misses it; velocity
+    [ny, nx, 3] (m/s), NaN where there are no balls; begin, end: DEM time covered (s)."""
     x: np.ndarray
     y: np.ndarray
     inside: np.ndarray
@@ -29,8 +29,8 @@ class SolidsMap:
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
     def balls(self):
-        """Share of each column's volume, within the mill or not, that balls fill [ny, nx]."""
-        return self.solidity * self.inside
+        """Share of each column's volume, within the mill or not, that balls fill [ny, nx]; nought where that is not known."""
+        return np.nan_to_num(self.solidity) * self.inside
 
     def flux(self):
         """Balls' volume flux over the voxels' area [ny, nx, 3] (m/s); nought where there are no balls."""
