@@ -108,11 +108,9 @@ def compare(a, b, radius):
     return Comparison(apart, surface_difference(free_surface(a, radius), free_surface(b, radius)), difference_maps(a, b))
 
 
-def _number(path, row, line, column, lowest=-np.inf, highest=np.inf, empty=False):
-    """A cell of a CSV as a number within limits; NaN if it is empty and may be."""
+def _number(path, row, line, column, lowest=-np.inf, highest=np.inf):
+    """A cell of a CSV as a number within limits."""
     text = (row[column] or "").strip()
-    if empty and not text:
-        return np.nan
     try:
         value = float(text)
     except ValueError:
@@ -154,7 +152,8 @@ def read_measured(path, like):
             if np.isfinite(solidity[place]):
                 raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told before")
             solidity[place] = _number(path, row, line, "solidity", 0, 1)
-            velocity[place] = [*(_number(path, row, line, column, empty=True) for column in ("vx", "vy")), 0]
+            if any((row[column] or "").strip() for column in ("vx", "vy")):
+                velocity[place] = [*(_number(path, row, line, column) for column in ("vx", "vy")), 0]
     if not np.isfinite(solidity).any():
         raise ValueError(f"{path}: no voxels")
     return replace(like, solidity=solidity, velocity=velocity)

@@ -127,28 +127,32 @@ def free_surface(charge, radius, wall=WALL):
 
 
 def fit_logistic(x, y, scale):
-    """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best least-squares fit of
-    several first guesses, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| up to ten."""
+    """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best of three least-squares
+    fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up to ten of them.
+
+    They begin at the best three of a table of places and widths of the step, to each of which belong an a and a d that are
+    linear least squares. RuntimeError if none comes to an end."""
     x, y = x / scale, y / scale
 
     def step(x, a, place, c, d):
         return logistic(x, a, np.exp(c * place), c, d)
 
-    best = None
-    for place in (*np.quantile(x, (0.1, 0.3, 0.5, 0.7, 0.9)), x.min() - 0.3, x.max() + 0.3):
-        for a in (-np.ptp(y), np.ptp(y)):
-            for c in (3, 12):
-                guess = (a, place, c, y.max() if a < 0 else y.min())
-                try:
-                    found, _ = curve_fit(step, x, y, guess, bounds=([-10, -2, 0.01, -10], [10, 2, 100, 10]), maxfev=2000)
-                except RuntimeError:
-                    continue
-                rmsd = np.sqrt(np.mean((step(x, *found) - y) ** 2))
-                if best is None or rmsd < best[0]:
-                    best = rmsd, found
-    if best is None:
+    starts = []
+    for place in np.linspace(x.min() - 0.3, x.max() + 0.3, 12).clip(-1.9, 1.9):
+        for c in (1, 2, 4, 8, 16):
+            terms = np.column_stack([step(x, 1, place, c, 0), np.ones(len(x))])
+            a, d = np.linalg.lstsq(terms, y, rcond=None)[0].clip(-9.9, 9.9)
+            starts.append((np.mean((terms @ (a, d) - y) ** 2), (a, place, c, d)))
+    fits = []
+    for _, start in sorted(starts)[:3]:
+        try:
+            found, _ = curve_fit(step, x, y, start, bounds=([-10, -2, 0.01, -10], [10, 2, 100, 10]), maxfev=500)
+        except RuntimeError:
+            continue
+        fits.append((np.sqrt(np.mean((step(x, *found) - y) ** 2)), *found))
+    if not fits:
         raise RuntimeError(f"no logistic was found through the {len(x)} points of the free surface")
-    rmsd, (a, place, c, d) = best
+    rmsd, a, place, c, d = min(fits)
     return (float(a * scale), float(np.exp(c * place)), float(c / scale), float(d * scale)), float(rmsd * scale)
 
 
