@@ -77,7 +77,7 @@ def _to_circle(inner, outer, largest):
     return inner + (np.sqrt(offset**2 + square * (largest**2 - inner @ inner)) - offset) / square * way
 
 
-def _pieces(line, largest):
+def pieces_within(line, largest):
     """Pieces [n, 2] of a polyline [m, 2] within a circle of radius `largest`, each with both its ends on the circle."""
     within = np.hypot(*line.T) < largest
     if np.array_equal(line[0], line[-1]) and not within.all():
@@ -102,7 +102,7 @@ def surface_points(charge, radius, wall=WALL):
     """The free surface's points [POINTS, 2] (m) from shoulder to toe, see free_surface."""
     solidity = smoothed(charge, radius)
     lines = contour_generator(*charge.centres(), solidity).lines(EDGE * solidity.max())
-    pieces = [piece for line in lines for piece in _pieces(line, radius - wall)]
+    pieces = [piece for line in lines for piece in pieces_within(line, radius - wall)]
     if not pieces:
         raise RuntimeError(f"no free surface: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
                            f"{1e3 * wall:g} mm from the shell; centrifuging?")

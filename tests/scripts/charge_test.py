@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 from millfoam.charge import circulation_centre, read_charge, stream_function, tangential_profile
-from millfoam.free_surface import fit_logistic, free_surface, logistic, toe_and_shoulder
+from millfoam.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
 from millfoam.solids import SolidsMap
 
 RADIUS, WALL, PHI = 0.15, 0.008, 0.55
@@ -88,6 +88,13 @@ class Centre(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "no centre of circulation"):
             circulation_centre(charge_map(half, lambda x, y: (1 + 0 * x, 0 * y)), RADIUS)
 
+    def test_there_is_none_in_mere_noise(self):
+        def noise(x, y):
+            return np.random.default_rng(1).standard_normal((2, *x.shape))
+
+        with self.assertRaisesRegex(RuntimeError, "no centre of circulation: .* turns clockwise, less than 30%"):
+            circulation_centre(charge_map(below(lambda x: 0 * x), noise, part=1), RADIUS)
+
     def test_there_is_none_in_a_centrifuging_ring_or_an_empty_mill(self):
         ring = charge_map(lambda x, y: np.where(np.hypot(x, y) > 0.1, PHI, 0), turning(8, (0, 0)))
         with self.assertRaisesRegex(RuntimeError, "solidity is .*centrifuging"):
@@ -113,6 +120,13 @@ class Surface(unittest.TestCase):
         half = np.degrees(np.arccos(0.02 / (RADIUS - WALL)))
         np.testing.assert_allclose(toe_and_shoulder(over, RADIUS, WALL), (90 - half, 90 + half), atol=0.5)
 
+    def test_a_charge_thrown_to_the_top_has_both_ends_there(self):
+        up = charge_map(lambda x, y: np.where(y - 0.2 * x > 0.05, PHI, 0.0), turning(5, (0, 0)))
+        tilt = np.degrees(np.arctan(0.2))
+        half = np.degrees(np.arccos(0.05 * np.cos(np.radians(tilt)) / (RADIUS - WALL)))
+        toe, shoulder = toe_and_shoulder(up, RADIUS, WALL)
+        np.testing.assert_allclose((toe, shoulder % 360), (180 - tilt - half, 180 - tilt + half), atol=0.5)
+
     def test_a_logistic_one_is_fitted(self):
         parameters = (-0.12, 0.6, 40.0, 0.04)
         surface = free_surface(charge_map(below(lambda x: logistic(x, *parameters)), turning(5, (0, 0))), RADIUS, WALL)
@@ -130,6 +144,15 @@ class Surface(unittest.TestCase):
             self.assertLess(rmsd, 1e-7)
         zigzag = 1e-3 * (-1) ** np.arange(60)
         self.assertAlmostEqual(fit_logistic(x, logistic(x, *parameters) + zigzag, RADIUS)[1], 1e-3, delta=2e-5)
+
+    def test_a_loop_is_cut_by_the_circle_wherever_it_begins(self):
+        square = np.array([(-0.5, 0), (0.5, 0), (0.5, 3), (-0.5, 3)])
+        height = np.sqrt(1 - 0.25)
+        for first in range(4):
+            loop = np.roll(square, -first, axis=0)
+            piece, = pieces_within(np.concatenate([loop, loop[:1]]), 1)
+            np.testing.assert_allclose(piece, [(-0.5, height), (-0.5, 0), (0.5, 0), (0.5, height)])
+        self.assertEqual(pieces_within(np.concatenate([square, square[:1]]), 5), [])
 
     def test_balls_in_flight_do_not_move_it(self):
         thin = charge_map(lambda x, y: np.where(y < -0.05, PHI, np.where(x < 0.1, 0.1, 0.0)), turning(5, (0, 0)))
@@ -165,6 +188,14 @@ class Tangential(unittest.TestCase):
         np.testing.assert_allclose(profile.shear_rate, 5, atol=0.15)
         # Voxels that the surface halves tell the velocity of their lower half
         np.testing.assert_allclose(profile.velocity, 5 * (profile.distance - 0.06), atol=5 * 2 * RADIUS / 65 / 2)
+
+    def test_clockwise_is_positive_along_any_line(self):
+        centre = (-0.06, -0.05)
+        profile = tangential_profile(charge_map(below(lambda x: 0.03 - x), turning(5, centre)), RADIUS, WALL)
+        self.assertAlmostEqual(profile.angle, np.degrees(np.arctan2(0.06, 0.05)), delta=0.1)
+        np.testing.assert_allclose(profile.velocity, 5 * (profile.distance - np.hypot(*centre)), atol=1e-3)
+        # The charge covers the mill's centre
+        self.assertEqual(profile.distance[0], 0)
 
     def test_all_readings_are_those_of_the_single_ones(self):
         readings = read_charge(self.charge, RADIUS, WALL)

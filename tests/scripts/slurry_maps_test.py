@@ -100,6 +100,13 @@ class AlongTheAxis(unittest.TestCase):
         self.assertAlmostEqual(found.toe.highest, 0.095, delta=2e-3)
         self.assertAlmostEqual(found.shoulder.highest, -0.05)
 
+    def test_mean_is_that_of_the_slurry(self):
+        slurry = slurry_map(lambda x, y: np.where(y < -0.05, 0.9, 0.6), lambda x, y: np.where(y < -0.05, 0.01, 0.0))
+        found = axial_flow(slurry, -90, 90)
+        segment = RADIUS**2 * np.arccos(0.05 / RADIUS) - 0.05 * np.sqrt(RADIUS**2 - 0.05**2)
+        wanted = 0.01 * 0.9 * segment / (0.9 * segment + 0.6 * (np.pi * RADIUS**2 - segment))
+        self.assertAlmostEqual(found.toe.mean / wanted, 1, delta=0.02)
+
     def test_thin_slurry_does_not_count(self):
         found = self.flow(lambda x, y: np.where(y < -0.05, 0.01, 9.0), lambda x, y: np.where(y < -0.05, 1.0, 0.4))
         self.assertAlmostEqual(found.toe.mean, 0.01)

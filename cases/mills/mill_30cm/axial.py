@@ -99,10 +99,11 @@ def main():
           f"{1e3 * profile.height.min():.2f} to {1e3 * profile.height.max():.2f} mm along the axis")
     for humps in fits:
         print(f"{len(humps.places)} Gaussians: humps at {millimetres(humps.places, 0)} mm, "
-              f"{millimetres(humps.heights, 2)} mm high, {millimetres(humps.distances, 0)} mm apart, RMSD {1e3 * humps.rmsd:.2g} mm")
+              f"{millimetres(humps.heights, 2)} mm high, {millimetres(humps.distances, 0)} mm apart, "
+              f"RMSD {1e3 * humps.rmsd:.2g} mm")
     print_axial_flow(flow, slurry)
-    print(f"p_rgh in the slurry: {profile.pressure[0]:.1f} Pa at the feed end, {profile.pressure[-1]:.1f} Pa at the discharge "
-          f"end, drop {profile.pressure[0] - profile.pressure[-1]:.1f} Pa")
+    print(f"p_rgh in the slurry: {profile.pressure[0]:.1f} Pa at the feed end, {profile.pressure[-1]:.1f} Pa at the "
+          f"discharge end, drop {profile.pressure[0] - profile.pressure[-1]:.1f} Pa")
 
 
 if __name__ == "__main__":
