@@ -9,7 +9,7 @@ from .charge import free_surface
 
 CLOSEST = 0.634  # solidity that differences are normed by: random close packing
 COLUMNS = ("x_m", "y_m", "solidity", "vx", "vy")
-BIN = 0.02  # of the histogram of solidity differences
+BIN = 0.01  # of the histogram of solidity differences
 
 
 @dataclass
@@ -78,14 +78,14 @@ def difference(a, b):
     return Difference(float(solidity), float(mean[0]), float(mean[1]), missing)
 
 
-def difference_maps(a, b):
-    """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ."""
+def difference_maps(a, b, bin_width=BIN):
+    """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ. bin_width: of the histogram, solidity."""
     inside, _ = _known(a, b)
     solidity, velocity_x, velocity_y = (np.where(inside > 0, values, np.nan) for values in (
         a.solidity - b.solidity, *np.moveaxis((a.velocity - b.velocity)[..., :2], -1, 0)))
     # The middle bin is about nought
-    count = round(1 / BIN)
-    edges = BIN * (np.arange(-count, count + 2) - 0.5)
+    count = round(1 / bin_width)
+    edges = bin_width * (np.arange(-count, count + 2) - 0.5)
     shares, _ = np.histogram(solidity[inside > 0], edges, weights=inside[inside > 0])
     return DifferenceMaps(a.x, a.y, solidity, velocity_x, velocity_y, shares / inside.sum(), edges)
 
@@ -101,11 +101,11 @@ def surface_difference(a, b, points=200):
     return SurfaceDifference(float(apart.mean()), float(apart.std()), float(begin), float(end))
 
 
-def compare(a, b, radius):
+def compare(a, b, radius, bin_width=BIN):
     """Comparison of two SolidsMap on the same voxels of a mill of `radius` (m): ValueError where the voxels differ, RuntimeError
     where one of them has no free surface."""
-    apart = difference(a, b)
-    return Comparison(apart, surface_difference(free_surface(a, radius), free_surface(b, radius)), difference_maps(a, b))
+    surfaces = (free_surface(one, radius) for one in (a, b))
+    return Comparison(difference(a, b), surface_difference(*surfaces), difference_maps(a, b, bin_width))
 
 
 def _number(path, row, line, column, lowest=-np.inf, highest=np.inf):

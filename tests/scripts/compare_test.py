@@ -48,7 +48,7 @@ class Difference(unittest.TestCase):
         a, b = uniform(0.5, 2), uniform(0.38, 1)
         b.solidity[0] = 0.5
         b.solidity[3, 3] = np.nan
-        apart = difference_maps(a, b)
+        apart = difference_maps(a, b, 0.02)
         np.testing.assert_allclose(apart.solidity[1:3], 0.12)
         np.testing.assert_allclose(apart.velocity_x[1:3], 1)
         self.assertTrue(np.isnan(apart.solidity[3, 3]) and np.isnan(apart.velocity_x[3, 3]))
