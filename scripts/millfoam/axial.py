@@ -69,18 +69,21 @@ def fit_gaussians(z, height, count):
     """Humps of a profile: the best least-squares fit of `count` Gaussians from many first guesses of their places.
 
     z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of its
-    length. ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
+    length, and no less than half of the way between two slices: a narrower hump would stand between them unseen.
+    ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
     z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
     if len(z) < 1 + 3 * count:
         raise ValueError(f"{len(z)} places along the axis; a fit of {count} Gaussians needs at least {1 + 3 * count}")
     length, scale = z[-1] - z[0], np.ptp(height) or 1e-12
-    lower = [height.min() - scale, *([0, z[0], 0.03 * length] * count)]
+    narrowest = max(0.03 * length, np.diff(z).max() / 2)
+    lower = [height.min() - scale, *([0, z[0], narrowest] * count)]
     upper = [height.max(), *([3 * scale, z[-1], length] * count)]
     best = None
     for places in combinations((0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9), count):
-        guess = [height.min(), *np.ravel([(scale / 2, z[0] + place * length, 0.3 / count * length) for place in places])]
+        width = max(0.3 / count * length, 1.1 * narrowest)
+        guess = [height.min(), *np.ravel([(scale / 2, z[0] + place * length, width) for place in places])]
         try:
-            values, _ = curve_fit(gaussians, z, height, guess, bounds=(lower, upper), maxfev=20000)
+            values, _ = curve_fit(gaussians, z, height, guess, bounds=(lower, upper), maxfev=2000)
         except RuntimeError:
             continue
         rmsd = float(np.sqrt(np.mean((gaussians(z, *values) - height) ** 2)))

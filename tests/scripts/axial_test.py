@@ -36,6 +36,13 @@ class Humps(unittest.TestCase):
         profile = self.profile(THREE)
         self.assertGreater(fit_gaussians(Z, profile, 2).rmsd, 5 * fit_gaussians(Z, profile, 3).rmsd)
 
+    def test_no_hump_is_narrower_than_slices_can_show(self):
+        # Heights (m) of nine slices of a mill that has no two humps
+        z = np.linspace(0.017, 0.288, 9)
+        found = fit_gaussians(z, np.array([-42.3, -29.7, -36.0, -48.7, -40.0, -30.9, -45.2, -39.9, -27.3]) / 1e3, 2)
+        self.assertGreaterEqual(min(found.widths), (z[1] - z[0]) / 2)
+        self.assertLess(found.fitted(np.linspace(z[0], z[-1], 500)).max(), -0.02)
+
     def test_too_few_slices_are_refused(self):
         with self.assertRaisesRegex(ValueError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
             fit_gaussians(Z[:9], Z[:9], 3)
