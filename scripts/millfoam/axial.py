@@ -2,6 +2,7 @@
 """Along the axis of a mill: height of the slurry's centre of mass, hold-up and head by slices; humps; discharge."""
 import re
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from scipy.optimize import curve_fit
@@ -20,15 +21,22 @@ class AxialProfile:
 
 @dataclass
 class Humps:
-    """height = base + sum of two Gaussians: places z (m), heights above the base (m), root mean square of what is left (m)."""
+    """height = base + sum of Gaussians, in order of place: places z, heights above the base, widths (standard deviations)
+    [count] and base (m); rmsd: root mean square of what is left (m)."""
     places: tuple
     heights: tuple
+    widths: tuple
     base: float
     rmsd: float
 
     @property
-    def distance(self):
-        return abs(self.places[1] - self.places[0])
+    def distances(self):
+        """Between each peak and the next, m [count - 1]."""
+        return tuple(b - a for a, b in zip(self.places, self.places[1:]))
+
+    def fitted(self, z):
+        """The fit's height at z (m), m."""
+        return gaussians(z, self.base, *np.ravel(np.transpose((self.heights, self.places, self.widths))))
 
 
 def axial_profile(flow, begin):
@@ -47,34 +55,45 @@ def axial_profile(flow, begin):
         holdups.append(holdup)
     if not heights:
         raise RuntimeError(f"{flow.case}: no time from {begin} s on was written")
-    return AxialProfile(z, np.mean(heights, axis=0), np.std(heights, axis=0), np.mean(holdups, axis=0), np.mean(pressures, axis=0))
+    return AxialProfile(z, np.mean(heights, axis=0), np.std(heights, axis=0), np.mean(holdups, axis=0),
+                        np.mean(pressures, axis=0))
 
 
-def two_gaussians(z, base, height1, place1, width1, height2, place2, width2):
-    return (base + height1 * np.exp(-((z - place1) / width1) ** 2 / 2) + height2 * np.exp(-((z - place2) / width2) ** 2 / 2))
+def gaussians(z, base, *humps):
+    """base + the sum of height exp(-((z - place)/width)^2 / 2); humps: height, place, width of each in turn."""
+    z = np.asarray(z, dtype=float)
+    return base + sum(height * np.exp(-((z - place) / width) ** 2 / 2) for height, place, width in np.reshape(humps, (-1, 3)))
 
 
-def find_humps(z, height):
-    """Humps of a profile: the best least-squares fit of two Gaussians within the mill from several first guesses."""
-    z, height = np.asarray(z), np.asarray(height)
+def fit_gaussians(z, height, count):
+    """Humps of a profile: the best least-squares fit of `count` Gaussians from many first guesses of their places.
+
+    z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of its
+    length, and no less than half of the way between two slices: a narrower hump would stand between them unseen.
+    ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
+    z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
+    if len(z) < 1 + 3 * count:
+        raise ValueError(f"{len(z)} places along the axis; a fit of {count} Gaussians needs at least {1 + 3 * count}")
     length, scale = z[-1] - z[0], np.ptp(height) or 1e-12
-    lower = [height.min() - scale, 0, z[0], 0.03 * length, 0, z[0], 0.03 * length]
-    upper = [height.max(), 3 * scale, z[-1], length, 3 * scale, z[-1], length]
+    narrowest = max(0.03 * length, np.diff(z).max() / 2)
+    lower = [height.min() - scale, *([0, z[0], narrowest] * count)]
+    upper = [height.max(), *([3 * scale, z[-1], length] * count)]
     best = None
-    for first, second in ((0.15, 0.85), (0.25, 0.75), (0.35, 0.65), (0.1, 0.5), (0.5, 0.9)):
-        guess = [height.min(), scale / 2, z[0] + first * length, 0.15 * length, scale / 2, z[0] + second * length, 0.15 * length]
+    for places in combinations((0.1, 0.25, 0.4, 0.5, 0.6, 0.75, 0.9), count):
+        width = max(0.3 / count * length, 1.1 * narrowest)
+        guess = [height.min(), *np.ravel([(scale / 2, z[0] + place * length, width) for place in places])]
         try:
-            values, _ = curve_fit(two_gaussians, z, height, guess, bounds=(lower, upper), maxfev=20000)
+            values, _ = curve_fit(gaussians, z, height, guess, bounds=(lower, upper), maxfev=2000)
         except RuntimeError:
             continue
-        rmsd = float(np.sqrt(np.mean((two_gaussians(z, *values) - height) ** 2)))
+        rmsd = float(np.sqrt(np.mean((gaussians(z, *values) - height) ** 2)))
         if best is None or rmsd < best[0]:
             best = rmsd, values
     if best is None:
-        raise RuntimeError("no fit of two Gaussians to the axial profile was found")
-    rmsd, (base, height1, place1, _, height2, place2, _) = best
-    pairs = sorted([(place1, height1), (place2, height2)])
-    return Humps(tuple(float(p) for p, _ in pairs), tuple(float(h) for _, h in pairs), float(base), rmsd)
+        raise RuntimeError(f"no fit of {count} Gaussians to the axial profile was found")
+    humps = sorted(best[1][1:].reshape(-1, 3), key=lambda hump: hump[1])
+    heights, places, widths = (tuple(map(float, values)) for values in zip(*humps))
+    return Humps(places, heights, widths, float(best[1][0]), best[0])
 
 
 def slurry_volumes(log):

@@ -1,31 +1,159 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far two maps of a charge are apart."""
-from dataclasses import dataclass
+"""How far two maps of a charge are apart: of two runs, or of a run and a measurement."""
+import csv
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .charge import free_surface
+
 CLOSEST = 0.634  # solidity that differences are normed by: random close packing
+COLUMNS = ("x_m", "y_m", "solidity", "vx", "vy")
+BIN = 0.01  # of the histogram of solidity differences
 
 
 @dataclass
 class Difference:
     """Of two maps on the same voxels: mean |solidity A - B| / 0.634 over the mill's inside; means of |vx A - B| and |vy A - B|
-    weighted by both solidities' mean, over the mean of the two largest speeds."""
+    weighted by both solidities' mean, over the mean of the two largest speeds. `missing` voxels within the mill, of which one of
+    the maps does not know the solidity, are left out."""
     solidity: float
     velocity_x: float
     velocity_y: float
+    missing: int = 0
+
+
+@dataclass
+class DifferenceMaps:
+    """A - B, voxel by voxel: x, y: voxel edges (m); solidity [ny, nx]; velocity_x, velocity_y [ny, nx] (m/s), NaN where one of
+    the maps has no balls; all are NaN outside the mill and where a map misses a voxel.
+
+    shares [bins]: share of the mill's known inside whose solidity difference is between edges [bins + 1]."""
+    x: np.ndarray
+    y: np.ndarray
+    solidity: np.ndarray
+    velocity_x: np.ndarray
+    velocity_y: np.ndarray
+    shares: np.ndarray
+    edges: np.ndarray
+
+
+@dataclass
+class SurfaceDifference:
+    """Of the heights of two free surfaces, y_A - y_B, evenly over the x (m) from `begin` to `end` where both exist: mean and
+    standard deviation (m)."""
+    mean: float
+    deviation: float
+    begin: float
+    end: float
+
+
+@dataclass
+class Comparison:
+    """All that tells two maps apart."""
+    difference: Difference
+    surface: SurfaceDifference
+    maps: DifferenceMaps
+
+
+def _known(a, b):
+    """Room within the mill that both SolidsMap know [ny, nx], and the number of voxels within it that one of them misses."""
+    if a.solidity.shape != b.solidity.shape or not (np.allclose(a.x, b.x) and np.allclose(a.y, b.y)):
+        raise ValueError(f"maps of {a.solidity.shape} and {b.solidity.shape} voxels; expected the same voxels")
+    inside = (a.inside + b.inside) / 2
+    both = np.isfinite(a.solidity) & np.isfinite(b.solidity)
+    return np.where(both, inside, 0.0), int(np.sum(~both & (np.maximum(a.inside, b.inside) > 0)))
 
 
 def difference(a, b):
     """Difference of two SolidsMap on the same voxels; ValueError where these differ."""
-    if a.solidity.shape != b.solidity.shape or not (np.allclose(a.x, b.x) and np.allclose(a.y, b.y)):
-        raise ValueError(f"maps of {a.solidity.shape} and {b.solidity.shape} voxels; expected the same voxels")
-    inside = (a.inside + b.inside) / 2
-    solidity = np.sum(inside * np.abs(a.solidity - b.solidity)) / np.sum(inside) / CLOSEST
-    weight = inside * (a.solidity + b.solidity) / 2
-    norm = (np.nanmax(np.linalg.norm(a.velocity[..., :2], axis=-1)) + np.nanmax(np.linalg.norm(b.velocity[..., :2], axis=-1))) / 2
+    inside, missing = _known(a, b)
+    solidity = np.sum(inside * np.abs(np.nan_to_num(a.solidity - b.solidity))) / np.sum(inside) / CLOSEST
+    weight = inside * np.nan_to_num(a.solidity + b.solidity) / 2
+    norm = sum(np.nanmax(np.linalg.norm(one.velocity[..., :2], axis=-1)) for one in (a, b)) / 2
     apart = np.abs(np.nan_to_num(a.velocity) - np.nan_to_num(b.velocity))
     both = np.isfinite(a.velocity[..., 0]) & np.isfinite(b.velocity[..., 0])
     weight = np.where(both, weight, 0.0)
     mean = [np.sum(weight * apart[..., axis]) / np.sum(weight) / norm for axis in (0, 1)]
-    return Difference(float(solidity), float(mean[0]), float(mean[1]))
+    return Difference(float(solidity), float(mean[0]), float(mean[1]), missing)
+
+
+def difference_maps(a, b, bin_width=BIN):
+    """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ. bin_width: of the histogram, solidity."""
+    inside, _ = _known(a, b)
+    solidity, velocity_x, velocity_y = (np.where(inside > 0, values, np.nan) for values in (
+        a.solidity - b.solidity, *np.moveaxis((a.velocity - b.velocity)[..., :2], -1, 0)))
+    # The middle bin is about nought
+    count = round(1 / bin_width)
+    edges = bin_width * (np.arange(-count, count + 2) - 0.5)
+    shares, _ = np.histogram(solidity[inside > 0], edges, weights=inside[inside > 0])
+    return DifferenceMaps(a.x, a.y, solidity, velocity_x, velocity_y, shares / inside.sum(), edges)
+
+
+def surface_difference(a, b, points=200):
+    """SurfaceDifference of two FreeSurface; RuntimeError if they stand over no common x."""
+    begin, end = max(one.points[:, 0].min() for one in (a, b)), min(one.points[:, 0].max() for one in (a, b))
+    if begin >= end:
+        raise RuntimeError(f"the free surfaces do not stand over each other: one begins at x = {1e3 * begin:.1f} mm, the other "
+                           f"ends at {1e3 * end:.1f} mm")
+    x = np.linspace(begin, end, points + 2)[1:-1]
+    apart = a.height(x) - b.height(x)
+    return SurfaceDifference(float(apart.mean()), float(apart.std()), float(begin), float(end))
+
+
+def compare(a, b, radius, bin_width=BIN):
+    """Comparison of two SolidsMap on the same voxels of a mill of `radius` (m): ValueError where the voxels differ, RuntimeError
+    where one of them has no free surface."""
+    surfaces = (free_surface(one, radius) for one in (a, b))
+    return Comparison(difference(a, b), surface_difference(*surfaces), difference_maps(a, b, bin_width))
+
+
+def _number(path, row, line, column, lowest=-np.inf, highest=np.inf):
+    """A cell of a CSV as a number within limits."""
+    text = (row[column] or "").strip()
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not (np.isfinite(value) and lowest <= value <= highest):
+        limits = "" if np.isinf(lowest) else f" from {lowest:g} to {highest:g}"
+        raise ValueError(f"{path}, line {line}, column {column}: '{text}'; expected a number{limits}")
+    return value
+
+
+def _voxel(path, line, column, value, edges):
+    """Number of the voxel with a centre at `value` (m), within a hundredth of its width."""
+    place = (value - edges[0]) / (edges[1] - edges[0]) - 0.5
+    index = round(place)
+    if abs(place - index) > 0.01 or not 0 <= index < len(edges) - 1:
+        raise ValueError(f"{path}, line {line}, column {column}: {value:g} m is no voxel's centre; expected {len(edges) - 1} "
+                         f"voxels between {edges[0]:g} and {edges[-1]:g} m, as the run's")
+    return index
+
+
+def read_measured(path, like):
+    """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes over.
+
+    path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s; both empty where no
+    velocity was measured), in any order and among others. Voxels may be missing: their solidity and velocity are NaN.
+    ValueError, naming file, line, column and value, for a missing column, what is no number, a solidity beyond 0 to 1, a place
+    that is no voxel's centre, and a voxel told twice."""
+    solidity, velocity = np.full(like.solidity.shape, np.nan), np.full(like.velocity.shape, np.nan)
+    with open(path, newline="") as file:
+        rows = csv.DictReader(file)
+        for column in COLUMNS:
+            if column not in (rows.fieldnames or ()):
+                raise ValueError(f"{path}, line 1: no column {column} in '{','.join(rows.fieldnames or ())}'; expected "
+                                 f"{', '.join(COLUMNS)}")
+        for row in rows:
+            line = rows.line_num
+            place = tuple(_voxel(path, line, column, _number(path, row, line, column), edges)
+                          for column, edges in (("y_m", like.y), ("x_m", like.x)))
+            if np.isfinite(solidity[place]):
+                raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told before")
+            solidity[place] = _number(path, row, line, "solidity", 0, 1)
+            if any((row[column] or "").strip() for column in ("vx", "vy")):
+                velocity[place] = [*(_number(path, row, line, column) for column in ("vx", "vy")), 0]
+    if not np.isfinite(solidity).any():
+        raise ValueError(f"{path}: no voxels")
+    return replace(like, solidity=solidity, velocity=velocity)

@@ -10,6 +10,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from PIL import Image
 
+from .slurry_maps import SlurryMap
+
 PIXELS = 130
 SLURRY, SPEED, SOLIDITY = "Blues", "viridis", "YlOrBr"
 
@@ -43,8 +45,7 @@ def _arrows(axis, x, y, velocity, speed):
 
 
 def mean_flow(flow, begin):
-    """Slurry averaged over axis and time from `begin` (s) on a lab-frame grid: x, y, share [ny, nx] and velocity
-    [ny, nx, 2] weighted by the share; NaN outside the mill (share) or where there is no slurry (velocity)."""
+    """SlurryMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the share."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     chosen = [(time, path) for time, path in flow.frames if time >= begin - 1e-9]
     share, momentum = 0.0, 0.0
@@ -53,25 +54,25 @@ def mean_flow(flow, begin):
         alpha = np.clip(flow.field("alpha.slurry", path), 0, 1)
         velocity = flow.field("U", path)
         column = flow.over_axis(alpha)
-        flux = np.stack([flow.over_axis(alpha * velocity[:, i]) for i in (0, 1)], axis=-1)
+        flux = np.stack([flow.over_axis(alpha * velocity[:, i]) for i in range(3)], axis=-1)
         frame = flow.on_grid(column, time, x, y)
         inside = np.isfinite(frame)
         # A pixel that a lifter sweeps counts only while it is inside the mill
         seen = seen + inside
         share = share + np.where(inside, frame, 0)
         momentum = momentum + np.stack(
-            [np.where(inside, flow.on_grid(flux[:, i], time, x, y), 0) for i in (0, 1)], axis=-1)
+            [np.where(inside, flow.on_grid(flux[:, i], time, x, y), 0) for i in range(3)], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = np.where(seen > 0, share / seen, np.nan)
         velocity = np.where((mean > 0.02)[..., None], momentum / share[..., None], np.nan)
-    return x, y, mean, velocity
+    return SlurryMap(x, y, mean, velocity)
 
 
 def plot_maps(flow, solids, begin, out):
     """Four maps, averaged over the axis: solidity, balls' speed, slurry share, slurry speed."""
-    x, y, share, velocity = mean_flow(flow, begin)
+    slurry = mean_flow(flow, begin)
     ball_speed = np.linalg.norm(solids.velocity[..., :2], axis=-1)
-    slurry_speed = np.linalg.norm(velocity, axis=-1)
+    slurry_speed = np.linalg.norm(slurry.velocity[..., :2], axis=-1)
     top = np.nanmax([np.nanpercentile(ball_speed, 99), np.nanpercentile(slurry_speed, 99)])
     figure, axes = plt.subplots(2, 2, figsize=(11, 9.6), constrained_layout=True)
     xs, ys = (solids.x[1:] + solids.x[:-1]) / 2, (solids.y[1:] + solids.y[:-1]) / 2
@@ -81,7 +82,7 @@ def plot_maps(flow, solids, begin, out):
     panels = [
         (1e3 * solids.x, 1e3 * solids.y, charge, SOLIDITY, (0, 0.65), "charge: solidity, –"),
         (1e3 * solids.x, 1e3 * solids.y, masked_speed, SPEED, (0, top), "charge: speed, m/s"),
-        (edges, edges, share, SLURRY, (0, 1), "slurry: share of the fluid, –"),
+        (edges, edges, slurry.share, SLURRY, (0, 1), "slurry: share of the fluid, –"),
         (edges, edges, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),
     ]
     for axis, (ex, ey, values, colours, limits, title) in zip(axes.flat, panels):
@@ -90,8 +91,8 @@ def plot_maps(flow, solids, begin, out):
         axis.set_title(title)
     _arrows(axes[0, 1], xs, ys, np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
     thin = slice(4, None, 9)
-    _arrows(axes[1, 1], x[thin], y[thin], np.where((share > 0.3)[..., None], velocity, np.nan)[thin, thin],
-            slurry_speed[thin, thin])
+    _arrows(axes[1, 1], slurry.x[thin], slurry.y[thin],
+            np.where((slurry.share > 0.3)[..., None], slurry.velocity, np.nan)[thin, thin], slurry_speed[thin, thin])
     last = flow.frames[-1][0]
     for axis in axes.flat:
         draw_mill(axis, flow, last)

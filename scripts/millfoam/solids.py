@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads solids.h5, the averaged charge (layout: averaging/README.md)."""
+"""Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window, and estimates how far a mean
+over time is uncertain."""
 from dataclasses import dataclass
 
 import h5py
 import numpy as np
+
+FAINT = 1e-6  # solidity up to which a mean over time has no velocity: some ball once grazed the voxel
 
 
 @dataclass
@@ -11,8 +14,8 @@ class SolidsMap:
     """Charge averaged over the axis and over windows, on the box's x-y voxels.
 
     x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill's walls (1 where
-    they were not told); solidity [ny, nx], of that share; velocity [ny, nx, 3] (m/s), NaN where there are no balls;
-    begin, end: DEM time covered (s)."""
+    they were not told); solidity [ny, nx], of that share, NaN where a measured map misses it; velocity
+    [ny, nx, 3] (m/s), NaN where there are no balls; begin, end: DEM time covered (s)."""
     x: np.ndarray
     y: np.ndarray
     inside: np.ndarray
@@ -21,15 +24,36 @@ class SolidsMap:
     begin: float
     end: float
 
+    def centres(self):
+        """Centres of the voxels: x [nx], y [ny] (m)."""
+        return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+
+    def balls(self):
+        """Share of each column's volume, within the mill or not, that balls fill [ny, nx]; nought where that is not known."""
+        return np.nan_to_num(self.solidity) * self.inside
+
+    def flux(self):
+        """Balls' volume flux over the voxels' area [ny, nx, 3] (m/s); nought where there are no balls."""
+        return self.balls()[..., None] * np.nan_to_num(self.velocity)
+
     def centroid(self):
         """Centre (x, y) of the balls' volume, m."""
-        x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
-        balls = self.solidity * self.inside
+        (x, y), balls = self.centres(), self.balls()
         return float((balls.sum(axis=0) * x).sum() / balls.sum()), float((balls.sum(axis=1) * y).sum() / balls.sum())
 
 
-def read_map(path, begin=-np.inf, end=np.inf):
-    """Mean over axis and time of the windows that touch [begin, end) of DEM time; velocity is weighted by solidity."""
+def _map(edges, inside, balls, flux, begin, end, faint):
+    """SolidsMap out of means of the room within the walls, of the balls' volume in it [ny, nx], and of their flux [ny, nx, 3];
+    no velocity up to a solidity of `faint`."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        velocity = np.where(balls[..., None] > faint, flux / balls[..., None], np.nan)
+        solidity = np.where(inside > 0, balls / inside, 0.0)
+    return SolidsMap(*edges, inside, solidity, velocity, float(begin), float(end))
+
+
+def read_windows(path, begin=-np.inf, end=np.inf):
+    """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of time;
+    velocity is weighted by solidity. RuntimeError if the file is not complete or there is no such window."""
     with h5py.File(path, "r") as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; average the dumps again")
@@ -40,15 +64,58 @@ def read_map(path, begin=-np.inf, end=np.inf):
         chosen = np.flatnonzero((ends > begin + tolerance) & (begins < end - tolerance))
         if len(chosen) == 0:
             raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
-        inside, balls, flux = 0.0, 0.0, 0.0
+        edges = [np.linspace(lower[axis], upper[axis], int(shape[axis]) + 1) for axis in (0, 1)]
+        maps = []
         for window in chosen:
             phi = file["solidity"][window]
             room = file["grid/insideFraction"][window] if "insideFraction" in file["grid"] else np.ones_like(phi)
-            inside = inside + room.mean(axis=0) / len(chosen)
-            balls = balls + (room * phi).mean(axis=0) / len(chosen)
-            flux = flux + ((room * phi)[..., None] * file["velocity"][window]).mean(axis=0) / len(chosen)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        velocity = np.where(balls[..., None] > 1e-6, flux / balls[..., None], np.nan)
-        solidity = np.where(inside > 0, balls / inside, 0.0)
-    edges = [np.linspace(lower[axis], upper[axis], int(shape[axis]) + 1) for axis in (0, 1)]
-    return SolidsMap(*edges, inside, solidity, velocity, float(begins[chosen[0]]), float(ends[chosen[-1]]))
+            flux = ((room * phi)[..., None] * file["velocity"][window]).mean(axis=0)
+            maps.append(_map(edges, room.mean(axis=0), (room * phi).mean(axis=0), flux, begins[window], ends[window], 0))
+    return maps
+
+
+def mean_map(maps):
+    """Mean of SolidsMap of equally long windows on the same voxels; velocity is weighted by solidity."""
+    inside, balls, flux = (sum(parts) / len(maps) for parts in (
+        [one.inside for one in maps], [one.balls() for one in maps], [one.flux() for one in maps]))
+    return _map((maps[0].x, maps[0].y), inside, balls, flux, maps[0].begin, maps[-1].end, FAINT)
+
+
+def read_map(path, begin=-np.inf, end=np.inf):
+    """Mean over axis and time of the windows that touch [begin, end) of DEM time (s), see read_windows."""
+    return mean_map(read_windows(path, begin, end))
+
+
+@dataclass
+class Reading:
+    """value of the mean over all windows, a number or an array, and its standard error, from as many `blocks` of windows; on
+    `failed` further blocks there was nothing to read. The error is NaN if it could be read on fewer than two."""
+    value: np.ndarray
+    error: np.ndarray
+    blocks: int
+    failed: int
+
+
+def with_error(reading, maps, blocks=8):
+    """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
+
+    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is nothing to
+    read. What it raises for the mean of all windows is passed on.
+    maps: as read_windows gives them; they are cut into at most `blocks` equal blocks of successive windows (what is left over
+    goes to the first ones), each block is averaged and read, and the error is the readings' standard deviation over the root of
+    their number. That holds as far as blocks are longer than what the charge remembers, about a turn of the charge.
+    Method of batch means: A. M. Law, Simulation Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
+    if len(maps) < 2 or blocks < 2:
+        raise ValueError(f"{len(maps)} windows in {blocks} blocks: an error over time needs at least two of each")
+    value = np.asarray(reading(mean_map(maps)), dtype=float)
+    parts = np.array_split(np.arange(len(maps)), min(blocks, len(maps)))
+    found = []
+    for part in parts:
+        try:
+            one = np.asarray(reading(mean_map([maps[i] for i in part])), dtype=float)
+        except RuntimeError:
+            continue
+        if np.all(np.isfinite(one)):
+            found.append(one)
+    error = np.std(found, axis=0, ddof=1) / np.sqrt(len(found)) if len(found) > 1 else np.full(value.shape, np.nan)
+    return Reading(value, error, len(found), len(parts) - len(found))

@@ -134,10 +134,10 @@ class Axial(unittest.TestCase):
     def test_two_humps_are_found_where_they_are(self):
         z = np.linspace(0.005, 0.3, 33)
         noise = 1e-5 * np.sin(700 * z)
-        height = axial.two_gaussians(z, -0.06, 0.003, 0.08, 0.03, 0.002, 0.21, 0.04) + noise
-        humps = axial.find_humps(z, height)
+        height = axial.gaussians(z, -0.06, 0.003, 0.08, 0.03, 0.002, 0.21, 0.04) + noise
+        humps = axial.fit_gaussians(z, height, 2)
         np.testing.assert_allclose(humps.places, (0.08, 0.21), atol=2e-3)
-        self.assertAlmostEqual(humps.distance, 0.13, delta=3e-3)
+        self.assertAlmostEqual(humps.distances[0], 0.13, delta=3e-3)
         self.assertLess(humps.rmsd, 2e-5)
 
     def test_discharge_is_the_feed_less_what_is_kept(self):

@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far two maps of a charge are apart, on maps whose difference is known."""
+"""How far two maps of a charge are apart, on maps whose difference is known, and measured maps out of a CSV."""
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
-from millfoam.compare import CLOSEST, difference
+from charge_test import RADIUS, below, charge_map, turning
+from millfoam.compare import CLOSEST, compare, difference, difference_maps, read_measured, surface_difference
+from millfoam.free_surface import free_surface
 from millfoam.solids import SolidsMap
 
 
@@ -28,11 +32,113 @@ class Difference(unittest.TestCase):
         self.assertAlmostEqual(apart.velocity_x, 1 / 1.5)
         self.assertAlmostEqual(apart.velocity_y, 0)
 
+    def test_velocities_weigh_by_both_solidities(self):
+        a, b = uniform(0.5, 2), uniform(0.3, 2)
+        a.solidity[:, :2], b.solidity[:, :2] = 0.1, 0.1
+        b.velocity[:, :2, 0] = 1
+        self.assertAlmostEqual(difference(a, b).velocity_x, 0.1 * 1 / (0.1 + 0.4) / 2)
+
     def test_maps_on_other_voxels_are_refused(self):
         other = uniform(0.5, 2)
         other.x = other.x + 0.1
         with self.assertRaisesRegex(ValueError, "same voxels"):
             difference(uniform(0.5, 2), other)
+
+    def test_maps_of_it_and_its_histogram_have_its_sign(self):
+        a, b = uniform(0.5, 2), uniform(0.38, 1)
+        b.solidity[0] = 0.5
+        b.solidity[3, 3] = np.nan
+        apart = difference_maps(a, b, 0.02)
+        np.testing.assert_allclose(apart.solidity[1:3], 0.12)
+        np.testing.assert_allclose(apart.velocity_x[1:3], 1)
+        self.assertTrue(np.isnan(apart.solidity[3, 3]) and np.isnan(apart.velocity_x[3, 3]))
+        middles = (apart.edges[1:] + apart.edges[:-1]) / 2
+        self.assertAlmostEqual(apart.shares.sum(), 1)
+        self.assertAlmostEqual(apart.shares[np.abs(middles) < 1e-9][0], 4 / 15)
+        self.assertAlmostEqual(apart.shares[np.abs(middles - 0.12) < 1e-9][0], 11 / 15)
+
+
+class Surface(unittest.TestCase):
+    def test_of_flat_ones_is_how_far_they_are_apart(self):
+        high, low, tilted = (charge_map(below(line), turning(5, (0, -0.06))) for line in (
+            lambda x: -0.03 + 0 * x, lambda x: -0.05 + 0 * x, lambda x: -0.05 - 0.4 * x))
+        found = compare(high, low, RADIUS)
+        self.assertAlmostEqual(found.surface.mean, 0.02, delta=3e-4)
+        self.assertLess(found.surface.deviation, 3e-4)
+        self.assertEqual(found.difference, difference(high, low))
+        # Height differences 0.4 x, evenly over the chord
+        slope = surface_difference(free_surface(low, RADIUS), free_surface(tilted, RADIUS))
+        width = slope.end - slope.begin
+        self.assertAlmostEqual(slope.mean, 0.4 * (slope.begin + slope.end) / 2, delta=1e-3)
+        self.assertAlmostEqual(slope.deviation, 0.4 * width / np.sqrt(12), delta=1e-3)
+
+    def test_of_such_as_do_not_stand_over_each_other_is_refused(self):
+        surface = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
+        beside = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
+        beside.points = beside.points + (0.4, 0)
+        with self.assertRaisesRegex(RuntimeError, "do not stand over each other"):
+            surface_difference(surface, beside)
+
+
+class Measured(unittest.TestCase):
+    ROWS = ["x_m,y_m,solidity,vx,vy", "0.125,0.125,0.4,1.5,-0.5", "0.375,0.125,0.2,,", "0.125,0.875,0,0,0"]
+
+    def read(self, *rows):
+        folder = tempfile.TemporaryDirectory(prefix="measured-")
+        self.addCleanup(folder.cleanup)
+        path = Path(folder.name) / "measured.csv"
+        path.write_text("\n".join(rows) + "\n")
+        return read_measured(path, uniform(0.5, 2))
+
+    def test_each_row_is_in_its_voxel(self):
+        found = self.read(*self.ROWS)
+        np.testing.assert_allclose(found.solidity[(0, 0, 3), (0, 1, 0)], (0.4, 0.2, 0))
+        np.testing.assert_allclose(found.velocity[0, 0], (1.5, -0.5, 0))
+        self.assertTrue(np.isnan(found.velocity[0, 1, 0]))
+        self.assertEqual(np.isfinite(found.solidity).sum(), 3)
+
+    def test_missing_voxels_are_counted_and_left_out(self):
+        apart = difference(uniform(0.5, 1.5), self.read(*self.ROWS))
+        self.assertEqual(apart.missing, 13)
+        self.assertAlmostEqual(apart.solidity, (0.1 + 0.3 + 0.5) / 3 / CLOSEST)
+        # Of the two voxels with a velocity: weights 0.45 and 0.25, norm the mean of 1.5 and sqrt(2.5)
+        self.assertAlmostEqual(apart.velocity_x, 0.25 * 1.5 / 0.7 / ((1.5 + np.sqrt(2.5)) / 2))
+
+    def test_missing_voxels_do_not_move_the_surface(self):
+        charge = charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, -0.06)))
+        holed = charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, -0.06)))
+        holed.solidity[20:28, 30:35], holed.velocity[20:28, 30:35] = np.nan, np.nan
+        found = surface_difference(free_surface(charge, RADIUS), free_surface(holed, RADIUS))
+        self.assertLess(max(abs(found.mean), found.deviation), 1e-3)
+
+    def test_a_whole_map_that_was_written_is_no_different(self):
+        charge = charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, -0.06)), voxels=33)
+        folder = tempfile.TemporaryDirectory(prefix="measured-")
+        self.addCleanup(folder.cleanup)
+        x, y = np.meshgrid(*charge.centres())
+        table = np.column_stack([values.ravel() for values in (x, y, charge.solidity, *np.moveaxis(charge.velocity, -1, 0)[:2])])
+        path = Path(folder.name) / "measured.csv"
+        rows = [",".join("" if np.isnan(value) else f"{value:.9g}" for value in row) for row in table[charge.inside.ravel() > 0]]
+        path.write_text("\n".join(["x_m,y_m,solidity,vx,vy", *rows]) + "\n")
+        found = compare(charge, read_measured(path, charge), RADIUS)
+        self.assertEqual(found.difference.missing, 0)
+        self.assertLess(max(found.difference.solidity, found.difference.velocity_x, abs(found.surface.mean)), 1e-6)
+
+    def test_what_is_wrong_is_named(self):
+        head, first, *_ = self.ROWS
+        for rows, message in (
+                (["x_m,y_m,solidity,vx", first], "line 1: no column vy in 'x_m,y_m,solidity,vx'"),
+                ([], "line 1: no column x_m"),
+                ([head], "measured.csv: no voxels"),
+                ([head, first, "0.375,0.125,much,0,0"], "line 3, column solidity: 'much'; expected a number from 0 to 1"),
+                ([head, "0.125,0.125,1.2,0,0"], "line 2, column solidity: '1.2'; expected a number from 0 to 1"),
+                ([head, "0.125,0.125,0.4,nan,0"], "line 2, column vx: 'nan'; expected a number"),
+                ([head, "0.125,0.125,0.4,1"], "line 2, column vy: ''; expected a number"),
+                ([head, "0.2,0.125,0.4,0,0"], "line 2, column x_m: 0.2 m is no voxel's centre; expected 4 voxels"),
+                ([head, "0.125,1.125,0.4,0,0"], "line 2, column y_m: 1.125 m is no voxel's centre"),
+                ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was told before")):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                self.read(*rows)
 
 
 if __name__ == "__main__":

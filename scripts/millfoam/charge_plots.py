@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of what is read off the charge: its map with the readings, and the tangential velocity along the line."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
+ARROWS = 17  # across the mill
+
+
+def _arrows(axis, charge):
+    """Mean velocity where the charge is, every few voxels, with a key."""
+    x, y = charge.centres()
+    step = max(1, round(len(x) / ARROWS))
+    thin = (slice(step // 2, None, step),) * 2
+    xx, yy = np.meshgrid(1e3 * x, 1e3 * y)
+    speed = np.linalg.norm(charge.velocity[..., :2], axis=-1)
+    shown = np.zeros(speed.shape, bool)
+    shown[thin] = True
+    shown &= (charge.solidity > 0.02) & np.isfinite(speed)
+    top = np.max(speed[shown])
+    arrows = axis.quiver(xx[shown], yy[shown], *charge.velocity[shown][:, :2].T, color=GREY, angles="xy", pivot="mid",
+                         scale_units="width", scale=14 * top, width=0.004)
+    key = float(f"{top / 2:.1g}")
+    axis.quiverkey(arrows, 0.9, 1.03, key, f"{key:g} m/s", labelpos="W", coordinates="axes")
+
+
+def charge_figure(charge, readings, radius):
+    """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
+    shell, centre of circulation and the line through it, free surface with its logistic, toe and shoulder."""
+    figure, axis = plt.subplots(figsize=(6.2, 6.2), constrained_layout=True)
+    solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
+    image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap="YlOrBr", vmin=0, vmax=0.65)
+    figure.colorbar(image, ax=axis, label="solidity, –", shrink=0.9)
+    turn = np.linspace(0, 2 * np.pi, 361)
+    axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="k", lw=1)
+    _arrows(axis, charge)
+    surface, profile = readings.surface, readings.tangential
+    outwards = np.array(readings.centre) / np.hypot(*readings.centre)
+    axis.plot(*(1e3 * outwards[:, None] * profile.distance[[0, -1]]), color=GREEN, lw=1.2, ls="-.")
+    axis.plot(*(1e3 * surface.points.T), color=BLUE, lw=2.2,
+              label=f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° (triangle)")
+    x = np.linspace(*np.sort(surface.points[:, 0])[[0, -1]], 200)
+    axis.plot(1e3 * x, 1e3 * surface.fitted(x), color="k", lw=1.4, ls="--", label=f"logistic, RMSD {1e3 * surface.rmsd:.2g} mm")
+    axis.plot(*(1e3 * surface.points[0]), "s", color=BLUE, mec="w", ms=8)
+    axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
+    axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
+              label=f"centre of circulation ({1e3 * readings.centre[0]:.1f}, {1e3 * readings.centre[1]:.1f}) mm and line")
+    limit = 1.03e3 * radius
+    axis.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit), xlabel="x, mm", ylabel="y, mm")
+    axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=8, frameon=False)
+    return figure
+
+
+def tangential_figure(profile):
+    """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the distance."""
+    figure, axes = plt.subplots(3, 1, figsize=(6.0, 6.6), sharex=True, constrained_layout=True,
+                                gridspec_kw={"height_ratios": (2, 1, 1.3)})
+    distance = 1e3 * profile.distance
+    fitted = profile.fitted(profile.distance)
+    axes[0].plot(distance, profile.velocity, color=BLUE, lw=2, label="map")
+    axes[0].plot(distance, fitted, color="k", lw=1.3, ls="--", label=f"cubic, RMSD {profile.rmsd:.2g} m/s")
+    axes[0].legend(frameon=False, fontsize=9)
+    axes[0].set(ylabel="tangential velocity, m/s\n(clockwise positive)")
+    axes[1].plot(distance, profile.velocity - fitted, color=BLUE, lw=1.5)
+    axes[1].set(ylabel="map − cubic, m/s")
+    axes[2].plot(distance, profile.shear_rate, color="k", lw=1.5)
+    axes[2].set(ylabel="shear rate du/dr, 1/s", xlabel=f"distance from the mill's centre, mm "
+                f"(line at {profile.angle:.0f}° from straight down)")
+    for axis in axes:
+        axis.axhline(0, color=GREY, lw=0.7)
+        axis.margins(x=0)
+    figure.align_ylabels(axes)
+    return figure

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Free surface of the charge, its logistic, and where it meets the shell: toe and shoulder, read off a map of the charge.
+
+x to the right, y up, the mill's axis at x = y = 0; the mill turns clockwise, so that the left side lifts the charge.
+Angles are counted from straight down, in degrees, positive on the side where the shell rises (the left): the shoulder's is
+positive, the toe's usually negative. Each reading raises RuntimeError where the map does not have it."""
+from dataclasses import dataclass
+
+import numpy as np
+from contourpy import contour_generator
+from scipy.ndimage import gaussian_filter, map_coordinates
+from scipy.optimize import curve_fit
+
+from .slurry_shape import shell_angle
+
+SMOOTHING = 0.05  # standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
+EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
+WALL = 0.008  # what is nearer to the shell is between or at lifters, m
+FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
+POINTS = 100  # along the free surface
+CLOCKWISE = -1.0  # the mill's sense
+
+
+def smoothed(charge, radius):
+    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of SMOOTHING radii. Balls and room are smoothed apart, so that
+    the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is no charge."""
+    widths = [SMOOTHING * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
+    balls, room = (gaussian_filter(values, widths, mode="constant") for values in (
+        charge.balls(), np.where(np.isfinite(charge.solidity), charge.inside, 0.0)))
+    solidity = np.where(room > 1e-3, balls / np.maximum(room, 1e-3), 0.0)
+    if solidity.max() < FEWEST:
+        raise RuntimeError(f"no charge: the largest smoothed solidity is {solidity.max():.3g}, less than {FEWEST}")
+    return solidity
+
+
+def at_points(charge, values, points):
+    """Values [ny, nx] on a map's voxels, bilinearly at points [n, 2] (m); beyond the outermost centres, theirs."""
+    x, y = charge.centres()
+    place = [(points[:, 1] - y[0]) / (y[1] - y[0]), (points[:, 0] - x[0]) / (x[1] - x[0])]
+    return map_coordinates(values, place, order=1, mode="nearest")
+
+
+def logistic(x, a, b, c, d):
+    """The generalised logistic a/(1 + b exp(-c x)) + d."""
+    return a / (1 + b * np.exp(-c * x)) + d
+
+
+@dataclass
+class FreeSurface:
+    """Free surface of the bulk of the charge, from the shoulder to the toe.
+
+    points [POINTS, 2]: x, y (m), equally far from each other along it; parameters: a (m), b, c (1/m), d (m) of the logistic
+    y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean square of what the points' y differ from it by."""
+    points: np.ndarray
+    parameters: tuple
+    rmsd: float
+
+    def fitted(self, x):
+        """The logistic at x (m), m."""
+        return logistic(np.asarray(x, dtype=float), *self.parameters)
+
+    def height(self, x):
+        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN beside it."""
+        x = np.atleast_1d(np.asarray(x, dtype=float))
+        (x0, y0), (x1, y1) = self.points[:-1].T[..., None], self.points[1:].T[..., None]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            part = (x - x0) / (x1 - x0)
+            crossings = np.where((part >= 0) & (part <= 1), y0 + part * (y1 - y0), -np.inf)
+        top = crossings.max(axis=0)
+        return np.where(np.isfinite(top), top, np.nan)
+
+
+def _to_circle(inner, outer, largest):
+    """Where the straight way from a point [2] within the circle of radius `largest` to one beyond it crosses it."""
+    way = outer - inner
+    square, offset = way @ way, inner @ way
+    return inner + (np.sqrt(offset**2 + square * (largest**2 - inner @ inner)) - offset) / square * way
+
+
+def pieces_within(line, largest):
+    """Pieces [n, 2] of a polyline [m, 2] within a circle of radius `largest`, each with both its ends on the circle."""
+    within = np.hypot(*line.T) < largest
+    if np.array_equal(line[0], line[-1]) and not within.all():
+        # A loop begins where it is outside, so that no piece is cut in two
+        line = np.roll(line[:-1], -np.argmin(within), axis=0)
+        line = np.concatenate([line, line[:1]])
+        within = np.hypot(*line.T) < largest
+    enter = np.flatnonzero(~within[:-1] & within[1:])
+    leave = np.flatnonzero(within[:-1] & ~within[1:])
+    leave = leave[leave > enter[0]] if len(enter) else leave
+    return [np.concatenate([_to_circle(line[i + 1], line[i], largest)[None], line[i + 1:j + 1],
+                            _to_circle(line[j], line[j + 1], largest)[None]]) for i, j in zip(enter, leave)]
+
+
+def _evenly(line, count):
+    """`count` points [count, 2] equally far along a polyline [n, 2]."""
+    way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    return np.column_stack([np.interp(np.linspace(0, way[-1], count), way, values) for values in line.T])
+
+
+def surface_points(charge, radius, wall=WALL):
+    """The free surface's points [POINTS, 2] (m) from shoulder to toe, see free_surface."""
+    solidity = smoothed(charge, radius)
+    lines = contour_generator(*charge.centres(), solidity).lines(EDGE * solidity.max())
+    pieces = [piece for line in lines for piece in pieces_within(line, radius - wall)]
+    if not pieces:
+        raise RuntimeError(f"no free surface: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
+                           f"{1e3 * wall:g} mm from the shell; centrifuging?")
+    points = _evenly(max(pieces, key=lambda piece: np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()), POINTS)
+    # On the way from the shoulder to the toe the charge of a clockwise mill is on the right
+    along = np.gradient(points, axis=0)
+    right = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1, keepdims=True)
+    step = SMOOTHING * radius / 2
+    rise = at_points(charge, solidity, points + step * right) - at_points(charge, solidity, points - step * right)
+    return points if rise.mean() > 0 else points[::-1]
+
+
+def free_surface(charge, radius, wall=WALL):
+    """FreeSurface of a SolidsMap's charge in a mill of `radius` (m).
+
+    The map is smoothed (SMOOTHING); the surface is the contour at EDGE of the largest solidity left, where it is farther than
+    `wall` (m) from the shell. Of several pieces from shell to shell the longest counts: that bounds the bulk. Balls in
+    flight are thinner than EDGE and outside of it; a cataract that is not belongs to it."""
+    points = surface_points(charge, radius, wall)
+    parameters, rmsd = fit_logistic(*points.T, radius)
+    return FreeSurface(points, parameters, rmsd)
+
+
+def fit_logistic(x, y, scale):
+    """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best of three least-squares
+    fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up to ten of them.
+
+    They begin at the best three of a table of places and widths of the step, to each of which belong an a and a d that are
+    linear least squares. RuntimeError if none comes to an end."""
+    x, y = x / scale, y / scale
+
+    def step(x, a, place, c, d):
+        return logistic(x, a, np.exp(c * place), c, d)
+
+    starts = []
+    for place in np.linspace(x.min() - 0.3, x.max() + 0.3, 12).clip(-1.9, 1.9):
+        for c in (1, 2, 4, 8, 16):
+            terms = np.column_stack([step(x, 1, place, c, 0), np.ones(len(x))])
+            a, d = np.linalg.lstsq(terms, y, rcond=None)[0].clip(-9.9, 9.9)
+            starts.append((np.mean((terms @ (a, d) - y) ** 2), (a, place, c, d)))
+    fits = []
+    for _, start in sorted(starts)[:3]:
+        try:
+            found, _ = curve_fit(step, x, y, start, bounds=([-10, -2, 0.01, -10], [10, 2, 100, 10]), maxfev=500)
+        except RuntimeError:
+            continue
+        fits.append((np.sqrt(np.mean((step(x, *found) - y) ** 2)), *found))
+    if not fits:
+        raise RuntimeError(f"no logistic was found through the {len(x)} points of the free surface")
+    rmsd, a, place, c, d = min(fits)
+    return (float(a * scale), float(np.exp(c * place)), float(c / scale), float(d * scale)), float(rmsd * scale)
+
+
+def toe_and_shoulder(charge, radius, wall=WALL):
+    """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the points at
+    which the free surface meets the circle `wall` (m) from the shell."""
+    points = surface_points(charge, radius, wall)
+    return tuple(float(shell_angle(*points[end], CLOCKWISE)) for end in (-1, 0))

@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Humps of a profile along the axis: sums of Gaussians are found again, in noise too."""
+import unittest
+
+import numpy as np
+
+from millfoam.axial import fit_gaussians, gaussians
+
+Z = np.linspace(0.005, 0.3, 33)
+TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)
+THREE = (0.003, 0.05, 0.02, 0.002, 0.15, 0.025, 0.0025, 0.25, 0.02)
+BASE, NOISE = -0.06, 5e-5
+
+
+class Humps(unittest.TestCase):
+    def profile(self, humps, level=NOISE):
+        return gaussians(Z, BASE, *humps) + level * np.random.default_rng(5).standard_normal(len(Z))
+
+    def test_two_and_three_are_found_where_they_are(self):
+        for humps in (TWO, THREE):
+            found = fit_gaussians(Z, self.profile(humps), len(humps) // 3)
+            heights, places, widths = np.reshape(humps, (-1, 3)).T
+            np.testing.assert_allclose(found.places, places, atol=2e-3)
+            np.testing.assert_allclose(found.heights, heights, atol=3e-4)
+            np.testing.assert_allclose(found.widths, widths, atol=4e-3)
+            np.testing.assert_allclose(found.distances, np.diff(places), atol=3e-3)
+            np.testing.assert_allclose(found.fitted(Z), gaussians(Z, BASE, *humps), atol=3 * NOISE)
+
+    def test_what_is_left_is_the_noise(self):
+        for humps in (TWO, THREE):
+            found = fit_gaussians(Z, self.profile(humps), len(humps) // 3)
+            self.assertAlmostEqual(found.rmsd / NOISE, 1, delta=0.4)
+
+    def test_two_are_not_enough_for_three(self):
+        profile = self.profile(THREE)
+        self.assertGreater(fit_gaussians(Z, profile, 2).rmsd, 5 * fit_gaussians(Z, profile, 3).rmsd)
+
+    def test_no_hump_is_narrower_than_slices_can_show(self):
+        # Heights (m) of nine slices of a mill that has no two humps
+        z = np.linspace(0.017, 0.288, 9)
+        found = fit_gaussians(z, np.array([-42.3, -29.7, -36.0, -48.7, -40.0, -30.9, -45.2, -39.9, -27.3]) / 1e3, 2)
+        self.assertGreaterEqual(min(found.widths), (z[1] - z[0]) / 2)
+        self.assertLess(found.fitted(np.linspace(z[0], z[-1], 500)).max(), -0.02)
+
+    def test_too_few_slices_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
+            fit_gaussians(Z[:9], Z[:9], 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
