@@ -10,8 +10,9 @@ POSITION = ("x", "y", "z")
 
 
 def read_notes(dumps):
-    """Lines `key value` of DIR/dumps/run.txt as a dictionary of numbers: timestep (s), interval (steps), angular_velocity (rad/s)."""
-    return {key: float(value) for key, value in (line.split() for line in (Path(dumps) / "run.txt").read_text().splitlines())}
+    """DIR/dumps/run.txt as a dictionary of numbers: timestep (s), interval (steps), angular_velocity (rad/s)."""
+    lines = (Path(dumps) / "run.txt").read_text().splitlines()
+    return {key: float(value) for key, value in (line.split() for line in lines)}
 
 
 def numbered_dumps(folder, kind="dump"):
@@ -30,7 +31,9 @@ def read_tracks(dumps, ids, begin=0.0, end=np.inf):
     RuntimeError for a dump that lacks one of the balls, naming it."""
     wanted = np.unique(np.asarray(ids, dtype=int))
     timestep = read_notes(dumps)["timestep"]
-    chosen = [(step, path) for step, path in numbered_dumps(dumps) if begin - timestep / 2 <= step * timestep <= end + timestep / 2]
+    # Times that should agree may differ by rounding
+    chosen = [(step, path) for step, path in numbered_dumps(dumps)
+              if begin - timestep / 2 <= step * timestep <= end + timestep / 2]
     if not chosen:
         raise RuntimeError(f"{dumps}: no dump from {begin} to {end} s")
     time = np.array([step * timestep for step, _ in chosen])

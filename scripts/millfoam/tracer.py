@@ -3,7 +3,11 @@
 
 In a steady, ergodic charge the share of its time that one ball spends in a voxel is the share of the charge's volume that is
 there: solidity = share x volume of the charge / volume of the voxel (Parker et al., Nucl. Instrum. Methods A 392 (1997) 421;
-Wildman et al., Phys. Rev. E 62 (2000) 3826). It is where balls' centres are: balls themselves reach half a diameter further."""
+Wildman et al., Phys. Rev. E 62 (2000) 3826). It is where balls' centres are: balls themselves reach half a diameter further.
+
+How many tracers that takes: in the 30 cm mill at 75 % of critical speed, 3 s, voxels of 9 mm, balls of 5 mm, compare.difference
+in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100, 0.022 for 300 and 0.017 for 600:
+it falls about as one over the root of their number. That balls reach further than their centres is no more than 0.001 of it."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +24,7 @@ class Trajectory:
     def __post_init__(self):
         self.time, self.position = np.asarray(self.time, dtype=float), np.asarray(self.position, dtype=float)
         if self.position.shape != (len(self.time), 3) or len(self.time) < 2:
-            raise ValueError(f"a track of {len(self.time)} times and positions {self.position.shape}; expected [n], [n, 3], n > 1")
+            raise ValueError(f"{len(self.time)} times and positions {self.position.shape}; expected [n] and [n, 3], n > 1")
         if not (np.isfinite(self.time).all() and np.isfinite(self.position).all()):
             raise ValueError("a track with values that are not finite")
         if not (np.diff(self.time) > 0).all():

@@ -68,7 +68,7 @@ class Surface(unittest.TestCase):
 
 class HoldUp(unittest.TestCase):
     def test_is_the_integral_of_the_pores_cross_section_over_the_length(self):
-        for flow, depth in ((1e-5, 0.02), (1e-4, 0.02), (1e-4, 0.0), (1e-3, 0.05)):
+        for flow, depth in ((5e-7, 0.02), (1e-5, 0.02), (1e-4, 0.02), (1e-4, 0.0), (1e-3, 0.05)):
             integral = quad(lambda z: 0.4 * CHARGE.cross_section(slurry_depth(CHARGE, z, flow, depth, **SLURRY)), 0, 0.3,
                             epsrel=1e-12)[0]
             self.assertAlmostEqual(slurry_hold_up(CHARGE, flow, depth, **SLURRY) / integral, 1, places=9)

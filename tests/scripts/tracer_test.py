@@ -49,6 +49,11 @@ class Residence(unittest.TestCase):
         np.testing.assert_allclose(time, counted, atol=1e-5)
         np.testing.assert_allclose(path[time > 0] / time[time > 0][:, None], np.tile((end - begin) / 2, (np.sum(time > 0), 1)))
 
+    def test_of_a_tracer_that_speeds_up_is_weighted_with_its_velocity_in_each_voxel(self):
+        track = Trajectory([0, 1], [[0, 0.5, 0.5], [0.5, 0.5, 0.5]])
+        _, path, _ = residence(track, UNIT, np.array([[0, 0, 0], [2, 0, 0]]))
+        np.testing.assert_allclose(path[2, 2, :3, 0], [0.25, 0.75, 0])
+
     def test_outside_the_voxels_is_counted(self):
         track = Trajectory([0, 1], [[-1, 0.5, 0.5], [3, 0.5, 0.5]])
         time, _, outside = residence(track, UNIT, np.zeros((2, 3)))
@@ -90,6 +95,12 @@ class Velocity(unittest.TestCase):
             slopes = np.log2(np.array(errors[:-1]) / errors[1:])
             np.testing.assert_allclose(slopes, order, atol=0.35)
 
+    def test_of_an_even_function_is_nought_in_its_middle_because_the_points_lie_evenly_about_it(self):
+        time = np.arange(-4.0, 5.0)
+        for points in (3, 5):
+            found = velocities(Trajectory(time, np.stack([time ** 6, time ** 2, time ** 8], axis=1)), points)
+            np.testing.assert_allclose(found[4], 0, atol=1e-10)
+
     def test_of_too_few_points_is_refused(self):
         with self.assertRaisesRegex(ValueError, "5-point differentiation of 4 points"):
             velocities(Trajectory([0, 1, 2, 3], np.zeros((4, 3))), 5)
@@ -104,7 +115,8 @@ class Map(unittest.TestCase):
         self.assertAlmostEqual(found.residence.sum(), 1)
         self.assertEqual((found.outside, found.tracers), (0, 2))
         spun = found.solidity[..., None] * np.nan_to_num(found.velocity)
-        self.assertAlmostEqual(np.abs(spun).sum(), np.abs(found.solidity_3d[..., None] * np.nan_to_num(found.velocity_3d)).sum() / 3)
+        spun_3d = found.solidity_3d[..., None] * np.nan_to_num(found.velocity_3d)
+        self.assertAlmostEqual(np.abs(spun).sum(), np.abs(spun_3d).sum() / 3)
         right = found.velocity[6, 9:11]  # y just above 0: upwards, as fast as the orbit
         self.assertAlmostEqual(np.nanmax(right[:, 1]), SPEED, delta=0.03)
 
