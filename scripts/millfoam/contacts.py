@@ -198,11 +198,39 @@ def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass
     # What the torque is more than that of the tangential force at its arm is rolling friction
     rolling = table["torque"] + arm[:, None] * np.cross(normal, tangential)
     first, second = types
-    compliance = (1 - materials.poisson_ratio ** 2) / materials.youngs_modulus
-    stiffness = 4 / 3 / (compliance[first] + compliance[second]) * np.sqrt(radius)
+    stiffness = 4 / 3 * np.sqrt(radius) * _modulus((1 - materials.poisson_ratio ** 2) / materials.youngs_modulus, types)
+    damper = _tangential_damping(radius, mass, table["overlap"], types, materials)
+    tangential, sliding = tangential_forces(tangential, past, materials.friction[first, second] * np.abs(push), damper)
     elastic = stiffness * table["overlap"] ** 1.5
-    size = np.linalg.norm(tangential, axis=1)
-    limit = materials.friction[first, second] * np.abs(push)
-    return Contacts(key, diameters, mass, approach, np.linalg.norm(past, axis=1), push, size,
+    return Contacts(key, diameters, mass, approach, np.linalg.norm(past, axis=1), push, np.linalg.norm(tangential, axis=1),
                     table["overlap"], stiffness, (push - elastic) * approach, elastic * approach,
-                    -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), size > 0.999 * limit)
+                    -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), sliding)
+
+
+def tangential_forces(dumped, past, limit, damper):
+    """Tangential forces [m, 3] (N) as they acted, and which contacts slide [m], from those that were dumped.
+
+    past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide without its
+    damper, and then shortens its spring to the limit. When it computes the force anew for the dump, it finds the spring within
+    the limit and adds the damper, so that the force is too large: here that is taken off again. The limit itself differs by the
+    half step between the two velocities, so that a spring within 2 % of it is taken for a sliding one."""
+    size = np.linalg.norm(dumped, axis=1)
+    at_limit = np.abs(size - limit) <= 1e-6 * limit
+    spring = np.where(at_limit[:, None], dumped, dumped + damper[:, None] * past)
+    length = np.linalg.norm(spring, axis=1)
+    sliding = (length > 0.98 * limit) & (length > 0)
+    shortened = spring * (limit / np.where(length > 0, length, 1.0))[:, None]
+    return np.where(sliding[:, None], shortened, dumped), sliding
+
+
+def _modulus(compliances, types):
+    """Modulus (Pa) of two bodies in series, from the compliances of the atom types (1/Pa)."""
+    return 1 / (compliances[types[0]] + compliances[types[1]])
+
+
+def _tangential_damping(radius, mass, overlap, types, materials):
+    """-2 sqrt(5/6) beta sqrt(k_t m), k_t = 8 G* sqrt(R overlap), in N s/m."""
+    ratio = materials.poisson_ratio
+    stiffness = 8 * np.sqrt(radius * overlap) * _modulus(2 * (2 - ratio) * (1 + ratio) / materials.youngs_modulus, types)
+    loss = np.log(materials.restitution[types[0], types[1]])
+    return -2 * np.sqrt(5 / 6) * loss / np.hypot(loss, np.pi) * np.sqrt(stiffness * mass)

@@ -83,12 +83,25 @@ class Powers(Case):
         pairs, _ = self.contacts(balls, [(1, 2, 1, 0.61, force, 0, 0, 0, -ARM * force, OVERLAP)])
         self.assertFalse(pairs.sliding[0])
 
+    def test_of_a_sliding_contact_lack_the_damper_that_the_dump_adds(self):
+        balls = [list(row) for row in AT_REST]
+        balls[0][10], balls[1][10] = -4.0, 10.0
+        shear_modulus = 1 / (4 * (2 - 0.25) * 1.25 / 1e7)
+        damper = 2 * np.sqrt(5 / 6) * -np.log(0.8) / np.hypot(np.log(0.8), np.pi) * np.sqrt(
+            8 * shear_modulus * np.sqrt(RADIUS / 2 * OVERLAP) * MASS / 2)
+        for limit, dumped in ((0.3, 0.3 + damper * 6 * ARM), (0.3, 0.3)):
+            pairs, _ = self.contacts(balls, [(1, 2, 1, 0.6, dumped, 0, 0, 0, -ARM * dumped, OVERLAP)])
+            self.assertTrue(pairs.sliding[0])
+            self.assertAlmostEqual(pairs.friction[0], limit * 6 * ARM, places=7)
+            self.assertAlmostEqual(pairs.rolling[0], 0, places=9)
+
     def test_of_a_wall_that_slides_below_a_ball_go_into_friction(self):
         elastic = BALL_WALL * OVERLAP ** 1.5
+        limit = 0.4 * elastic
         point, centre, ids = [0.5, -(RADIUS - OVERLAP), 0.5], [0.5, 0, 0.5], [1, 17, 3]
-        row = [*point, *centre, 0.4, 0, 0, 0, 0, 0, *ids, 0.2, elastic, 0, 0, 0, ARM * 0.2, OVERLAP]
+        row = [*point, *centre, 0.4, 0, 0, 0, 0, 0, *ids, limit, elastic, 0, 0, 0, ARM * limit, OVERLAP]
         _, walls = self.contacts(walls=[row])
-        self.assertAlmostEqual(walls.friction[0], 0.08, places=7)
+        self.assertAlmostEqual(walls.friction[0], 0.4 * limit, places=7)
         self.assertAlmostEqual(walls.damping[0], 0, places=7)
         self.assertAlmostEqual(walls.rolling[0], 0, places=9)
         np.testing.assert_array_equal(walls.key, [[3, -2]])
