@@ -75,6 +75,8 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
   for (const char* kind : segment_kinds)
     for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);
+  for (const char* kind : contact_kinds)
+    for (const auto& contacts : find_contacts(folder, kind)) fs::remove(contacts.file);
   const auto old = find_dumps(folder);
   for (const auto& dump : old) fs::remove(dump);
   return old.size();

@@ -19,6 +19,7 @@ struct CaseFolder {
   std::filesystem::path walls() const { return root / "walls"; }
   std::filesystem::path dem() const { return root / "dem"; }
   std::filesystem::path dumps() const { return root / "dumps"; }
+  std::filesystem::path contacts() const { return root / "contacts"; }
   std::filesystem::path deck() const { return dem() / "in.mill"; }
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
@@ -54,8 +55,8 @@ class FolderLock {
 /// Removes run file and results.
 void remove_results(const CaseFolder& folder);
 
-/// Makes the folders and removes dumps, run file, results, restart files and histories of an earlier run, so
-/// that two runs never mix. Nothing else is removed. Returns the number of dumps removed.
+/// Makes the folders and removes dumps, contacts, run file, results, restart files and histories of an
+/// earlier run, so that two runs never mix. Nothing else is removed. Returns the number of dumps removed.
 std::size_t prepare_folders(const CaseFolder& folder);
 
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to

@@ -51,6 +51,19 @@ long records_per_restart(long records) {
   return wished;
 }
 
+/// Time-steps between two dumps of the contacts, 0 where there are none.
+long steps_between_contacts(const meshing::Mill& mill, double time_step) {
+  const double interval = mill.dem.contact_interval;
+  if (interval == 0) return 0;
+  if (interval < time_step * (1 - 1e-9)) {
+    std::ostringstream message;
+    message << "key 'dem.contact_interval': " << interval << " s, expected 0 or at least the time-step, "
+            << time_step << " s";
+    throw std::runtime_error(message.str());
+  }
+  return std::lround(interval / time_step);
+}
+
 bool is_periodic(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic;
 }
@@ -147,9 +160,38 @@ void write_walls(std::ostream& out, const std::vector<std::string>& parts, const
   out << '\n';
 }
 
+/// What LIGGGHTS computes of every contact. It allows one such compute for pairs of balls and one for walls,
+/// so that the histograms of the overlaps and the dumps of the contacts share them.
+struct ContactTable {
+  const char* compute;     ///< its name in the deck
+  const char* style;       ///< of the compute
+  const char* properties;  ///< in the order of the columns, whatever the order in which they are asked for
+  int columns;             ///< the last of which is the overlap
+};
+
+ContactTable ball_table(const DemPlan& plan) {
+  if (plan.contact_steps == 0) return {"ballOverlaps", "pair/gran/local", "delta", 1};
+  return {"ballOverlaps", "pair/gran/local", "id force torque delta", 10};
+}
+
+ContactTable wall_table(const DemPlan& plan) {
+  if (plan.contact_steps == 0) return {"wallOverlaps", "wall/gran/local", "delta", 1};
+  return {"wallOverlaps", "wall/gran/local", "pos vel id force torque delta", 22};
+}
+
+/// The column of a table, as LIGGGHTS calls it.
+std::string column(const ContactTable& table, int number) {
+  return std::string("c_") + table.compute + '[' + std::to_string(number) + ']';
+}
+
+std::string overlap_column(const ContactTable& table) {
+  return column(table, table.columns);
+}
+
 void write_thermo(std::ostream& out, const DemPlan& plan) {
-  out << "compute ballOverlaps all pair/gran/local delta\ncompute wallOverlaps all wall/gran/local delta\n"
-      << "compute overlap all reduce max c_ballOverlaps[1]\n"
+  for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
+    out << "compute " << table.compute << " all " << table.style << ' ' << table.properties << '\n';
+  out << "compute overlap all reduce max " << overlap_column(ball_table(plan)) << "\n"
       << "thermo_style custom step atoms ke c_overlap\n"
       << "thermo_modify lost ignore norm no flush yes\nthermo " << plan.thermo_steps << '\n';
 }
@@ -207,10 +249,30 @@ void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std
       << "*y\ncompute potential all reduce sum v_height\n"
       << "fix energy all ave/time " << record << " 1 " << record
       << " c_kinetic c_potential c_overlap file energy." << start << ".txt\n";
-  for (const char* kind : {"ballOverlaps", "wallOverlaps"})
-    out << "fix " << kind << "Histogram all ave/histo " << record << ' ' << plan.restart_steps / record << ' '
-        << plan.restart_steps << " 0 " << range << ' ' << overlap_bins << " c_" << kind
-        << "[1] mode vector file " << kind << '.' << start << ".txt\n";
+  for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
+    out << "fix " << table.compute << "Histogram all ave/histo " << record << ' '
+        << plan.restart_steps / record << ' ' << plan.restart_steps << " 0 " << range << ' ' << overlap_bins
+        << " " << overlap_column(table) << " mode vector file " << table.compute << '.' << start << ".txt\n";
+}
+
+/// One dump of a table of contacts, with as many digits as directions and powers need.
+void write_contact_dump(std::ostream& out, const DemPlan& plan, const ContactTable& table, const char* kind) {
+  out << "dump " << kind << " all local " << plan.contact_steps << " ../contacts/" << kind << ".*.txt";
+  for (int number = 1; number <= table.columns; ++number) out << ' ' << column(table, number);
+  out << "\ndump_modify " << kind << " format \"%.9g";
+  for (int number = 2; number <= table.columns; ++number) out << " %.9g";
+  out << "\"\n";
+}
+
+/// The contacts and, because LIGGGHTS tells no spin of a contact's balls, the balls at the same steps.
+void write_contacts(std::ostream& out, const DemPlan& plan) {
+  if (plan.contact_steps == 0) return;
+  out << "shell mkdir ../contacts\n";
+  write_contact_dump(out, plan, ball_table(plan), "pairs");
+  write_contact_dump(out, plan, wall_table(plan), "walls");
+  out << "dump contactBalls all custom " << plan.contact_steps
+      << " ../contacts/balls.*.txt id type x y z vx vy vz omegax omegay omegaz radius\n"
+      << "dump_modify contactBalls format \"%d %d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\"\n";
 }
 
 /// From step `start` on, which is 0 or that of a restart file.
@@ -228,8 +290,9 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
   out << "dump balls all custom " << plan.step.steps_per_record
       << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"
-      << "variable now equal step\n"
-      << "run " << plan.turning_steps << " upto every " << plan.restart_steps
+      << "variable now equal step\n";
+  write_contacts(out, plan);
+  out << "run " << plan.turning_steps << " upto every " << plan.restart_steps
       << " \"write_restart restart.part\" \"shell mv restart.part restart.${now}\" \"print '" << restart_mark
       << " ${now}'\"\n"
       << "print \"" << finished_mark << "\"\n";
@@ -260,6 +323,8 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
   plan.restart_steps = records_per_restart(records) * plan.step.steps_per_record;
+  plan.contact_steps = steps_between_contacts(mill, plan.step.value);
+  if (plan.contact_steps > 0) plan.contact_dumps = plan.turning_steps / plan.contact_steps + 1;
   return plan;
 }
 

@@ -21,14 +21,17 @@ struct DemPlan {
   long turning_steps = 0;   ///< from DEM time 0 on, a whole number of records
   long dumps = 0;           ///< of the turning mill, with the one at step 0
   long thermo_steps = 0;    ///< between two lines of LIGGGHTS' log
+  long contact_steps = 0;   ///< between two dumps of the contacts; 0: they are not dumped
+  long contact_dumps = 0;   ///< of the turning mill, with the one at step 0
   long restart_steps = 0;   ///< between two restart files of the turning mill, a whole number of records
   long insertions() const;  ///< single insertions of all rounds; each takes one step
   long total_steps() const;
 };
 
 /// Chooses the time-step and cuts charge and duration into whole balls and steps. The duration is rounded up
-/// to a whole number of record intervals. Throws std::runtime_error as `choose_time_step` and `plan_charge`
-/// do.
+/// to a whole number of record intervals, and the interval of the contacts to the nearest whole number of
+/// steps. Throws std::runtime_error as `choose_time_step` and `plan_charge` do, and for an interval of the
+/// contacts below the time-step.
 DemPlan plan_dem(const meshing::Mill& mill);
 
 /// Ranks along x, y and z. The axis is cut first, because the charge lies evenly along it: as often as
@@ -53,8 +56,9 @@ inline constexpr double overlap_range = 0.2;
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
 /// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes beside itself, from step 0 on,
-/// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`. Balls are
-/// the first atom types, one for each modulus, the wall is the last.
+/// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with
+/// contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first
+/// atom types, one for each modulus, the wall is the last.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 

@@ -16,6 +16,7 @@
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
+#include "dem_driver/segments.hpp"
 #include "meshing/cross_section.hpp"
 #include "meshing/wall_files.hpp"
 #include "meshing/wall_surface.hpp"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double trial_steps = 2000;
+constexpr double most_trial_contacts = 200;  // dumps
 // Both measured on 55 000 balls of 5 mm, on one and on two ranks.
 constexpr double memory_per_ball = 2000;
 constexpr double restart_per_ball = 440;
@@ -75,11 +77,19 @@ double logged_rate(const fs::path& file) {
   return work / time;
 }
 
-double bytes_per_ball(const CaseFolder& folder, long balls) {
+double dump_bytes_per_ball(const CaseFolder& folder, const DemPlan& plan) {
   double bytes = 0;
-  const auto dumps = find_dumps(folder);
-  for (const auto& dump : dumps) bytes += static_cast<double>(fs::file_size(dump));
-  return bytes / static_cast<double>(dumps.size()) / static_cast<double>(balls);
+  for (const auto& dump : find_dumps(folder)) bytes += static_cast<double>(fs::file_size(dump));
+  return bytes / static_cast<double>(plan.dumps * plan.charge.balls());
+}
+
+double contact_bytes_per_ball(const CaseFolder& folder, const DemPlan& plan) {
+  if (plan.contact_dumps == 0) return 0;
+  double bytes = 0;
+  for (const char* kind : contact_kinds)
+    for (const auto& contacts : find_contacts(folder, kind))
+      bytes += static_cast<double>(fs::file_size(contacts.file));
+  return bytes / static_cast<double>(plan.contact_dumps * plan.charge.balls());
 }
 
 /// Of the largest process that this one has waited for, bytes.
@@ -105,6 +115,8 @@ double work_of(const DemPlan& plan) {
 
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   meshing::Mill trial = mill;
+  const long steps_between_contacts = plan_dem(mill).contact_steps;
+  trial.dem.contact_interval = 0;
   trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
   trial.dem.largest_overlap = 0;
   trial.dem.soften_below = 0;
@@ -123,6 +135,12 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   trial.dem.settle_time = 0.1;
   trial.dem.record_interval = trial_steps / 10 * whole.step.value;
   trial.dem.duration = trial_steps * whole.step.value;
+  // As often as in the mill, so that the rate has the time that writing them takes; but not so often that
+  // the trial fills a disk
+  if (steps_between_contacts > 0)
+    trial.dem.contact_interval = std::clamp(static_cast<double>(steps_between_contacts),
+                                            trial_steps / most_trial_contacts, trial_steps) *
+                                 whole.step.value;
   return trial;
 }
 
@@ -140,8 +158,9 @@ Cost measure_cost(const meshing::Mill& mill, int ranks) {
   });
   std::ostringstream unseen;
   run_liggghts(folder, plan, ranks, {unseen, false});
-  return {logged_rate(folder.log()), bytes_per_ball(folder, plan.charge.balls()),
-          largest_child() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks};
+  return {logged_rate(folder.log()), dump_bytes_per_ball(folder, plan),
+          largest_child() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks,
+          contact_bytes_per_ball(folder, plan)};
 }
 
 Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks) {
@@ -151,7 +170,9 @@ Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks) {
   result.wall_time = work_of(plan) / cost.rate;
   const double histogram = 2 * overlap_bins * 16.0 * static_cast<double>(plan.turning_steps) /
                            static_cast<double>(plan.restart_steps);
-  result.disk = balls * (cost.dump * static_cast<double>(plan.dumps) + restart_per_ball) + histogram;
+  const double dumps = cost.dump * static_cast<double>(plan.dumps);
+  const double contacts = cost.contacts * static_cast<double>(plan.contact_dumps);
+  result.disk = balls * (dumps + contacts + restart_per_ball) + histogram;
   result.memory = ranks * cost.memory + balls * memory_per_ball;
   return result;
 }

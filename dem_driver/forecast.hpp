@@ -10,16 +10,17 @@ namespace millfoam::dem_driver {
 
 /// What a dry run costs on this machine.
 struct Cost {
-  double rate = 0;    ///< balls moved by one step, per second
-  double dump = 0;    ///< bytes per ball of one dump
-  double memory = 0;  ///< bytes of one rank, without those of the balls beyond the trial's
+  double rate = 0;      ///< balls moved by one step, per second
+  double dump = 0;      ///< bytes per ball of one dump
+  double memory = 0;    ///< bytes of one rank, without those of the balls beyond the trial's
+  double contacts = 0;  ///< bytes per ball of one dump of the contacts
 };
 
 /// What a dry run will take.
 struct Forecast {
   long steps = 0;
   double wall_time = 0;  ///< s
-  double disk = 0;       ///< bytes of dumps, restart file and histories
+  double disk = 0;       ///< bytes of dumps, contacts, restart file and histories
   double memory = 0;     ///< bytes of all ranks
 };
 

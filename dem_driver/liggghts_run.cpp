@@ -117,6 +117,8 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   if (static_cast<long>(result.dumps) != plan.dumps)
     throw RunError(folder.dumps().string() + ": " + std::to_string(result.dumps) + " dumps, expected " +
                    std::to_string(plan.dumps));
+  const std::string complaint = contacts_complaint(folder, plan, plan.turning_steps);
+  if (!complaint.empty()) throw RunError(complaint);
   return result;
 }
 

@@ -73,6 +73,24 @@ std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::str
   return find_numbered(folder.dem(), kind + ".", ".txt");
 }
 
+std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::string& kind) {
+  return find_numbered(folder.contacts(), kind + ".", ".txt");
+}
+
+std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step) {
+  if (plan.contact_steps == 0) return {};
+  const long expected = step / plan.contact_steps + 1;
+  for (const std::string kind : contact_kinds) {
+    const auto files = find_contacts(folder, kind);
+    const auto found =
+        std::count_if(files.begin(), files.end(), [&](const auto& file) { return file.step <= step; });
+    if (found != expected)
+      return folder.contacts().string() + ": " + std::to_string(found) + ' ' + kind + " up to step " +
+             std::to_string(step) + ", expected " + std::to_string(expected);
+  }
+  return {};
+}
+
 std::vector<NumberedFile> find_restarts(const CaseFolder& folder) {
   return find_numbered(folder.dem(), "restart.", "");
 }
@@ -102,6 +120,9 @@ long count_dumps_until(const CaseFolder& folder, long step) {
 void remove_dumps_after(const CaseFolder& folder, long step) {
   for (const auto& dump : find_numbered(folder.dumps(), "dump.", ".txt"))
     if (dump.step > step) fs::remove(dump.file);
+  for (const char* kind : contact_kinds)
+    for (const auto& contacts : find_contacts(folder, kind))
+      if (contacts.step > step) fs::remove(contacts.file);
 }
 
 void remove_restarts_before(const CaseFolder& folder, long step) {

@@ -21,6 +21,16 @@ inline constexpr const char* segment_kinds[] = {"torque", "energy", "ballOverlap
 /// Every `dem/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind);
 
+/// Kinds of files of the contacts: those of two balls, those of balls and walls, and the balls themselves.
+inline constexpr const char* contact_kinds[] = {"pairs", "walls", "balls"};
+
+/// Every `contacts/<kind>.<step>.txt`, by step.
+std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::string& kind);
+
+/// What is wrong with the contacts of steps up to `step`: "folder: 3 pairs up to step 50, expected 6"; empty
+/// when all that the plan asks for are there.
+std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step);
+
 /// Every whole restart file, `dem/restart.<step>`, by step.
 std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
 
@@ -41,7 +51,8 @@ std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::stri
 /// Number of dumps of steps up to `step`.
 long count_dumps_until(const CaseFolder& folder, long step);
 
-/// Removes dumps later than `step`: they belong to a run that was killed after its last restart file.
+/// Removes dumps and contacts later than `step`: they belong to a run that was killed after its last restart
+/// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
 /// Removes the restart files of steps before `step`.

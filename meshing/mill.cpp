@@ -152,6 +152,11 @@ Dem read_dem(const Section& in) {
   dem.record_interval = in.number("record_interval",
                                   {"a time above 0 and not above the duration, " + shown(dem.duration) + " s",
                                    [&](double v) { return v > 0 && v <= dem.duration; }});
+  dem.contact_interval =
+      in.number("contact_interval",
+                {"0 for no contacts, or a time in s up to the duration, " + shown(dem.duration) + " s",
+                 [&](double v) { return v >= 0 && v <= dem.duration; }},
+                0);
   dem.seed =
       in.integer("seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }});
   return dem;
@@ -219,7 +224,7 @@ Mill read_mill(const std::filesystem::path& file) {
                             mill.geometry, mill.ball.density);
   mill.dem =
       read_dem(in.section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
-                                  "settle_time", "duration", "record_interval", "seed"}));
+                                  "settle_time", "duration", "record_interval", "contact_interval", "seed"}));
   mill.slurry = read_slurry(
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"}),
       mill.geometry.radius());

@@ -97,6 +97,7 @@ struct Dem {
   double settle_time = 0;        ///< s the balls fall in the mill at rest, before DEM time 0
   double duration = 0;           ///< s of turning mill, from DEM time 0
   double record_interval = 0;    ///< s between dumps
+  double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
   int seed = 0;                  ///< of the random insertion
 };
 

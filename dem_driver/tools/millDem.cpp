@@ -76,6 +76,8 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
     throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
                              std::to_string(step) + ", expected " + std::to_string(expected) +
                              ": the run has lost some" + otherwise);
+  const std::string complaint = dem_driver::contacts_complaint(folder, plan, step);
+  if (!complaint.empty()) throw std::runtime_error(complaint + otherwise);
 }
 
 /// The step at which a run of this very deck goes on; nothing when there is none to go on with.

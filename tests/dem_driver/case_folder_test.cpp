@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 
+#include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -30,6 +31,47 @@ TEST(CaseFolder, OnlyDumpsAndRunFileOfAnEarlierRunAreRemoved) {
   EXPECT_FALSE(std::filesystem::exists(folder.run_file()));
   EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "dump.0.gz"));
   EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "notes.txt"));
+}
+
+void touch_contacts(const CaseFolder& folder, const std::vector<int>& steps) {
+  for (const std::string kind : contact_kinds)
+    for (const int step : steps) touch(folder.contacts() / (kind + '.' + std::to_string(step) + ".txt"));
+}
+
+TEST(CaseFolder, ContactsOfAnEarlierRunAreRemovedAndNothingElse) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  touch_contacts(folder, {0, 50});
+  touch(folder.contacts() / "spectra.csv");
+  EXPECT_EQ(prepare_folders(folder), 0u);
+  for (const char* kind : contact_kinds) EXPECT_TRUE(find_contacts(folder, kind).empty());
+  EXPECT_TRUE(std::filesystem::exists(folder.contacts() / "spectra.csv"));
+}
+
+TEST(CaseFolder, ContactsAfterTheRestartFileGoWithTheDumps) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  touch_contacts(folder, {0, 50, 100});
+  remove_dumps_after(folder, 60);
+  for (const char* kind : contact_kinds) {
+    const auto left = find_contacts(folder, kind);
+    ASSERT_EQ(left.size(), 2u) << kind;
+    EXPECT_EQ(left.back().step, 50);
+  }
+}
+
+TEST(CaseFolder, ContactsThatAreMissingAreCounted) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  DemPlan plan;
+  EXPECT_EQ(contacts_complaint(folder, plan, 120), "");
+  plan.contact_steps = 50;
+  touch_contacts(folder, {0, 50, 100, 150});
+  EXPECT_EQ(contacts_complaint(folder, plan, 120), "");
+  std::filesystem::remove(folder.contacts() / "walls.50.txt");
+  EXPECT_EQ(contacts_complaint(folder, plan, 120),
+            folder.contacts().string() + ": 2 walls up to step 120, expected 3");
+  EXPECT_EQ(contacts_complaint(folder, plan, 49), "");
 }
 
 TEST(CaseFolder, AMissingWallIsNamed) {

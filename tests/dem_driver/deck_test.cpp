@@ -246,6 +246,59 @@ TEST(Deck, AResumedRunReadsTheRestartFileInsertsNothingAndKeepsTheClock) {
             std::string::npos);
 }
 
+meshing::Mill mill_with_contacts(double interval) {
+  auto mill = small_mill();
+  mill.dem.contact_interval = interval;
+  return mill;
+}
+
+TEST(Deck, WithoutAnIntervalNoContactsAreDumped) {
+  const std::string deck = deck_of(small_mill());
+  EXPECT_TRUE(has_line(deck, "compute ballOverlaps all pair/gran/local delta"));
+  EXPECT_EQ(deck.find("contacts"), std::string::npos);
+  EXPECT_EQ(plan_dem(small_mill()).contact_dumps, 0);
+}
+
+TEST(Deck, ContactsAndTheirBallsAreDumpedAtTheNearestWholeNumberOfSteps) {
+  const double step = plan_dem(small_mill()).step.value;
+  const auto mill = mill_with_contacts(7.4 * step);
+  const DemPlan plan = plan_dem(mill);
+  EXPECT_EQ(plan.contact_steps, 7);
+  EXPECT_EQ(plan.contact_dumps, plan.turning_steps / 7 + 1);
+  const std::string deck = deck_of(mill);
+  for (const std::string kind : {"pairs all local", "walls all local", "contactBalls all custom"})
+    EXPECT_NE(deck.find("dump " + kind + " 7 ../contacts/"), std::string::npos) << kind;
+  EXPECT_LT(deck.find("reset_timestep"), deck.find("dump pairs"));
+  EXPECT_LT(deck.find("dump pairs"), deck.find("upto every"));
+}
+
+TEST(Deck, ContactsShareTheComputeOfTheOverlapsWhichAreItsLastColumn) {
+  const std::string deck = deck_of(mill_with_contacts(0.01));
+  EXPECT_EQ(after(deck, "compute").front(), "ballOverlaps");
+  EXPECT_TRUE(has_line(deck, "compute ballOverlaps all pair/gran/local id force torque delta"));
+  EXPECT_TRUE(has_line(deck, "compute wallOverlaps all wall/gran/local pos vel id force torque delta"));
+  EXPECT_TRUE(has_line(deck, "compute overlap all reduce max c_ballOverlaps[10]"));
+  EXPECT_NE(deck.find("1000 c_ballOverlaps[10] mode vector"), std::string::npos);
+  EXPECT_NE(deck.find("1000 c_wallOverlaps[22] mode vector"), std::string::npos);
+}
+
+TEST(Deck, ContactsMoreOftenThanEveryStepAreRefused) {
+  const std::string message = message_of([] { plan_dem(mill_with_contacts(1e-9)); });
+  EXPECT_NE(message.find("'dem.contact_interval': 1e-09 s"), std::string::npos) << message;
+  const double step = plan_dem(small_mill()).step.value;
+  EXPECT_EQ(plan_dem(mill_with_contacts(step)).contact_steps, 1);
+}
+
+TEST(Deck, AResumedRunDumpsContactsAtTheSameSteps) {
+  const auto mill = mill_with_contacts(0.01);
+  std::ostringstream out;
+  write_resume_deck(out, mill, plan_dem(mill), {"shell"}, 1, 700);
+  const std::string deck = deck_of(mill);
+  const auto begin = deck.find("shell mkdir ../contacts");
+  ASSERT_NE(begin, std::string::npos);
+  EXPECT_NE(out.str().find(deck.substr(begin)), std::string::npos);
+}
+
 TEST(Deck, TheTorqueIsOfAllWalls) {
   EXPECT_TRUE(has_line(deck_of(small_mill(), {"shell", "lifters"}),
                        "variable torque equal 0+f_shell[6]+f_lifters[6]"));

@@ -77,6 +77,19 @@ TEST(Forecast, DiskIsThatOfTheDumpsAndWhatStandsBesideThem) {
   EXPECT_LT(disk, dumps + 250 * 1000 + 3 * 2 * overlap_bins * 20);
 }
 
+TEST(Forecast, ContactsAddToTheDiskAndTheTrialWritesThemAsOftenAsTheMill) {
+  auto mill = small_mill();
+  mill.dem.contact_interval = 50.0 * plan_dem(mill).step.value;
+  const DemPlan plan = plan_dem(mill);
+  const double without = forecast(plan, {1e5, 80, 5e7, 0}, 1).disk;
+  const double with = forecast(plan, {1e5, 80, 5e7, 300}, 1).disk;
+  EXPECT_NEAR((with - without) / (250.0 * 300 * static_cast<double>(plan.contact_dumps)), 1, 1e-12);
+  EXPECT_EQ(plan_dem(trial_mill(mill, 1)).contact_steps, 50);
+  mill.dem.contact_interval = plan_dem(mill).step.value;
+  EXPECT_EQ(plan_dem(trial_mill(mill, 1)).contact_dumps, 201);
+  EXPECT_EQ(plan_dem(trial_mill(small_mill(), 1)).contact_steps, 0);
+}
+
 TEST(Forecast, ItIsPrintedInHoursAndMinutesOrInSeconds) {
   Forecast result;
   result.wall_time = 2 * 3600 + 5 * 60;

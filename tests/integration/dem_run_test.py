@@ -24,7 +24,9 @@ charge:
     - {diameter: 0.004, mass: 0.02}
     - {diameter: 0.002, mass: 0.002}
 materials: {ball: glass, wall: HDPE}
-dem: {youngs_modulus: 1e7, rayleigh_fraction: 0.2, settle_time: 0.1, duration: 1.0, record_interval: 0.005, seed: 3}
+dem:
+  {youngs_modulus: 1e7, rayleigh_fraction: 0.2, settle_time: 0.1, duration: 1.0, record_interval: 0.005, seed: 3,
+   contact_interval: 0.012}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16, level: -0.002}
 resolution: {cell_size: 0.003, layers: 4}
 """
@@ -124,6 +126,12 @@ class DemRun(unittest.TestCase):
             moved[:, 2] -= 0.03 * np.round(moved[:, 2] / 0.03)
             fastest = max(np.linalg.norm(before[3], axis=1).max(), np.linalg.norm(after[3], axis=1).max())
             self.assertLess(np.linalg.norm(moved, axis=1).max(), (fastest + 0.5) * interval * step)
+        every = round(0.012 / step)
+        for kind in ("pairs", "walls", "balls"):
+            contacts = sorted((case / "contacts").glob(f"{kind}.*.txt"), key=lambda path: int(path.name.split(".")[1]))
+            self.assertEqual([path.name for path in contacts],
+                             [f"{kind}.{at}.txt" for at in range(0, RECORDS * interval + 1, every)])
+            self.assertTrue(all(path.read_text().endswith("\n") for path in contacts))
         energy = np.genfromtxt(case / "dumps" / "energy.csv", delimiter=",", names=True)
         np.testing.assert_allclose(energy["time_s"], np.arange(1, RECORDS + 1) * interval * step, rtol=1e-6)
         self.assertTrue(np.all(np.isfinite(energy["power_W"])))
@@ -175,6 +183,12 @@ class DemRun(unittest.TestCase):
         with self.assertRaisesRegex(RunError, "dem.duration.*0.05 s.*0.1 s"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         (case / "mill.yaml").write_text(MILL)
+        lost = next((case / "contacts").glob("walls.*.txt"))
+        kept = lost.read_text()
+        lost.unlink()
+        with self.assertRaisesRegex(RunError, r"contacts: 8 walls up to step .* expected 9"):
+            run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
+        lost.write_text(kept)
         next((case / "dumps").glob("dump.*.txt")).unlink()
         with self.assertRaisesRegex(RunError, "20 dumps up to step .* expected 21"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
@@ -201,7 +215,7 @@ class DemRun(unittest.TestCase):
         self.assertLess(max(predicted["memory"] / peak, peak / predicted["memory"]), 1.5)
         results = dict(line.split() for line in (case / "dumps" / "results.txt").read_text().splitlines())
         self.assertEqual(predicted["steps"], float(results["steps"]))
-        files = [path for folder in ("dumps", "dem") for path in (case / folder).iterdir()]
+        files = [path for folder in ("dumps", "dem", "contacts") for path in (case / folder).iterdir()]
         used = sum(path.stat().st_size for path in files) / 1e9
         self.assertLess(max(predicted["disk"] / used, used / predicted["disk"]), 1.5)
         # Seconds, so short that what starts and ends a run counts, on a machine that may be doing other things

@@ -51,6 +51,7 @@ TEST(ReadMill, gives_every_number_of_the_file_in_its_place) {
   EXPECT_EQ(mill.dem.settle_time, 0.25);
   EXPECT_EQ(mill.dem.duration, 1.6);
   EXPECT_EQ(mill.dem.record_interval, 0.002);
+  EXPECT_EQ(mill.dem.contact_interval, 0);
   EXPECT_EQ(mill.dem.seed, 20121);
   EXPECT_EQ(mill.slurry.density, 1239);
   EXPECT_EQ(mill.slurry.plastic_viscosity, 0.0014);
@@ -307,6 +308,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"friction: 0.94", "friction: -0.1", "'materials.ball_ball.friction' = -0.1"},
         Refused{"rayleigh_fraction: 0.2", "rayleigh_fraction: 2", "'dem.rayleigh_fraction' = 2"},
         Refused{"record_interval: 0.002", "record_interval: 2", "'dem.record_interval' = 2"},
+        Refused{"seed: 20121", "contact_interval: -1\n  seed: 20121", "'dem.contact_interval' = -1"},
+        Refused{"seed: 20121", "contact_interval: 2\n  seed: 20121",
+                "'dem.contact_interval' = 2: expected 0 for no contacts, or a time in s up to the duration"},
         Refused{"seed: 20121", "seed: 0", "'dem.seed' = 0"},
         Refused{"level: -0.012", "level: 0.061",
                 "'slurry.level' = 0.061: expected a height in m within the radius"},

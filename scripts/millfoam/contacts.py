@@ -1,0 +1,236 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contacts of a dry run that wrote them (`dem.contact_interval`): relative motion, forces and powers of every contact.
+
+Files, columns and laws of force: dem_driver/README.md."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .dem_tracks import numbered_dumps, read_notes
+
+# Columns that are used of each table: numbers of those of a compute, or names
+PAIR_COLUMNS = {"ball": 1, "other": 2, "force": (4, 5, 6), "torque": (7, 8, 9), "overlap": 10}
+WALL_COLUMNS = {"point": (1, 2, 3), "centre": (4, 5, 6), "wall_velocity": (7, 8, 9), "mesh": 13, "ball": 15,
+                "force": (16, 17, 18), "torque": (19, 20, 21), "overlap": 22}
+BALL_COLUMNS = {"id": "id", "type": "type", "position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"),
+                "spin": ("omegax", "omegay", "omegaz"), "radius": "radius"}
+
+
+@dataclass
+class Materials:
+    """What the deck says of the atom types, the last of which is the wall's: youngs_modulus [n] (Pa), poisson_ratio [n],
+    restitution [n, n], friction [n, n]; density of the balls (kg/m^3)."""
+    youngs_modulus: np.ndarray
+    poisson_ratio: np.ndarray
+    restitution: np.ndarray
+    friction: np.ndarray
+    density: float
+
+
+@dataclass
+class Contacts:
+    """The contacts of one instant [m], of two balls or of a ball and the wall.
+
+    key [m, 2]: the ball's id and the other's, the smaller first, or the ball's and -1 - the wall's number; diameters [m, 2] (m),
+    the smaller first, 0 for a wall; reduced_mass (kg), the ball's own at a wall; approach: speed at which the centres near each
+    other, or the ball and the wall's point (m/s); slip: speed of the surfaces past each other (m/s); normal, tangential: forces
+    (N), the normal one positive where it pushes apart; overlap (m); stiffness: k of the normal spring's force k overlap^1.5.
+
+    Powers that the contact takes from the balls and the drive (W): damping, of the normal damper; spring, into the normal
+    spring, which gives it back; friction, of the tangential force: sliding, tangential damper and tangential spring; rolling, of
+    the rolling torque. sliding: whether the tangential force is at Coulomb's limit."""
+    key: np.ndarray
+    diameters: np.ndarray
+    reduced_mass: np.ndarray
+    approach: np.ndarray
+    slip: np.ndarray
+    normal: np.ndarray
+    tangential: np.ndarray
+    overlap: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    spring: np.ndarray
+    friction: np.ndarray
+    rolling: np.ndarray
+    sliding: np.ndarray
+
+    def power(self):
+        """Power [m] (W) that each contact takes in all."""
+        return self.damping + self.spring + self.friction + self.rolling
+
+    def elastic_energy(self):
+        """Energy [m] (J) of each normal spring."""
+        return 2 / 5 * self.stiffness * self.overlap ** 2.5
+
+    def normal_energy(self):
+        """Energy [m] (J) of the motion along the normal, with that of the spring: from first touch on it falls, by what damping
+        takes, from 1/2 m v^2 to e^2 times as much."""
+        return self.reduced_mass * self.approach ** 2 / 2 + self.elastic_energy()
+
+
+def read_materials(deck):
+    """Materials of a run's deck, DIR/dem/in.mill; RuntimeError naming the property that it lacks."""
+    text = Path(deck).read_text()
+    found = {}
+    for line in text.splitlines():
+        words = line.split()
+        if words[:1] == ["fix"] and words[3:4] == ["property/global"]:
+            numbers = words[6:] if words[5] == "peratomtype" else words[7:]
+            found[words[4]] = np.array(numbers, dtype=float)
+        elif "density constant" in line:
+            found["density"] = float(words[words.index("density") + 2])
+    for name in ("youngsModulus", "poissonsRatio", "coefficientRestitution", "coefficientFriction", "density"):
+        if name not in found:
+            raise RuntimeError(f"{deck}: no {name}, expected a deck of millDem")
+    types = len(found["youngsModulus"])
+    return Materials(found["youngsModulus"], found["poissonsRatio"], found["coefficientRestitution"].reshape(types, types),
+                     found["coefficientFriction"].reshape(types, types), found["density"])
+
+
+def read_table(path, columns):
+    """A LIGGGHTS dump as ({key: values [m], or [m, n] for n columns}, the box's periods [3] (m), inf where it has walls).
+
+    columns: for each key the number of a compute's column, or a column's name, or a tuple of these. RuntimeError naming the file,
+    the line and what was expected."""
+    lines = Path(path).read_text().splitlines()
+    if len(lines) < 9 or not lines[8].startswith("ITEM: ") or not lines[3].isdigit() or len(lines) != 9 + int(lines[3]):
+        expected = lines[3] if len(lines) > 3 else "?"
+        raise RuntimeError(f"{path}: {len(lines)} lines, expected a dump of {expected} lines and 9 above")
+    # The columns of a compute are called c_<its name>[<number>]
+    names = [name.split("[")[1].rstrip("]") if "[" in name else name for name in lines[8].split()[2:]]
+    table = _numbers(path, lines[9:], len(names))
+    chosen = {}
+    for key, wanted in columns.items():
+        for name in np.atleast_1d(wanted).astype(str):
+            if name not in names:
+                raise RuntimeError(f"{path}:9: columns {' '.join(names)}, expected {name} among them")
+        index = [names.index(name) for name in np.atleast_1d(wanted).astype(str)]
+        chosen[key] = table[:, index] if isinstance(wanted, tuple) else table[:, index[0]]
+    box = np.array([line.split() for line in lines[5:8]], dtype=float)
+    periodic = np.array([kind == "pp" for kind in lines[4].split()[3:6]])
+    return chosen, np.where(periodic, box[:, 1] - box[:, 0], np.inf)
+
+
+def _numbers(path, lines, columns):
+    for number, line in enumerate(lines, 10):
+        if line.count(" ") + 1 < columns or len(line.split()) != columns:
+            raise RuntimeError(f"{path}:{number}: '{line}', expected {columns} numbers")
+    try:
+        return np.array(" ".join(lines).split(), dtype=float).reshape(len(lines), columns)
+    except ValueError as error:
+        raise RuntimeError(f"{path}: {error}, expected numbers only") from error
+
+
+def contact_steps(folder):
+    """Steps of the contact dumps of a case DIR; RuntimeError where there are none."""
+    return [step for step, _ in numbered_dumps(Path(folder) / "contacts", "pairs")]
+
+
+def contact_interval(folder):
+    """Time between two contact dumps of a case DIR, s."""
+    steps = contact_steps(folder)
+    if len(steps) < 2 or len(set(np.diff(steps))) != 1:
+        raise RuntimeError(f"{folder}/contacts: {len(steps)} dumps, expected 2 or more at equal intervals")
+    return (steps[1] - steps[0]) * read_notes(Path(folder) / "dumps")["timestep"]
+
+
+def read_contacts(folder, step, materials):
+    """Contacts of two balls, and of balls and the wall, at a step of a case DIR: (Contacts, Contacts)."""
+    folder = Path(folder) / "contacts"
+    balls, periods = read_table(folder / f"balls.{step}.txt", BALL_COLUMNS)
+    order = np.argsort(balls["id"])
+    balls = {key: values[order] for key, values in balls.items()}
+    pairs, _ = read_table(folder / f"pairs.{step}.txt", PAIR_COLUMNS)
+    walls, _ = read_table(folder / f"walls.{step}.txt", WALL_COLUMNS)
+    first, second, ball = (_index(folder, step, balls["id"], ids) for ids in (pairs["ball"], pairs["other"], walls["ball"]))
+    return ball_contacts(balls, pairs, first, second, periods, materials), wall_contacts(balls, walls, ball, materials)
+
+
+def _index(folder, step, ids, wanted):
+    index = np.minimum(np.searchsorted(ids, wanted), len(ids) - 1)
+    if not np.array_equal(ids[index], wanted):
+        raise RuntimeError(f"{folder}/balls.{step}.txt: no ball {wanted[ids[index] != wanted][0]:g}, which is in contact")
+    return index
+
+
+def ball_contacts(balls, pairs, first, second, periods, materials):
+    """Contacts of balls `first` [m] and `second` [m] (indices into the table of balls); periods [3] (m) of the box."""
+    apart = balls["position"][first] - balls["position"][second]
+    turns = np.where(np.isfinite(periods), np.round(apart / np.where(np.isfinite(periods), periods, 1.0)), 0.0)
+    apart = apart - turns * np.where(np.isfinite(periods), periods, 0.0)
+    normal = apart / np.linalg.norm(apart, axis=1)[:, None]
+    radius, other = balls["radius"][first], balls["radius"][second]
+    mass = [4 / 3 * np.pi * materials.density * size ** 3 for size in (radius, other)]
+    types = [balls["type"][index].astype(int) - 1 for index in (first, second)]
+    spin, other_spin = balls["spin"][first], balls["spin"][second]
+    arm, other_arm = radius - pairs["overlap"] / 2, other - pairs["overlap"] / 2
+    move = balls["velocity"][first] - balls["velocity"][second]
+    past = move - np.cross(arm[:, None] * spin + other_arm[:, None] * other_spin, normal)
+    ids = np.stack([pairs["ball"], pairs["other"]], axis=1).astype(int)
+    return _contacts(pairs, normal, arm, move, past, spin - other_spin, np.sort(ids, axis=1),
+                     2 * np.sort(np.stack([radius, other], axis=1), axis=1), radius * other / (radius + other),
+                     mass[0] * mass[1] / (mass[0] + mass[1]), types, materials)
+
+
+def wall_contacts(balls, walls, ball, materials):
+    """Contacts of the wall and the balls `ball` [m] (indices into the table of balls)."""
+    apart = walls["centre"] - walls["point"]
+    normal = apart / np.linalg.norm(apart, axis=1)[:, None]
+    radius, spin = balls["radius"][ball], balls["spin"][ball]
+    arm = radius - walls["overlap"] / 2
+    move = balls["velocity"][ball] - walls["wall_velocity"]
+    past = move - np.cross(arm[:, None] * spin, normal)
+    types = balls["type"][ball].astype(int) - 1
+    key = np.stack([walls["ball"], -1 - walls["mesh"]], axis=1).astype(int)
+    return _contacts(walls, normal, arm, move, past, spin, key, np.stack([np.zeros_like(radius), 2 * radius], axis=1), radius,
+                     4 / 3 * np.pi * materials.density * radius ** 3,
+                     [types, np.full_like(types, len(materials.youngs_modulus) - 1)], materials)
+
+
+def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass, types, materials):
+    """Contacts from the motion of the first body against the second: of the centres (`move`), of the surfaces (`past`), and
+    their difference of spin (all [m, 3]); radius, mass: effective ones."""
+    push = np.sum(table["force"] * normal, axis=1)
+    tangential = table["force"] - push[:, None] * normal
+    approach = -np.sum(move * normal, axis=1)
+    past = past - np.sum(past * normal, axis=1)[:, None] * normal
+    # What the torque is more than that of the tangential force at its arm is rolling friction
+    rolling = table["torque"] + arm[:, None] * np.cross(normal, tangential)
+    first, second = types
+    stiffness = 4 / 3 * np.sqrt(radius) * _modulus((1 - materials.poisson_ratio ** 2) / materials.youngs_modulus, types)
+    damper = _tangential_damping(radius, mass, table["overlap"], types, materials)
+    tangential, sliding = tangential_forces(tangential, past, materials.friction[first, second] * np.abs(push), damper)
+    elastic = stiffness * table["overlap"] ** 1.5
+    return Contacts(key, diameters, mass, approach, np.linalg.norm(past, axis=1), push, np.linalg.norm(tangential, axis=1),
+                    table["overlap"], stiffness, (push - elastic) * approach, elastic * approach,
+                    -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), sliding)
+
+
+def tangential_forces(dumped, past, limit, damper):
+    """Tangential forces [m, 3] (N) as they acted, and which contacts slide [m], from those that were dumped.
+
+    past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide without its
+    damper, and then shortens its spring to the limit. When it computes the force anew for the dump, it finds the spring within
+    the limit and adds the damper, so that the force is too large: here that is taken off again. The limit itself differs by the
+    half step between the two velocities, so that a spring within 2 % of it is taken for a sliding one."""
+    size = np.linalg.norm(dumped, axis=1)
+    at_limit = np.abs(size - limit) <= 1e-6 * limit
+    spring = np.where(at_limit[:, None], dumped, dumped + damper[:, None] * past)
+    length = np.linalg.norm(spring, axis=1)
+    sliding = (length > 0.98 * limit) & (length > 0)
+    shortened = spring * (limit / np.where(length > 0, length, 1.0))[:, None]
+    return np.where(sliding[:, None], shortened, dumped), sliding
+
+
+def _modulus(compliances, types):
+    """Modulus (Pa) of two bodies in series, from the compliances of the atom types (1/Pa)."""
+    return 1 / (compliances[types[0]] + compliances[types[1]])
+
+
+def _tangential_damping(radius, mass, overlap, types, materials):
+    """-2 sqrt(5/6) beta sqrt(k_t m), k_t = 8 G* sqrt(R overlap), in N s/m."""
+    ratio = materials.poisson_ratio
+    stiffness = 8 * np.sqrt(radius * overlap) * _modulus(2 * (2 - ratio) * (1 + ratio) / materials.youngs_modulus, types)
+    loss = np.log(materials.restitution[types[0], types[1]])
+    return -2 * np.sqrt(5 / 6) * loss / np.hypot(loss, np.pi) * np.sqrt(stiffness * mass)
