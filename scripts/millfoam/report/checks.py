@@ -15,6 +15,7 @@ CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 BALLS = 8  # in an averaging volume: the drag laws were derived on 8 to 64
 NOISE = 0.05  # of a window's mean solidity by chance
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
+LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
 DRIFT = 3.0  # standard errors between the two halves of the averages
 
 
@@ -204,5 +205,5 @@ def one_way(case):
     if load is None:
         return Check(name, "unknown", "the flow did not tell the force on the balls (ballDensity in bedProperties)")
     mean, high = load
-    return judged(name, max(mean / 0.5, high), 1, f"its force is {mean:.2f} of their weight in the mean, 95 % below {high:.2f}",
-                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.", doubtful=3)
+    return judged(name, max(mean / LIGHT, high / HEAVY), 1, f"its force is {mean:.2f} of their weight in the mean, 95 % below {high:.2f}",
+                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.", doubtful=1 / HEAVY)

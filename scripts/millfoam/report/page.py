@@ -28,7 +28,8 @@ h3 { margin: 0 0 .4rem; font-size: 1rem; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 1rem; min-width: 0; }
 .wide { grid-column: 1 / -1; }
 figure { margin: 0; }
-img { display: block; width: 100%; height: auto; margin: 0 auto; }
+img { display: block; width: 100%; max-width: 640px; height: auto; margin: 0 auto; }
+.wide img { max-width: 1080px; }
 figcaption, .note { color: var(--soft); font-size: .9rem; margin: .5rem 0 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
@@ -121,7 +122,7 @@ def player(figures, caption, *, title=None):
     """A card that shows figures one after the other, with a slider."""
     frames = [encode(figure, dpi=80) for figure in figures]
     listed = "[" + ",".join(f'"{frame}"' for frame in frames) + "]"
-    return (f'<figure class="card wide">' + (f"<h3>{text(title)}</h3>" if title else "")
+    return ('<figure class="card">' + (f"<h3>{text(title)}</h3>" if title else "")
             + f'<div class="player"><img alt="{text(caption)}" src="{frames[0]}"><div><button type="button">Play</button>'
             f'<input type="range" aria-label="frame" min="0" max="{len(frames) - 1}" value="0"></div>'
             f'<script type="application/json">{listed}</script></div><figcaption>{text(caption)}</figcaption></figure>')

@@ -172,11 +172,7 @@ class MillCase:
     @cached_property
     def law(self):
         """The drag law's name, or None without balls."""
-        path = self.folder / "constant" / "bedProperties"
-        found = re.search(r"^Drag: (\w+)", self.log("flow"), re.M)
-        if found:
-            return found.group(1)
-        found = re.search(r"^\s*law\s+(\w+);", path.read_text(), re.M) if path.is_file() else None
+        found = re.search(r"^Drag: drag law (\w+)", self.log("flow"), re.M)
         return found.group(1) if found else None
 
     @cached_property
