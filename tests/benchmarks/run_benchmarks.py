@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the averaging room's benchmarks and writes what they say as a table (results/benchmarks.md) and a plot
+"""Runs the benchmarks of averaging and meshing and writes what they say as a table (results/benchmarks.md) and a plot
 (results/location.png) in the folder above the benchmark programs. Figures are medians over repetitions.
 
-    run_benchmarks.py [PART...]     parts: overlap mesh dumps location cores memory; all unless given
+    run_benchmarks.py [PART...]     parts: overlap mesh assembly dumps location cores memory; all unless given
 """
 import json
 import os
@@ -170,11 +170,15 @@ def mesh(results):
     return google_table(rates, "points or spheres/s")
 
 
+def assembly(results):
+    return google_table(run_google("assembly_benchmark", results), "faces or meshes/s")
+
+
 def dumps(results):
     return google_table(run_google("dump_benchmark", results), "bytes/s")
 
 
-PARTS = {part.__name__: part for part in (overlap, mesh, dumps, location, cores, memory)}
+PARTS = {part.__name__: part for part in (overlap, mesh, assembly, dumps, location, cores, memory)}
 
 
 def main(names):
