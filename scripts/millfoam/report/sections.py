@@ -313,11 +313,15 @@ def run_section(case, _readings):
 
 def versions(case):
     """(program, version) by the logs."""
-    for program, log, pattern in (("OpenFOAM", "flow", r"^(?:Build\s*:|\|.*Version:)\s*(\S+)"),
-                                  ("flow solver", "flow", r"^Exec\s*:\s*(\S+)")):
-        found = re.findall(pattern, case.log(log), re.M)
-        if found:
-            yield program, found[-1]
+    own = case.log("version").strip()
+    if own:
+        yield "millFoam", own
+    found = re.findall(r"^Build\s*:\s*(\S+)", case.log("flow"), re.M)
+    if found:
+        yield "OpenFOAM", found[-1]
+    found = re.findall(r"^Exec\s*:\s*(\S+)", case.log("flow"), re.M)
+    if found:
+        yield "flow solver", found[-1]
     log = case.dry.parent / "dem" / "log.liggghts" if case.dry else None
     if log and log.is_file():
         with open(log, errors="replace") as file:
@@ -325,15 +329,16 @@ def versions(case):
 
 
 def stage_costs(case):
-    """(stage, wall time in s) by costs.csv of the case's and the charge's folder."""
-    places = {folder / "costs.csv": None for folder in ([case.solids.parent] if case.solids else []) + [case.folder.resolve()]}
-    for path in places:
-        if path.is_file():
-            for line in path.read_text().splitlines():
-                name, seconds = line.rsplit(",", 1)
-                yield name, float(seconds)
-    if case.results and "wall_time" in case.results and not any(path.is_file() for path in places):
-        yield "dry run", float(case.results["wall_time"])
+    """(stage, wall time in s) by log.costs of the charge's and the case's folder, parts that were broken off added up."""
+    folders = dict.fromkeys(([case.solids.parent] if case.solids else []) + [case.folder.resolve()])
+    costs = {}
+    for path in (folder / "log.costs" for folder in folders):
+        for line in path.read_text().splitlines() if path.is_file() else ():
+            name, seconds = line.rsplit(",", 1)
+            costs[name] = costs.get(name, 0) + float(seconds)
+    if not costs and case.results and "wall_time" in case.results:
+        costs["dry run"] = float(case.results["wall_time"])
+    return costs.items()
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section), ("slurry", "Slurry", slurry_section),
