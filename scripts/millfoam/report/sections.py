@@ -180,8 +180,8 @@ def slurry_rows(case, slurry):
     rows = [("shoulder of the slurry at the lifters' tips", f"{shoulder:.0f}°"), ("toe of the slurry", f"{toe:.0f}°")]
     solidity = np.zeros_like(pixels.share)
     if case.solids and case.law:
-        points = np.stack(np.meshgrid(pixels.x, pixels.y), axis=-1)
-        solidity = at_points(case.charge, case.charge.solidity, points)
+        points = np.stack(np.meshgrid(pixels.x, pixels.y), axis=-1).reshape(-1, 2)
+        solidity = at_points(case.charge, case.charge.solidity, points).reshape(pixels.share.shape)
     pool = slurry_maps.pool(pixels, solidity)
     rows.append(("pool clear of the charge", f"{1e6 * pool.area * case.length:.1f} ml, level {1e3 * pool.level:.1f} mm"
                  if pool.area > 0 else "none"))
