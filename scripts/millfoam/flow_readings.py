@@ -5,6 +5,7 @@ times."""
 import copy
 from dataclasses import dataclass, field
 
+import h5py
 import numpy as np
 
 from . import slurry_maps
@@ -109,16 +110,30 @@ def charge_tilt(charge, radius, span):
     return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
 
 
+def blocks_of(count):
+    """Numbers of `count` windows or times in a row, in BLOCKS parts as equal as can be, or fewer of one each."""
+    return np.array_split(np.arange(count), min(BLOCKS, count))
+
+
 def slurry_blocks(case):
-    """slurry_maps.SlurryMap of BLOCKS successive parts of the averaged time of a report.sources.MillCase."""
-    edges = np.linspace(case.begin, case.last, BLOCKS + 1)
-    for begin, end in zip(edges, edges[1:]):
-        if case.slurry:
-            yield read_slurry_map(case.slurry, case.flow.time0 + begin, case.flow.time0 + end, case.length).pixels()
-        else:
-            part = copy.copy(case.flow)
-            part.frames = [frame for frame in case.flow.frames if begin - 1e-9 <= frame[0] < end - 1e-9]
-            yield mean_flow(part, begin)
+    """slurry_maps.SlurryMap of successive parts of the averaged time of a report.sources.MillCase: of slurry.h5's windows that
+    lie in it, or of the written times. RuntimeError where there are none."""
+    begin, end = case.flow.time0 + case.begin, case.flow.time0 + case.last
+    if case.slurry:
+        with h5py.File(case.slurry) as file:
+            begins, ends = file["window/begin"][:], file["window/end"][:]
+        late = np.flatnonzero((begins >= begin - 1e-6) & (ends <= end + 1e-6))
+        if len(late) == 0:
+            raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; there are {begins[0]:g} to "
+                               f"{ends[-1]:g} s")
+        for part in blocks_of(len(late)):
+            yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length).pixels()
+        return
+    frames = [frame for frame in case.flow.frames if frame[0] >= max(case.begin, 1e-9) - 1e-9]
+    for part in blocks_of(len(frames)):
+        some = copy.copy(case.flow)
+        some.frames = [frames[index] for index in part]
+        yield mean_flow(some, some.frames[0][0])
 
 
 def read_series(case):

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from charge_test import RADIUS, WALL, below, cell, charge_map, turning
+from charge_test import RADIUS, WALL, below, cell, charge_map, noisy, turning
 from millfoam import other_readings as other
 from millfoam.charge import tangential_profile
 from millfoam.free_surface import free_surface, logistic
@@ -59,6 +59,11 @@ class Surface(unittest.TestCase):
         for name in ("as the library reads it", "not smoothed", "highest voxel of each column"):
             with self.subTest(name):
                 self.assertLess(other.SURFACE[name](charge, RADIUS), 0.5 * 2 * RADIUS / 65)
+
+    def test_noise_shows_where_it_is_not_smoothed(self):
+        charge = noisy(charge_map(below(self.slope), turning(5, (-0.03, -0.09))), 0.2)
+        self.assertGreater(other.SURFACE["not smoothed"](charge, RADIUS),
+                           1.5 * other.SURFACE["as the library reads it"](charge, RADIUS))
 
     def test_of_fewer_parameters_is_found_where_they_suffice(self):
         x = np.linspace(-0.1, 0.1, 60)
