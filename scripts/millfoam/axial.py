@@ -39,10 +39,21 @@ class Humps:
         return gaussians(z, self.base, *np.ravel(np.transpose((self.heights, self.places, self.widths))))
 
 
-def axial_profile(flow, begin):
-    """AxialProfile of a MillFlow from flow time `begin` (s) on."""
+@dataclass
+class AxialSeries:
+    """Axial slices [n] of the mill (without pulp lifters) against time: z (m); times [times] (s); height of the slurry's centre
+    of mass above the axis (m), hold-up (m3) and p_rgh weighted by slurry (Pa), each [times, n], NaN in slices without slurry."""
+    z: np.ndarray
+    times: np.ndarray
+    height: np.ndarray
+    holdup: np.ndarray
+    pressure: np.ndarray
+
+
+def axial_series(flow, begin):
+    """AxialSeries of a MillFlow's written times from flow time `begin` (s) on."""
     z, layer = np.unique(np.round(flow.centres[flow.chamber, 2], 7), return_inverse=True)
-    heights, holdups, pressures = [], [], []
+    times, heights, holdups, pressures = [], [], [], []
     for time, path in flow.frames:
         if time < max(begin, 1e-9) - 1e-9:
             continue
@@ -53,10 +64,17 @@ def axial_profile(flow, begin):
             heights.append(np.bincount(layer, slurry * y) / holdup)
             pressures.append(np.bincount(layer, slurry * flow.field("p_rgh", path)[flow.chamber]) / holdup)
         holdups.append(holdup)
+        times.append(time)
     if not heights:
         raise RuntimeError(f"{flow.case}: no time from {begin} s on was written")
-    return AxialProfile(z, np.mean(heights, axis=0), np.std(heights, axis=0), np.mean(holdups, axis=0),
-                        np.mean(pressures, axis=0))
+    return AxialSeries(z, *map(np.array, (times, heights, holdups, pressures)))
+
+
+def axial_profile(flow, begin):
+    """AxialProfile of a MillFlow from flow time `begin` (s) on."""
+    series = axial_series(flow, begin)
+    return AxialProfile(series.z, np.mean(series.height, axis=0), np.std(series.height, axis=0), np.mean(series.holdup, axis=0),
+                        np.mean(series.pressure, axis=0))
 
 
 def gaussians(z, base, *humps):

@@ -31,9 +31,14 @@ def charge_figure(charge, readings, radius):
     """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
     shell, centre of circulation and the line through it, free surface with its logistic, toe and shoulder."""
     figure, axis = plt.subplots(figsize=(6.2, 6.2), constrained_layout=True)
+    figure.colorbar(draw_charge(axis, charge, readings, radius), ax=axis, label="solidity, –", shrink=0.9)
+    return figure
+
+
+def draw_charge(axis, charge, readings, radius):
+    """What charge_figure shows, on an axis; returns the solidity's image, for a colour bar."""
     solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
     image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap="YlOrBr", vmin=0, vmax=0.65)
-    figure.colorbar(image, ax=axis, label="solidity, –", shrink=0.9)
     turn = np.linspace(0, 2 * np.pi, 361)
     axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="k", lw=1)
     _arrows(axis, charge)
@@ -52,7 +57,7 @@ def charge_figure(charge, readings, radius):
     axis.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit), xlabel="x, mm", ylabel="y, mm")
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=8, frameon=False)
-    return figure
+    return image
 
 
 def tangential_figure(profile):

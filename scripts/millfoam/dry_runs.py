@@ -32,7 +32,7 @@ def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
     A run that was broken off is gone on with, also with another duration; one of another mill is left alone: RunError. Dumps
     are large: they are removed once they are averaged, unless `keep_dumps`."""
     folder = Path(folder)
-    files = {"mill.yaml": mill, "averaging": " ".join(map(str, averaging)) + "\n"}
+    files = run_files(mill, averaging)
     if not is_whole(folder, files):
         begun = folder / "mill.yaml"
         if begun.is_file() and (without_duration(begun.read_text()) != without_duration(mill) or (folder / "whole").is_file()):
@@ -49,6 +49,11 @@ def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
         for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
             large.unlink()
     return DryRun(folder.name, read_results(folder / "dumps" / "results.txt"), read_map(folder / "solids.h5"))
+
+
+def run_files(mill, averaging):
+    """What a run is made from: name of a file in its folder -> text."""
+    return {"mill.yaml": mill, "averaging": " ".join(map(str, averaging)) + "\n"}
 
 
 def without_duration(mill):

@@ -21,10 +21,10 @@ POINTS = 100  # along the free surface
 CLOCKWISE = -1.0  # the mill's sense
 
 
-def smoothed(charge, radius):
-    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of SMOOTHING radii. Balls and room are smoothed apart, so that
+def smoothed(charge, radius, smoothing=SMOOTHING):
+    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and room are smoothed apart, so that
     the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is no charge."""
-    widths = [SMOOTHING * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
+    widths = [smoothing * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
     balls, room = (gaussian_filter(values, widths, mode="constant") for values in (
         charge.balls(), np.where(np.isfinite(charge.solidity), charge.inside, 0.0)))
     solidity = np.where(room > 1e-3, balls / np.maximum(room, 1e-3), 0.0)
@@ -98,9 +98,9 @@ def _evenly(line, count):
     return np.column_stack([np.interp(np.linspace(0, way[-1], count), way, values) for values in line.T])
 
 
-def surface_points(charge, radius, wall=WALL):
+def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
     """The free surface's points [POINTS, 2] (m) from shoulder to toe, see free_surface."""
-    solidity = smoothed(charge, radius)
+    solidity = smoothed(charge, radius, smoothing)
     lines = contour_generator(*charge.centres(), solidity).lines(EDGE * solidity.max())
     pieces = [piece for line in lines for piece in pieces_within(line, radius - wall)]
     if not pieces:
@@ -115,13 +115,13 @@ def surface_points(charge, radius, wall=WALL):
     return points if rise.mean() > 0 else points[::-1]
 
 
-def free_surface(charge, radius, wall=WALL):
+def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
     """FreeSurface of a SolidsMap's charge in a mill of `radius` (m).
 
-    The map is smoothed (SMOOTHING); the surface is the contour at EDGE of the largest solidity left, where it is farther than
-    `wall` (m) from the shell. Of several pieces from shell to shell the longest counts: that bounds the bulk. Balls in
-    flight are thinner than EDGE and outside of it; a cataract that is not belongs to it."""
-    points = surface_points(charge, radius, wall)
+    The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity left, where
+    it is farther than `wall` (m) from the shell. Of several pieces from shell to shell the longest counts: that bounds the bulk.
+    Balls in flight are thinner than EDGE and outside of it; a cataract that is not belongs to it."""
+    points = surface_points(charge, radius, wall, smoothing)
     parameters, rmsd = fit_logistic(*points.T, radius)
     return FreeSurface(points, parameters, rmsd)
 

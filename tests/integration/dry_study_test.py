@@ -6,16 +6,21 @@ import importlib.util
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
 from dem_run_test import MILL
 from millfoam import axial
 from millfoam.compare import difference
-from millfoam.dry_runs import make_dry_run, with_entries
+from millfoam.dry_runs import make_dry_run, run_files, with_entries
+from millfoam.mill_runs import fingerprint
+from millfoam.published_mills import published_loads
 from millfoam.run import RunError, run
 from millfoam.solids import SolidsMap
 
@@ -27,6 +32,7 @@ def load(path):
     """A study's script as a module."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
+    sys.modules[path.stem] = module  # where dataclasses look their module up
     spec.loader.exec_module(module)
     return module
 
@@ -73,7 +79,7 @@ class Matrix(FolderTest):
         names = list(self.study.matrix())
         self.assertEqual(len(names), 34)
         self.assertEqual(len(set(names)), 34)
-        total = sum(float(line.split("mass: ")[1].rstrip("}")) for line in self.study.published_loads()["37.5"])
+        total = sum(float(line.split("mass: ")[1].rstrip("}")) for line in published_loads()["37.5"])
         self.assertAlmostEqual(total, 0.824, delta=0.002)
 
     def test_every_mill_of_it_is_accepted(self):
@@ -88,6 +94,63 @@ class Matrix(FolderTest):
                 self.assertAlmostEqual(sum(masses), total, delta=0.002)
                 run(self.folder, "millMesh", "mill.yaml", "--case", ".")
                 run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+
+
+class Readings12cm(FolderTest):
+    """The study dem_12cm."""
+
+    def setUp(self):
+        super().setUp()
+        self.study = load(ROOT / "cases" / "studies" / "dem_12cm" / "dem_12cm.py")
+        self.cases = self.study.cases()
+
+    def options(self, **changes):
+        return SimpleNamespace(**{"quick": False, "duration": None, "slice": 0.0, **changes})
+
+    def test_published_numbers_are_those_of_runs_of_the_matrix(self):
+        published = self.study.published()
+        self.assertEqual(len(published), 12)
+        self.assertLessEqual({setting.name for setting in published}, set(self.study.published_mills.matrix()))
+        self.assertEqual(published[self.cases["12cm_load37.5_speed50_stiff"].setting], (0.0293, 8.69))
+
+    def test_every_variant_changes_the_mill_and_is_accepted(self):
+        base = self.cases["12cm_load37.5_speed50"]
+        decks = set()
+        for name in ("", *self.study.VARIANTS):
+            with self.subTest(name):
+                text = self.cases[base.name + (f"_{name}" if name else "")].mill(0.2, 0.012)
+                (self.folder / "mill.yaml").write_text(text)
+                shutil.rmtree(self.folder / "walls", ignore_errors=True)
+                run(self.folder, "millMesh", "mill.yaml", "--case", ".")
+                run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+                walls = (self.folder / "walls" / "lifters.stl").read_bytes()
+                decks.add((self.folder / "dem" / "in.mill").read_bytes() + walls)
+        self.assertEqual(len(decks), 1 + len(self.study.VARIANTS))
+
+    def test_a_whole_run_of_the_matrix_is_taken_as_it_is(self):
+        case = self.cases["12cm_load25_speed50"]
+        self.study.HERE = self.folder / "dem_12cm"
+        own, text, averages = self.study.asked(case, self.options())
+        self.assertEqual(own, self.folder / "dem_12cm" / "runs" / case.name)
+        matrix = load(ROOT / "cases" / "studies" / "dem_matrix" / "dem_matrix.py")
+        made = []
+        matrix.HERE = self.folder / "dem_matrix"
+        matrix.make_dry_run = lambda folder, mill, averaging, **_: made.append((folder, run_files(mill, averaging)))
+        matrix.make(matrix.matrix()[case.name], SimpleNamespace(duration=None, slice=0.0, ranks=2, keep_dumps=False))
+        folder, files = made[0]
+        folder.mkdir(parents=True)
+        (folder / "whole").write_text(fingerprint(files))
+        self.assertEqual(self.study.asked(case, self.options())[0], folder)
+        self.assertEqual(self.study.asked(case, self.options(duration=2.0))[0], own)
+        self.assertNotEqual(self.study.asked(case, self.options(slice=0.024))[0], folder)
+
+    def test_patterns_choose_and_all_are_those_without_a_variant(self):
+        parser = SimpleNamespace(error=mock.Mock(side_effect=KeyError))
+        self.assertEqual(len(self.study.chosen(["all"], self.cases, parser)), 12)
+        self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)), 1 + len(self.study.VARIANTS))
+        with self.assertRaises(KeyError):
+            self.study.chosen(["nothing"], self.cases, parser)
+        self.assertIn("no run is named 'nothing'", parser.error.call_args.args[0])
 
 
 class Softening(FolderTest):

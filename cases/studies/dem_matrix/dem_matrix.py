@@ -7,9 +7,7 @@ Every run has a folder runs/NAME with its mill.yaml, walls, dumps/results.txt, d
 off is gone on with; dumps are removed once they are averaged."""
 import argparse
 import csv
-import re
 import sys
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
 
@@ -17,92 +15,25 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-import numpy as np
 
-from millfoam.dry_runs import make_dry_run, with_entries
-from millfoam.run import RunError
+from millfoam.dry_runs import make_dry_run
+from millfoam.published_mills import averaging, matrix, mill_text, run_name
 
 HERE = Path(__file__).parent.resolve()
-MILLS = HERE.parent.parent / "mills"
-SPEEDS = tuple(range(40, 120, 10))  # % of critical
-LEFT_OUT, WINDOW, VOXELS = 1.0, 0.1, 65  # s, s, across the mill
-DURATIONS = {("30cm", 60): 6.25, ("30cm", 75): 5.0}  # s; of the 12 cm mill:
-DURATION = 4.0
 COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",
            "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm", "centroid_y_mm", "wall_time_s")
 
 
-@dataclass(frozen=True)
-class Setting:
-    """One run: mill, share of its volume that the charge fills (%), speed (% of critical)."""
-    mill: str
-    load: str
-    speed: int
-
-    @property
-    def name(self):
-        return f"{self.mill}_load{self.load}_speed{self.speed}"
-
-
-def published_loads():
-    """Load (%) as text -> lines of charge.classes."""
-    with open(HERE / "loads.csv", newline="") as file:
-        table = list(csv.DictReader(file))
-    return {load: [f"    - {{diameter: {line['diameter_m']}, mass: {line[load]}}}" for line in table]
-            for load in table[0] if load != "diameter_m"}
-
-
-def matrix():
-    """Every run of the published matrix by name."""
-    small = [Setting("12cm", load, speed) for load in published_loads() for speed in SPEEDS]
-    large = [Setting("30cm", "31.25", speed) for speed in (60, 75)]
-    return {setting.name: setting for setting in small + large}
-
-
-def mill_text(setting, duration, slice_length):
-    """mill.yaml of a run."""
-    source = MILLS / ("mill_12cm/mill_full.yaml" if setting.mill == "12cm" else "mill_30cm/mill.yaml")
-    text = with_entries(source.read_text(), fraction_of_critical=f"{setting.speed / 100:g}", duration=f"{duration:g}")
-    if setting.mill == "12cm":
-        lines = "\n".join(published_loads()[setting.load])
-        text = replaced(text, r"(?m)^  classes:\n(    - .*\n)+", f"  classes:\n{lines}\n")
-    if slice_length:
-        text = replaced(text, r"(?m)^geometry:\n", f"geometry:\n  slice: {slice_length:g}\n")
-    return text
-
-
-def replaced(text, pattern, new):
-    """The text with what the pattern finds, which must be there once, replaced."""
-    text, count = re.subn(pattern, new, text)
-    if count != 1:
-        raise RunError(f"mill.yaml: '{pattern}' was found {count} times; expected once")
-    return text
-
-
-def radius_and_length(text):
-    """Of a mill.yaml, m."""
-    value = {key: float(re.search(rf"^  {key}: +(\S+)", text, re.M).group(1)) for key in ("diameter", "length")}
-    sliced = re.search(r"^  slice: (\S+)", text, re.M)
-    return value["diameter"] / 2, float(sliced.group(1)) if sliced else value["length"]
-
-
 def folder_of(setting, slice_length):
-    """The folder of a run; slices have folders of their own."""
-    return HERE / "runs" / (setting.name + (f"_slice{1e3 * slice_length:g}mm" if slice_length else ""))
+    return HERE / "runs" / run_name(setting.name, slice_length)
 
 
 def make(setting, options):
     """Runs one setting, or finds it whole."""
-    duration = options.duration or DURATIONS.get((setting.mill, setting.speed), DURATION)
-    text = mill_text(setting, duration, options.slice)
-    radius, length = radius_and_length(text)
-    averaging = ["--box", -radius, -radius, 0, radius, radius, length, "--shape", VOXELS, VOXELS, 1, "--start", LEFT_OUT,
-                 "--window", WINDOW]
-    if options.slice:
-        averaging += ["--periodic", "z"]
+    text = mill_text(setting, options.duration or setting.duration, options.slice)
     folder = folder_of(setting, options.slice)
     print(f"{folder.name} …", flush=True)
-    return make_dry_run(folder, text, averaging, ranks=options.ranks, keep_dumps=options.keep_dumps)
+    return make_dry_run(folder, text, averaging(text), ranks=options.ranks, keep_dumps=options.keep_dumps)
 
 
 def row(setting, dry):

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Dry runs of the 12 cm mill beside published readings: RMSD of the tangential velocity from a cubic, and of the free surface
+from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a difference comes from.
+
+Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept, what was
+broken off is gone on with; dumps are removed once they are averaged."""
+import argparse
+import csv
+import sys
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from millfoam import other_readings, published_mills
+from millfoam.charge import Charge, charge_with_errors, read_charge
+from millfoam.charge_plots import draw_charge
+from millfoam.dry_runs import make_dry_run, run_files
+from millfoam.mill_runs import is_whole
+from millfoam.published_mills import Setting, averaging, mill_text, replaced, run_name
+from millfoam.run import RunError, run
+from millfoam.solids import read_windows, with_error
+
+HERE = Path(__file__).parent.resolve()
+REPORT = HERE.parents[2] / "scripts" / "report"
+RADIUS = 0.06  # m
+QUICK = {"slice": 0.012, "duration": 0.2, "left_out": 0.1, "window": 0.01}  # m, s
+COLUMNS = ("run", "balls", "steady", "steady_from_s", "power_W", "power_error_W", "cubic_rmsd_m_s", "cubic_error_m_s",
+           "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm", "centre_y_mm",
+           "centre_error_mm", "toe_deg", "toe_error_deg", "shoulder_deg", "shoulder_error_deg", "wall_time_s")
+# What a variant changes: (pattern in mill.yaml, what stands there instead), each to be found once
+VARIANTS = {
+    "stiff": [(r"(?m)^(dem:\n  youngs_modulus:) \S+", r"\g<1> 1.0e8")],
+    "lifters3mm": [(r"(?m)^(    width:) \S+", r"\g<1> 0.003")],
+    "lifters9mm": [(r"(?m)^(    width:) \S+", r"\g<1> 0.009")],
+    "lifters_trapezoid": [(r"(?m)^(    width:) \S+", r"\g<1> 0.009\n    top_width: 0.003")],
+    "friction0.5": [(r"(?m)^(  ball_ball: .*, friction:) [^,]+", r"\g<1> 0.5")],
+    "rolling0.05": [(rf"(?m)^(  {contact}: .*rolling_friction:) [^}}]+", r"\g<1> 0.05")
+                    for contact in ("ball_ball", "ball_wall")],
+    "wall_aluminium": [(r"(?m)^(  ball_wall:) .*", r"\g<1> glass-aluminium")],
+    "wall_nylon": [(r"(?m)^(  ball_wall:) .*", r"\g<1> glass-nylon")],
+    "other_seed": [(r"(?m)^(  seed:) \S+", r"\g<1> 20122")],
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A run of the study: the published one, and the variant of it, or "" for the mill as published."""
+    setting: Setting
+    variant: str
+
+    @property
+    def name(self):
+        return self.setting.name + (f"_{self.variant}" if self.variant else "")
+
+    def mill(self, duration, slice_length):
+        """Its mill.yaml."""
+        text = mill_text(self.setting, duration, slice_length)
+        for pattern, new in VARIANTS.get(self.variant, ()):
+            text = replaced(text, pattern, new)
+        return text
+
+
+def published():
+    """Setting -> (RMSD of the cubic in m/s, of the logistic in mm); NaN where none is at hand."""
+    with open(HERE / "published.csv", newline="") as file:
+        return {Setting("12cm", line["load_percent"], int(line["speed_percent"])):
+                tuple(float(line[key] or "nan") for key in ("cubic_rmsd_m_s", "logistic_rmsd_mm"))
+                for line in csv.DictReader(file)}
+
+
+def cases():
+    """Every run by name: those with published readings, each followed by its variants."""
+    found = [Case(setting, variant) for setting in published() for variant in ("", *VARIANTS)]
+    return {case.name: case for case in found}
+
+
+def asked(case, options):
+    """Folder of a run, text of its mill.yaml and options of its averages; dem_matrix's folder where it has that very run."""
+    if options.quick:
+        text = case.mill(QUICK["duration"], QUICK["slice"])
+        return HERE / "runs_quick" / case.name, text, averaging(text, QUICK["left_out"], QUICK["window"])
+    text = case.mill(options.duration or case.setting.duration, options.slice)
+    name, averages = run_name(case.name, options.slice), averaging(text)
+    theirs = HERE.parent / "dem_matrix" / "runs" / name
+    return (theirs if is_whole(theirs, run_files(text, averages)) else HERE / "runs" / name), text, averages
+
+
+@dataclass
+class Result:
+    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge), with
+    errors (name -> Reading); the latter two are None where there is nothing to read."""
+    case: Case
+    folder: Path
+    dry: object
+    maps: list
+    charge: Charge = None
+    errors: dict = None
+
+
+def make(case, options):
+    """Result of a run that is made, or found whole."""
+    folder, text, averages = asked(case, options)
+    print(f"{folder.name} …", flush=True)
+    dry = make_dry_run(folder, text, averages, ranks=options.ranks, keep_dumps=options.keep_dumps)
+    result = Result(case, folder, dry, read_windows(folder / "solids.h5"))
+    try:
+        result.charge, result.errors = read_charge(dry.charge, RADIUS), charge_with_errors(result.maps, RADIUS)
+    except RuntimeError as error:
+        print(f"{folder.name}: not read: {error}")
+    return result
+
+
+def row(result):
+    """One line of the table; NaN where there is nothing to read."""
+    dry, (cubic, logistic) = result.dry, published()[result.case.setting]
+
+    def read(name, scale=1.0):
+        found = result.errors[name] if result.errors else None
+        return (scale * np.atleast_1d(found.value), scale * np.atleast_1d(found.error)) if found else (np.full(2, np.nan),) * 2
+
+    (velocity, velocity_error), (surface, surface_error) = read("tangential_rmsd"), read("surface_rmsd", 1e3)
+    (centre, centre_error), (ends, ends_error) = read("centre", 1e3), read("ends")
+    return dict(zip(COLUMNS, (
+        dry.name, int(dry.number("balls")), dry.results["steady"], dry.number("steady_from"), dry.number("power"),
+        dry.number("power_error"), velocity[0], velocity_error[0], cubic, surface[0], surface_error[0], logistic, *centre,
+        float(np.hypot(*centre_error)), ends[0], ends_error[0], ends[1], ends_error[1], dry.number("wall_time"))))
+
+
+def write_csv(path, columns, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def told(value, error, digits):
+    return f"{value:.{digits}f} ± {error:.{digits}f}"
+
+
+def print_table(rows):
+    width = max(len(r["run"]) for r in rows) + 2
+    print(f"{'run':<{width}}{'balls':>6}{'steady':>7}{'power W':>17}{'cubic m/s':>18}{'publ.':>8}{'logistic mm':>15}{'publ.':>7}"
+          f"{'centre mm':>14}{'toe':>6}{'shoulder':>10}{'time s':>8}")
+    for r in rows:
+        centre = f"{r['centre_x_mm']:.1f}, {r['centre_y_mm']:.1f}"
+        print(f"{r['run']:<{width}}{r['balls']:6d}{r['steady']:>7}{told(r['power_W'], r['power_error_W'], 4):>17}"
+              f"{told(r['cubic_rmsd_m_s'], r['cubic_error_m_s'], 4):>18}{r['cubic_published_m_s']:8.4f}"
+              f"{told(r['logistic_rmsd_mm'], r['logistic_error_mm'], 2):>15}{r['logistic_published_mm']:7.2f}{centre:>14}"
+              f"{r['toe_deg']:6.0f}{r['shoulder_deg']:10.0f}{r['wall_time_s']:8.0f}")
+
+
+def readings(result):
+    """Rows of the other readings of one run."""
+    rows = []
+    for kind, group, scale, number in (("cubic, m/s", other_readings.VELOCITY, 1.0, 0),
+                                       ("logistic, mm", other_readings.SURFACE, 1e3, 1)):
+        for name, reading in group.items():
+            try:
+                found = with_error(lambda one, read=reading: read(one, RADIUS), result.maps)
+                value, error = float(found.value), float(found.error)
+            except RuntimeError:
+                value = error = np.nan
+            rows.append({"run": result.dry.name, "rmsd_of": kind, "reading": name, "value": scale * value, "error": scale * error,
+                         "single_windows": scale * other_readings.mean_of_windows(reading, result.maps, RADIUS),
+                         "published": published()[result.case.setting][number]})
+    return rows
+
+
+def print_readings(rows):
+    for r in rows:
+        if r is rows[0] or r["run"] != rows[rows.index(r) - 1]["run"]:
+            print(f"\n{r['run']:<66}{'whole':>18}{'a window':>10}{'publ.':>9}")
+        print(f"  {r['rmsd_of']:<14}{r['reading']:<50}{told(r['value'], r['error'], 4):>18}{r['single_windows']:10.4f}"
+              f"{r['published']:9.4g}")
+
+
+def plot(results, rows, path):
+    """Measured beside published RMSDs above, below the maps with what is read off them."""
+    across = min(len(results), 4)
+    lines = -(-len(results) // across)
+    figure = plt.figure(figsize=(max(5.2 * across, 10), 5 + 6.4 * lines), constrained_layout=True)
+    grid = figure.add_gridspec(1 + lines, 2 * across, height_ratios=[5] + [6.4] * lines)
+    titles = (("cubic_{}_m_s", "tangential velocity from its cubic, m/s"),
+              ("logistic_{}_mm", "free surface from its logistic, mm"))
+    place = np.arange(len(rows))
+    for k, (key, title) in enumerate(titles):
+        axis = figure.add_subplot(grid[0, k * across:(k + 1) * across])
+        axis.errorbar(place, [r[key.format("rmsd")] for r in rows], [r[key.format("error")] for r in rows], fmt="o", capsize=4,
+                      color="#0072B2", label="this study, standard error over time")
+        axis.plot(place, [r[key.format("published")] for r in rows], "D", color="#D55E00", label="published")
+        axis.set(yscale="log", title=f"RMSD of the {title}", xlim=(-0.6, len(rows) - 0.4))
+        axis.set_xticks(place, [r["run"].removeprefix("12cm_") for r in rows], rotation=20, ha="right", fontsize=8)
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.yaxis.set_minor_formatter(NullFormatter())
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=8)
+    for k, result in enumerate(results):
+        axis = figure.add_subplot(grid[1 + k // across, 2 * (k % across):2 * (k % across) + 2])
+        if result.charge:
+            draw_charge(axis, result.dry.charge, result.charge, RADIUS)
+        axis.set_title(result.dry.name + ("" if result.charge else ": nothing to read"), fontsize=9, loc="left")
+    figure.savefig(path, dpi=90)
+    plt.close(figure)
+
+
+def chosen(patterns, known, parser):
+    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches nothing
+    is an error."""
+    for pattern in patterns:
+        if pattern != "all" and not any(fnmatchcase(name, pattern) for name in known):
+            parser.error(f"no run is named '{pattern}'; --list names them")
+    return [case for name, case in known.items() if any(
+        not case.variant if pattern == "all" else fnmatchcase(name, pattern) for pattern in patterns)]
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("runs", nargs="*", metavar="RUN", help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
+    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("--quick", action="store_true", help="0.2 s of two thin slices: shows that it works, not what it says")
+    parser.add_argument("--readings", action="store_true", help="other ways to read both numbers, in a table of their own")
+    parser.add_argument("--duration", type=float, help=f"of the turning mill, s [{published_mills.DURATION:g}]")
+    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH", help="periodic slices of this length (m) instead")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--keep-dumps", action="store_true")
+    return parser.parse_args(), parser
+
+
+def tell(results, options):
+    """Tables, picture and reports of runs that are whole."""
+    name = "dem_12cm_quick" if options.quick else "dem_12cm"
+    rows = [row(result) for result in results]
+    write_csv(HERE / f"{name}.csv", COLUMNS, rows)
+    print_table(rows)
+    plot(results, rows, HERE / f"{name}.png")
+    if options.readings:
+        lines = [line for result in results for line in readings(result)]
+        write_csv(HERE / f"{name}_readings.csv", tuple(lines[0]), lines)
+        print_readings(lines)
+    for result in results:
+        run(result.folder, sys.executable, REPORT, ".", name="report")
+    if len(results) > 1:
+        run(HERE, sys.executable, REPORT, *(result.folder for result in results), "-o", f"{name}_comparison.html", name="report")
+
+
+def main():
+    options, parser = parse()
+    known = cases()
+    if options.list or not (options.runs or options.quick):
+        for case in known.values():
+            folder, text, averages = asked(case, options)
+            print(case.name, "whole" if is_whole(folder, run_files(text, averages)) else "")
+        return 0
+    names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
+    results, failures = [], []
+    for case in chosen(names, known, parser):
+        try:
+            results.append(make(case, options))
+        except RunError as error:
+            failures.append(f"{case.name}: {error}")
+            print(failures[-1], flush=True)
+    if results:
+        tell(results, options)
+    if failures:
+        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(results)} runs failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up flows."""
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
+
+import h5py
+import numpy as np
+
+from millfoam import flow_readings, statements
+from millfoam.axial import AxialSeries, gaussians
+from millfoam.flow_readings import Mean, RunReadings, Surface
+from millfoam.statements import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
+from slurry_maps_test import RADIUS, WALL, slurry_map
+
+Z = np.linspace(0.005, 0.3, 33)
+TIMES = np.arange(2, 5, 0.05)
+
+
+def series(profile=-0.05, pressure=0.0, noise=1e-4):
+    """AxialSeries with a mean height (m, number or [33]) and pressure (Pa), with noise over time."""
+    random = np.random.default_rng(3)
+    shape = (len(TIMES), len(Z))
+    return AxialSeries(Z, TIMES, profile + noise * random.standard_normal(shape), np.full(shape, 1e-4),
+                       pressure + 1e3 * noise * random.standard_normal(shape))
+
+
+def run(speed=75, law=None, solids=20, last=5.0, **read):
+    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, **read)
+
+
+def verdicts_of(function, *runs):
+    return [one.verdict for one in function(statements.Runs(runs))]
+
+
+class Flat(unittest.TestCase):
+    def surface(self, tilt, deviation):
+        return run(surface=Surface(Mean(tilt), Mean(deviation)))
+
+    def test_is_judged_by_tilt_and_deviation(self):
+        for tilt, deviation, verdict in ((2, 0.003, CONFIRMED), (12, 0.003, CONTRADICTED), (2, 0.02, CONTRADICTED)):
+            self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)), [NOT_TESTED, verdict])
+
+    def test_a_run_that_is_short_or_missing_is_told(self):
+        short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
+        found = statements.flat_without_balls(statements.Runs([short]))
+        self.assertEqual([one.verdict for one in found], [NOT_TESTED, NOT_TESTED])
+        self.assertIn("fluid_only_60 ends at 3.4 s; expected 4.5 s", found[0].figure)
+        self.assertIn("missing: fluid_only_75", found[1].figure)
+
+    def test_what_could_not_be_read_is_told(self):
+        found = statements.flat_without_balls(statements.Runs([run(failures=["surface not read: no slurry"])]))
+        self.assertEqual((found[1].verdict, found[1].figure), (NOT_TESTED, "surface not read: no slurry"))
+
+
+class TwoHumps(unittest.TestCase):
+    def profile(self, apart, heights=(0.01, 0.01)):
+        return series(gaussians(Z, -0.06, heights[0], 0.15 - apart / 2, 0.02, heights[1], 0.15 + apart / 2, 0.02))
+
+    def test_are_counted_and_their_distances_compared(self):
+        for apart, verdict in ((0.2, CONFIRMED), (0.12, CONTRADICTED)):
+            runs = run(60, series=self.profile(0.1)), run(75, series=self.profile(apart))
+            self.assertEqual(verdicts_of(statements.humps_without_balls, *runs), [CONFIRMED, CONFIRMED, verdict])
+
+    def test_one_hump_is_not_two_and_leaves_the_distance_open(self):
+        runs = run(60, series=self.profile(0.1, (0.0, 0.01))), run(75, series=self.profile(0.2))
+        self.assertEqual(verdicts_of(statements.humps_without_balls, *runs), [CONTRADICTED, CONFIRMED, UNDECIDED])
+
+    def test_maxima_below_the_error_do_not_count(self):
+        height = gaussians(Z, -0.06, 0.01, 0.1, 0.02, 0.002, 0.2, 0.02)
+        self.assertEqual(len(statements.maxima(Z, height, 1e-4)), 2)
+        self.assertEqual(len(statements.maxima(Z, height, 5e-4)), 1)
+
+    def test_raised_ends_are_maxima(self):
+        np.testing.assert_allclose(statements.maxima(Z, np.abs(Z - 0.15), 1e-3), Z[[0, -1]])
+
+
+class WithBalls(unittest.TestCase):
+    def test_the_surface_follows_what_its_tilt_is_nearer_to(self):
+        for tilt, error, verdict in ((30, 1, CONFIRMED), (10, 1, CONTRADICTED), (20.5, 3, UNDECIDED)):
+            one = run(law="Beetstra", surface=Surface(Mean(tilt, error), Mean(0.01), 40.0))
+            self.assertEqual(verdicts_of(statements.surface_follows, one), [verdict])
+
+    def pair(self, rise, solids=20):
+        return (run(law="Beetstra", solids=solids, series=series(-0.05)),
+                run(law="ErgunWenYu", solids=solids, series=series(-0.05 + rise)))
+
+    def test_slightly_higher_is_higher_and_not_much(self):
+        for rise, verdict in ((0.002, CONFIRMED), (-0.002, CONTRADICTED), (0.0, UNDECIDED), (0.03, CONTRADICTED)):
+            self.assertEqual(verdicts_of(statements.drag_raises, *self.pair(rise)), [verdict, NOT_TESTED])
+
+    def test_runs_on_other_slices_are_not_compared(self):
+        beetstra, ergun = self.pair(0.002)
+        ergun.series.z = ergun.series.z[:9]
+        self.assertEqual(verdicts_of(statements.drag_raises, beetstra, ergun)[0], NOT_TESTED)
+
+    def test_the_difference_shrinks_with_concentration(self):
+        for later, verdict in ((0.001, CONFIRMED), (0.004, CONTRADICTED)):
+            found = verdicts_of(statements.drag_raises, *self.pair(0.002), *self.pair(later, 40))
+            self.assertEqual(found[1], verdict)
+
+    def test_concentration_raises(self):
+        runs = run(law="Beetstra", series=series(-0.05)), run(law="Beetstra", solids=40, series=series(-0.04))
+        self.assertEqual(verdicts_of(statements.concentration_raises, *runs), [CONFIRMED, NOT_TESTED])
+
+    def test_reynolds_numbers_are_weighted_by_slurry(self):
+        numbers = np.array([50.0, 400.0])
+        for slurry, verdict in (((3.0, 1.0), CONFIRMED), ((1.0, 3.0), CONTRADICTED)):
+            one = run(law="Beetstra", reynolds=(numbers, np.array(slurry)))
+            self.assertEqual(verdicts_of(statements.reynolds_below, one), [verdict, NOT_TESTED])
+
+    def test_a_pressure_drop_must_be_one_and_clearly_larger(self):
+        def runs(beetstra, ergun):
+            return (run(law=law, series=series(pressure=-drop / (Z[-1] - Z[0]) * Z)) for law, drop in (
+                ("Beetstra", beetstra), ("ErgunWenYu", ergun)))
+
+        for beetstra, ergun, verdict in ((100, 150, CONFIRMED), (150, 100, CONTRADICTED), (100, 103, CONTRADICTED),
+                                         (-100, -50, CONTRADICTED), (100, 100, UNDECIDED)):
+            with self.subTest(f"{beetstra} {ergun}"):
+                self.assertEqual(verdicts_of(statements.pressure_drops, *runs(beetstra, ergun)), [verdict])
+
+    def test_a_drop_is_that_of_the_line(self):
+        found = statements.drop(run(series=series(pressure=-200 * Z, noise=0)))
+        self.assertAlmostEqual(found.value, 200 * (Z[-1] - Z[0]))
+
+    def test_slurry_circulates_there_and_back(self):
+        for toe, shoulder, verdict in ((0.01, -0.01, CONFIRMED), (0.01, 0.01, CONTRADICTED), (0.01, -0.0005, UNDECIDED)):
+            one = run(law="Beetstra", toe=Mean(toe, 1e-3), shoulder=Mean(shoulder, 1e-3))
+            self.assertEqual(verdicts_of(statements.circulation, one), [verdict])
+
+    def test_every_statement_without_runs_is_not_tested(self):
+        self.assertEqual({one.verdict for one in statements.verdicts([])}, {NOT_TESTED})
+
+
+class Reading(unittest.TestCase):
+    def test_a_surfaces_tilt_is_that_of_the_level_turned_up_on_the_left(self):
+        slope = np.tan(np.radians(25))
+        for sign in (1, -1):
+            level = slurry_map(lambda x, y, sign=sign: np.where(y < -sign * slope * x - 0.02, 1.0, 0.0))
+            tilt, deviation, _ = flow_readings.surface_line(level, RADIUS, RADIUS - WALL)
+            self.assertAlmostEqual(tilt, sign * 25, delta=0.5)
+            self.assertLess(deviation, 0.001)
+
+    def test_a_wavy_surface_deviates(self):
+        wavy = slurry_map(lambda x, y: np.where(y < 0.01 * np.sin(100 * x), 1.0, 0.0))
+        self.assertAlmostEqual(flow_readings.surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
+
+    def test_without_slurry_there_is_no_surface(self):
+        with self.assertRaisesRegex(RuntimeError, "no free surface of the slurry"):
+            flow_readings.surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
+
+    def test_errors_are_those_of_block_means(self):
+        value, error = flow_readings.series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
+        self.assertAlmostEqual(float(value), 3)
+        self.assertAlmostEqual(float(error), np.std([1, 2, 3, 4, 5], ddof=1) / np.sqrt(5))
+
+    def test_windows_of_the_averaged_time_are_parted(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(flow_readings, "read_slurry_map") as read:
+            path = Path(folder) / "slurry.h5"
+            with h5py.File(path, "w") as file:
+                file["window/begin"] = 1 + 0.05 * np.arange(12)
+                file["window/end"] = 1.05 + 0.05 * np.arange(12)
+            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, slurry=path, flow=SimpleNamespace(time0=1.0))
+            list(flow_readings.slurry_blocks(case))
+            parts = [call.args[1:3] for call in read.call_args_list]
+            np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])
+            case.begin = 0.58
+            with self.assertRaisesRegex(RuntimeError, "slurry.h5: no window from DEM time 1.58 to 1.6 s"):
+                list(flow_readings.slurry_blocks(case))
+
+    def test_written_times_are_parted_where_there_is_no_slurry_file(self):
+        frames = [(0.1 * k, f"time {k}") for k in range(11)]
+        case = SimpleNamespace(begin=0.5, last=1.0, slurry=None, flow=SimpleNamespace(time0=0.0, frames=frames))
+        with mock.patch.object(flow_readings, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
+            parts = list(flow_readings.slurry_blocks(case))
+        self.assertEqual(parts, [["time 5", "time 6"], ["time 7"], ["time 8"], ["time 9"], ["time 10"]])
+
+    def test_tables_of_function_objects_are_taken_from_the_beginning_of_the_averages_on(self):
+        times = np.array([1.0, 2.0, 3.0])
+        tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]], "p_rgh": [[9, 9], [5, 0], [7, 8]]}
+        case = SimpleNamespace(begin=2.0, axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
+        found = flow_readings.read_series(case)
+        np.testing.assert_array_equal(found.times, [2, 3])
+        np.testing.assert_array_equal(found.height, [[-1, np.nan], [-3, -4]])
+        np.testing.assert_array_equal(found.pressure, [[5, np.nan], [7, 8]])
+        self.assertAlmostEqual(statements.height(run(series=found)).value, (-1 - 3.5) / 2)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
