@@ -4,8 +4,8 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryTorque.H"
+#include "gravityMeshObject.H"
 #include "turbulentTransportModel.H"
-#include "uniformDimensionedFields.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -19,7 +19,7 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
 {
     if (!dict.found("walls"))
     {
-        return patches.findPatchIDs<wallPolyPatch>().toc();
+        return patches.findPatchIDs<wallPolyPatch>().sortedToc();
     }
     const wordRes names(dict.get<wordRes>("walls"));
     const labelList found(patches.patchSet(names, false).sortedToc());
@@ -139,8 +139,7 @@ Foam::scalar Foam::slurryTorque::drain() const
     const fvMesh& mesh = fields_.mesh();
     const volScalarField& rho = mesh.lookupObject<volScalarField>("rho");
     const auto& phi = mesh.lookupObject<surfaceScalarField>("phi");
-    const vector& g =
-        mesh.lookupObject<uniformDimensionedVectorField>("g").value();
+    const vector g(meshObjects::gravity::New(mesh.time()).value());
 
     scalar result = -moment(
         mesh.C().primitiveField(),
