@@ -5,6 +5,7 @@ The mill case itself with coarser cells and less time: slurryFoam with the law's
 particleDrag."""
 import re
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,8 +15,11 @@ import numpy as np
 from millfoam import foam, solids
 from millfoam.mill_flow import MillFlow
 from millfoam.run import run
+from millfoam.slurry import read_slurry_map
+from millfoam.tables import read_columns
 
-CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_12cm"
+ROOT = Path(__file__).resolve().parents[2]
+CASE, SCRIPTS = ROOT / "cases" / "mills" / "mill_12cm", ROOT / "scripts"
 START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
 MULTIPLIERS = {"law": 1, "off": 0}  # on slurryFoam's drag
 
@@ -44,7 +48,8 @@ class MillRun(unittest.TestCase):
         shutil.copy(CASE / "mill.yaml", charge)
         replace(charge / "mill.yaml", (r"cell_size: \S+", "cell_size: 0.005"), (r"layers: \S+", "layers: 3"),
                 (r"  duration: \S+", f"  duration: {START + END}"))
-        replace(charge / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {END}"))
+        replace(charge / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {END}"),
+                (r"^( +start +)[^;]+", rf"\g<1>{LATE}"))
         run(charge, "millMesh", "mill.yaml", "--case", ".", "--at-time", START)
         run(charge, "millDem", "mill.yaml", "--case", ".")
         length = foam.read_dictionary(charge / "constant" / "millProperties")["length"]
@@ -151,6 +156,23 @@ class MillRun(unittest.TestCase):
         weight = flow.field("alpha.slurry", path) * flow.volumes
         speed = np.linalg.norm(flow.field("U", path), axis=1)
         self.assertLess((speed * weight).sum() / weight.sum(), abs(flow.omega) * flow.radius)
+
+    def test_slurry_is_balanced(self):
+        for name, flow in self.flows.items():
+            told = read_columns(flow.case, "slurryBalance")
+            self.assertLess(np.abs(told["missing"]).max(), 1e-6 * told["holdUp"][0], name)
+
+    def test_slurry_on_voxels_is_where_it_is_in_the_cells(self):
+        flow = self.flows["law"]
+        x, y = read_slurry_map(flow.case / "slurry.h5", START + LATE, START + END).centroid()
+        np.testing.assert_allclose((x, y), self.late_centroids("law").mean(axis=0), atol=5e-4)
+
+    def test_a_report_is_written(self):
+        case = self.flows["law"].case
+        run(case, sys.executable, SCRIPTS / "report", ".", name="report")
+        text = (case / "report.html").read_text()
+        for words in ("Slurry is conserved", "Free surface", "Hold-up", "data:image/png"):
+            self.assertIn(words, text)
 
 
 if __name__ == "__main__":
