@@ -55,7 +55,7 @@ def charge_figure(charge, readings, radius):
     axis.plot(*(1e3 * surface.points[0]), "s", color=BLUE, mec="w", ms=8)
     axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
     axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
-              label=_signed(f"centre of circulation ({1e3 * readings.centre[0]:.1f}, {1e3 * readings.centre[1]:.1f}) mm and line"))
+              label=_signed("centre of circulation ({:.1f}, {:.1f}) mm and line".format(*1e3 * np.array(readings.centre))))
     draw_sense(axis, radius, CLOCKWISE)
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)

@@ -44,8 +44,9 @@ def write_dry(folder, title="A dry mill", **changed):
     np.savetxt(folder / "dumps" / "energy.csv", rows, "%.6g", ",", comments="",
                header="time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m")
     overlap = np.arange(40) * 5e-6 + 2.5e-6
-    np.savetxt(folder / "dumps" / "overlaps.csv", np.column_stack([overlap, 1e6 * np.exp(-overlap / 2e-5), 1e5 + 0 * overlap]), "%.6g",
-               ",", comments="", header="overlap_m,ball_contacts,wall_contacts")
+    counts = np.column_stack([overlap, 1e6 * np.exp(-overlap / 2e-5), 1e5 + 0 * overlap])
+    np.savetxt(folder / "dumps" / "overlaps.csv", counts, "%.6g", ",", comments="",
+               header="overlap_m,ball_contacts,wall_contacts")
     write_solids(folder / "solids.h5")
     return folder
 
@@ -114,12 +115,14 @@ def write_mesh(folder, points):
         text = "\n".join(map(str, rows))
         (folder / name).write_text(HEAD.format("list", name) + f"{len(rows)}\n(\n{text}\n)\n")
     names = ("west", "east", "south", "north", "feedEnd", "dischargeEnd")
-    patches = "".join(f"{name} {{ type wall; nFaces {size}; startFace {start}; }}\n" for name, start, size in zip(names, first, sizes))
+    patches = "".join(f"{name} {{ type wall; nFaces {size}; startFace {start}; }}\n"
+                      for name, start, size in zip(names, first, sizes))
     (folder / "boundary").write_text(HEAD.format("list", "boundary") + f"{len(names)}\n(\n{patches})\n")
 
 
 def write_time(folder, time, places):
-    """Fields of cells at places [cells, 3] of the mesh at flow time 0 (m): slurry below y = -0.05 m, however the mill has turned."""
+    """Fields of cells at places [cells, 3] of the mesh at flow time 0 (m): slurry below y = -0.05 m, however the mill
+    has turned."""
     sine, cosine = np.sin(OMEGA * time), np.cos(OMEGA * time)
     x, y = cosine * places[:, 0] - sine * places[:, 1], sine * places[:, 0] + cosine * places[:, 1]
     wet = (y < -0.05).astype(float)

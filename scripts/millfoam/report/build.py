@@ -31,4 +31,5 @@ def compare_cases(folders, begin=None):
     readings = [Readings(case) for case in cases]
     names = comparison.distinct(cases)
     subtitle = f"{names[0]} against " + ", ".join(names[1:])
-    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names), FOOT.format(datetime.datetime.now()))
+    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names),
+                     FOOT.format(datetime.datetime.now()))

@@ -131,13 +131,15 @@ def step_limits(path):
 def mesh(case):
     name = "The mesh is sound"
     ok = "Mesh OK" in case.log("check")
-    values = dict(re.findall(r"^(volume error|max non-orthogonality|max skewness|max volume ratio)\s+(\S+)", case.log("mesh"), re.M))
+    values = dict(re.findall(r"^(volume error|max non-orthogonality|max skewness|max volume ratio)\s+(\S+)", case.log("mesh"),
+                             re.M))
     if not case.log("check"):
         return Check(name, "unknown", "checkMesh was not run (no log.check)", "Run checkMesh > log.check in the case.")
     words = ", ".join(f"{key.removeprefix('max ')} {value}" for key, value in values.items())
     if ok:
         return Check(name, "holds", words or "checkMesh found nothing")
-    return Check(name, "fails", f"a check of checkMesh failed, see log.check; {words}", "Refine the mesh or change the lifters' section.")
+    return Check(name, "fails", f"a check of checkMesh failed, see log.check; {words}",
+                 "Refine the mesh or change the lifters' section.")
 
 
 def lost_balls(case):
@@ -149,7 +151,8 @@ def lost_balls(case):
 def charge_steadiness(case):
     name = "The charge is steady where it is averaged"
     if case.results["steady"] != "yes":
-        return Check(name, "fails", "the dry run's power did not become steady", "Let it run longer (dem.duration, millDem --resume).")
+        return Check(name, "fails", "the dry run's power did not become steady",
+                     "Let it run longer (dem.duration, millDem --resume).")
     since = float(case.results["steady_from"])
     found = f"steady from {since:.2f} s on"
     if not case.solids:
@@ -238,4 +241,5 @@ def one_way(case):
     mean, high = load
     return judged(name, np.max([mean / LIGHT, high / HEAVY]), 1,
                   f"its force is {mean:.2f} of their weight in the mean (limit {LIGHT}), 95 % below {high:.2f} (limit {HEAVY})",
-                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.", doubtful=1 / HEAVY)
+                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.",
+                  doubtful=1 / HEAVY)

@@ -68,8 +68,9 @@ def charge_differences(told):
         if case.solids == first.solids or not same_pixels(case.charge, first.charge):
             continue
         apart = compare.difference_maps(case.charge, first.charge)
-        cards.append(page.picture(maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –", 0.05),
-                                  f"Solidity of {name} less that of {first_name}. Red: denser.", title=f"{name} less {first_name}"))
+        figure = maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –", 0.05)
+        cards.append(page.picture(figure, f"Solidity of {name} less that of {first_name}. Red: denser.",
+                                  title=f"{name} less {first_name}"))
         found = compare.difference(case.charge, first.charge)
         try:
             surface = compare.surface_difference(*(compare.free_surface(one.charge, one.radius) for one in (case, first)))
@@ -79,8 +80,8 @@ def charge_differences(told):
         rows.append((name, *((100 * value, ".3g") for value in (found.solidity, found.velocity_x, found.velocity_y)), height))
     if rows:
         cards.append(page.table(["", "solidity, %", "velocity x, %", "velocity y, %", "free surface"], rows, wide=True,
-                                note="Mean |difference| of solidity over 0.634; of velocities, weighted by the solidity, over the mean of "
-                                     "both largest speeds; height of the free surface less the first's.",
+                                note="Mean |difference| of solidity over 0.634; of velocities, weighted by the solidity, over "
+                                     "the mean of both largest speeds; height of the free surface less the first's.",
                                 title=f"Charge held against {first_name}"))
     return cards
 
@@ -91,10 +92,11 @@ def charge_curves(told):
     if len(read) < 2:
         return []
     case = read[0][0]
+    curves = [(name, 1e3 * one.tangential.distance, one.tangential.velocity) for _, name, one in read]
     return [page.picture(figures.surfaces([(name, one.surface.points) for _, name, one in read], case.radius, case.omega),
                          "From the shoulder on the rising side to the toe.", title="Free surfaces"),
-            page.picture(figures.lines_against([(name, 1e3 * one.tangential.distance, one.tangential.velocity) for _, name, one in read],
-                                               "distance from the mill's centre, mm", "tangential velocity, m/s\n(clockwise positive)"),
+            page.picture(figures.lines_against(curves, "distance from the mill's centre, mm",
+                                               "tangential velocity, m/s\n(clockwise positive)"),
                          "Along the line through the centre of circulation, from the free surface to 8 mm from the shell.",
                          title="Tangential velocity")]
 
@@ -107,10 +109,13 @@ def slurry_cards(cases, readings, names):
     cards = [page.picture(maps.map_figure(case, one.x, one.y, one.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1)),
                           f"Share of the fluid that is slurry, averaged over the axis and {one.source}.", title=name)
              for case, one, name in told]
-    first = told[0]
-    return cards + [page.picture(maps.difference_figure(case, one.x, one.y, one.share - first[1].share, "difference of the share, –", 0.1),
-                                 f"Share of slurry of {name} less that of {first[2]}. Red: more slurry.", title=f"{name} less {first[2]}")
-                    for case, one, name in told[1:] if same_pixels(one, first[1])]
+    _, first, first_name = told[0]
+    for case, one, name in told[1:]:
+        if same_pixels(one, first):
+            figure = maps.difference_figure(case, one.x, one.y, one.share - first.share, "difference of the share, –", 0.1)
+            cards.append(page.picture(figure, f"Share of slurry of {name} less that of {first_name}. Red: more slurry.",
+                                      title=f"{name} less {first_name}"))
+    return cards
 
 
 def axial_cards(readings, names):
@@ -120,7 +125,8 @@ def axial_cards(readings, names):
         return []
     z = "z from the feed end, mm"
     return [page.picture(figures.lines_against([(name, 1e3 * one.z, 1e3 * one.height) for name, one in found], z,
-                                               "height of the centre, mm"), "Mean over time.", title="Height of the slurry's centre"),
+                                               "height of the centre, mm"), "Mean over time.",
+                         title="Height of the slurry's centre"),
             page.picture(figures.lines_against([(name, 1e3 * one.z, one.pressure) for name, one in found], z, "p_rgh, Pa"),
                          "Pressure in the slurry without what the depth makes, mean over time.", title="Head")]
 
@@ -133,7 +139,8 @@ def time_cards(cases, names):
               for key, scale in (("holdUp", 1e6), ("y", 1e3))}
     power = [(name, case.balance["Time"][1:], figures.running_mean(case.balance["Time"], case.balance["power"],
                                                                    np.pi / 2 / abs(case.omega))[1:]) for name, case in told]
-    return [page.picture(figures.lines_against(curves["holdUp"], "flow time, s", "hold-up, ml"), "Slurry in the mill.", title="Hold-up"),
+    return [page.picture(figures.lines_against(curves["holdUp"], "flow time, s", "hold-up, ml"), "Slurry in the mill.",
+                         title="Hold-up"),
             page.picture(figures.lines_against(curves["y"], "flow time, s", "y, mm"), "Of the slurry's volume.",
                          title="Height of the centre"),
             page.picture(figures.lines_against(power, "flow time, s", "power, W\n(mean over a quarter turn)"),

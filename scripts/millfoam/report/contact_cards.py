@@ -21,14 +21,14 @@ def contact_section(case, _readings):
     except (RuntimeError, OSError, ValueError) as error:
         return [page.paragraph(f"Contacts cannot be shown: {error}.")]
     span = f"{spectra.dumps} dumps of contacts, every {1e3 * spectra.interval:.3g} ms of DEM time {begin:.3g} to {end:.3g} s"
-    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: power that contacts "
-                         "dissipate by the energy of their motion. A ball is counted with the larger one of its pair; grey: wall. "
+    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: power that "
+                         "contacts dissipate by the energy of their motion. Pairs go by their larger ball; grey: with the wall. "
                          f"From {span}.", title="Spectra of energy"),
             page.table(*power_table(spectra), title="Power that contacts dissipate, mW",
                        note="Between balls of two diameters, and of balls and the wall."),
             page.table(None, balance_rows(spectra, drive), title="Where the drive's power goes",
-                       note="In a steady state contacts take what the drive gives. They miss each other by what single dumps tell of "
-                            "it: more dumps, at shorter intervals, bring them together.")]
+                       note="In a steady state contacts take what the drive gives. They miss each other by what single dumps "
+                            "tell of it: more dumps, at shorter intervals, bring them together.")]
 
 
 def contact_span(case):

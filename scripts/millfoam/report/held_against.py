@@ -6,7 +6,8 @@ import numpy as np
 from .. import compare, tracer
 from . import maps, page
 
-ABOUT = "Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both largest speeds."
+ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both largest "
+         "speeds.")
 
 
 def measured_section(case, path):
@@ -30,11 +31,13 @@ def tracer_section(case, paths):
     found = tracer.tracer_map(tracks, edges, volume, inside, periodic=periodic)
     length = sum(track.time[-1] - track.time[0] for track in tracks)
     names = ", ".join(path.name for path in paths)
-    note = [("tracks", f"{len(tracks)}, of {length:.4g} s together"), ("of their time outside the voxels", f"{100 * found.outside:.2g} %"),
+    rows = [("tracks", f"{len(tracks)}, of {length:.4g} s together"),
+            ("of their time outside the voxels", f"{100 * found.outside:.2g} %"),
             ("volume of the charge", f"{1e6 * volume:.4g} ml")]
     return "tracers", "Against tracers", cards(case, found, f"Tracers: {names}", "tracers") + [
-        page.table(None, note, title="Tracks", note="Share of the time that tracers spend in a voxel, times the charge's volume by the "
-                                                    "ledger over the voxel's room: its solidity, if the charge is steady and mixes.")]
+        page.table(None, rows, title="Tracks",
+                   note="Share of the time that tracers spend in a voxel, times the charge's volume by the ledger over the "
+                        "voxel's room: its solidity, if the charge is steady and mixes.")]
 
 
 def read_track(path):

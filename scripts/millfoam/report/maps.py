@@ -74,6 +74,7 @@ def histogram_figure(shares, edges):
     held = np.flatnonzero(shares > 0)
     reach = np.abs(edges[[held[0], held[-1] + 1]]).max() if len(held) else 0.1
     axis.axvline(0, color="0.3", lw=0.8)
-    axis.set(yscale="log", xlim=(-1.05 * reach, 1.05 * reach), xlabel="difference of solidity, –", ylabel="% of the mill's inside")
+    axis.set(yscale="log", xlim=(-1.05 * reach, 1.05 * reach), xlabel="difference of solidity, –",
+             ylabel="% of the mill's inside")
     axis.spines[["top", "right"]].set_visible(False)
     return figure

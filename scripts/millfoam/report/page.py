@@ -53,8 +53,8 @@ ul.verdicts li:last-child { border-bottom: 0; }
 .player { max-width: 620px; margin: 0 auto; }
 .player div { display: flex; gap: .7rem; align-items: center; margin-top: .5rem; }
 .player input { flex: 1; min-width: 0; accent-color: var(--accent); }
-.player button { font: inherit; padding: .2rem .8rem; border: 1px solid var(--line); border-radius: 6px; background: var(--ground);
-                 cursor: pointer; min-width: 4.6rem; }
+.player button { font: inherit; padding: .2rem .8rem; border: 1px solid var(--line); border-radius: 6px;
+                 background: var(--ground); cursor: pointer; min-width: 4.6rem; }
 pre { overflow-x: auto; font-size: .85rem; background: var(--ground); padding: .8rem; border-radius: 6px; }
 footer { padding: 0 1rem 2rem; color: var(--soft); font-size: .9rem; }
 @media (max-width: 480px) { main { padding: 0 .6rem 2rem; } .card { padding: .7rem; } header h1 { font-size: 1.35rem; } }

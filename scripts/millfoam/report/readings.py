@@ -120,7 +120,8 @@ def balance_numbers(case):
             ("power for the slurry", f"{mean['power']:.3g} W")]
     if case.is_open:
         feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
-        rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"), ("feed less discharge", f"{feed - out:+.1f} ml/s")]
+        rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),
+                 ("feed less discharge", f"{feed - out:+.1f} ml/s")]
     if "Re_mean" in told:
         rows += [("particle Reynolds number in slurry, mean", f"{mean['Re_mean']:.0f}"),
                  ("particle Reynolds number, 95 % of the balls below", f"{mean['Re_95']:.0f}")]

@@ -65,11 +65,11 @@ def charge_maps(case, readings):
         return [page.picture(maps.solidity_figure(case, mean), f"Solidity averaged over axis and time. Not read: {found}.",
                              title="Charge")]
     return [page.picture(charge_plots.charge_figure(mean, found, case.radius),
-                         "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the shoulder on the "
-                         "rising side to the toe; the charge turns about the centre of circulation.", title="Charge"),
+                         "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the shoulder on "
+                         "the rising side to the toe; the charge turns about the centre of circulation.", title="Charge"),
             page.picture(charge_plots.tangential_figure(found.tangential),
-                         "Along the line from the mill's centre through the centre of circulation: the charge falls near the surface "
-                         "(below 0) and rises with the shell. Top: with its cubic; below: what the cubic leaves; its slope.",
+                         "Along the line from the mill's centre through the centre of circulation: the charge falls near the "
+                         "surface (below 0) and rises with the shell. Below: what the cubic leaves, and its slope.",
                          title="Tangential velocity"),
             page.picture(maps.speed_figure(case, mean.x, mean.y, mean.velocity, mean.solidity > 0.02),
                          "Mean velocity of the balls across the axis: colour for its size, arrows for its direction.",
@@ -81,7 +81,8 @@ def ledger_section(case, _readings):
     if case.solids:
         with h5py.File(case.solids) as file:
             into, outside, clipped = (file[f"ledger/{name}"][:] for name in ("volume_in", "outside", "clipped"))
-            rows = [("windows", len(into)), ("length of a window", f"{np.median(file['window/end'][:] - file['window/begin'][:]):.4g} s"),
+            lengths = file["window/end"][:] - file["window/begin"][:]
+            rows = [("windows", str(len(into))), ("length of a window", f"{np.median(lengths):.4g} s"),
                     ("records in a window", f"{np.median(file['window/records'][:]):.0f}"),
                     ("volume of the balls", f"{1e6 * into.mean():.2f} ml"),
                     ("of it outside, at most", f"{100 * (outside / into).max():.2g} %"),
@@ -93,7 +94,7 @@ def ledger_section(case, _readings):
     if case.slurry:
         with h5py.File(case.slurry) as file:
             into, outside = file["ledger/volume_in"][:], file["ledger/outside"][:]
-        cards.append(page.table(None, [("windows", len(into)), ("slurry in the mesh, mean", f"{1e6 * into.mean():.2f} ml"),
+        cards.append(page.table(None, [("windows", str(len(into))), ("slurry in the mesh, mean", f"{1e6 * into.mean():.2f} ml"),
                                        ("of it beyond the voxels, at most", f"{100 * np.abs(outside / into).max():.2g} %")],
                                 title="Averaging of the slurry"))
     values = re.findall(r"^(cells|faces|volume|volume error|max [\w-]+(?: ratio)?)\s{2,}(\S.*)", case.log("mesh"), re.M)
@@ -140,6 +141,8 @@ def stage_costs(case):
         yield "dry run", float(case.results["wall_time"])
 
 
-SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section), ("contacts", "Contacts", contact_section),
-            ("slurry", "Slurry", slurry_section), ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
-            ("models", "Models", models_section), ("ledger", "Ledger and mesh", ledger_section), ("run", "How it was run", run_section))
+SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section),
+            ("contacts", "Contacts", contact_section), ("slurry", "Slurry", slurry_section),
+            ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
+            ("models", "Models", models_section), ("ledger", "Ledger and mesh", ledger_section),
+            ("run", "How it was run", run_section))

@@ -13,18 +13,19 @@ def slurry_section(case, readings):
     slurry = readings.slurry
     if isinstance(slurry, str):
         return [page.paragraph(f"Maps of the slurry cannot be shown: {slurry}.")]
-    cards = [page.picture(maps.map_figure(case, slurry.x, slurry.y, slurry.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1)),
-                          f"Share of the fluid that is slurry, averaged over the axis and {slurry.source}.", title="Slurry"),
+    share = maps.map_figure(case, slurry.x, slurry.y, slurry.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1))
+    cards = [page.picture(share, f"Share of the fluid that is slurry, averaged over the axis and {slurry.source}.",
+                          title="Slurry"),
              page.picture(maps.speed_figure(case, slurry.x, slurry.y, slurry.velocity, slurry.share > 0.05),
                           "Mean velocity of the slurry across the axis: colour for its size, arrows for its direction.",
                           title="Speed of the slurry")]
     if case.length > 0.5 * case.radius:
-        cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share is over a half. "
-                                  "Red: to the discharge.", title="Slurry along the axis"))
+        cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share is over a "
+                                  "half. Red: to the discharge.", title="Slurry along the axis"))
     if case.load:
         cards.append(page.picture(mill_plots.load_figure(case.flow, case.begin),
-                                  "Force of the fluid on the balls over their weight: where it nears 1 (line) the coupling in one "
-                                  "direction does not hold.", title="Force on the balls"))
+                                  "Force of the fluid on the balls over their weight: where it nears 1 (line) the coupling in "
+                                  "one direction does not hold.", title="Force on the balls"))
     return cards + [page.table(None, slurry_rows(case, slurry), title="Read off the maps", note="Angles from straight down, "
                                "positive where the shell rises.")]
 
@@ -62,12 +63,12 @@ def axial_section(case, readings):
         if isinstance(fit, axial.Humps):
             at = np.linspace(readings.profile.z[0], readings.profile.z[-1], 300)
             fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm", at, fit.fitted(at)))
-    cards = [page.picture(figures.axial(readings.profile, fits), "By slices along the axis, averaged over time; p_rgh is the pressure "
-                          "without what the depth makes.", title="Profile along the axis")]
+    cards = [page.picture(figures.axial(readings.profile, fits), "By slices along the axis, averaged over time; p_rgh is the "
+                          "pressure without what the depth makes.", title="Profile along the axis")]
     heights = case.axial("height")
     if heights:
-        cards.append(page.picture(figures.axial_against_time(*heights), "Height of the slurry's centre of mass by slices against time.",
-                                  title="Profile against time"))
+        cards.append(page.picture(figures.axial_against_time(*heights),
+                                  "Height of the slurry's centre of mass by slices against time.", title="Profile against time"))
     return cards
 
 
@@ -75,10 +76,12 @@ def balance_section(case, _readings):
     if case.balance is None:
         return []
     cards = [page.picture(figures.holdup(case), "Slurry in the mill and through its openings.", title="Hold-up"),
-             page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that walls and balls give to "
-                          "it (torque by the balance of angular momentum, times the mill's speed).", title="Centre and power")]
+             page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that walls and balls "
+                          "give to it (torque by the balance of angular momentum, times the mill's speed).",
+                          title="Centre and power")]
     if "Re_mean" in case.balance:
-        cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, by their volume.", title="Particle Reynolds numbers"))
+        cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, by their volume.",
+                                  title="Particle Reynolds numbers"))
     return cards
 
 
@@ -94,14 +97,14 @@ def models_section(case, readings):
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),
                                   ("Taberlet", case.radius * np.column_stack([model.x, model.y]))], case.radius, case.omega),
-                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3g}, μw {model.wall:.3g}; RMSD "
-                f"{1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.",
+                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3g}, μw {model.wall:.3g}; "
+                f"RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.",
                 title="Free surface by Taberlet, Richard & Hinch"))
     rows = moys(case)
     if rows:
         cards.append(page.table(None, rows, title="Hold-up by Moys' model",
-                                note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the slurry that "
-                                     "the mill lifts."))
+                                note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the "
+                                     "slurry that the mill lifts."))
     return cards
 
 

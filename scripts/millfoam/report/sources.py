@@ -51,7 +51,8 @@ class MillCase:
             raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, nor "
                                     "dumps/results.txt; has the case run to its end?", *self.unusable]))
         if begin is not None and self.flow and begin >= self.last:
-            raise RuntimeError(f"{self.folder}: averages from {begin:g} s on, but the flow's last written time is {self.last:g} s")
+            raise RuntimeError(f"{self.folder}: averages from {begin:g} s on, but the flow's last written time is "
+                               f"{self.last:g} s")
 
     @property
     def name(self):
