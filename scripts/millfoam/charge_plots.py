@@ -6,8 +6,16 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from .free_surface import CLOCKWISE
+from .mill_plots import draw_sense
+
 BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
 ARROWS = 17  # across the mill
+
+
+def _signed(words):
+    """Words with minus signs."""
+    return words.replace("-", "−")
 
 
 def _arrows(axis, charge):
@@ -29,9 +37,9 @@ def _arrows(axis, charge):
 
 def charge_figure(charge, readings, radius):
     """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
-    shell, centre of circulation and the line through it, free surface with its logistic, toe and shoulder."""
-    figure, axis = plt.subplots(figsize=(6.2, 6.2), constrained_layout=True)
-    figure.colorbar(draw_charge(axis, charge, readings, radius), ax=axis, label="solidity, –", shrink=0.9)
+    shell and its sense, centre of circulation and the line through it, free surface with its logistic, toe and shoulder."""
+    figure, axis = plt.subplots(figsize=(5.8, 6.2), constrained_layout=True)
+    figure.colorbar(draw_charge(axis, charge, readings, radius), ax=axis, label="solidity, –", shrink=0.75)
     return figure
 
 
@@ -46,23 +54,22 @@ def draw_charge(axis, charge, readings, radius):
     outwards = np.array(readings.centre) / np.hypot(*readings.centre)
     axis.plot(*(1e3 * outwards[:, None] * profile.distance[[0, -1]]), color=GREEN, lw=1.2, ls="-.")
     axis.plot(*(1e3 * surface.points.T), color=BLUE, lw=2.2,
-              label=f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° (triangle)")
+              label=_signed(f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° (triangle)"))
     x = np.linspace(*np.sort(surface.points[:, 0])[[0, -1]], 200)
     axis.plot(1e3 * x, 1e3 * surface.fitted(x), color="k", lw=1.4, ls="--", label=f"logistic, RMSD {1e3 * surface.rmsd:.2g} mm")
     axis.plot(*(1e3 * surface.points[0]), "s", color=BLUE, mec="w", ms=8)
     axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
     axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
-              label=f"centre of circulation ({1e3 * readings.centre[0]:.1f}, {1e3 * readings.centre[1]:.1f}) mm and line")
-    limit = 1.03e3 * radius
-    axis.set(aspect="equal", xlim=(-limit, limit), ylim=(-limit, limit), xlabel="x, mm", ylabel="y, mm")
+              label=_signed("centre of circulation ({:.1f}, {:.1f}) mm and line".format(*1e3 * np.array(readings.centre))))
+    draw_sense(axis, radius, CLOCKWISE)
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
-    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=8, frameon=False)
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
     return image
 
 
 def tangential_figure(profile):
     """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the distance."""
-    figure, axes = plt.subplots(3, 1, figsize=(6.0, 6.6), sharex=True, constrained_layout=True,
+    figure, axes = plt.subplots(3, 1, figsize=(5.4, 6.2), sharex=True, constrained_layout=True,
                                 gridspec_kw={"height_ratios": (2, 1, 1.3)})
     distance = 1e3 * profile.distance
     fitted = profile.fitted(profile.distance)
@@ -73,8 +80,8 @@ def tangential_figure(profile):
     axes[1].plot(distance, profile.velocity - fitted, color=BLUE, lw=1.5)
     axes[1].set(ylabel="map − cubic, m/s")
     axes[2].plot(distance, profile.shear_rate, color="k", lw=1.5)
-    axes[2].set(ylabel="shear rate du/dr, 1/s", xlabel=f"distance from the mill's centre, mm "
-                f"(line at {profile.angle:.0f}° from straight down)")
+    axes[2].set(ylabel="shear rate du/dr, 1/s", xlabel="distance from the mill's centre, mm\n" + _signed(
+        f"(line at {profile.angle:.0f}° from straight down)"))
     for axis in axes:
         axis.axhline(0, color=GREY, lw=0.7)
         axis.margins(x=0)

@@ -92,8 +92,7 @@ class Mesh:
 
     def centres_and_volumes(self):
         """Cell centres [cells, 3] (m) and volumes [cells] (m^3), by the pyramids over each cell's faces."""
-        centre, area = zip(*(self._face_geometry(face) for face in self.faces))
-        centre, area = np.array(centre), np.array(area)
+        centre, area = self._face_geometry()
         estimate = np.zeros((self.cells, 3))
         count = np.zeros(self.cells)
         sides = [(self.owner, 1.0, slice(None)), (self.neighbour, -1.0, slice(len(self.neighbour)))]
@@ -109,14 +108,21 @@ class Mesh:
             np.add.at(moment, cell, pyramid[:, None] * (0.75 * centre[faces] + 0.25 * estimate[cell]))
         return moment / volume[:, None], volume
 
-    def _face_geometry(self, face):
-        corner = self.points[face]
-        middle = corner.mean(axis=0)
-        after = np.roll(corner, -1, axis=0)
-        normal = np.cross(corner - middle, after - middle) / 2
-        third = (corner + after + middle) / 3
-        size = np.linalg.norm(normal, axis=1)
-        return (third * size[:, None]).sum(axis=0) / size.sum(), normal.sum(axis=0)
+    def _face_geometry(self):
+        """Centres [faces, 3] (m) and area vectors [faces, 3] (m^2): faces with equally many corners are taken together."""
+        centre, area = np.empty((len(self.faces), 3)), np.empty((len(self.faces), 3))
+        counts = np.array([len(face) for face in self.faces])
+        for count in np.unique(counts):
+            chosen = np.flatnonzero(counts == count)
+            corner = self.points[np.array([self.faces[face] for face in chosen])]
+            middle = corner.mean(axis=1, keepdims=True)
+            after = np.roll(corner, -1, axis=1)
+            normal = np.cross(corner - middle, after - middle) / 2
+            third = (corner + after + middle) / 3
+            size = np.linalg.norm(normal, axis=2, keepdims=True)
+            centre[chosen] = (third * size).sum(axis=1) / size.sum(axis=1)
+            area[chosen] = normal.sum(axis=1)
+        return centre, area
 
 
 def read_mesh(case, time=None):

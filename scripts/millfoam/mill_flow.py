@@ -36,6 +36,8 @@ class MillFlow:
         self.chamber = self.centres[:, 2] < self.length
         self.column_volume = np.bincount(self.column, self.volumes * self.chamber)
         self._tree = cKDTree(self.column_centres)
+        self._outline = None
+        self._pixels = {}
 
     def turned(self, points, time):
         """x-y points [n, 2] of the mesh at flow time 0, where they are at `time`."""
@@ -66,6 +68,11 @@ class MillFlow:
 
     def outline(self):
         """The mill's inner outline, shell and lifters, as a closed polygon [n + 1, 2] (m) at flow time 0."""
+        if self._outline is None:
+            self._outline = self._find_outline()
+        return self._outline
+
+    def _find_outline(self):
         following = {}
         edges = [(face[i], face[(i + 1) % 4]) for face in (self.mesh.faces[number] for number in self._end_faces())
                  for i in range(4)]
@@ -80,11 +87,19 @@ class MillFlow:
 
     def on_grid(self, column_values, time, x, y):
         """Column values [columns] at pixels x [nx], y [ny] (m, lab frame) at `time`: [ny, nx], NaN outside the mill."""
-        pixels = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        back = self.turned(pixels, -time)
+        # Maps ask for several fields on the same pixels at the same times
+        key = (time, len(x), x[0], x[-1], len(y), y[0], y[-1])
+        if key not in self._pixels:
+            self._pixels[key] = self._columns_of(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), time)
+        return np.append(column_values, np.nan)[self._pixels[key]].reshape(len(y), len(x))
+
+    def _columns_of(self, points, time):
+        """Column in which each point [n, 2] (m, lab frame) is at `time`; one beyond the last where it is outside the mill."""
+        back = self.turned(points, -time)
         inside = Outline(self.outline()).contains_points(back)
-        values = np.where(inside, column_values[self._tree.query(back)[1]], np.nan)
-        return values.reshape(len(y), len(x))
+        columns = np.full(len(points), len(self.column_centres), dtype=np.int32)
+        columns[inside] = self._tree.query(back[inside])[1]
+        return columns
 
     def slurry(self, path):
         """Volume of slurry in each cell [cells] at a written time, m^3: its share of what the balls leave of the cell,

@@ -2,26 +2,34 @@
 """Puts the report of a case, or of several beside each other, together."""
 import datetime
 
-from . import checks, comparison, page
-from .sections import SECTIONS, Readings
+from . import checks, comparison, held_against, page
+from .readings import Readings
+from .sections import SECTIONS
 from .sources import MillCase
 
 FOOT = "Written by millFoam's scripts/report on {:%Y-%m-%d %H:%M}."
 
 
-def report_case(folder, begin=None):
-    """HTML text of the report of a case's folder. RuntimeError where that is none or was not run."""
+def report_case(folder, begin=None, measured=None, tracers=()):
+    """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks. RuntimeError where
+    the folder is none of a case that was run, or a file cannot be read."""
     case = MillCase(folder, begin)
+    against = [held_against.measured_section(case, measured)] if measured else []
+    against += [held_against.tracer_section(case, tracers)] if tracers else []
     readings = Readings(case)
     sections = [(name, heading, section(case, readings)) for name, heading, section in SECTIONS]
     sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(checks.all_checks(case))]))
+    sections[3:3] = against
     title = case.mill.get("title") or case.name
-    return page.page(f"{title} – {case.name}", case.summary(), sections, FOOT.format(datetime.datetime.now()))
+    return page.page(f"{title} – {case.name}" if title != case.name else title, case.summary(), sections,
+                     FOOT.format(datetime.datetime.now()))
 
 
 def compare_cases(folders, begin=None):
     """HTML text of a comparison of cases' folders, the first being what the others are held against."""
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
-    subtitle = f"{cases[0].name} against " + ", ".join(case.name for case in cases[1:])
-    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings), FOOT.format(datetime.datetime.now()))
+    names = comparison.distinct(cases)
+    subtitle = f"{names[0]} against " + ", ".join(names[1:])
+    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names),
+                     FOOT.format(datetime.datetime.now()))

@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 
 from .. import foam
+from .words import decimals
 
 CONSERVED = 1e-6  # of the hold-up that may be missing
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
@@ -17,6 +18,7 @@ NOISE = 0.05  # of a window's mean solidity by chance
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
 LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
 DRIFT = 3.0  # standard errors between the two halves of the averages
+WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
 
 
 @dataclass
@@ -36,7 +38,7 @@ def judged(name, value, limit, found, advice, *, doubtful=None):
 
 
 def all_checks(case):
-    """The checks of a MillCase, those that its parts allow."""
+    """The checks of a MillCase, those that its parts allow: first what fails."""
     checks = []
     if case.flow:
         checks += [conservation(case), flow_steadiness(case), courant(case), mesh(case)]
@@ -46,6 +48,7 @@ def all_checks(case):
         checks += [ledger(case), averaging_volume(case), window_noise(case)]
     if case.flow and case.law:
         checks += [solids_on_mesh(case), drag_range(case), one_way(case)]
+    checks += [Check("All files can be used", "fails", told, "Make it again, or remove it.") for told in case.unusable]
     order = ("fails", "look", "unknown", "holds")
     return sorted(checks, key=lambda check: order.index(check.state))
 
@@ -62,27 +65,41 @@ def conservation(case):
 
 
 def halves(times, values, begin):
-    """Difference of the means of two halves from `begin` on, and its standard error from ten batches."""
+    """Difference of the means of two halves from `begin` on, and its standard error from ten batches of equal time.
+
+    The error is of what the batches differ from a straight line by: a drift must not hide itself."""
     chosen = times >= begin
-    batches = np.array([batch.mean() for batch in np.array_split(values[chosen], 10)])
-    first, second = batches[:5], batches[5:]
-    error = np.sqrt((first.var(ddof=1) + second.var(ddof=1)) / 5)
-    return second.mean() - first.mean(), error
+    edges = np.linspace(times[chosen][0], times[chosen][-1], 11)
+    places = np.clip(np.searchsorted(edges, times[chosen], side="right") - 1, 0, 9)
+    counts = np.bincount(places, minlength=10)
+    if (counts == 0).any():
+        return np.nan, np.nan
+    batches = np.bincount(places, values[chosen], 10) / counts
+    straight = np.polyval(np.polyfit(np.arange(10), batches, 1), np.arange(10))
+    error = np.sqrt(np.sum((batches - straight) ** 2) / 8 * 2 / 5)
+    return batches[5:].mean() - batches[:5].mean(), error
+
+
+def difference_with_error(value, error):
+    """As many digits as the error allows, three after the point at most."""
+    digits = min(decimals(error), 3) if np.isfinite(error) and error > 0 else 3
+    return f"{value:+.{digits}f} ± {error:.{digits}f}"
 
 
 def flow_steadiness(case):
     name = "The flow is steady"
     told = case.balance
     if told is None or (told["Time"] >= case.begin).sum() < 20:
-        return Check(name, "unknown", "the time series of slurryBalance is missing or too short")
-    worst, words = 0.0, []
+        return Check(name, "unknown", "the time series of slurryBalance is missing or too short",
+                     "Add slurryBalance to controlDict, or run longer.")
+    drifts, words = [], []
     for key, unit, scale in (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)):
         difference, error = halves(told["Time"], told[key], case.begin)
         # What is less than 1 % of the hold-up or of the radius is no drift that matters
         floor = 0.01 * (told[key].mean() if key == "holdUp" else case.radius)
-        worst = max(worst, abs(difference) / max(error * DRIFT, floor))
-        words.append(f"{key} {scale * difference:+.2g} {unit}")
-    return judged(name, worst, 1, f"from {case.begin:g} s on, second half less the first: " + ", ".join(words),
+        drifts.append(abs(difference) / np.maximum(error * DRIFT, floor))
+        words.append(f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}")
+    return judged(name, np.max(drifts), 1, f"from {case.begin:g} s on, second half less the first: " + ", ".join(words),
                   "Run longer, or begin the averages later (--begin).", doubtful=2)
 
 
@@ -90,27 +107,39 @@ def courant(case):
     name = "Time-steps keep to their limits"
     found = np.array(re.findall(r"^Courant number (\S+), at the surface (\S+), change of voidage (\S+)", case.log("flow"), re.M),
                      dtype=float)
-    if len(found) == 0:
-        return Check(name, "unknown", "log.flow does not tell Courant numbers")
-    control = foam.read_dictionary(case.folder / "system" / "controlDict")
-    limits = [float(control[key]) if key in control else np.inf for key in ("maxCo", "maxAlphaCo", "maxVoidageChange")]
-    over = (found[1:] > 1.5 * np.array(limits)).any(axis=1).mean() if len(found) > 1 else 0.0
+    if len(found) < 2:
+        return Check(name, "unknown", "log.flow does not tell Courant numbers", "Keep log.flow in the case.")
+    found = found[1:]  # the first is before the first step
+    limits = step_limits(case.folder / "system" / "controlDict")
+    if not np.isfinite(limits).any():
+        return Check(name, "unknown", "controlDict has no limits as numbers", "Set maxCo, maxAlphaCo and maxVoidageChange.")
+    # Also a number that is none is beyond
+    over = (~(found <= 1.5 * limits)).any(axis=1).mean()
     words = ", ".join(f"{what} {np.percentile(found[:, k], 95):.2g} (limit {limits[k]:g})"
                       for k, what in enumerate(("Courant number", "at the surface", "change of voidage")))
     return judged(name, over, 0.01, f"95 % of the steps below: {words}; {100 * over:.1f} % of the steps 1.5 times beyond a limit",
                   "Lower maxCo, maxAlphaCo or maxDeltaT in controlDict.", doubtful=0.05)
 
 
+def step_limits(path):
+    """Largest Courant number, that at the surface, and change of voidage by controlDict [3]; infinite where it has none."""
+    told = foam.read_dictionary(path) if path.is_file() else {}
+    words = [told.get(key, "").strip() for key in ("maxCo", "maxAlphaCo", "maxVoidageChange")]
+    return np.array([float(word) if re.fullmatch(r"[\d.]+(e[+-]?\d+)?", word) else np.inf for word in words])
+
+
 def mesh(case):
     name = "The mesh is sound"
     ok = "Mesh OK" in case.log("check")
-    values = dict(re.findall(r"^(volume error|max non-orthogonality|max skewness|max volume ratio)\s+(\S+)", case.log("mesh"), re.M))
+    values = dict(re.findall(r"^(volume error|max non-orthogonality|max skewness|max volume ratio)\s+(\S+)", case.log("mesh"),
+                             re.M))
     if not case.log("check"):
-        return Check(name, "unknown", "checkMesh was not run (no log.check)")
+        return Check(name, "unknown", "checkMesh was not run (no log.check)", "Run checkMesh > log.check in the case.")
     words = ", ".join(f"{key.removeprefix('max ')} {value}" for key, value in values.items())
     if ok:
         return Check(name, "holds", words or "checkMesh found nothing")
-    return Check(name, "fails", "a check of checkMesh failed, see log.check", "Refine the mesh or change the lifters' section.")
+    return Check(name, "fails", f"a check of checkMesh failed, see log.check; {words}",
+                 "Refine the mesh or change the lifters' section.")
 
 
 def lost_balls(case):
@@ -122,7 +151,8 @@ def lost_balls(case):
 def charge_steadiness(case):
     name = "The charge is steady where it is averaged"
     if case.results["steady"] != "yes":
-        return Check(name, "fails", "the dry run was not steady", "Let it run longer (dem.duration, millDem --resume).")
+        return Check(name, "fails", "the dry run's power did not become steady",
+                     "Let it run longer (dem.duration, millDem --resume).")
     since = float(case.results["steady_from"])
     found = f"steady from {since:.2f} s on"
     if not case.solids:
@@ -172,7 +202,8 @@ def window_noise(case):
             noise += (spread[dense] / phi[dense]).sum() / np.sqrt(file["window/records"][window])
             weight += dense.sum()
     if weight == 0:
-        return Check(name, "unknown", "no voxel is denser than 0.3")
+        return Check(name, "unknown", "no voxel is denser than 0.3",
+                     "Take smaller voxels, so that some are full of balls.")
     share = noise / weight
     return judged(name, share, NOISE, f"in the dense charge a window's mean solidity is uncertain by {100 * share:.1f} % if its "
                   f"records are independent (limit {100 * NOISE:.0f} %)",
@@ -182,7 +213,8 @@ def window_noise(case):
 def solids_on_mesh(case):
     found = re.findall(r"volume corrected by \S+ %, at most (\S+) %", case.log("flow"))
     if not found:
-        return Check("Balls on the flow's mesh keep their volume", "unknown", "log.flow does not tell the correction")
+        return Check("Balls on the flow's mesh keep their volume", "unknown", "log.flow does not tell the correction",
+                     "Keep log.flow in the case.")
     share = max(abs(float(value)) for value in found)
     return judged("Balls on the flow's mesh keep their volume", share, CORRECTION,
                   f"corrected by at most {share:.2g} % (limit {CORRECTION:g} %)",
@@ -193,7 +225,8 @@ def drag_range(case):
     name = "The drag law is within its range"
     found = re.findall(r"in the mean over \S+ s (\S+) %", case.log("flow"))
     if not found:
-        return Check(name, "unknown", "log.flow has no summary: the flow was broken off or goes on")
+        return Check(name, "unknown", "log.flow has no summary: the flow was broken off or goes on",
+                     "Let the flow run to its end.")
     share = float(found[-1])
     return judged(name, share, OUT_OF_RANGE, f"{share:.1f} % of the slurry in the bed is beyond {case.law}'s range "
                   f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges).", doubtful=50)
@@ -201,9 +234,12 @@ def drag_range(case):
 
 def one_way(case):
     name = "The slurry would not move the balls"
-    load = case.flow.load(case.begin)
+    load = case.load
     if load is None:
-        return Check(name, "unknown", "the flow did not tell the force on the balls (ballDensity in bedProperties)")
+        return Check(name, "unknown", "the flow did not tell the force on the balls",
+                     "Give ballDensity in constant/bedProperties.")
     mean, high = load
-    return judged(name, max(mean / LIGHT, high / HEAVY), 1, f"its force is {mean:.2f} of their weight in the mean, 95 % below {high:.2f}",
-                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.", doubtful=1 / HEAVY)
+    return judged(name, np.max([mean / LIGHT, high / HEAVY]), 1,
+                  f"its force is {mean:.2f} of their weight in the mean (limit {LIGHT}), 95 % below {high:.2f} (limit {HEAVY})",
+                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.",
+                  doubtful=1 / HEAVY)

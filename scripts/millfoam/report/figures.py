@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of the report that are about time, the axis and the run; maps are in mill_plots and charge_plots."""
+"""Figures of the report that are about time, the axis and the run; for maps see millfoam.report.maps."""
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import LineCollection
 
 from .. import mill_plots
 
 # Okabe & Ito's colours, which colour-blind readers can tell apart
 BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
-COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY)
+COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
+# Figures are as wide as a card, so that their words can be read on a telephone, too
+plt.rcParams.update({"font.size": 10.5, "legend.fontsize": 9, "legend.frameon": False})
 
 
-def axes_of(rows=1, *, width=6.4, height=2.7, sharex=True):
+def axes_of(rows=1, *, width=5.4, height=2.5):
     """A figure with panels below each other in the report's style."""
-    figure, axes = plt.subplots(rows, 1, figsize=(width, height * rows if rows > 1 else 3.4), sharex=sharex,
+    figure, axes = plt.subplots(rows, 1, figsize=(width, height * rows if rows > 1 else 3.4), sharex=True,
                                 constrained_layout=True, squeeze=False)
     for axis in axes[:, 0]:
         axis.grid(alpha=0.25)
@@ -43,11 +44,11 @@ def energy(case):
     late = told["power_W"][len(time) // 4:]
     top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
     top.set_ylabel("power, W")
-    top.legend(fontsize=8, loc="lower right")
+    top.legend(loc="lower right")
     bottom.plot(time, told["kinetic_J"], color=RED, label="kinetic")
     bottom.plot(time, told["potential_J"] - told["potential_J"][0], color=GREEN, label="potential, less the first")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
-    bottom.legend(fontsize=8, loc="lower right")
+    bottom.legend(loc="lower right")
     if case.results["steady"] == "yes":
         for axis in (top, bottom):
             axis.axvline(float(case.results["steady_from"]), color=GREY, ls="--", lw=1)
@@ -62,25 +63,24 @@ def overlaps(case):
     for counts, colour, label in ((balls, BLUE, "ball on ball"), (walls, ORANGE, "ball on wall")):
         axis.step(100 * overlap / diameter, counts / max(counts.sum(), 1), where="mid", color=colour, label=label)
     axis.set(yscale="log", xlabel="overlap, % of the smallest diameter", ylabel="share of the contacts")
-    axis.legend(fontsize=8)
+    axis.legend()
     return figure
 
 
 def holdup(case):
     """Hold-up, feed and discharge of the slurry against time."""
     told, turn = case.balance, 2 * np.pi / abs(case.omega)
-    flows = told["feed"].max() > 0 or told["discharge"].max() > 1e-12
-    figure, axes = axes_of(2 if flows else 1)
+    figure, axes = axes_of(2 if case.is_open else 1)
     axes[0].plot(told["Time"], 1e6 * told["holdUp"], color=BLUE)
     axes[0].set_ylabel("hold-up, ml")
-    if not flows:  # a closed mill: the line would be stretched to its round-off
+    if not case.is_open:  # a closed mill: the line would be stretched to its round-off
         axes[0].set_ylim(0, 1.2e6 * told["holdUp"].max())
     else:
         for key, colour in (("feed", GREEN), ("discharge", RED)):
             axes[1].plot(told["Time"], 1e6 * running_mean(told["Time"], told[key], turn / 4), color=colour, label=key)
         axes[1].set_ylabel("ml/s, mean over a\nquarter of a turn")
         axes[1].set_ylim(bottom=0)
-        axes[1].legend(fontsize=8)
+        axes[1].legend()
     axes[-1].set_xlabel("flow time, s")
     return figure
 
@@ -89,10 +89,10 @@ def centre_and_power(case):
     """Centre of the slurry and the power that it takes against time."""
     told, turn = case.balance, 2 * np.pi / abs(case.omega)
     figure, (top, bottom) = axes_of(2)
-    top.plot(told["Time"], 1e3 * told["x"], color=BLUE, label="x (the rising side is negative)")
+    top.plot(told["Time"], 1e3 * told["x"], color=BLUE, label="x (below 0: rising side)")
     top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
     top.set_ylabel("centre of the slurry, mm")
-    top.legend(fontsize=8)
+    top.legend()
     bottom.plot(told["Time"][1:], running_mean(told["Time"], told["power"], turn / 4)[1:], color=BLUE)
     late = running_mean(told["Time"], told["power"], turn / 4)[told["Time"] >= min(turn / 4, told["Time"][-1] / 2)]
     bottom.set_ylim(min(0, late.min()), 1.2 * max(late.max(), 1e-12))
@@ -107,7 +107,7 @@ def reynolds(case):
     axis.plot(told["Time"], told["Re_mean"], color=BLUE, label="mean over the balls")
     axis.plot(told["Time"], told["Re_95"], color=RED, label="95 % of the balls below")
     axis.set(xlabel="flow time, s", ylabel="particle Reynolds number", yscale="log")
-    axis.legend(fontsize=8)
+    axis.legend()
     return figure
 
 
@@ -121,7 +121,7 @@ def axial(profile, fits):
     for (label, at, curve), colour in zip(fits, (RED, GREEN)):
         height.plot(1e3 * at, 1e3 * curve, color=colour, lw=1.2, label=label)
     height.set_ylabel("height of the\ncentre, mm")
-    height.legend(fontsize=7)
+    height.legend()
     held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
     held.set_ylabel("hold-up, ml per mm")
     head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)
@@ -131,7 +131,7 @@ def axial(profile, fits):
 
 def axial_against_time(places, times, values):
     """Height of the centre of mass over axis and time."""
-    figure, axis = plt.subplots(figsize=(6.4, 3.4), constrained_layout=True)
+    figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
     image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower, vmax=upper,
                             rasterized=True)
@@ -140,35 +140,9 @@ def axial_against_time(places, times, values):
     return figure
 
 
-def z_velocity(slurry, case):
-    """The slurry's velocity along the axis where its share of the fluid is over a half."""
-    velocity = np.where(slurry.share > 0.5, slurry.velocity[..., 2], np.nan)
-    limit = np.nanpercentile(np.abs(velocity), 99) if np.isfinite(velocity).any() else 1
-    figure, axis = plt.subplots(figsize=(5.6, 4.6), constrained_layout=True)
-    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * velocity, cmap="RdBu_r", vmin=-1e3 * limit, vmax=1e3 * limit)
-    figure.colorbar(image, ax=axis, label="velocity along the axis, mm/s (red: to the discharge)")
-    mill_plots.draw_mill(axis, case.flow, case.last)
-    return figure
-
-
-def slurry_maps(slurry, case):
-    """Share and speed of the slurry, with arrows, averaged over axis and time."""
-    figure, axes = plt.subplots(1, 2, figsize=(10.6, 4.5), constrained_layout=True)
-    speed = np.linalg.norm(slurry.velocity[..., :2], axis=-1)
-    known = slurry.share > 0.3
-    fast = np.nanpercentile(np.where(known, speed, np.nan), 99) if known.any() else 1
-    panels = ((slurry.share, mill_plots.SLURRY, 1, "share of the fluid, –"),
-              (np.where(slurry.share > 0.05, speed, np.nan), mill_plots.SPEED, fast, "speed, m/s"))
-    for axis, (values, colours, top, label) in zip(axes, panels):
-        image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, values, cmap=colours, vmin=0, vmax=top)
-        figure.colorbar(image, ax=axis, shrink=0.9, label=label)
-        mill_plots.draw_mill(axis, case.flow, case.last)
-    x, y = (slurry.x[1:] + slurry.x[:-1]) / 2, (slurry.y[1:] + slurry.y[:-1]) / 2
-    arrows = np.where(known[..., None], slurry.velocity, np.nan)[::2, ::2]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        axes[1].quiver(1e3 * x[::2], 1e3 * y[::2], arrows[..., 0] / speed[::2, ::2], arrows[..., 1] / speed[::2, ::2], scale=24,
-                       width=0.005, pivot="mid", alpha=0.8)
-    return figure
+def _legend_above(axis, labels):
+    """A legend where it hides no curve; short names stand side by side."""
+    axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2 if max(map(len, labels)) < 22 else 1)
 
 
 def lines_against(curves, xlabel, ylabel):
@@ -177,17 +151,17 @@ def lines_against(curves, xlabel, ylabel):
     for (label, x, y), colour in zip(curves, COLOURS):
         axis.plot(x, y, color=colour, label=label, lw=1.3)
     axis.set(xlabel=xlabel, ylabel=ylabel)
-    axis.legend(fontsize=8)
+    _legend_above(axis, [label for label, _, _ in curves])
     return figure
 
 
-def surfaces(lines, radius):
-    """Free surfaces (label, [n, 2] m) in the mill's circle."""
-    figure, axis = plt.subplots(figsize=(5.2, 4.8), constrained_layout=True)
-    angle = np.linspace(0, 2 * np.pi, 200)
-    axis.add_collection(LineCollection([1e3 * radius * np.column_stack([np.cos(angle), np.sin(angle)])], color="0.2"))
-    for (label, points), colour in zip(lines, COLOURS):
-        axis.plot(*(1e3 * np.asarray(points).T), color=colour, label=label, lw=1.6)
-    axis.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", xlim=(-1050 * radius, 1050 * radius), ylim=(-1050 * radius, 1050 * radius))
-    axis.legend(fontsize=8, loc="upper right")
+def surfaces(lines, radius, omega):
+    """Free surfaces (label, [n, 2] m) in the circle of a mill that turns at `omega` (rad/s)."""
+    figure, axis = plt.subplots(figsize=(5.2, 5), constrained_layout=True)
+    angle = np.linspace(0, 2 * np.pi, 361)
+    axis.plot(1e3 * radius * np.cos(angle), 1e3 * radius * np.sin(angle), color="0.15", lw=1)
+    for (label, points), colour, style in zip(lines, COLOURS, ("-", "--", "-.", ":", "-", "--", "-.")):
+        axis.plot(*(1e3 * np.asarray(points).T), color=colour, label=label, lw=1.8, ls=style)
+    mill_plots.draw_sense(axis, radius, omega)
+    _legend_above(axis, [label for label, _ in lines])
     return figure

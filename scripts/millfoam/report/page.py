@@ -5,6 +5,9 @@ import html
 import io
 
 import matplotlib.pyplot as plt
+from PIL import Image
+
+from .words import typeset
 
 STYLE = """
 :root { --ink: #1c2430; --soft: #5a6675; --line: #dde3ea; --card: #ffffff; --ground: #f4f6f8; --accent: #0b6e8f;
@@ -15,6 +18,8 @@ header { background: #10202e; color: #f2f6f9; padding: 1.6rem 1rem 1.4rem; }
 header div, main, footer { max-width: 1180px; margin: 0 auto; }
 header h1 { margin: 0 0 .3rem; font-size: 1.7rem; line-height: 1.2; }
 header p { margin: 0; color: #b9c7d3; }
+header, figcaption, li, .note { overflow-wrap: anywhere; }
+td, th { min-width: 4.5rem; }
 nav { position: sticky; top: 0; z-index: 2; background: var(--card); border-bottom: 1px solid var(--line);
       overflow-x: auto; white-space: nowrap; }
 nav ul { max-width: 1180px; margin: 0 auto; padding: .55rem 1rem; list-style: none; display: flex; gap: 1.1rem; }
@@ -26,10 +31,9 @@ h2 { margin: 0 0 .7rem; font-size: 1.3rem; }
 h3 { margin: 0 0 .4rem; font-size: 1rem; }
 .cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 1rem; }
 .card { background: var(--card); border: 1px solid var(--line); border-radius: 8px; padding: 1rem; min-width: 0; }
-.wide { grid-column: 1 / -1; }
+.wide, .card:last-child:nth-child(odd) { grid-column: 1 / -1; }
 figure { margin: 0; }
-img { display: block; width: 100%; max-width: 640px; height: auto; margin: 0 auto; }
-.wide img { max-width: 1080px; }
+img { display: block; width: 100%; max-width: 600px; height: auto; margin: 0 auto; }
 figcaption, .note { color: var(--soft); font-size: .9rem; margin: .5rem 0 0; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
@@ -40,6 +44,7 @@ td.number { text-align: right; white-space: nowrap; }
 ul.verdicts { list-style: none; margin: 0; padding: 0; }
 ul.verdicts li { display: grid; grid-template-columns: 5.4rem 1fr; gap: .2rem .8rem; padding: .55rem 0;
                  border-bottom: 1px solid var(--line); }
+ul.verdicts li > span { min-width: 0; }
 ul.verdicts li:last-child { border-bottom: 0; }
 .mark { font-weight: 700; }
 .holds .mark { color: var(--good); } .look .mark { color: var(--poor); } .fails .mark { color: var(--bad); }
@@ -48,10 +53,11 @@ ul.verdicts li:last-child { border-bottom: 0; }
 .player { max-width: 620px; margin: 0 auto; }
 .player div { display: flex; gap: .7rem; align-items: center; margin-top: .5rem; }
 .player input { flex: 1; min-width: 0; accent-color: var(--accent); }
-.player button { font: inherit; padding: .2rem .8rem; border: 1px solid var(--line); border-radius: 6px; background: var(--ground);
-                 cursor: pointer; min-width: 4.6rem; }
+.player button { font: inherit; padding: .2rem .8rem; border: 1px solid var(--line); border-radius: 6px;
+                 background: var(--ground); cursor: pointer; min-width: 4.6rem; }
 pre { overflow-x: auto; font-size: .85rem; background: var(--ground); padding: .8rem; border-radius: 6px; }
 footer { padding: 0 1rem 2rem; color: var(--soft); font-size: .9rem; }
+@media (max-width: 480px) { main { padding: 0 .6rem 2rem; } .card { padding: .7rem; } header h1 { font-size: 1.35rem; } }
 @media print { nav, .player div { display: none; } .card { break-inside: avoid; } }
 """
 
@@ -73,22 +79,23 @@ MARKS = {"holds": "✓ holds", "look": "! look", "fails": "✗ fails", "unknown"
 
 
 def text(words):
-    """Plain text, escaped."""
-    return html.escape(str(words))
+    """Plain text with its numbers typeset, escaped."""
+    return html.escape(typeset(words))
 
 
-def encode(figure, dpi=100):
-    """A matplotlib figure as a data URL; closes it."""
-    buffer = io.BytesIO()
-    figure.savefig(buffer, dpi=dpi, format="png")
+def encode(figure, dpi=140, colours=256):
+    """A matplotlib figure as a data URL of a PNG with a palette of so many colours; closes it."""
+    drawn, buffer = io.BytesIO(), io.BytesIO()
+    figure.savefig(drawn, dpi=dpi, format="png")
     plt.close(figure)
+    Image.open(drawn).convert("RGB").quantize(colours, dither=Image.Dither.NONE).save(buffer, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
 
 
-def picture(figure, caption, *, wide=False, title=None):
+def picture(figure, caption, *, title=None):
     """A card with a figure. The caption, plain text, also tells those who cannot see it what it shows."""
     alt = text(f"{title}: {caption}" if title else caption)
-    return (f'<figure class="card{" wide" if wide else ""}">' + (f"<h3>{text(title)}</h3>" if title else "")
+    return ('<figure class="card">' + (f"<h3>{text(title)}</h3>" if title else "")
             + f'<img alt="{alt}" src="{encode(figure)}"><figcaption>{text(caption)}</figcaption></figure>')
 
 
@@ -98,7 +105,7 @@ def table(head, rows, *, title=None, note=None, wide=False):
         if isinstance(value, tuple):
             return f'<td class="number">{text(format(*value))}</td>'
         if isinstance(value, (int, float)):
-            return f'<td class="number">{value:.4g}</td>'
+            return f'<td class="number">{text(format(value, ".4g"))}</td>'
         return f"<td>{text(value)}</td>"
 
     body = "".join("<tr>" + "".join(cell(value) for value in row) + "</tr>" for row in rows)
@@ -120,7 +127,7 @@ def verdicts(checks):
 
 def player(figures, caption, *, title=None):
     """A card that shows figures one after the other, with a slider."""
-    frames = [encode(figure, dpi=80) for figure in figures]
+    frames = [encode(figure, dpi=110, colours=96) for figure in figures]
     listed = "[" + ",".join(f'"{frame}"' for frame in frames) + "]"
     return ('<figure class="card">' + (f"<h3>{text(title)}</h3>" if title else "")
             + f'<div class="player"><img alt="{text(caption)}" src="{frames[0]}"><div><button type="button">Play</button>'

@@ -9,7 +9,8 @@ import numpy as np
 import yaml
 
 from .. import solids, tables
-from ..axial import slurry_volumes
+from ..contacts import contact_steps
+from ..dem_tracks import read_notes
 from ..dry_runs import read_results
 from ..mill_flow import MillFlow
 
@@ -18,23 +19,40 @@ class NoMill(RuntimeError):
     """A folder that is no mill's case; the message says what was looked for."""
 
 
+def read_mill(folder):
+    """Text and content of a case's mill.yaml; NoMill where it is none."""
+    path = folder / "mill.yaml"
+    if not path.is_file():
+        raise NoMill(f"{folder}: no mill.yaml; expected the folder of a mill's case that was run")
+    text = path.read_text()
+    try:
+        mill = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        where = f", line {error.problem_mark.line + 1}" if getattr(error, "problem_mark", None) else ""
+        raise NoMill(f"{path}{where}: no YAML: {getattr(error, 'problem', error)}") from None
+    missing = [key for key in ("geometry", "speed", "charge") if not isinstance(mill, dict) or key not in mill]
+    if missing:
+        raise NoMill(f"{path}: no {missing[0]}; expected the description of a mill (meshing/README.md)")
+    return text, mill
+
+
 class MillCase:
     """A mill's run in a folder; parts that are not there are None.
 
     begin: flow time from which averages are taken, s; None: 2 s, or half of a flow of 3 s or less. A dry run is averaged
-    from the same time of its own, or from when it is steady."""
+    from the same time of its own, or from when it is steady. unusable: what is there but cannot be used, in words."""
 
     def __init__(self, folder, begin=None):
         self.folder = Path(folder)
         self.asked_begin = begin
-        path = self.folder / "mill.yaml"
-        if not path.is_file():
-            raise NoMill(f"{self.folder}: no mill.yaml; expected the folder of a mill's case that was run")
-        self.mill_text = path.read_text()
-        self.mill = yaml.safe_load(self.mill_text)
+        self.unusable = []
+        self.mill_text, self.mill = read_mill(self.folder)
         if self.flow is None and self.solids is None and self.dry is None:
-            raise NoMill(f"{self.folder}: neither a flow (times with alpha.slurry), nor solids.h5, nor dumps/results.txt; "
-                         "has the case run to its end?")
+            raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, nor "
+                                    "dumps/results.txt; has the case run to its end?", *self.unusable]))
+        if begin is not None and self.flow and begin >= self.last:
+            raise RuntimeError(f"{self.folder}: averages from {begin:g} s on, but the flow's last written time is "
+                               f"{self.last:g} s")
 
     @property
     def name(self):
@@ -64,9 +82,29 @@ class MillCase:
 
     @cached_property
     def solids(self):
-        """solids.h5, with links followed."""
+        """solids.h5, with links followed, where it is whole and of a box's voxels."""
         path = self.folder / "solids.h5"
-        return path.resolve() if path.is_file() else None
+        if not self._whole(path, "average the dumps again (millAverage)"):
+            return None
+        with h5py.File(path) as file:
+            if "lower" not in file["grid"].attrs:
+                self.unusable.append(f"{path}: its cells are not a box's voxels, which maps are made of")
+                return None
+        return path.resolve()
+
+    def _whole(self, path, advice):
+        """Whether a file of averages is there and whole."""
+        if not path.is_file():
+            return False
+        try:
+            with h5py.File(path) as file:
+                if file.attrs.get("complete", 0) == 1:
+                    return True
+                reason = "it is half-written"
+        except OSError:
+            reason = "it is cut short, or no HDF5 file"
+        self.unusable.append(f"{path}: not used, as {reason}; {advice}")
+        return False
 
     @cached_property
     def dry(self):
@@ -99,17 +137,36 @@ class MillCase:
         """DEM times between which the charge is averaged, s."""
         with h5py.File(self.solids) as file:
             first, last = file["window/begin"][0], file["window/end"][-1]
-        if self.flow:
+        if self.flow and self.flow.time0 + self.begin < last:
             return self.flow.time0 + self.begin, min(last, self.flow.time0 + self.last)
+        if self.flow:  # through a charge that is held
+            return first, last
         if self.asked_begin is not None:
             return self.asked_begin, last
         steady = float(self.results.get("steady_from", 0)) if self.results else 0
         return min(max(first, steady, 2.0 if last > 3 else 0), (first + last) / 2), last
 
     @cached_property
+    def charge_windows(self):
+        """SolidsMap of each window of charge_span."""
+        return solids.read_windows(self.solids, *self.charge_span) if self.solids else []
+
+    @cached_property
     def charge(self):
         """SolidsMap of the charge over charge_span."""
-        return solids.read_map(self.solids, *self.charge_span) if self.solids else None
+        return solids.mean_map(self.charge_windows) if self.solids else None
+
+    @cached_property
+    def contacts(self):
+        """The folder that holds the dry run's contacts/ beside its dumps/, or None."""
+        folder = self.dry.parent if self.dry else None
+        return folder if folder and any((folder / "contacts").glob("pairs.*.txt")) else None
+
+    @cached_property
+    def contact_times(self):
+        """DEM times of the dumps of contacts, s."""
+        timestep = read_notes(self.contacts / "dumps")["timestep"]
+        return [step * timestep for step in contact_steps(self.contacts)]
 
     # The flow
 
@@ -119,7 +176,8 @@ class MillCase:
             return None
         try:
             return MillFlow(self.folder)
-        except RuntimeError:
+        except RuntimeError as error:
+            self.unusable.append(f"The flow is not shown: {error}")
             return None
 
     @cached_property
@@ -134,33 +192,44 @@ class MillCase:
         return 2.0 if self.last > 3 else self.last / 2
 
     @cached_property
+    def load(self):
+        """Mean and 95th percentile of the fluid's force on the balls over their weight, or None."""
+        return self.flow.load(self.begin) if self.flow else None
+
+    @cached_property
     def balance(self):
         """Columns of slurryBalance."""
-        return self._table(lambda: tables.read_columns(self.folder, "slurryBalance"))
+        return self._table("slurryBalance", lambda: tables.read_columns(self.folder, "slurryBalance"))
+
+    @cached_property
+    def is_open(self):
+        """Whether slurry is fed or let out: more than round-off."""
+        told = self.balance
+        through = max(np.abs(told["feed"]).max(), np.abs(told["discharge"]).max()) * np.ptp(told["Time"])
+        return through > 1e-6 * told["holdUp"].max()
 
     def axial(self, quantity):
         """Places (m) [slices], times (s) [n] and values [n, slices] of axialProfiles, or None."""
-        found = self._table(lambda: tables.read_table(self.folder, "axialProfiles", quantity))
+        found = self._table("axialProfiles", lambda: tables.read_table(self.folder, "axialProfiles", quantity))
         if found is None:
             return None
         names, rows = found
         return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
 
-    @staticmethod
-    def _table(read):
+    def _table(self, name, read):
+        """What read() gives of a function object's table; None, told where there are such tables, if it cannot be read."""
         try:
             return read()
-        except tables.TableError:
+        except tables.TableError as error:
+            if (self.folder / "postProcessing" / name).is_dir() and str(error) not in self.unusable:
+                self.unusable.append(str(error))
             return None
 
     @cached_property
     def slurry(self):
         """slurry.h5, where it is whole."""
         path = self.folder / "slurry.h5"
-        if not path.is_file():
-            return None
-        with h5py.File(path) as file:
-            return path if file.attrs.get("complete", 0) == 1 else None
+        return path if self._whole(path, "let the flow run to its end (voxelAverages.H)") else None
 
     @cached_property
     def feed(self):
@@ -174,11 +243,6 @@ class MillCase:
         """The drag law's name, or None without balls."""
         found = re.search(r"^Drag: drag law (\w+)", self.log("flow"), re.M)
         return found.group(1) if found else None
-
-    @cached_property
-    def logged_volumes(self):
-        """Times and slurry volumes by the flow's log."""
-        return slurry_volumes(self.log("flow"))
 
     @cached_property
     def _logs(self):

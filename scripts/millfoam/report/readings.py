@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is read off a case's maps and tables, once for all sections, and the numbers that are asked for first."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import axial, charge, mill_plots, slurry_maps
+from ..slurry import read_slurry_map
+from .words import uncertain
+
+
+@dataclass
+class SlurryMean:
+    """Slurry averaged over axis and time: x, y: edges of the pixels [nx + 1], [ny + 1] (m); share of the fluid [ny, nx], NaN
+    outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: where it is from, in words."""
+    x: np.ndarray
+    y: np.ndarray
+    share: np.ndarray
+    velocity: np.ndarray
+    source: str
+
+    def pixels(self):
+        """The same as millfoam.slurry_maps reads it."""
+        return slurry_maps.SlurryMap((self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2, self.share, self.velocity)
+
+
+class Readings:
+    """What is read off a case's maps, once for all sections and comparisons; a reading that failed is its error's text."""
+
+    def __init__(self, case):
+        self.case = case
+        self.charge = self.attempt(lambda: charge.read_charge(case.charge, case.radius)) if case.solids else None
+        self.errors = self.attempt(self._errors) if isinstance(self.charge, charge.Charge) else None
+        self.slurry = self.attempt(self._slurry) if case.flow else None
+        self.profile = self.attempt(self._profile) if case.flow else None
+        self.humps = {}
+        if isinstance(self.profile, axial.AxialProfile):
+            for count in (2, 3):
+                if len(self.profile.z) >= 3 * count + 3:
+                    self.humps[count] = self.attempt(lambda: axial.fit_gaussians(self.profile.z, self.profile.height, count))
+
+    @staticmethod
+    def attempt(read):
+        """What read() gives, or the text of the error that it raises."""
+        try:
+            return read()
+        except (RuntimeError, ValueError) as error:
+            return str(error)
+
+    def error(self, name, k=0):
+        """Standard error of a reading of the charge over time; NaN where it is not known."""
+        return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
+
+    def _errors(self):
+        maps = self.case.charge_windows
+        return charge.charge_with_errors(maps, self.case.radius) if len(maps) >= 4 else None
+
+    def _slurry(self):
+        """SlurryMean by the voxels that the flow averaged, or else by its written times."""
+        case = self.case
+        if case.slurry:
+            found = read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length)
+            return SlurryMean(found.x, found.y, found.share, found.velocity, "every time-step on voxels (slurry.h5)")
+        found = mill_plots.mean_flow(case.flow, case.begin)
+        edges = np.linspace(-case.flow.radius, case.flow.radius, len(found.x) + 1)
+        times = sum(time >= case.begin - 1e-9 for time, _ in case.flow.frames)
+        return SlurryMean(edges, edges, found.share, found.velocity, f"the {times} written times")
+
+    def _profile(self):
+        """AxialProfile by the function object's tables, or else by the written times."""
+        case = self.case
+        tables = {name: case.axial(name) for name in ("holdUp", "height", "p_rgh")}
+        if any(table is None for table in tables.values()):
+            return axial.axial_profile(case.flow, case.begin)
+        z, times, holdup = tables["holdUp"]
+        late = times >= case.begin
+        if not late.any():
+            raise RuntimeError(f"axialProfiles has no time from {case.begin:g} s on")
+        known = {name: np.where(holdup[late] > 0, tables[name][2][late], np.nan) for name in ("height", "p_rgh")}
+        return axial.AxialProfile(z, np.nanmean(known["height"], axis=0), np.nanstd(known["height"], axis=0),
+                                  holdup[late].mean(axis=0), np.nanmean(known["p_rgh"], axis=0))
+
+
+def key_numbers(case, readings):
+    """Rows (name, text) of the numbers that are asked for first."""
+    rows = []
+    if case.results:
+        rows.append(("power of the dry charge", uncertain(float(case.results["power"]), float(case.results["power_error"]), "W")))
+    if isinstance(readings.charge, charge.Charge):
+        rows += charge_numbers(readings)
+    if case.balance is not None:
+        rows += balance_numbers(case)
+    if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2:
+        drop = readings.profile.pressure[0] - readings.profile.pressure[-1]
+        rows.append(("drop of p_rgh in the slurry along the axis", f"{drop:.3g} Pa"))
+    for count, fit in readings.humps.items():
+        if isinstance(fit, axial.Humps):
+            apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
+            rows.append((f"axial profile, {count} Gaussians", f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm"))
+    return rows
+
+
+def charge_numbers(readings):
+    found, error = readings.charge, readings.error
+    return [("centre of circulation, x", uncertain(1e3 * found.centre[0], 1e3 * error("centre", 0), "mm")),
+            ("centre of circulation, y", uncertain(1e3 * found.centre[1], 1e3 * error("centre", 1), "mm")),
+            ("shoulder of the charge", uncertain(found.shoulder, error("ends", 1), "°")),
+            ("toe of the charge", uncertain(found.toe, error("ends", 0), "°")),
+            ("free surface, RMSD of the logistic", uncertain(1e3 * found.surface.rmsd, 1e3 * error("surface_rmsd"), "mm")),
+            ("tangential velocity, RMSD of the cubic", uncertain(found.tangential.rmsd, error("tangential_rmsd"), "m/s"))]
+
+
+def balance_numbers(case):
+    told, late = case.balance, case.balance["Time"] >= case.begin
+    if not late.any():
+        return []
+    mean = {name: values[late].mean() for name, values in told.items()}
+    rows = [("hold-up of slurry", f"{1e6 * mean['holdUp']:.4g} ml"),
+            ("centre of the slurry, x", f"{1e3 * mean['x']:.1f} mm"), ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
+            ("power for the slurry", f"{mean['power']:.3g} W")]
+    if case.is_open:
+        feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
+        rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),
+                 ("feed less discharge", f"{feed - out:+.1f} ml/s")]
+    if "Re_mean" in told:
+        rows += [("particle Reynolds number in slurry, mean", f"{mean['Re_mean']:.0f}"),
+                 ("particle Reynolds number, 95 % of the balls below", f"{mean['Re_95']:.0f}")]
+    return rows

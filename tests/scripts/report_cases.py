@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Folders of small mill cases for tests of the report: a dry run, and a flow through its charge, written by hand."""
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from charge_test import RADIUS, below, charge_map, turning
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "integration"))
+import mesh as hexahedra  # noqa: E402
+
+LENGTH, OMEGA, DIAMETER = 0.06, -6.0, 0.005
+TIME0, WINDOW, WINDOWS = 1.0, 0.1, 10
+MILL = """title: {title}
+geometry:
+  diameter: 0.3
+  length: 0.06
+  ends: plain
+  lifters: {{count: 8, height: 0.01, width: 0.01}}
+speed: {{fraction_of_critical: 0.74, sense: clockwise}}
+charge:
+  classes:
+    - {{diameter: 0.005, mass: 2.0}}
+slurry: {{density: 1500, plastic_viscosity: 0.01}}
+"""
+RESULTS = {"balls": 1000, "lost_balls": 0, "steady": "yes", "steady_from": 1.0, "power": 3.21, "power_error": 0.0123,
+           "ball_overlap_largest": 2e-4, "ball_overlap_99": 5e-5, "wall_time": 60}
+BALANCE = ("Time_s", "holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3", "missing_m3", "x_m", "y_m", "z_m",
+           "power_W", "Re_mean", "Re_95")
+HEAD = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
+
+
+def write_dry(folder, title="A dry mill", **changed):
+    """A dry run that was averaged: mill.yaml, dumps/, solids.h5; changed: values of results.txt."""
+    (folder / "dumps").mkdir(parents=True)
+    (folder / "mill.yaml").write_text(MILL.format(title=title))
+    (folder / "dumps" / "results.txt").write_text("".join(f"{key} {value}\n" for key, value in {**RESULTS, **changed}.items()))
+    (folder / "dumps" / "run.txt").write_text(f"timestep 1e-5\ninterval 200\nangular_velocity {OMEGA}\n")
+    time = np.arange(1, 501) * 0.004
+    power = 3.2 + np.sin(40 * time)
+    rows = np.column_stack([time, power / OMEGA, power, 0.1 + 0 * time, 0.01 * time, 1e-4 + 0 * time])
+    np.savetxt(folder / "dumps" / "energy.csv", rows, "%.6g", ",", comments="",
+               header="time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m")
+    overlap = np.arange(40) * 5e-6 + 2.5e-6
+    counts = np.column_stack([overlap, 1e6 * np.exp(-overlap / 2e-5), 1e5 + 0 * overlap])
+    np.savetxt(folder / "dumps" / "overlaps.csv", counts, "%.6g", ",", comments="",
+               header="overlap_m,ball_contacts,wall_contacts")
+    write_solids(folder / "solids.h5")
+    return folder
+
+
+def write_solids(path, complete=1):
+    """Windows of a charge under a slope, with noise, of which the first one begins at TIME0."""
+    mean = charge_map(below(lambda x: -0.02 - 0.5 * x), turning(5, (-0.03, -0.06)), voxels=33)
+    noise = np.random.default_rng(1).normal(1, 0.02, (WINDOWS, 2, *mean.solidity.shape))
+    with h5py.File(path, "w") as file:
+        file.attrs.update(complete=complete, timestep=1e-5, time0=TIME0)
+        file.create_group("grid").attrs.update(lower=[-RADIUS, -RADIUS, 0], upper=[RADIUS, RADIUS, LENGTH], shape=[33, 33, 2],
+                                               periodic=[0, 0, 0], kind="box")
+        file["grid/insideFraction"] = np.broadcast_to(mean.inside, noise.shape)
+        begins = TIME0 + WINDOW * np.arange(WINDOWS)
+        for name, values in (("begin", begins), ("end", begins + WINDOW), ("records", np.full(WINDOWS, 50)),
+                             ("balls_per_cell", np.full(WINDOWS, 12.0))):
+            file[f"window/{name}"] = values
+        file["solidity"], file["solidity_deviation"] = mean.solidity * noise, 0.1 * mean.solidity * noise
+        file["velocity"] = np.broadcast_to(np.nan_to_num(mean.velocity), (*noise.shape, 3)) * noise[..., None]
+        voxel = (2 * RADIUS / 33) ** 2 * LENGTH / 2
+        volume = np.sum(mean.balls() * noise * voxel, axis=(1, 2, 3))
+        for name, values in (("volume_in", volume), ("deposited", volume), ("outside", 0 * volume), ("clipped", 1e-4 * volume)):
+            file[f"ledger/{name}"] = values
+
+
+def write_flow(folder, title="A mill", tables=True, voxels=True):
+    """A dry run and a flow of slurry at rest through it, of which tables and slurry.h5 were written if asked for."""
+    write_dry(folder, title)
+    points = hexahedra.drum((10, 10, 4)) * (RADIUS, RADIUS, LENGTH)
+    write_mesh(folder / "constant" / "polyMesh", points)
+    properties = f"radius {RADIUS};\nlength {LENGTH};\nomega {OMEGA};\ntime0 {TIME0};\n"
+    (folder / "constant" / "millProperties").write_text(HEAD.format("dictionary", "millProperties") + properties)
+    (folder / "constant" / "bedProperties").write_text(HEAD.format("dictionary", "bedProperties"))
+    (folder / "system").mkdir()
+    (folder / "system" / "controlDict").write_text(HEAD.format("dictionary", "controlDict")
+                                                   + "maxCo 0.5;\nmaxAlphaCo 0.5;\nmaxVoidageChange 0.1;\n")
+    middles = points[:-1, :-1, :-1] / 2 + points[1:, 1:, 1:] / 2
+    for time in (0, 0.2, 0.4, 0.6, 0.8):
+        write_time(folder, time, middles.reshape(-1, 3))
+    (folder / "log.flow").write_text(
+        "Drag: drag law Beetstra (2007)\n" + "Courant number 0.2, at the surface 0.1, change of voidage 0.01\n" * 50
+        + "bed: volume corrected by -0.1 %, at most -0.2 %, to 1e-3 m3\n"
+        + "bed: beyond Beetstra's range: at most 12 % of the slurry in the bed, in the mean over 0.8 s 10 %\n")
+    (folder / "log.check").write_text("Mesh OK.\n")
+    (folder / "log.mesh").write_text("cells                    400\nvolume error             1.0e-04 (limit 0.005)\n")
+    if tables:
+        write_tables(folder)
+    if voxels:
+        write_slurry(folder / "slurry.h5")
+    return folder
+
+
+def write_mesh(folder, points):
+    """constant/polyMesh of a mesh of hexahedra (tests/integration/mesh.py), whose lower end is the feed's."""
+    folder.mkdir(parents=True)
+    hexahedra.write(folder / "mesh.h5", points)
+    with h5py.File(folder / "mesh.h5") as file:
+        corners, faces = file["points"][0], file["face_points"][:].reshape(-1, 4)
+        owner, neighbour = file["owner"][:], file["neighbour"][:]
+        first, sizes = file["patch/first"][:], file["patch/faces"][:]
+    (folder / "mesh.h5").unlink()
+    lists = {"points": [f"({x!r} {y!r} {z!r})" for x, y, z in corners.tolist()],
+             "faces": ["4(" + " ".join(map(str, face)) + ")" for face in faces.tolist()],
+             "owner": owner, "neighbour": neighbour}
+    for name, rows in lists.items():
+        text = "\n".join(map(str, rows))
+        (folder / name).write_text(HEAD.format("list", name) + f"{len(rows)}\n(\n{text}\n)\n")
+    names = ("west", "east", "south", "north", "feedEnd", "dischargeEnd")
+    patches = "".join(f"{name} {{ type wall; nFaces {size}; startFace {start}; }}\n"
+                      for name, start, size in zip(names, first, sizes))
+    (folder / "boundary").write_text(HEAD.format("list", "boundary") + f"{len(names)}\n(\n{patches})\n")
+
+
+def write_time(folder, time, places):
+    """Fields of cells at places [cells, 3] of the mesh at flow time 0 (m): slurry below y = -0.05 m, however the mill
+    has turned."""
+    sine, cosine = np.sin(OMEGA * time), np.cos(OMEGA * time)
+    x, y = cosine * places[:, 0] - sine * places[:, 1], sine * places[:, 0] + cosine * places[:, 1]
+    wet = (y < -0.05).astype(float)
+    fields = {"alpha.slurry": wet, "solidity": 0.5 * (y < -0.02 - 0.5 * x), "p_rgh": 100 - 1000 * places[:, 2],
+              "forceOverWeight": 0.1 + 0 * wet, "U": np.column_stack([0.1 * wet, 0 * wet, np.where(x > 0, 0.02, -0.01) * wet])}
+    (folder / f"{time:g}").mkdir()
+    for name, values in fields.items():
+        kind = "vector" if values.ndim > 1 else "scalar"
+        rows = "\n".join(f"({' '.join(f'{v:.9g}' for v in row)})" if values.ndim > 1 else f"{row:.9g}" for row in values)
+        (folder / f"{time:g}" / name).write_text(HEAD.format("volField", name) + f"internalField nonuniform List<{kind}>\n"
+                                                 f"{len(values)}\n(\n{rows}\n)\n;\nboundaryField {{}}\n")
+
+
+def write_tables(folder):
+    """Tables of slurryBalance and axialProfiles of a steady flow."""
+    time = np.linspace(0.01, 0.8, 80)
+    noise = np.random.default_rng(2).normal(0, 1, time.shape)
+    one = np.ones_like(time)
+    columns = (time, 8e-4 + 1e-6 * noise, 2e-5 * one, 2e-5 + 1e-7 * noise, 0 * one, 0 * one, 1e-14 * one, 0.01 + 1e-5 * noise,
+               -0.09 + 1e-5 * noise, 0.03 * one, 0.5 + 0.01 * noise, 40 * one, 90 * one)
+    write_table(folder, "slurryBalance", "slurryBalance", BALANCE, np.column_stack(columns))
+    z = LENGTH * (np.arange(8) + 0.5) / 8
+    for name, values in (("holdUp", 1e-4 + 0 * z), ("height", -0.09 + 0.02 * z), ("p_rgh", 100 - 1000 * z)):
+        write_table(folder, "axialProfiles", name, ["Time_s, then slices at z_m", *map(str, z)],
+                    np.column_stack([time, np.broadcast_to(values, (len(time), len(z)))]))
+
+
+def write_table(folder, name, file, head, rows):
+    place = folder / "postProcessing" / name / "0"
+    place.mkdir(parents=True, exist_ok=True)
+    np.savetxt(place / f"{file}.dat", rows, "%.9g", "\t", header="\t".join(head), comments="# ")
+
+
+def write_slurry(path, complete=1):
+    """Windows of slurry below y = -0.05 m on voxels, at rest but for the axis."""
+    edges = np.linspace(-RADIUS, RADIUS, 31)
+    middles = (edges[1:] + edges[:-1]) / 2
+    x, y = np.meshgrid(middles, middles)
+    inside = np.broadcast_to((np.hypot(x, y) < RADIUS).astype(float), (8, 3, 30, 30))
+    slurry = inside * (y < -0.05)
+    with h5py.File(path, "w") as file:
+        file.attrs.update(complete=complete, window=WINDOW, time0=TIME0)
+        file.create_group("grid").attrs.update(lower=[-RADIUS, -RADIUS, 0], upper=[RADIUS, RADIUS, LENGTH], shape=[30, 30, 3])
+        file["grid/insideFraction"], file["slurry"], file["voidage"], file["pressure"] = inside, slurry, inside, 100 * slurry
+        file["velocity"] = slurry[..., None] * np.stack([0.1 + 0 * x, 0 * x, 0.02 * np.sign(x)], axis=-1)
+        begins = TIME0 + WINDOW * np.arange(8)
+        file["window/begin"], file["window/end"] = begins, begins + WINDOW
+        file["ledger/volume_in"], file["ledger/outside"] = np.full(8, 8e-4), np.full(8, 1e-7)

@@ -1,0 +1,235 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports of small cases are whole pages that need no network, tell what is missing, and refuse what is no mill's case."""
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+from unittest import mock
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from millfoam.report import page
+from millfoam.report.build import compare_cases, report_case
+from millfoam.report.sources import MillCase, NoMill
+from millfoam.report.words import decimals, typeset, uncertain
+from report_cases import OMEGA, TIME0, write_dry, write_flow, write_slurry, write_solids
+
+REPORT = Path(__file__).resolve().parents[2] / "scripts" / "report"
+VOID = {"meta", "link", "img", "input", "br"}
+
+
+class Page(HTMLParser):
+    """What stands in a page: ids, links, sources of images, text; errors: tags that are not balanced, ids given twice."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.errors, self.ids, self.links, self.images, self.words = [], [], [], [], [], []
+        self.feed(text)
+        self.close()
+        self.errors += [f"{tag} was not closed" for tag in self.open]
+        self.errors += [f"id {name} was given twice" for name in self.ids if self.ids.count(name) > 1]
+        self.text = " ".join(self.words)
+
+    def handle_starttag(self, tag, attrs):
+        told = dict(attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+        self.ids += [told["id"]] if "id" in told else []
+        self.links += [told["href"]] if "href" in told else []
+        self.images += [told["src"]] if tag == "img" else []
+        if tag == "img" and not told.get("alt"):
+            self.errors.append("an image without words")
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.errors.append(f"{tag} was closed where {self.open[-1:]} was open")
+
+    def handle_data(self, data):
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+
+def undrawn(figure, **_):
+    """In place of page.encode: a figure that was made, but not drawn, which is what takes the time."""
+    plt.close(figure)
+    return "data:image/png;base64,"
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="report-")))
+
+    def undrawn(self):
+        self.enterContext(mock.patch("millfoam.report.page.encode", undrawn))
+
+    def assert_whole(self, text):
+        """A page that is balanced, has its links' goals within it and its images in it; returns it."""
+        found = Page(text)
+        self.assertEqual(found.errors, [])
+        # A name space is no reference, and there is none either
+        self.assertNotRegex(text, r"https?://")
+        self.assertNotRegex(text, r"(?:src|href)=\"(?!data:|#)")
+        self.assertNotRegex(text, r"@import|url\(")
+        goals = [link[1:] for link in found.links if link.startswith("#")]
+        self.assertTrue(goals)
+        self.assertLessEqual(set(goals), set(found.ids))
+        self.assertTrue(all(image.startswith("data:image/png;base64,") for image in found.images))
+        self.assertNotRegex(found.text, r"\bnan\b|\bNone\b|\binf\b")
+        return found
+
+    def command(self, *arguments):
+        return subprocess.run([sys.executable, REPORT, *map(str, arguments)], capture_output=True, text=True)
+
+
+class Words(unittest.TestCase):
+    def test_minus_signs_and_powers_of_ten_are_typeset_but_not_names(self):
+        self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
+                         "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
+        self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
+
+    def test_digits_are_those_that_the_error_allows(self):
+        self.assertEqual([decimals(error) for error in (0.0123, 0.03, 0.5, 1.7, 4, 25)], [3, 2, 1, 1, 0, 0])
+        self.assertEqual(uncertain(33.193095, 0.029591, "W"), "33.193 ± 0.030 W")
+        self.assertEqual(uncertain(-37.42, 1.23, "°"), "-37.4 ± 1.2°")
+        self.assertEqual(uncertain(0.0087123, float("nan"), "m/s"), "0.00871 m/s")
+
+    def test_what_is_written_into_a_page_is_escaped(self):
+        for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),
+                     page.table(["<"], [("&", 1.0)], title="<", note="&"), page.folded("<&>", "<script>&")):
+            self.assertNotRegex(made, r"&(?!amp;|lt;|gt;|quot;)|<script|<&|< ")
+
+
+class OneCase(Case):
+    def test_a_dry_run_has_its_charge_and_no_slurry(self):
+        self.undrawn()
+        found = self.assert_whole(report_case(write_dry(self.folder / "dry", "Speed < 75 % & more")))
+        self.assertIn("Speed < 75 % & more – dry", found.text)
+        self.assertLessEqual({"overview", "checks", "charge", "ledger", "run"}, set(found.ids))
+        self.assertFalse({"slurry", "axis", "balance", "contacts"} & set(found.ids))
+        self.assertIn("3.210 ± 0.012 W", found.text)
+        self.assertNotIn("✗ fails", found.text)
+
+    def test_a_flow_with_everything_has_all_sections(self):
+        found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
+        self.assertLessEqual({"overview", "checks", "charge", "slurry", "axis", "balance", "ledger", "run"}, set(found.ids))
+        self.assertIn("slurry.h5", found.text)
+        self.assertNotIn("✗ fails", found.text)
+
+    def test_a_flow_without_tables_and_voxels_is_read_from_its_written_times(self):
+        self.undrawn()
+        found = self.assert_whole(report_case(write_flow(self.folder / "flow", tables=False, voxels=False)))
+        self.assertIn("the 3 written times", found.text)
+        self.assertIn("slurry", found.ids)
+        self.assertIn("axis", found.ids)
+        self.assertNotIn("balance", found.ids)
+        self.assertIn("– not told", found.text)
+
+    def test_a_half_written_slurry_file_is_told_and_not_used(self):
+        self.undrawn()
+        flow = write_flow(self.folder / "flow")
+        write_slurry(flow / "slurry.h5", complete=0)
+        found = self.assert_whole(report_case(flow))
+        self.assertIn("slurry.h5: not used, as it is half-written", found.text)
+        self.assertIn("written times", found.text)
+        (flow / "slurry.h5").write_bytes((flow / "slurry.h5").read_bytes()[:3000])
+        self.assertIn("slurry.h5: not used, as it is cut short", Page(report_case(flow)).text)
+
+    def test_a_table_that_cannot_be_read_is_told(self):
+        flow = write_flow(self.folder / "flow", voxels=False)
+        table = flow / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
+        lines = table.read_text().splitlines()
+        lines[40] = "much" + lines[40]
+        table.write_text("\n".join(lines))
+        case = MillCase(flow)
+        self.assertIsNone(case.balance)
+        self.assertRegex(" ".join(case.unusable), "slurryBalance.dat: line 41: .*much")
+
+    def test_averages_begin_where_they_are_asked_to(self):
+        case = MillCase(write_flow(self.folder / "flow"), 0.5)
+        self.assertEqual((case.begin, case.charge_span[0]), (0.5, TIME0 + 0.5))
+        with self.assertRaisesRegex(RuntimeError, "from 9 s on, but the flow's last written time is 0.8 s"):
+            MillCase(self.folder / "flow", 9)
+
+
+class Refused(Case):
+    def assert_refused(self, message):
+        with self.assertRaisesRegex(NoMill, message):
+            report_case(self.folder)
+
+    def test_folders_that_are_no_mills_case(self):
+        self.assert_refused("no mill.yaml; expected the folder of a mill's case")
+        (self.folder / "mill.yaml").write_text("geometry: [1, 2\nspeed: }")
+        self.assert_refused("mill.yaml, line 2: no YAML")
+        (self.folder / "mill.yaml").write_text("geometry: {diameter: 1}\n")
+        self.assert_refused("mill.yaml: no speed; expected the description of a mill")
+
+    def test_a_case_that_was_not_run_or_whose_averages_are_not_whole(self):
+        (self.folder / "mill.yaml").write_text("geometry: {diameter: 1}\nspeed: {}\ncharge: {}\n")
+        self.assert_refused("neither a flow .* nor a whole solids.h5, nor dumps/results.txt")
+        write_solids(self.folder / "solids.h5", complete=0)
+        self.assert_refused("solids.h5: not used, as it is half-written; average the dumps again")
+
+    def test_an_older_report_stays(self):
+        dry = write_dry(self.folder / "dry")
+        (dry / "report.html").write_text("older")
+        (self.folder / "map.csv").write_text("x_m,y_m,solidity,vx,vy\n0,0,1.2,0,0\n")
+        (self.folder / "track.csv").write_text("t x y z\n0 0 0 0\n1 0 much 0\n")
+        for option, words in (("--measured", r"map.csv, line 2, column solidity: '1.2'; expected a number from 0 to 1"),
+                              ("--tracer", r"track.csv:3: 'much', expected a finite number")):
+            ended = self.command(dry, option, self.folder / ("map.csv" if option == "--measured" else "track.csv"))
+            self.assertEqual((ended.returncode, ended.stdout), (1, ""))
+            self.assertRegex(ended.stderr, rf"^report: error: .*{words}\n$")
+            self.assertEqual(sorted(path.name for path in dry.glob("report*")), ["report.html"])
+            self.assertEqual((dry / "report.html").read_text(), "older")
+
+
+class Against(Case):
+    def setUp(self):
+        super().setUp()
+        self.undrawn()
+
+    def test_a_measured_map_that_is_the_simulated_one_does_not_differ(self):
+        dry, csv = write_dry(self.folder / "dry"), self.folder / "measured.csv"
+        charge = MillCase(dry).charge
+        x, y = np.meshgrid(*charge.centres())
+        known = charge.inside > 0
+        rows = [",".join("" if np.isnan(value) else f"{value:.9g}" for value in row) for row in np.column_stack(
+            [values[known] for values in (x, y, charge.solidity, *np.moveaxis(charge.velocity, -1, 0)[:2])])]
+        csv.write_text("\n".join(["x_m,y_m,solidity,vx,vy", *rows]))
+        found = self.assert_whole(report_case(dry, measured=csv))
+        self.assertIn("measured", found.ids)
+        self.assertRegex(found.text, r"solidity \S+·10⁻\S+ % +velocity, x|solidity 0 % +velocity, x")
+
+    def test_a_tracer_that_keeps_to_one_place_differs(self):
+        dry, track = write_dry(self.folder / "dry"), self.folder / "track.txt"
+        time = np.linspace(0, 5, 500)
+        x, y = -0.03 + 0.03 * np.cos(OMEGA * time), -0.07 + 0.03 * np.sin(OMEGA * time)
+        circle = np.column_stack([time, x, y, 0.03 + 0 * time])
+        np.savetxt(track, circle)
+        found = self.assert_whole(report_case(dry, tracers=[track, track]))
+        self.assertIn("tracers", found.ids)
+        self.assertIn("2, of 10 s together", found.text)
+        self.assertGreater(float(re.search(r"solidity (\d+(?:\.\d+)?) %", found.text).group(1)), 20)
+
+
+class Several(Case):
+    def test_cases_stand_beside_each_other(self):
+        self.undrawn()
+        flows = [write_flow(self.folder / name / "case", f"Mill {name}", tables=name == "a") for name in "ab"]
+        found = self.assert_whole(compare_cases([*flows, write_dry(self.folder / "dry")]))
+        self.assertIn("a/case against b/case, ", found.text)
+        self.assertLessEqual({"numbers", "checks", "charge", "slurry"}, set(found.ids))
+
+    def test_measurements_are_held_against_one_case_only(self):
+        ended = self.command(self.folder, self.folder, "--measured", "map.csv")
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("--measured and --tracer are for one case; 2 were given", ended.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
