@@ -23,7 +23,8 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--allow-file-access-from-files",
          "--hide-scrollbars", "--enable-logging=stderr", "--v=0")
-BAD = """<!DOCTYPE html><html><head><title>bad</title></head><body><p style="width: 2000px">wide</p><img alt="none" src="data:image/png;base64,AAAA">
+BAD = """<!DOCTYPE html><html><head><title>bad</title></head><body><p style="width: 2000px">wide</p>
+<img alt="none" src="data:image/png;base64,AAAA">
 <div class="player"><img alt="a" src="data:,0"><button>Play</button><input type="range" max="1" value="0">
 <script type="application/json">["data:,0", "data:,1"]</script></div><script>nothing.at.all();</script></body></html>"""
 
