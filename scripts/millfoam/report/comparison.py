@@ -87,13 +87,15 @@ def charge_differences(told):
 
 
 def charge_curves(told):
-    """Free surfaces and tangential velocities of the cases of which they could be read."""
-    read = [(case, name, reading.charge) for case, reading, name in told if isinstance(reading.charge, charge.Charge)]
+    """Free surfaces and tangential velocities of the cases of the first one's size of which they could be read."""
+    radius = told[0][0].radius
+    read = [(case, name, reading.charge) for case, reading, name in told
+            if isinstance(reading.charge, charge.Charge) and np.isclose(case.radius, radius)]
     if len(read) < 2:
         return []
     case = read[0][0]
     curves = [(name, 1e3 * one.tangential.distance, one.tangential.velocity) for _, name, one in read]
-    return [page.picture(figures.surfaces([(name, one.surface.points) for _, name, one in read], case.radius, case.omega),
+    return [page.picture(figures.surfaces([(name, one.surface.points) for _, name, one in read], radius, case.omega),
                          "From the shoulder on the rising side to the toe.", title="Free surfaces"),
             page.picture(figures.lines_against(curves, "distance from the mill's centre, mm",
                                                "tangential velocity, m/s\n(clockwise positive)"),

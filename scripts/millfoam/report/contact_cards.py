@@ -55,9 +55,8 @@ def spectra_figure(spectra):
             seen = np.where(curve[1:-1] > 0, unit * curve[1:-1], np.nan)
             axis.step(middles, seen, where="mid", color=colour, label=label, lw=1.4)
         axis.set(xscale="log", yscale="log")
-        tops = unit * values.max(initial=0)
-        if tops > 0:
-            axis.set_ylim(1e-5 * tops, 4 * values.sum(axis=(0, 1)).max() * unit)
+        # Single touches of least energy would draw the axis out
+        axis.set_ylim(bottom=max(axis.get_ylim()[0], 1e-6 * unit * values.max(initial=0)))
     top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
     top.set_ylabel("collisions, 1/s per bin")
     bottom.set(ylabel="dissipated power,\nmW per bin", xlabel="energy, J (5 bins per decade)")

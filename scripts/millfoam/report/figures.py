@@ -62,7 +62,9 @@ def overlaps(case):
     diameter = min(c["diameter"] for c in case.mill["charge"]["classes"])
     for counts, colour, label in ((balls, BLUE, "ball on ball"), (walls, ORANGE, "ball on wall")):
         axis.step(100 * overlap / diameter, counts / max(counts.sum(), 1), where="mid", color=colour, label=label)
-    axis.set(yscale="log", xlabel="overlap, % of the smallest diameter", ylabel="share of the contacts")
+    largest = 100 * overlap[np.flatnonzero(balls + walls)[-1:]].max(initial=0) / diameter
+    axis.set(yscale="log", xlabel="overlap, % of the smallest diameter", ylabel="share of the contacts",
+             xlim=(0, 1.1 * largest or None))
     axis.legend()
     return figure
 
@@ -121,7 +123,7 @@ def axial(profile, fits):
     for (label, at, curve), colour in zip(fits, (RED, GREEN)):
         height.plot(1e3 * at, 1e3 * curve, color=colour, lw=1.2, label=label)
     height.set_ylabel("height of the\ncentre, mm")
-    height.legend()
+    height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
     held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
     held.set_ylabel("hold-up, ml per mm")
     head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)

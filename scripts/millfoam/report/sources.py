@@ -268,5 +268,6 @@ class MillCase:
             words.append(f"{int(self.results['balls'])} balls")
         if self.flow:
             words.append(f"slurry {self.mill['slurry']['density']:.0f} kg/m³")
-            words.append(f"drag: {self.law}" if self.law else "no balls in the flow")
+            unknown = "drag law not told" if self.flow.displaced else "no balls in the flow"
+            words.append(f"drag: {self.law}" if self.law else unknown)
         return ", ".join(words)
