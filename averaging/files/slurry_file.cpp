@@ -21,8 +21,9 @@ namespace {
 constexpr const char* slurry_format = "millfoam-slurry";
 constexpr const char* segment_format = "millfoam-slurry-segment";
 
-/// Share of a window by which its ends may be missed: flow times are sums of time-steps.
-constexpr double slack = 1e-6;
+/// Share of a window by which segments may miss each other: a flow goes on from the name of a time, which is
+/// rounded.
+constexpr double gap = 1e-3;
 
 /// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.
 struct Field {
@@ -59,7 +60,7 @@ std::vector<double> means(const SlurrySegment& sums, const Field& field) {
 /// Shares of the voxels that lie in the flow's mesh, in the mean over the time.
 std::vector<double> inside_fraction(const SlurrySegment& sums, const BoxGrid& grid) {
   std::vector<double> result = sums.volume;
-  const double whole = grid.voxel_volume() * (sums.end - sums.begin);
+  const double whole = grid.voxel_volume() * sums.duration;
   for (double& share : result) share /= whole;
   return result;
 }
@@ -113,9 +114,8 @@ class Rows {
     double deposited = 0;
     for (std::size_t i = 0; i < sums.components.size(); i += slurry_components)
       deposited += sums.components[i];
-    const double duration = sums.end - sums.begin;
-    const std::array<double, 3> volumes{sums.slurry / duration, deposited / duration,
-                                        (sums.slurry - deposited) / duration};
+    const std::array<double, 3> volumes{sums.slurry / sums.duration, deposited / sums.duration,
+                                        (sums.slurry - deposited) / sums.duration};
     for (std::size_t k = 0; k < volumes.size(); ++k) hdf5::append_row(ledger_[k], &volumes[k]);
     begins_.push_back(begin);
   }
@@ -161,17 +161,17 @@ class Assembly {
 
   void take(const std::filesystem::path& path) {
     const SlurrySegment segment = read_segment(path, grid_);
-    const auto number = static_cast<long long>(std::floor(segment.begin / header_.window + slack));
-    if (segment.end > (static_cast<double>(number + 1) + slack) * header_.window) {
-      throw SlurryFileError(path.string() + ": goes from " + std::to_string(segment.begin) + " to " +
-                            std::to_string(segment.end) + " s and so lies in two windows of " +
-                            std::to_string(header_.window) + " s; expected the windows of the run before");
+    const long long number = window_of(segment, header_.window, path.string());
+    if (segment.begin < last_end_ - gap * header_.window) {
+      throw SlurryFileError(path.string() + ": begins at " + std::to_string(segment.begin) +
+                            " s, before the segment before it ends, at " + std::to_string(last_end_) + " s");
     }
+    last_end_ = segment.end;
     if (filled_ && number != number_) close_window();
     number_ = number;
     filled_ = true;
     window_.add(segment);
-    if (segment.begin >= header_.start - slack * header_.window) mean_.add(segment);
+    if (segment.begin >= header_.start - gap * header_.window) mean_.add(segment);
   }
 
   void finish() {
@@ -181,9 +181,10 @@ class Assembly {
 
  private:
   void close_window() {
-    const double begin = static_cast<double>(number_) * header_.window, margin = slack * header_.window;
+    const double begin = static_cast<double>(number_) * header_.window, margin = gap * header_.window;
+    const bool hole = window_.duration < (1 - gap) * (window_.end - window_.begin);
     rows_.append(window_, header_.time0, window_.begin > begin + margin,
-                 window_.end < begin + header_.window - margin);
+                 hole || window_.end < begin + header_.window - margin);
     window_ = SlurrySegment(grid_.size());
     filled_ = false;
   }
@@ -194,6 +195,7 @@ class Assembly {
   SlurrySegment mean_, window_;
   long long number_ = 0;
   bool filled_ = false;
+  double last_end_ = -1e300;  ///< of the segments taken so far, s
 };
 
 void check_same(const BoxGrid& found, const BoxGrid& expected) {
@@ -210,6 +212,7 @@ void SlurrySegment::add(const VoxelSums& sample, double slurry_volume, double du
   for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += duration * sample.volume[i];
   for (std::size_t i = 0; i < components.size(); ++i) components[i] += duration * sample.values[i];
   slurry += duration * slurry_volume;
+  this->duration += duration;
   ++samples;
 }
 
@@ -219,7 +222,18 @@ void SlurrySegment::add(const SlurrySegment& other) {
   for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += other.volume[i];
   for (std::size_t i = 0; i < components.size(); ++i) components[i] += other.components[i];
   slurry += other.slurry;
+  duration += other.duration;
   samples += other.samples;
+}
+
+long long window_of(const SlurrySegment& segment, double window, const std::string& name) {
+  const auto number = static_cast<long long>(std::floor(segment.begin / window + gap));
+  if (segment.end > (static_cast<double>(number + 1) + gap) * window) {
+    throw SlurryFileError(name + ": goes from " + std::to_string(segment.begin) + " to " +
+                          std::to_string(segment.end) + " s and so lies in two windows of " +
+                          std::to_string(window) + " s; expected the windows of the run before");
+  }
+  return number;
 }
 
 void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const SlurrySegment& segment) {
@@ -234,6 +248,7 @@ void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const
     hdf5::write_attribute(root, "end", segment.end);
     hdf5::write_attribute(root, "samples", static_cast<int>(segment.samples));
     hdf5::write_attribute(root, "slurry", segment.slurry);
+    hdf5::write_attribute(root, "duration", segment.duration);
     const hdf5::Handle group = hdf5::create_group(root, "grid");
     hdf5::write_grid(group.get(), grid);
     const hsize_t n = segment.volume.size();
@@ -258,6 +273,7 @@ SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& gri
     segment.end = hdf5::read_double_attribute(root, "end", 1)[0];
     segment.samples = hdf5::read_int_attribute(root, "samples", 1)[0];
     segment.slurry = hdf5::read_double_attribute(root, "slurry", 1)[0];
+    segment.duration = hdf5::read_double_attribute(root, "duration", 1)[0];
     segment.volume = hdf5::read_row(root, "volume", 0);
     segment.components = hdf5::read_row(root, "components", 0);
     return segment;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "averaging/fields/cell_points.hpp"
@@ -31,6 +32,7 @@ struct SlurrySegment {
   double begin = 0;                ///< flow time, s
   double end = 0;                  ///< s
   long long samples = 0;           ///< times at which the fields were taken
+  double duration = 0;             ///< that the samples stand for, s
   double slurry = 0;               ///< integral over time of the slurry's volume in the cells, m^3 s
   std::vector<double> volume;      ///< [n] of the cells' parts in each voxel, m^3 s
   std::vector<double> components;  ///< [n][slurry_components], see there, times m^3 s
@@ -54,6 +56,10 @@ void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const
 /// Reads it back. Throws SlurryFileError, also when it was written for another grid.
 SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid);
 
+/// Number of the window [k w, (k+1) w) in which a segment lies; `name` is the segment's, for the message.
+/// Throws SlurryFileError when it lies in two.
+long long window_of(const SlurrySegment& segment, double window, const std::string& name);
+
 /// What holds for a whole slurry file.
 struct SlurryHeader {
   double time0 = 0;   ///< DEM time at flow time 0, s
@@ -63,8 +69,9 @@ struct SlurryHeader {
 
 /// Puts a flow's segments, in order of time, together: means over windows [k w, (k+1) w) of flow time, and
 /// over all from `start` on. Writes slurry.h5 and beside it slurry.xdmf; memory does not grow with the number
-/// of windows. Windows that the segments do not fill are marked. Throws SlurryFileError, also when there is
-/// no segment or one lies in two windows.
+/// of windows. Windows that the segments do not fill, also between their ends, are marked. Throws
+/// SlurryFileError, also when there is no segment, when one lies in two windows or begins before the one
+/// before it ends.
 void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
                      const std::vector<std::filesystem::path>& segments);
 

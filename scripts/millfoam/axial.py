@@ -77,6 +77,12 @@ def axial_profile(flow, begin):
                         np.mean(series.pressure, axis=0))
 
 
+def drop(profile):
+    """Fall of p_rgh in the slurry of an AxialProfile from its first to its last slice, by a straight line through all, Pa."""
+    known = np.isfinite(profile.pressure)
+    return float(-(profile.z[-1] - profile.z[0]) * np.polyfit(profile.z[known], profile.pressure[known], 1)[0])
+
+
 def gaussians(z, base, *humps):
     """base + the sum of height exp(-((z - place)/width)^2 / 2); humps: height, place, width of each in turn."""
     z = np.asarray(z, dtype=float)

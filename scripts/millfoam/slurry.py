@@ -37,7 +37,7 @@ class SlurryMap:
 
 
 def read_slurry_map(path, begin=None, end=None, length=np.inf):
-    """Mean over the axis up to z = length (m) and over the windows that lie in [begin, end) of DEM time; of all that the file's
+    """Mean over the axis, by the layers of voxels with their middle before z = length (m), and over the windows that lie in [begin, end) of DEM time; of all that the file's
     own mean over the run takes where no times are given. RuntimeError for a file that is not whole or times without a window."""
     with h5py.File(path, "r") as file:
         if file.attrs.get("complete", 0) != 1:
@@ -48,7 +48,7 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf):
             if "mean" not in file:
                 raise RuntimeError(f"{path}: no mean over the run: the flow ended before its averages' start")
             means = [(file["mean"], ())]
-            inside_of = [file["mean/insideFraction"][()]]
+            inside_of, lengths = [file["mean/insideFraction"][()]], [1.0]
             span = tuple(float(file["mean"].attrs[name]) for name in ("begin", "end"))
         else:
             begins, ends = file["window/begin"][:], file["window/end"][:]
@@ -57,18 +57,18 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf):
             if len(chosen) == 0:
                 raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
             means = [(file, window) for window in chosen]
-            inside_of = (grid["insideFraction"][window] for window in chosen)
+            inside_of, lengths = (grid["insideFraction"][window] for window in chosen), (ends - begins)[chosen]
             span = float(begins[chosen[0]]), float(ends[chosen[-1]])
         z = lower[2] + (np.arange(shape[2]) + 0.5) * (upper[2] - lower[2]) / shape[2]
-        return _over_axis(means, inside_of, z < length, [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)],
+        return _over_axis(means, inside_of, lengths, z < length, [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)],
                           span)
 
 
-def _over_axis(means, inside_of, layers, edges, span):
-    """The SlurryMap of sums over the chosen layers of (group, row) pairs of an open file."""
+def _over_axis(means, inside_of, lengths, layers, edges, span):
+    """The SlurryMap of sums over the chosen layers of (group, row) pairs of an open file, weighted by their lengths (s)."""
     room = slurry = fluid = flux = head = 0.0
-    for (group, row), inside in zip(means, inside_of):
-        part = inside[layers]
+    for (group, row), inside, seconds in zip(means, inside_of, lengths):
+        part = seconds * inside[layers]
         held = part * group["slurry"][row][layers]
         room = room + part.sum(axis=0)
         slurry = slurry + held.sum(axis=0)
@@ -77,6 +77,6 @@ def _over_axis(means, inside_of, layers, edges, span):
         head = head + (held * group["pressure"][row][layers]).sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         enough = slurry > 1e-6 * room.max()
-        return SlurryMap(*edges, room / (layers.sum() * len(means)), np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
+        return SlurryMap(*edges, room / (layers.sum() * np.sum(lengths)), np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
                          np.where(room > 0, slurry / room, 0.0), np.where(enough[..., None], flux / slurry[..., None], np.nan),
                          np.where(enough, head / slurry, np.nan), *span)

@@ -3,7 +3,8 @@
 verdicts with the numbers that say so.
 
 Verdicts: `confirmed` and `contradicted` where the difference is more than twice its standard error over time, `undecided` where
-it is not, `not tested` where a run is missing: which one is told. Runs of the 30 cm mill count from LATEST on."""
+it is not, `not tested` where a run is missing: which one is told. Tilts, numbers of humps and shares that are held against a
+limit are compared as they are; their errors are told. Runs of the 30 cm mill count from LATEST on."""
 from dataclasses import dataclass
 
 import numpy as np

@@ -114,21 +114,36 @@ Foam::scalar Foam::averageSegments::windowEnd(const scalar t) const
 
 void Foam::averageSegments::dropLater() const
 {
-    const scalar now = time_.value();
+    // The name of the time that a flow goes on from is rounded
+    const scalar now = time_.value() + max(0.5 * time_.deltaTValue(), instant_);
     for (const std::filesystem::path& path : files())
     {
         const FixedList<scalar, 2> times(timesOf(path.string()));
-        if (times[1] > now + instant_)
+        if (times[1] > now)
         {
             rm(path.string());
-            if (times[0] < now - instant_)
+            if (times[0] < now - time_.deltaTValue())
             {
                 WarningInFunction
-                    << path.string() << " goes beyond the time " << now
+                    << path.string() << " goes beyond the time "
+                    << time_.timeName()
                     << " s at which the flow goes on, and is removed: its"
                     << " window will be marked as not filled" << endl;
             }
         }
+    }
+}
+
+
+void Foam::averageSegments::check() const
+{
+    for (const std::filesystem::path& path : files())
+    {
+        stopWith(untrapped(
+            [&] {
+                window_of(
+                    read_segment(path, grid_), header_.window, path.string());
+            }));
     }
 }
 
@@ -177,17 +192,15 @@ Foam::averageSegments::averageSegments(
   folder_(time.globalPath() / "postProcessing" / name / "segments"),
   file_(
       time.globalPath() / dict.lookupOrDefault<fileName>("file", "slurry.h5")),
-  sums_(grid_.size())
+  sums_(grid_.size()),
+  covered_(time.value())
 {
-    sums_.begin = time.value();
+    sums_.begin = covered_;
     if (Pstream::master())
     {
         mkDir(folder_);
         dropLater();
-        for (const std::filesystem::path& path : files())
-        {
-            stopWith(untrapped([&] { read_segment(path, grid_); }));
-        }
+        check();
     }
 }
 
@@ -210,6 +223,7 @@ void Foam::averageSegments::add(
         }
         begin = end;
     }
+    covered_ = to;
 }
 
 
@@ -217,7 +231,7 @@ void Foam::averageSegments::keep()
 {
     if (sums_.samples > 0)
     {
-        close(time_.value());
+        close(covered_);
     }
 }
 

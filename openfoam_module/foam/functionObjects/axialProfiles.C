@@ -5,6 +5,7 @@
 
 #include "axialProfiles.H"
 #include "addToRunTimeSelectionTable.H"
+#include "clock.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -57,6 +58,7 @@ void Foam::functionObjects::axialProfiles::open()
         files_[i] = createFile(names_[i]);
         if (files_[i].valid())
         {
+            writeHeaderValue(files_[i](), "Begun", label(clock::getTime()));
             writeCommented(files_[i](), "Time_s, then slices at z_m");
             for (label slice = 0; slice < slices_; ++slice)
             {
@@ -120,6 +122,11 @@ Foam::functionObjects::axialProfiles::axialProfiles(
     writeFile::read(dict);
     place(dict);
     open();
+    const scalar all = gSum(fields_.volumes()());
+    const scalar told = returnReduce(sum(sums()[holdUp]), maxOp<scalar>());
+    Info << "axialProfiles: slices from " << begin_ << " to "
+         << begin_ + slices_ * thickness_ << " m; " << all - told
+         << " m3 of slurry lie beyond them now" << endl;
     strict_.relax();
 }
 

@@ -5,6 +5,7 @@
 
 #include "slurryBalance.H"
 #include "addToRunTimeSelectionTable.H"
+#include "clock.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
 
@@ -25,6 +26,7 @@ addToRunTimeSelectionTable(functionObject, slurryBalance, dictionary);
 void Foam::functionObjects::slurryBalance::begin()
 {
     writeHeader(file(), "Slurry: balance, centre, torque about +z, slip");
+    writeHeaderValue(file(), "Begun", label(clock::getTime()));
     writeCommented(file(), "Time_s");
     for (const char* column :
          {"holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3",
@@ -99,6 +101,12 @@ Foam::functionObjects::slurryBalance::slurryBalance(
   torqueAll_(0)
 {
     slurryFields::refuseOthers(dict, {"walls", "speed"});
+    if (runTime.timeIndex() > 0 && !foundProperty("fed"))
+    {
+        WarningInFunction << "time " << runTime.timeName()
+                          << " was written without a balance"
+                          << " to go on from: it begins here" << endl;
+    }
     begin();
     strict_.relax();
 }

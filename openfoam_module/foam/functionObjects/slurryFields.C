@@ -47,9 +47,9 @@ Foam::wordList Foam::slurryFields::entries()
 void Foam::slurryFields::refuseOthers(
     const dictionary& dict, const wordList& own)
 {
+    // Without those that would leave out time-steps: integrals need them all
     wordList known(
         {"type", "libs", "functionObjectLibs", "region", "enabled", "log",
-         "timeStart", "timeEnd", "executeControl", "executeInterval",
          "writeControl", "writeInterval", "writePrecision", "writeToFile",
          "useUserTime", "errors"});
     known.append(entries());

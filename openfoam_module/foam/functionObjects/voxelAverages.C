@@ -93,6 +93,17 @@ VoxelSums Foam::functionObjects::voxelAverages::sample()
 }
 
 
+void Foam::functionObjects::voxelAverages::sampleUpToNow()
+{
+    const scalar now = mesh_.time().value();
+    if (now > last_)
+    {
+        segments_.add(sample(), sum(fields_.volumes()()), last_, now);
+        last_ = now;
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::functionObjects::voxelAverages::voxelAverages(
@@ -107,6 +118,19 @@ Foam::functionObjects::voxelAverages::voxelAverages(
     slurryFields::refuseOthers(
         dict, {"lower", "upper", "shape", "periodic", "window", "start",
                "interval", "divisions", "file"});
+    const scalar window = dict.get<scalar>("window");
+    if (!(interval_ >= 0 && interval_ <= window))
+    {
+        FatalIOErrorInFunction(dict)
+            << "interval is " << interval_ << " s; expected a time from 0 to"
+            << " the window, " << window << " s" << exit(FatalIOError);
+    }
+    if (divisions_ < 1 || divisions_ > 10)
+    {
+        FatalIOErrorInFunction(dict)
+            << "divisions is " << divisions_ << "; expected 1 to 10"
+            << exit(FatalIOError);
+    }
     strict_.relax();
 }
 
@@ -120,10 +144,9 @@ bool Foam::functionObjects::voxelAverages::execute()
     // A time-step more would go beyond the interval
     const bool due =
         now - last_ + 0.5 * mesh_.time().deltaTValue() >= interval_;
-    if (now > last_ && (written || due))
+    if (written || due)
     {
-        segments_.add(sample(), sum(fields_.volumes()()), last_, now);
-        last_ = now;
+        sampleUpToNow();
     }
     if (written)
     {
@@ -141,6 +164,7 @@ bool Foam::functionObjects::voxelAverages::write()
 
 bool Foam::functionObjects::voxelAverages::end()
 {
+    sampleUpToNow();
     segments_.keep();
     segments_.assemble();
     return true;

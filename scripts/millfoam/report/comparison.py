@@ -134,7 +134,7 @@ def axial_cards(readings, names):
 
 
 def time_cards(cases, names):
-    told = [(name, case) for name, case in zip(names, cases) if case.balance is not None]
+    told = [(name, case) for name, case in zip(names, cases) if case.balance is not None and len(case.balance["Time"]) > 1]
     if not told:
         return []
     curves = {key: [(name, case.balance["Time"], scale * case.balance[key]) for name, case in told]

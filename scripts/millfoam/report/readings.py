@@ -6,6 +6,7 @@ import numpy as np
 
 from .. import axial, charge, mill_plots, slurry_maps
 from ..slurry import read_slurry_map
+from ..tables import time_mean
 from .words import uncertain
 
 
@@ -91,8 +92,7 @@ def key_numbers(case, readings):
     if case.balance is not None:
         rows += balance_numbers(case)
     if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2:
-        drop = readings.profile.pressure[0] - readings.profile.pressure[-1]
-        rows.append(("drop of p_rgh in the slurry along the axis", f"{drop:.3g} Pa"))
+        rows.append(("drop of p_rgh in the slurry along the axis, by a straight line", f"{axial.drop(readings.profile):.3g} Pa"))
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
             apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
@@ -114,7 +114,7 @@ def balance_numbers(case):
     told, late = case.balance, case.balance["Time"] >= case.begin
     if not late.any():
         return []
-    mean = {name: values[late].mean() for name, values in told.items()}
+    mean = {name: time_mean(told["Time"], values, case.begin) for name, values in told.items()}
     rows = [("hold-up of slurry", f"{1e6 * mean['holdUp']:.4g} ml"),
             ("centre of the slurry, x", f"{1e3 * mean['x']:.1f} mm"), ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
             ("power for the slurry", f"{mean['power']:.3g} W")]

@@ -112,15 +112,22 @@ def run_section(case, _readings):
     costs = [(name, f"{seconds / 60:.1f} min") for name, seconds in stage_costs(case)]
     cards = [page.table(None, rows, title="Programs")] if rows else []
     if costs:
-        cards.append(page.table(None, costs, title="Cost by stage", note="Wall time, also of parts that were broken off."))
+        cards.append(page.table(None, costs, title="Cost by stage", note="Wall time of stages that ended or failed, every time that they ran; not of those that were killed."))
     return cards + [page.folded("mill.yaml", case.mill_text)]
+
+
+def cost_folders(case):
+    """Folders in which stages of the case were run: the charge's, and its own."""
+    return list(dict.fromkeys(([case.solids.parent] if case.solids else []) + [case.folder.resolve()]))
 
 
 def versions(case):
     """(program, version) by the logs."""
-    own = case.log("version").strip()
-    if own:
-        yield "millFoam", own
+    ran = dict(line.rsplit(",", 1) for path in cost_folders(case) if (path / "log.version").is_file()
+               for line in (path / "log.version").read_text().splitlines())
+    for stage in ("charge", "flow"):
+        if stage in ran:
+            yield f"millFoam, of the {stage}", ran[stage]
     found = re.findall(r"^Build\s*:\s*(\S+)", case.log("flow"), re.M)
     if found:
         yield "OpenFOAM", found[-1]
@@ -134,10 +141,9 @@ def versions(case):
 
 
 def stage_costs(case):
-    """(stage, wall time in s) by log.costs of the charge's and the case's folder, parts that were broken off added up."""
-    folders = dict.fromkeys(([case.solids.parent] if case.solids else []) + [case.folder.resolve()])
+    """(stage, wall time in s) by log.costs of the charge's and the case's folder, all times that a stage was run added up."""
     costs = {}
-    for path in (folder / "log.costs" for folder in folders):
+    for path in (folder / "log.costs" for folder in cost_folders(case)):
         for line in path.read_text().splitlines() if path.is_file() else ():
             name, seconds = line.rsplit(",", 1)
             costs[name] = costs.get(name, 0) + float(seconds)

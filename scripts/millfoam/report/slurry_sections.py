@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import axial, charge, mill_plots, models, slurry_maps
 from ..free_surface import at_points
+from ..tables import time_mean
 from . import figures, maps, page
 
 
@@ -73,7 +74,7 @@ def axial_section(case, readings):
 
 
 def balance_section(case, _readings):
-    if case.balance is None:
+    if case.balance is None or len(case.balance["Time"]) < 2:
         return []
     cards = [page.picture(figures.holdup(case), "Slurry in the mill and through its openings.", title="Hold-up"),
              page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that walls and balls "
@@ -88,7 +89,8 @@ def balance_section(case, _readings):
 def models_section(case, readings):
     """Mechanistic models beside what was found."""
     cards = []
-    if isinstance(readings.charge, charge.Charge):
+    # The model's wall friction is that of end walls, which a slice does not have
+    if isinstance(readings.charge, charge.Charge) and not case.is_slice:
         points = readings.charge.surface.points / case.radius
         number = models.surface_number(abs(case.omega), mean_diameter(case), case.radius, case.mill["geometry"]["length"])
         found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
@@ -119,12 +121,12 @@ def moys(case):
     slurry = case.mill["slurry"]
     lip = case.radius - pulp["discharge_radius"]
     fluid = (slurry["plastic_viscosity"], slurry["density"])
-    late = case.balance["Time"] >= case.begin
+    held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
     return [("porosity of the dense charge (solidity over 0.3)", f"{porosity:.3f}"),
             ("depth at the discharge's lip", f"{1e3 * lip:.1f} mm"),
             ("depth at the feed end by the model", f"{1e3 * float(models.slurry_depth(bed, 0, case.feed, lip, *fluid)):.1f} mm"),
             ("hold-up by the model", f"{1e6 * models.slurry_hold_up(bed, case.feed, lip, *fluid):.0f} ml"),
-            ("simulated hold-up, with the pulp lifters", f"{1e6 * case.balance['holdUp'][late].mean():.0f} ml")]
+            ("simulated hold-up, with the pulp lifters", f"{1e6 * held:.0f} ml")]
 
 
 def mean_diameter(case):

@@ -66,6 +66,11 @@ class MillCase:
     def length(self):
         return self.flow.length if self.flow else self.mill["geometry"]["length"]
 
+    @property
+    def is_slice(self):
+        """Whether the mill is a periodic slice."""
+        return self.mill["geometry"].get("ends") == "periodic" or "slice" in self.mill["geometry"]
+
     @cached_property
     def omega(self):
         """Angular speed about z, right-handed, rad/s."""

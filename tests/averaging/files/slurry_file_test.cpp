@@ -100,6 +100,23 @@ TEST_F(SlurryFile, WindowsThatAreNotFilledAreMarked) {
   expect("window/ends_short", {0, 1});
 }
 
+TEST_F(SlurryFile, AHoleWithinAWindowIsMarkedAndCountsForNothing) {
+  assemble_slurry(whole, two_voxels, {0, 1.0, 0},
+                  {write("a.h5", stretch(0, 0.25, 0.2, 1)), write("b.h5", stretch(0.5, 1, 0.2, 1))});
+  expect("window/starts_late", {0});
+  expect("window/ends_short", {1});
+  expect("ledger/volume_in", {0.2});
+  expect("grid/insideFraction", {1, 0.5});
+}
+
+TEST_F(SlurryFile, SegmentsThatOverlapAreRefused) {
+  const auto first = write("a.h5", stretch(0, 0.6, 0.2, 1)), second = write("b.h5", stretch(0.5, 1, 0.2, 1));
+  EXPECT_NE(message_of<SlurryFileError>([&] {
+              assemble_slurry(whole, two_voxels, {0, 1, 0}, {first, second});
+            }).find("b.h5: begins at"),
+            std::string::npos);
+}
+
 TEST_F(SlurryFile, WhatLiesBeyondTheBoxIsTold) {
   SlurrySegment segment = stretch(0, 1, 0.2, 1);
   segment.slurry = 0.25;
