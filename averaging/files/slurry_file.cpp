@@ -208,11 +208,11 @@ void check_same(const BoxGrid& found, const BoxGrid& expected) {
 
 }  // namespace
 
-void SlurrySegment::add(const VoxelSums& sample, double slurry_volume, double duration) {
-  for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += duration * sample.volume[i];
-  for (std::size_t i = 0; i < components.size(); ++i) components[i] += duration * sample.values[i];
-  slurry += duration * slurry_volume;
-  this->duration += duration;
+void SlurrySegment::add(const VoxelSums& sample, double slurry_volume, double seconds) {
+  for (std::size_t i = 0; i < volume.size(); ++i) volume[i] += seconds * sample.volume[i];
+  for (std::size_t i = 0; i < components.size(); ++i) components[i] += seconds * sample.values[i];
+  slurry += seconds * slurry_volume;
+  duration += seconds;
   ++samples;
 }
 

@@ -41,10 +41,10 @@ struct SlurrySegment {
   explicit SlurrySegment(std::size_t voxels = 0)
       : volume(voxels, 0.0), components(voxels * slurry_components, 0.0) {}
 
-  /// Adds fields that were sampled once, for this length of time (s).
+  /// Adds fields that were sampled once, for so many seconds.
   /// @param sample  with slurry_components components
   /// @param slurry_volume  in all cells, m^3
-  void add(const VoxelSums& sample, double slurry_volume, double duration);
+  void add(const VoxelSums& sample, double slurry_volume, double seconds);
 
   /// Adds another stretch's sums; the times become those that both cover.
   void add(const SlurrySegment& other);
