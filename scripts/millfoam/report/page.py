@@ -141,7 +141,7 @@ def paragraph(words):
 
 def folded(title, content):
     """Preformatted text that opens on a click."""
-    return f'<details class="card wide"><summary>{text(title)}</summary><pre>{text(content)}</pre></details>'
+    return f'<details class="card wide"><summary>{text(title)}</summary><pre>{html.escape(content)}</pre></details>'
 
 
 def page(title, subtitle, sections, foot):
