@@ -70,11 +70,15 @@ def axial_series(flow, begin):
     return AxialSeries(z, *map(np.array, (times, heights, holdups, pressures)))
 
 
+def mean_profile(series):
+    """AxialProfile of an AxialSeries: means over its times, of slices where and when they hold slurry."""
+    return AxialProfile(series.z, np.nanmean(series.height, axis=0), np.nanstd(series.height, axis=0),
+                        np.mean(series.holdup, axis=0), np.nanmean(series.pressure, axis=0))
+
+
 def axial_profile(flow, begin):
-    """AxialProfile of a MillFlow from flow time `begin` (s) on."""
-    series = axial_series(flow, begin)
-    return AxialProfile(series.z, np.mean(series.height, axis=0), np.std(series.height, axis=0), np.mean(series.holdup, axis=0),
-                        np.mean(series.pressure, axis=0))
+    """AxialProfile of a MillFlow from flow time `begin` (s) on, by its written times."""
+    return mean_profile(axial_series(flow, begin))
 
 
 def drop(profile):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import axial, charge, mill_plots, slurry_maps
+from ..flow_readings import read_series
 from ..slurry import read_slurry_map
 from ..tables import time_mean
 from .words import uncertain
@@ -69,17 +70,10 @@ class Readings:
 
     def _profile(self):
         """AxialProfile by the function object's tables, or else by the written times."""
-        case = self.case
-        tables = {name: case.axial(name) for name in ("holdUp", "height", "p_rgh")}
-        if any(table is None for table in tables.values()):
-            return axial.axial_profile(case.flow, case.begin)
-        z, times, holdup = tables["holdUp"]
-        late = times >= case.begin
-        if not late.any():
-            raise RuntimeError(f"axialProfiles has no time from {case.begin:g} s on")
-        known = {name: np.where(holdup[late] > 0, tables[name][2][late], np.nan) for name in ("height", "p_rgh")}
-        return axial.AxialProfile(z, np.nanmean(known["height"], axis=0), np.nanstd(known["height"], axis=0),
-                                  holdup[late].mean(axis=0), np.nanmean(known["p_rgh"], axis=0))
+        series = read_series(self.case)
+        if len(series.times) == 0:
+            raise RuntimeError(f"axialProfiles has no time from {self.case.begin:g} s on")
+        return axial.mean_profile(series)
 
 
 def key_numbers(case, readings):
