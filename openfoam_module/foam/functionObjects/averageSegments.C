@@ -114,12 +114,13 @@ Foam::scalar Foam::averageSegments::windowEnd(const scalar t) const
 
 void Foam::averageSegments::dropLater() const
 {
-    // The name of the time that a flow goes on from is rounded
+    // The name of the time that a flow goes on from is rounded: what ends a
+    // little later may have ended there, but not what lies mostly beyond
     const scalar now = time_.value() + max(0.5 * time_.deltaTValue(), instant_);
     for (const std::filesystem::path& path : files())
     {
         const FixedList<scalar, 2> times(timesOf(path.string()));
-        if (times[1] > now)
+        if (times[1] > now || times[0] + times[1] > 2 * time_.value())
         {
             rm(path.string());
             if (times[0] < now - time_.deltaTValue())
