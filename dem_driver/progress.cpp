@@ -23,6 +23,10 @@ Progress::Progress(std::ostream& out, bool terminal, long total)
     : out_(out), terminal_(terminal), total_(std::max(1L, total)) {}
 
 void Progress::show(long done, const std::string& what) {
+  if (done > 0 && first_ == 0) {
+    first_ = done;
+    start_ = std::chrono::steady_clock::now();
+  }
   const int percent = static_cast<int>(std::min(100L, 100 * done / total_));
   const int mark = terminal_ ? percent : percent / 10;
   if (mark == shown_) return;
@@ -35,8 +39,9 @@ void Progress::show(long done, const std::string& what) {
     line << "\r[" << std::string(filled, '#') << std::string(30 - filled, '.') << "] ";
   }
   line << percent << " %, " << what;
-  if (done > 0) {
-    const double left = elapsed.count() * static_cast<double>(total_ - done) / static_cast<double>(done);
+  if (done > first_) {
+    const double left =
+        elapsed.count() * static_cast<double>(total_ - done) / static_cast<double>(done - first_);
     line << ", " << clock(std::max(0.0, left)) << " left";
   }
   out_ << line.str() << (terminal_ ? "   " : "\n") << std::flush;

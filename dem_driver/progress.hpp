@@ -7,7 +7,8 @@
 
 namespace millfoam::dem_driver {
 
-/// A progress bar with the remaining time: one line that is written over on a terminal, else a line every 10
+/// A progress bar with the remaining time, by the rate since the first step shown (what a resumed run had
+/// done before took no time of this one): one line that is written over on a terminal, else a line every 10
 /// %.
 class Progress {
  public:
@@ -25,6 +26,7 @@ class Progress {
   bool terminal_;
   long total_;
   int shown_ = -1;
+  long first_ = 0;  ///< of the steps shown, the first above 0; `start_` is its time
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

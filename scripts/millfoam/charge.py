@@ -2,16 +2,16 @@
 """What is read off a map of the charge: centre of circulation, toe and shoulder, free surface
 (millfoam.free_surface), tangential velocity.
 
-x to the right, y up, the mill's axis at x = y = 0; the mill turns clockwise, so that the left side lifts the charge.
+x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense.
 
-Angles are counted from straight down, in degrees, positive on the side where the shell rises (the left): the shoulder's is
+Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
 positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError where the map does not have it."""
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.fft import dstn, idstn
 
-from .free_surface import CLOCKWISE, EDGE, SMOOTHING, WALL, FreeSurface, at_points, free_surface, smoothed, toe_and_shoulder
+from .free_surface import EDGE, SMOOTHING, WALL, FreeSurface, at_points, free_surface, smoothed, toe_and_shoulder
 from .slurry_shape import shell_angle
 from .solids import with_error
 
@@ -51,7 +51,7 @@ def _stagnation_point(charge, guess, width):
         terms = np.column_stack([np.ones(near.sum()), away[near] / width])
         fit = np.linalg.lstsq(weight[near, None] * terms, weight[near, None] * velocity[near], rcond=None)[0]
         gradient = fit[1:].T / width
-        if np.linalg.det(gradient) <= 0 or gradient[0, 1] <= gradient[1, 0]:
+        if np.linalg.det(gradient) <= 0 or charge.sense * (gradient[1, 0] - gradient[0, 1]) <= 0:
             break
         step = np.linalg.solve(gradient, -fit[0])
         # No further than the fit has seen
@@ -66,21 +66,21 @@ def circulation_centre(charge, radius):
     """Centre of circulation (x, y) of a SolidsMap's charge (m): where its mean velocity vanishes, between the rising and the
     falling stream.
 
-    The least value of the stream function finds it, as that sums the whole map's flux and has one deepest place however noisy
-    single voxels are; the place within the voxel is the zero of a linear fit to the velocities around (Gaussian weight, a
-    standard deviation of one voxel or 0.05 radii, whichever is more). RuntimeError if the charge does not turn clockwise
-    round a point inside the charge: at rest, the other way round, centrifuging."""
+    The stream function's least value (in a clockwise mill; its largest in another) finds it, as that sums the whole map's flux
+    and has one deepest place however noisy single voxels are; the place within the voxel is the zero of a linear fit to the velocities around (Gaussian weight, a
+    standard deviation of one voxel or 0.05 radii, whichever is more). RuntimeError if the charge does not turn as
+    the mill does round a point inside the charge: at rest, the other way round, centrifuging."""
     solidity, psi = smoothed(charge, radius), stream_function(charge)
     x, y = charge.centres()
-    row, column = np.unravel_index(np.argmin(psi), psi.shape)
+    row, column = np.unravel_index(np.argmax(charge.sense * psi), psi.shape)
     guess = np.array([x[column], y[row]])
     arms = np.stack(np.meshgrid(x, y), axis=-1) - guess
     flux = charge.flux()[..., :2]
-    moment = (arms[..., 1] * flux[..., 0] - arms[..., 0] * flux[..., 1]).sum()
+    moment = charge.sense * (arms[..., 0] * flux[..., 1] - arms[..., 1] * flux[..., 0]).sum()
     total = (np.linalg.norm(arms, axis=-1) * np.linalg.norm(flux, axis=-1)).sum()
     if not moment > TURNING * total:
-        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's moving turns clockwise, "
-                           f"less than {TURNING:.0%}")
+        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's moving turns with the "
+                           f"mill, less than {TURNING:.0%}")
     _stay_inside(charge, solidity, guess)
     centre = _stagnation_point(charge, guess, max(SMOOTHING * radius, x[1] - x[0], y[1] - y[0]))
     _stay_inside(charge, solidity, centre)
@@ -100,7 +100,7 @@ class TangentialProfile:
     """Tangential velocity along the line from the mill's centre through the centre of circulation.
 
     angle: the line's, degrees from straight down, positive where the shell rises; distance [POINTS] from the mill's centre
-    (m), from the free surface to `wall` from the shell; velocity [POINTS] across the line, clockwise positive (m/s);
+    (m), from the free surface to `wall` from the shell; velocity [POINTS] across the line, positive as the mill turns (m/s);
     coefficients [4] of the cubic in the distance, highest power first (m/s, m); rmsd of the velocity from it (m/s); shear_rate
     [POINTS] (1/s).
 
@@ -139,11 +139,11 @@ def tangential_profile(charge, radius, wall=WALL):
     balls = at_points(charge, _moving(charge), points)
     if balls.min() <= 0:
         raise RuntimeError(f"no velocity {1e3 * distance[np.argmin(balls)]:.1f} mm from the mill's centre: there are no balls")
-    velocity = (flux[0] * outwards[1] - flux[1] * outwards[0]) / balls
+    velocity = charge.sense * (flux[1] * outwards[0] - flux[0] * outwards[1]) / balls
     coefficients = np.polyfit(distance, velocity, 3)
     rmsd = float(np.sqrt(np.mean((np.polyval(coefficients, distance) - velocity) ** 2)))
     shear = np.polyval(np.polyder(coefficients), distance)
-    return TangentialProfile(float(shell_angle(*centre, CLOCKWISE)), distance, velocity, coefficients, rmsd, shear)
+    return TangentialProfile(float(shell_angle(*centre, charge.sense)), distance, velocity, coefficients, rmsd, shear)
 
 
 @dataclass

@@ -6,7 +6,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .free_surface import CLOCKWISE
 from .mill_plots import draw_sense
 
 BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
@@ -61,7 +60,7 @@ def draw_charge(axis, charge, readings, radius):
     axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
     axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
               label=_signed("centre of circulation ({:.1f}, {:.1f}) mm and line".format(*1e3 * np.array(readings.centre))))
-    draw_sense(axis, radius, CLOCKWISE)
+    draw_sense(axis, radius, charge.sense)
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
     return image
@@ -76,7 +75,7 @@ def tangential_figure(profile):
     axes[0].plot(distance, profile.velocity, color=BLUE, lw=2, label="map")
     axes[0].plot(distance, fitted, color="k", lw=1.3, ls="--", label=f"cubic, RMSD {profile.rmsd:.2g} m/s")
     axes[0].legend(frameon=False, fontsize=9)
-    axes[0].set(ylabel="tangential velocity, m/s\n(clockwise positive)")
+    axes[0].set(ylabel="tangential velocity, m/s\n(positive as the mill turns)")
     axes[1].plot(distance, profile.velocity - fitted, color=BLUE, lw=1.5)
     axes[1].set(ylabel="map − cubic, m/s")
     axes[2].plot(distance, profile.shear_rate, color="k", lw=1.5)

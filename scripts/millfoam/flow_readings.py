@@ -3,7 +3,7 @@
 axis, way along the axis, particle Reynolds numbers. From the tables and slurry.h5 of function objects, else from the written
 times."""
 import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import h5py
 import numpy as np
@@ -85,18 +85,17 @@ def surface_line(slurry, radius, inner):
     slurry_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond. RuntimeError if there is none.
 
     The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing of it."""
-    xx, yy = np.meshgrid(slurry.x, slurry.y)
-    within = np.hypot(xx, yy) < inner
-    pool = slurry_maps.pool(slurry_maps.SlurryMap(slurry.x, slurry.y, np.where(within, slurry.share, 0.0), slurry.velocity),
-                            np.zeros_like(slurry.share))
+    centres_x, centres_y = slurry.centres()
+    within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
+    pool = slurry_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
     columns = np.flatnonzero(pool.where.any(axis=0))
-    tops = len(slurry.y) - 1 - np.argmax(pool.where[::-1, columns], axis=0)
+    tops = len(centres_y) - 1 - np.argmax(pool.where[::-1, columns], axis=0)
     step = slurry.y[1] - slurry.y[0]
-    free = np.hypot(slurry.x[columns], slurry.y[tops] + step) < inner
+    free = np.hypot(centres_x[columns], centres_y[tops] + step) < inner
     if free.sum() < 5:
         raise RuntimeError(f"no free surface of the slurry within {1e3 * inner:.0f} mm of the axis: {free.sum()} columns have "
                            "one; expected 5 or more")
-    x, y = slurry.x[columns][free], slurry.y[tops][free] + step / 2
+    x, y = centres_x[columns][free], centres_y[tops][free] + step / 2
     slope, height = np.polyfit(x, y, 1)
     return float(-np.degrees(np.arctan(slope))), float(np.std(y - slope * x - height)), (x.min(), x.max())
 
@@ -127,7 +126,7 @@ def slurry_blocks(case):
             raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; there are {begins[0]:g} to "
                                f"{ends[-1]:g} s")
         for part in blocks_of(len(late)):
-            yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length).pixels()
+            yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length, np.sign(case.omega))
         return
     frames = [frame for frame in case.flow.frames if frame[0] >= max(case.begin, 1e-9) - 1e-9]
     for part in blocks_of(len(frames)):

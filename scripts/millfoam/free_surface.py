@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Free surface of the charge, its logistic, and where it meets the shell: toe and shoulder, read off a map of the charge.
 
-x to the right, y up, the mill's axis at x = y = 0; the mill turns clockwise, so that the left side lifts the charge.
-Angles are counted from straight down, in degrees, positive on the side where the shell rises (the left): the shoulder's is
-positive, the toe's usually negative. Each reading raises RuntimeError where the map does not have it."""
+x to the right, y up, the mill's axis at x = y = 0. Angles are counted from straight down, in degrees, positive on the side
+where the shell rises (by the map's sense; the left of a clockwise mill): the shoulder's is positive, the toe's usually
+negative. Each reading raises RuntimeError where the map does not have it."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +18,6 @@ EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
 WALL = 0.008  # what is nearer to the shell is between or at lifters, m
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
 POINTS = 100  # along the free surface
-CLOCKWISE = -1.0  # the mill's sense
 
 
 def smoothed(charge, radius, smoothing=SMOOTHING):
@@ -107,11 +106,11 @@ def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
         raise RuntimeError(f"no free surface: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
                            f"{1e3 * wall:g} mm from the shell; centrifuging?")
     points = _evenly(max(pieces, key=lambda piece: np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()), POINTS)
-    # On the way from the shoulder to the toe the charge of a clockwise mill is on the right
+    # On the way from the shoulder to the toe the charge is on the right in a clockwise mill, on the left in another
     along = np.gradient(points, axis=0)
-    right = np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1, keepdims=True)
+    inwards = -charge.sense * np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1, keepdims=True)
     step = SMOOTHING * radius / 2
-    rise = at_points(charge, solidity, points + step * right) - at_points(charge, solidity, points - step * right)
+    rise = at_points(charge, solidity, points + step * inwards) - at_points(charge, solidity, points - step * inwards)
     return points if rise.mean() > 0 else points[::-1]
 
 
@@ -160,4 +159,4 @@ def toe_and_shoulder(charge, radius, wall=WALL):
     """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the points at
     which the free surface meets the circle `wall` (m) from the shell."""
     points = surface_points(charge, radius, wall)
-    return tuple(float(shell_angle(*points[end], CLOCKWISE)) for end in (-1, 0))
+    return tuple(float(shell_angle(*points[end], charge.sense)) for end in (-1, 0))

@@ -65,7 +65,8 @@ def mean_flow(flow, begin):
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = np.where(seen > 0, share / seen, np.nan)
         velocity = np.where((mean > 0.02)[..., None], momentum / share[..., None], np.nan)
-    return SlurryMap(x, y, mean, velocity)
+    edges = np.linspace(-flow.radius, flow.radius, PIXELS + 1)
+    return SlurryMap(edges, edges, mean, velocity, source=f"the {len(chosen)} written times", sense=np.sign(flow.omega))
 
 
 def plot_maps(flow, solids, begin, out):
@@ -75,23 +76,21 @@ def plot_maps(flow, solids, begin, out):
     slurry_speed = np.linalg.norm(slurry.velocity[..., :2], axis=-1)
     top = np.nanmax([np.nanpercentile(ball_speed, 99), np.nanpercentile(slurry_speed, 99)])
     figure, axes = plt.subplots(2, 2, figsize=(11, 9.6), constrained_layout=True)
-    xs, ys = (solids.x[1:] + solids.x[:-1]) / 2, (solids.y[1:] + solids.y[:-1]) / 2
-    edges = np.linspace(-1e3 * flow.radius, 1e3 * flow.radius, PIXELS + 1)
     masked_speed = np.where(solids.solidity > 0.005, ball_speed, np.nan)
     charge = np.where(solids.inside > 0.01, solids.solidity, np.nan)
     panels = [
         (1e3 * solids.x, 1e3 * solids.y, charge, SOLIDITY, (0, 0.65), "charge: solidity, –"),
         (1e3 * solids.x, 1e3 * solids.y, masked_speed, SPEED, (0, top), "charge: speed, m/s"),
-        (edges, edges, slurry.share, SLURRY, (0, 1), "slurry: share of the fluid, –"),
-        (edges, edges, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),
+        (1e3 * slurry.x, 1e3 * slurry.y, slurry.share, SLURRY, (0, 1), "slurry: share of the fluid, –"),
+        (1e3 * slurry.x, 1e3 * slurry.y, slurry_speed, SPEED, (0, top), "slurry: speed, m/s"),
     ]
     for axis, (ex, ey, values, colours, limits, title) in zip(axes.flat, panels):
         image = axis.pcolormesh(ex, ey, values, cmap=colours, vmin=limits[0], vmax=limits[1], shading="flat")
         figure.colorbar(image, ax=axis, shrink=0.85)
         axis.set_title(title)
-    _arrows(axes[0, 1], xs, ys, np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
+    _arrows(axes[0, 1], *solids.centres(), np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
     thin = slice(4, None, 9)
-    _arrows(axes[1, 1], slurry.x[thin], slurry.y[thin],
+    _arrows(axes[1, 1], *(centres[thin] for centres in slurry.centres()),
             np.where((slurry.share > 0.3)[..., None], slurry.velocity, np.nan)[thin, thin], slurry_speed[thin, thin])
     last = flow.frames[-1][0]
     for axis in axes.flat:

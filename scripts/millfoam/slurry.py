@@ -5,40 +5,33 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from . import slurry_maps
+from .slurry_maps import SlurryMap
+from .solids import CLOCKWISE
 
 
 @dataclass
-class SlurryMap:
-    """Slurry averaged over the axis and over time, on the box's x-y voxels.
+class VoxelMap(SlurryMap):
+    """SlurryMap on the box's x-y voxels.
 
-    x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill; share [ny, nx], of the
-    fluid (what balls leave) that is slurry, NaN outside the mill; holdup [ny, nx], of the mill's space that is slurry;
-    velocity [ny, nx, 3] (m/s) and pressure [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
-    x: np.ndarray
-    y: np.ndarray
+    inside [ny, nx], the share of the column within the mill; holdup [ny, nx], of the mill's space that is slurry; pressure
+    [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
     inside: np.ndarray
-    share: np.ndarray
     holdup: np.ndarray
-    velocity: np.ndarray
     pressure: np.ndarray
     begin: float
     end: float
 
     def centroid(self):
         """Centre (x, y) of the slurry's volume, m."""
-        x, y = (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+        x, y = self.centres()
         volume = self.holdup * self.inside
         return float((volume.sum(axis=0) * x).sum() / volume.sum()), float((volume.sum(axis=1) * y).sum() / volume.sum())
 
-    def pixels(self):
-        """The same as millfoam.slurry_maps reads it."""
-        return slurry_maps.SlurryMap((self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2, self.share, self.velocity)
 
-
-def read_slurry_map(path, begin=None, end=None, length=np.inf):
-    """Mean over the axis, by the layers of voxels with their middle before z = length (m), and over the windows that lie in [begin, end) of DEM time; of all that the file's
-    own mean over the run takes where no times are given. RuntimeError for a file that is not whole or times without a window."""
+def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
+    """VoxelMap of a slurry.h5: mean over the axis, by the layers of voxels with their middle before z = length (m), and over the
+    windows that lie in [begin, end) of DEM time; of all that the file's own mean over the run takes where no times are given.
+    sense: the mill's. RuntimeError for a file that is not whole or times without a window."""
     with h5py.File(path, "r") as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; let the flow run to its end")
@@ -60,12 +53,12 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf):
             inside_of, lengths = (grid["insideFraction"][window] for window in chosen), (ends - begins)[chosen]
             span = float(begins[chosen[0]]), float(ends[chosen[-1]])
         z = lower[2] + (np.arange(shape[2]) + 0.5) * (upper[2] - lower[2]) / shape[2]
-        return _over_axis(means, inside_of, lengths, z < length, [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)],
-                          span)
+        edges = [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)]
+        return _over_axis(means, inside_of, lengths, z < length, edges, span, sense)
 
 
-def _over_axis(means, inside_of, lengths, layers, edges, span):
-    """The SlurryMap of sums over the chosen layers of (group, row) pairs of an open file, weighted by their lengths (s)."""
+def _over_axis(means, inside_of, lengths, layers, edges, span, sense):
+    """The VoxelMap of sums over the chosen layers of (group, row) pairs of an open file, weighted by their lengths (s)."""
     room = slurry = fluid = flux = head = 0.0
     for (group, row), inside, seconds in zip(means, inside_of, lengths):
         part = seconds * inside[layers]
@@ -77,6 +70,7 @@ def _over_axis(means, inside_of, lengths, layers, edges, span):
         head = head + (held * group["pressure"][row][layers]).sum(axis=0)
     with np.errstate(invalid="ignore", divide="ignore"):
         enough = slurry > 1e-6 * room.max()
-        return SlurryMap(*edges, room / (layers.sum() * np.sum(lengths)), np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
-                         np.where(room > 0, slurry / room, 0.0), np.where(enough[..., None], flux / slurry[..., None], np.nan),
-                         np.where(enough, head / slurry, np.nan), *span)
+        return VoxelMap(*edges, np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
+                        np.where(enough[..., None], flux / slurry[..., None], np.nan), room / (layers.sum() * np.sum(lengths)),
+                        np.where(room > 0, slurry / room, 0.0), np.where(enough, head / slurry, np.nan), *span,
+                        source="every time-step on voxels (slurry.h5)", sense=sense)

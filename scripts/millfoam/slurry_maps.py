@@ -1,31 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read off maps of the slurry, averaged over axis and time (millfoam.mill_plots.mean_flow): toe and shoulder, the pool
-in front of the charge, the way along the axis.
+"""What is read off maps of the slurry, averaged over axis and time (millfoam.mill_plots.mean_flow, millfoam.slurry): toe and
+shoulder, the pool in front of the charge, the way along the axis.
 
-x to the right, y up, the mill's axis at x = y = 0; the mill turns clockwise, so that the left side rises. z runs from the feed
-end to the discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
-from dataclasses import dataclass
+x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense. z runs from the feed end to the
+discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.ndimage import label, map_coordinates
 
 from .slurry_shape import LEVEL, bin_centres, shell_angle, toe_and_shoulder, weighted_percentile
+from .solids import CLOCKWISE
 
 BED = 0.1  # solidity above which a pixel belongs to the charge
 RANGE = (5, 95)  # per cent of the slurry between which an axial velocity's range is told
-CLOCKWISE = -1.0
 
 
 @dataclass
 class SlurryMap:
-    """Slurry on the pixels of a square about the mill.
+    """Slurry averaged over axis and time on the pixels of a box about the mill.
 
-    x [nx], y [ny]: centres of the pixels (m), equally spaced; share [ny, nx] of the volume, NaN outside the mill; velocity
-    [ny, nx, 3] (m/s), NaN where there is no slurry."""
+    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave) that is
+    slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the mean over time is of,
+    in words; sense: the mill's."""
     x: np.ndarray
     y: np.ndarray
     share: np.ndarray
     velocity: np.ndarray
+    source: str = field(kw_only=True)
+    sense: float = field(default=CLOCKWISE, kw_only=True)
+
+    def centres(self):
+        """Centres of the pixels: x [nx], y [ny] (m)."""
+        return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
     def pixel(self):
         """A pixel's area, m2."""
@@ -33,16 +40,16 @@ class SlurryMap:
 
     def angles(self):
         """Of the pixels [ny, nx], degrees."""
-        return shell_angle(*np.meshgrid(self.x, self.y), CLOCKWISE)
+        return shell_angle(*np.meshgrid(*self.centres()), self.sense)
 
 
 def slurry_ends(slurry, radius, wall):
     """Toe and shoulder of a SlurryMap's slurry (degrees): where its share passes 0.5 on the circle `wall` (m) from the shell,
     at both ends of the arc with most slurry; NaN if there is none or no end. A `wall` at the lifters' tips keeps out of the
     reading what they carry over the top."""
-    angle = np.radians(bin_centres())
-    place = [(-(radius - wall) * np.cos(angle) - slurry.y[0]) / (slurry.y[1] - slurry.y[0]),
-             (-(radius - wall) * np.sin(angle) - slurry.x[0]) / (slurry.x[1] - slurry.x[0])]
+    angle, (x, y) = np.radians(bin_centres()), slurry.centres()
+    place = [(-(radius - wall) * np.cos(angle) - y[0]) / (y[1] - y[0]),
+             (slurry.sense * (radius - wall) * np.sin(angle) - x[0]) / (x[1] - x[0])]
     # Beside pixels outside the mill the mean is over those inside
     known = np.isfinite(slurry.share).astype(float)
     share, weight = (map_coordinates(values, place, order=1, mode="nearest") for values in (np.nan_to_num(slurry.share), known))
@@ -75,7 +82,7 @@ def pool(slurry, solidity):
     volumes = np.bincount(regions.ravel(), share.ravel())[1:]
     where = regions == 1 + np.argmax(volumes)
     columns = np.flatnonzero(where.any(axis=0))
-    tops = slurry.y[len(slurry.y) - 1 - np.argmax(where[::-1, columns], axis=0)] + (slurry.y[1] - slurry.y[0]) / 2
+    tops = slurry.y[len(slurry.y) - 1 - np.argmax(where[::-1, columns], axis=0)]
     return Pool(where, float(volumes.max() * slurry.pixel()), float(np.median(tops)), float(tops.std()))
 
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window, and estimates how far a mean
 over time is uncertain."""
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import h5py
 import numpy as np
 
+CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0  # sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: some ball once grazed the voxel
 
 
@@ -15,7 +16,7 @@ class SolidsMap:
 
     x, y: voxel edges [nx + 1], [ny + 1] (m); inside [ny, nx], the share of the column within the mill's walls (1 where
     they were not told); solidity [ny, nx], of that share, NaN where a measured map misses it; velocity
-    [ny, nx, 3] (m/s), NaN where there are no balls; begin, end: DEM time covered (s)."""
+    [ny, nx, 3] (m/s), NaN where there are no balls; begin, end: DEM time covered (s); sense: the mill's."""
     x: np.ndarray
     y: np.ndarray
     inside: np.ndarray
@@ -23,6 +24,7 @@ class SolidsMap:
     velocity: np.ndarray
     begin: float
     end: float
+    sense: float = field(default=CLOCKWISE, kw_only=True)
 
     def centres(self):
         """Centres of the voxels: x [nx], y [ny] (m)."""
@@ -42,18 +44,19 @@ class SolidsMap:
         return float((balls.sum(axis=0) * x).sum() / balls.sum()), float((balls.sum(axis=1) * y).sum() / balls.sum())
 
 
-def _map(edges, inside, balls, flux, begin, end, faint):
+def _map(edges, inside, balls, flux, begin, end, faint, sense):
     """SolidsMap out of means of the room within the walls, of the balls' volume in it [ny, nx], and of their flux [ny, nx, 3];
     no velocity up to a solidity of `faint`."""
     with np.errstate(invalid="ignore", divide="ignore"):
         velocity = np.where(balls[..., None] > faint, flux / balls[..., None], np.nan)
         solidity = np.where(inside > 0, balls / inside, 0.0)
-    return SolidsMap(*edges, inside, solidity, velocity, float(begin), float(end))
+    return SolidsMap(*edges, inside, solidity, velocity, float(begin), float(end), sense=sense)
 
 
 def read_windows(path, begin=-np.inf, end=np.inf):
     """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of time;
-    velocity is weighted by solidity. RuntimeError if the file is not complete or there is no such window."""
+    velocity is weighted by solidity; clockwise unless the file tells another angular velocity. RuntimeError if the file is not
+    complete or there is no such window."""
     with h5py.File(path, "r") as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; average the dumps again")
@@ -70,7 +73,8 @@ def read_windows(path, begin=-np.inf, end=np.inf):
             phi = file["solidity"][window]
             room = file["grid/insideFraction"][window] if "insideFraction" in file["grid"] else np.ones_like(phi)
             flux = ((room * phi)[..., None] * file["velocity"][window]).mean(axis=0)
-            maps.append(_map(edges, room.mean(axis=0), (room * phi).mean(axis=0), flux, begins[window], ends[window], 0))
+            maps.append(_map(edges, room.mean(axis=0), (room * phi).mean(axis=0), flux, begins[window], ends[window], 0,
+                             ANTICLOCKWISE if file.attrs.get("angular_velocity", 0) > 0 else CLOCKWISE))
     return maps
 
 
@@ -78,7 +82,7 @@ def mean_map(maps):
     """Mean of SolidsMap of equally long windows on the same voxels; velocity is weighted by solidity."""
     inside, balls, flux = (sum(parts) / len(maps) for parts in (
         [one.inside for one in maps], [one.balls() for one in maps], [one.flux() for one in maps]))
-    return _map((maps[0].x, maps[0].y), inside, balls, flux, maps[0].begin, maps[-1].end, FAINT)
+    return _map((maps[0].x, maps[0].y), inside, balls, flux, maps[0].begin, maps[-1].end, FAINT, maps[0].sense)
 
 
 def read_map(path, begin=-np.inf, end=np.inf):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .solids import SolidsMap
+from .solids import CLOCKWISE, SolidsMap
 
 
 @dataclass
@@ -160,12 +160,12 @@ def _repeated(edges, positions):
     return np.concatenate([*copies, [edges[0] + (turns[1] + 1) * period]])
 
 
-def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=False):
+def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=False, sense=CLOCKWISE):
     """TracerMap of one track or several.
 
     edges: voxel edges x [nx + 1], y [ny + 1], z [nz + 1] (m); charge_volume: of all balls, without the pores (m^3); inside
     [nz, ny, nx]: share of each voxel within the mill's walls, 1 if not given; points: of the differentiation, see `velocities`;
-    periodic: see `residence`. ValueError where these do not fit."""
+    periodic: see `residence`; sense: the mill's. ValueError where these do not fit."""
     tracks = [tracks] if isinstance(tracks, Trajectory) else list(tracks)
     shape = tuple(len(planes) - 1 for planes in reversed(edges))
     inside = np.ones(shape) if inside is None else np.asarray(inside, dtype=float)
@@ -185,4 +185,4 @@ def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=Fal
         velocity, velocity_2d = path / time[..., None], path.sum(axis=0) / time.sum(axis=0)[..., None]
     share = room.sum(axis=0) / ((z[-1] - z[0]) * np.diff(y)[:, None] * np.diff(x))
     return TracerMap(x, y, share, solid_2d, velocity_2d, min(t.time[0] for t in tracks), max(t.time[-1] for t in tracks),
-                     z, time / total, solid, velocity, outside / total, len(tracks))
+                     z, time / total, solid, velocity, outside / total, len(tracks), sense=sense)

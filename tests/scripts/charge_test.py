@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read off a map of the charge, on maps whose answers are known in closed form."""
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
 from millfoam.charge import circulation_centre, read_charge, stream_function, tangential_profile
 from millfoam.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
-from millfoam.solids import SolidsMap
+from millfoam.solids import ANTICLOCKWISE, SolidsMap
 
 RADIUS, WALL, PHI = 0.15, 0.008, 0.55
 
@@ -80,10 +81,10 @@ class Centre(unittest.TestCase):
         # Where the flux ends within a voxel, at shell and surface, no more than its share of the depth can be told
         self.assertLess(apart.max(), 2 / 33)
 
-    def test_there_is_none_where_nothing_turns_clockwise(self):
+    def test_there_is_none_where_nothing_turns_with_the_mill(self):
         half = below(lambda x: 0 * x)
         for velocity in (lambda x, y: (0 * x, 0 * y), turning(-5, (0, -0.06))):
-            with self.assertRaisesRegex(RuntimeError, "no centre of circulation: .* turns clockwise"):
+            with self.assertRaisesRegex(RuntimeError, "no centre of circulation: .* turns with the mill"):
                 circulation_centre(charge_map(half, velocity), RADIUS)
         with self.assertRaisesRegex(RuntimeError, "no centre of circulation"):
             circulation_centre(charge_map(half, lambda x, y: (1 + 0 * x, 0 * y)), RADIUS)
@@ -92,7 +93,7 @@ class Centre(unittest.TestCase):
         def noise(x, y):
             return np.random.default_rng(1).standard_normal((2, *x.shape))
 
-        with self.assertRaisesRegex(RuntimeError, "no centre of circulation: .* turns clockwise, less than 30%"):
+        with self.assertRaisesRegex(RuntimeError, "no centre of circulation: .* turns with the mill, less than 30%"):
             circulation_centre(charge_map(below(lambda x: 0 * x), noise, part=1), RADIUS)
 
     def test_there_is_none_in_a_centrifuging_ring_or_an_empty_mill(self):
@@ -189,7 +190,7 @@ class Tangential(unittest.TestCase):
         # Voxels that the surface halves tell the velocity of their lower half
         np.testing.assert_allclose(profile.velocity, 5 * (profile.distance - 0.06), atol=5 * 2 * RADIUS / 65 / 2)
 
-    def test_clockwise_is_positive_along_any_line(self):
+    def test_the_mills_sense_is_positive_along_any_line(self):
         centre = (-0.06, -0.05)
         profile = tangential_profile(charge_map(below(lambda x: 0.03 - x), turning(5, centre)), RADIUS, WALL)
         self.assertAlmostEqual(profile.angle, np.degrees(np.arctan2(0.06, 0.05)), delta=0.1)
@@ -202,6 +203,20 @@ class Tangential(unittest.TestCase):
         self.assertEqual(readings.centre, circulation_centre(self.charge, RADIUS))
         self.assertEqual((readings.toe, readings.shoulder), toe_and_shoulder(self.charge, RADIUS, WALL))
         self.assertEqual(readings.tangential.rmsd, self.profile.rmsd)
+
+    def test_a_mill_that_turns_the_other_way_is_the_mirror_image(self):
+        tilted = charge_map(below(lambda x: -0.02 - 0.4 * x), turning(5, (-0.03, -0.06)))
+        mirrored = replace(tilted, solidity=tilted.solidity[:, ::-1], sense=ANTICLOCKWISE,
+                           velocity=tilted.velocity[:, ::-1] * (-1, 1, 1))
+        here, there = read_charge(tilted, RADIUS, WALL), read_charge(mirrored, RADIUS, WALL)
+        np.testing.assert_allclose(there.centre, (-here.centre[0], here.centre[1]), atol=1e-9)
+        np.testing.assert_allclose((there.toe, there.shoulder), (here.toe, here.shoulder), atol=1e-6)
+        np.testing.assert_allclose(there.surface.points, here.surface.points * (-1, 1), atol=1e-9)
+        self.assertAlmostEqual(there.surface.rmsd, here.surface.rmsd, delta=1e-3 * here.surface.rmsd)
+        self.assertAlmostEqual(there.tangential.angle, here.tangential.angle)
+        np.testing.assert_allclose(there.tangential.velocity, here.tangential.velocity, atol=1e-9)
+        with self.assertRaisesRegex(RuntimeError, "turns with the mill"):
+            circulation_centre(replace(mirrored, sense=tilted.sense), RADIUS)
 
 
 if __name__ == "__main__":

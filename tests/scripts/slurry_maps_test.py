@@ -2,21 +2,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read off maps of the slurry, on maps whose answers are known."""
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
 from millfoam.slurry_maps import SlurryMap, axial_flow, pool, slurry_ends
+from millfoam.solids import ANTICLOCKWISE
 
 RADIUS, WALL, PIXELS = 0.15, 0.01, 150
 
 
 def slurry_map(share, along=lambda x, y: 0 * x):
     """Of functions of x and y (m): share within the mill, and velocity along the axis."""
-    x = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * RADIUS - RADIUS
+    edges = np.linspace(-RADIUS, RADIUS, PIXELS + 1)
+    x = (edges[1:] + edges[:-1]) / 2
     xx, yy = np.meshgrid(x, x)
     shares = np.where(np.hypot(xx, yy) < RADIUS, share(xx, yy), np.nan)
     velocity = np.stack([0 * xx, 0 * xx, along(xx, yy)], axis=-1)
-    return SlurryMap(x, x, shares, np.where((shares > 0.02)[..., None], velocity, np.nan))
+    return SlurryMap(edges, edges, shares, np.where((shares > 0.02)[..., None], velocity, np.nan), source="functions")
 
 
 def tilted(degrees):
@@ -31,6 +34,12 @@ class Ends(unittest.TestCase):
         for tilt in (0, 35):
             found = slurry_ends(slurry_map(tilted(tilt)), RADIUS, WALL)
             np.testing.assert_allclose(found, (tilt - half, tilt + half), atol=1.5)
+
+    def test_of_a_mill_that_turns_the_other_way_are_those_of_its_mirror_image(self):
+        mirrored = replace(slurry_map(tilted(-35)), sense=ANTICLOCKWISE)
+        here = slurry_map(tilted(35))
+        np.testing.assert_allclose(slurry_ends(mirrored, RADIUS, WALL), slurry_ends(here, RADIUS, WALL), atol=1e-6)
+        np.testing.assert_allclose(mirrored.angles()[:, ::-1], here.angles(), atol=1e-9)
 
     def test_there_are_none_without_slurry(self):
         self.assertTrue(np.isnan(slurry_ends(slurry_map(lambda x, y: 0 * x), RADIUS, WALL)).all())
@@ -53,7 +62,7 @@ class APool(unittest.TestCase):
     def test_is_what_stands_in_front_of_the_charge(self):
         # Slurry up to x = 0.08 under the level, in balls left of x = 0.04; some away from it on the left
         slurry = slurry_map(lambda x, y: np.where((y < -0.05) & (y > -0.09) & (x < 0.08), 0.8, 0.0))
-        xx, yy = np.meshgrid(slurry.x, slurry.y)
+        xx, yy = np.meshgrid(*slurry.centres())
         solidity = np.where((xx > -0.11) & (xx < 0.04), 0.5, 0.05)
         found = pool(slurry, solidity)
         self.assertAlmostEqual(found.area, 0.04 * 0.04 * 0.8, delta=1e-9)

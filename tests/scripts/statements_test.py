@@ -163,7 +163,7 @@ class Reading(unittest.TestCase):
             with h5py.File(path, "w") as file:
                 file["window/begin"] = 1 + 0.05 * np.arange(12)
                 file["window/end"] = 1.05 + 0.05 * np.arange(12)
-            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, slurry=path, flow=SimpleNamespace(time0=1.0))
+            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path, flow=SimpleNamespace(time0=1.0))
             list(flow_readings.slurry_blocks(case))
             parts = [call.args[1:3] for call in read.call_args_list]
             np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])

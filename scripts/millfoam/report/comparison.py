@@ -3,8 +3,9 @@
 import numpy as np
 
 from .. import axial, charge, compare, mill_plots
+from ..slurry_maps import SlurryMap
 from . import checks, figures, maps, page
-from .readings import SlurryMean, key_numbers
+from .readings import key_numbers
 
 
 def sections(cases, readings, names):
@@ -98,14 +99,14 @@ def charge_curves(told):
     return [page.picture(figures.surfaces([(name, one.surface.points) for _, name, one in read], radius, case.omega),
                          "From the shoulder on the rising side to the toe.", title="Free surfaces"),
             page.picture(figures.lines_against(curves, "distance from the mill's centre, mm",
-                                               "tangential velocity, m/s\n(clockwise positive)"),
+                                               "tangential velocity, m/s\n(positive as the mill turns)"),
                          "Along the line through the centre of circulation, from the free surface to 8 mm from the shell.",
                          title="Tangential velocity")]
 
 
 def slurry_cards(cases, readings, names):
     told = [(case, reading.slurry, name) for case, reading, name in zip(cases, readings, names)
-            if isinstance(reading.slurry, SlurryMean)]
+            if isinstance(reading.slurry, SlurryMap)]
     if not told:
         return []
     cards = [page.picture(maps.map_figure(case, one.x, one.y, one.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1)),

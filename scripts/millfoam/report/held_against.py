@@ -28,7 +28,7 @@ def tracer_section(case, paths):
         raise RuntimeError(f"{case.folder}: no solids.h5 to hold {paths[0]} against")
     tracks = [read_track(path) for path in paths]
     edges, inside, periodic, volume = charge_voxels(case)
-    found = tracer.tracer_map(tracks, edges, volume, inside, periodic=periodic)
+    found = tracer.tracer_map(tracks, edges, volume, inside, periodic=periodic, sense=case.charge.sense)
     length = sum(track.time[-1] - track.time[0] for track in tracks)
     names = ", ".join(path.name for path in paths)
     rows = [("tracks", f"{len(tracks)}, of {length:.4g} s together"),

@@ -1,29 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read off a case's maps and tables, once for all sections, and the numbers that are asked for first."""
-from dataclasses import dataclass
-
 import numpy as np
 
-from .. import axial, charge, mill_plots, slurry_maps
+from .. import axial, charge, mill_plots
 from ..flow_readings import read_series
 from ..slurry import read_slurry_map
 from ..tables import time_mean
 from .words import uncertain
-
-
-@dataclass
-class SlurryMean:
-    """Slurry averaged over axis and time: x, y: edges of the pixels [nx + 1], [ny + 1] (m); share of the fluid [ny, nx], NaN
-    outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: where it is from, in words."""
-    x: np.ndarray
-    y: np.ndarray
-    share: np.ndarray
-    velocity: np.ndarray
-    source: str
-
-    def pixels(self):
-        """The same as millfoam.slurry_maps reads it."""
-        return slurry_maps.SlurryMap((self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2, self.share, self.velocity)
 
 
 class Readings:
@@ -58,15 +41,12 @@ class Readings:
         return charge.charge_with_errors(maps, self.case.radius) if len(maps) >= 4 else None
 
     def _slurry(self):
-        """SlurryMean by the voxels that the flow averaged, or else by its written times."""
+        """SlurryMap by the voxels that the flow averaged, or else by its written times."""
         case = self.case
         if case.slurry:
-            found = read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length)
-            return SlurryMean(found.x, found.y, found.share, found.velocity, "every time-step on voxels (slurry.h5)")
-        found = mill_plots.mean_flow(case.flow, case.begin)
-        edges = np.linspace(-case.flow.radius, case.flow.radius, len(found.x) + 1)
-        times = sum(time >= case.begin - 1e-9 for time, _ in case.flow.frames)
-        return SlurryMean(edges, edges, found.share, found.velocity, f"the {times} written times")
+            return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
+                                   np.sign(case.omega))
+        return mill_plots.mean_flow(case.flow, case.begin)
 
     def _profile(self):
         """AxialProfile by the function object's tables, or else by the written times."""

@@ -33,20 +33,19 @@ def slurry_section(case, readings):
 
 def slurry_rows(case, slurry):
     """Rows (name, text) of toe, shoulder, pool and way along the axis."""
-    pixels = slurry.pixels()
     wall = case.mill["geometry"].get("lifters", {}).get("height", 0.0)
-    toe, shoulder = slurry_maps.slurry_ends(pixels, case.radius, wall)
+    toe, shoulder = slurry_maps.slurry_ends(slurry, case.radius, wall)
     rows = [(f"{name} of the slurry at the lifters' tips", f"{angle:.0f}°" if np.isfinite(angle) else "none")
             for name, angle in (("shoulder", shoulder), ("toe", toe))]
-    solidity = np.zeros_like(pixels.share)
+    solidity = np.zeros_like(slurry.share)
     if case.solids and case.law:
-        points = np.stack(np.meshgrid(pixels.x, pixels.y), axis=-1).reshape(-1, 2)
-        solidity = at_points(case.charge, case.charge.solidity, points).reshape(pixels.share.shape)
-    pool = slurry_maps.pool(pixels, solidity)
+        points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
+        solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
+    pool = slurry_maps.pool(slurry, solidity)
     rows.append(("pool clear of the charge", f"{1e6 * pool.area * case.length:.3g} ml, surface at y = {1e3 * pool.level:.1f} mm"
                  if pool.area > 0 else "none"))
     try:
-        way = slurry_maps.axial_flow(pixels, toe, shoulder)
+        way = slurry_maps.axial_flow(slurry, toe, shoulder)
         rows += [(f"along the axis at the {name}: mean (90 % of it)",
                   f"{1e3 * half.mean:+.3g} mm/s ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
                  for name, half in (("toe", way.toe), ("shoulder", way.shoulder))]
