@@ -23,7 +23,8 @@ def is_run(folder):
 
 def folders_there():
     """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike, and mill_12cm."""
-    layers = [[MILLS / "mill_30cm" / name / variant for variant in VARIANTS] for name in ("runs_33", "runs_9")]
+    layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40") for variant in VARIANTS]
+              for name in ("runs_33", "runs_9")]
     begun = next((folders for folders in layers if any(map(is_run, folders))), [])
     return [folder for folder in [*begun, MILLS / "mill_12cm"] if is_run(folder)]
 
