@@ -143,6 +143,12 @@ class FedMill(unittest.TestCase):
             values = self.columns[name]
             np.testing.assert_allclose(columns[name], values, rtol=0, atol=1e-7 * np.abs(values).max(), err_msg=name)
 
+    def test_a_run_that_was_killed_at_its_end_puts_the_file_together_when_run_again(self):
+        case = self.folder / "killed"
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*"))
+        run(case, "slurryFoam")
+        self.assert_same(case, 1e-12)
+
     def test_a_run_that_ends_between_written_times_loses_nothing(self):
         case = self.folder / "odd"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", "0.0*"))

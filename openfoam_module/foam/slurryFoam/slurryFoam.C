@@ -14,6 +14,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
+#include "functionObjectList.H"
 #include "slurryFlow.H"
 #include "timeStep.H"
 
@@ -58,6 +59,14 @@ int main(int argc, char* argv[])
 
         runTime.write();
         runTime.printExecutionTime(Info);
+    }
+
+    if (runTime.timeIndex() == runTime.startTimeIndex())
+    {
+        // Nothing was left: what a run that was killed at its end left undone
+        functionObjectList objects(runTime);
+        objects.start();
+        objects.end();
     }
 
     flow.summary();
