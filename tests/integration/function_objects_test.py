@@ -196,6 +196,14 @@ class FedMill(unittest.TestCase):
                 self.assertIn(words, self.refused(pattern, new))
 
 
+    def test_sub_cycles_are_refused(self):
+        case = self.folder / "sub-cycles"
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns(f"{END:g}"))
+        replace(case / "system" / "fvSolution", (r"nLimiterIter +10;", "nLimiterIter 10; nAlphaSubCycles 3;"))
+        with self.assertRaisesRegex(RunError, "nAlphaSubCycles is 3; the balance of alpha.slurry expects 1"):
+            run(case, "slurryFoam")
+
+
 class InABox(SlurryTest):
     def told(self, case):
         """Columns of a balance in a run of the case."""
