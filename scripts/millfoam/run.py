@@ -17,9 +17,9 @@ def write_parameters(case, **values):
     (Path(case) / "parameters").write_text("".join(f"{key} {value};\n" for key, value in values.items()))
 
 
-def run(case, *command, name=None):
-    """Runs a command in a case folder into log.NAME (by default the program's name) and returns the log's text."""
-    name = name or Path(str(command[0])).name
+def run(case, *command):
+    """Runs a command in a case folder into log.NAME (the program's) and returns the log's text."""
+    name = Path(str(command[0])).name
     log = Path(case) / f"log.{name}"
     # OpenFOAM takes its folder's name from PWD
     environment = {**os.environ, "PWD": str(Path(case).resolve())}

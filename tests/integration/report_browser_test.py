@@ -57,7 +57,7 @@ class Report(unittest.TestCase):
         cls.folder = Path(tempfile.mkdtemp(prefix="report-browser-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         page = cls.folder / "report.html"
-        subprocess.run([sys.executable, ROOT / "scripts" / "report", write_flow(cls.folder / "mill"), "-o", page], check=True)
+        subprocess.run([ROOT / "scripts" / "report", write_flow(cls.folder / "mill"), "-o", page], check=True)
         cls.found, cls.errors = measure(page, cls.folder)
 
     def each(self, *keys):

@@ -3,7 +3,6 @@
 """Reports of small cases are whole pages that need no network, tell what is missing, and refuse what is no mill's case."""
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 from html.parser import HTMLParser
@@ -83,7 +82,7 @@ class Case(unittest.TestCase):
         return found
 
     def command(self, *arguments):
-        return subprocess.run([sys.executable, REPORT, *map(str, arguments)], capture_output=True, text=True)
+        return subprocess.run([REPORT, *map(str, arguments)], capture_output=True, text=True)
 
 
 class Words(unittest.TestCase):

@@ -247,9 +247,9 @@ def tell(results, options):
         write_csv(HERE / f"{name}_readings.csv", tuple(lines[0]), lines)
         print_readings(lines)
     for result in results:
-        run(result.folder, sys.executable, REPORT, ".", name="report")
+        run(result.folder, REPORT, ".")
     if len(results) > 1:
-        run(HERE, sys.executable, REPORT, *(result.folder for result in results), "-o", f"{name}_comparison.html", name="report")
+        run(HERE, REPORT, *(result.folder for result in results), "-o", f"{name}_comparison.html")
 
 
 def main():

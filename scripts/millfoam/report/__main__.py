@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes one HTML file about a mill's case, or about several beside each other, with all figures in it.
+
+    scripts/report CASE            writes CASE/report.html
+    scripts/report CASE CASE …     writes comparison.html, the first case being what the others are held against
+
+CASE is the folder of a mill's case that was run, or of a dry run."""
+import argparse
+import sys
+from pathlib import Path
+
+from .build import compare_cases, report_case
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
+    parser.add_argument("--begin", type=float,
+                        help="time from which averages are taken, s [flow time 2, or half of a shorter run]")
+    parser.add_argument("--measured", type=Path, metavar="CSV",
+                        help="a measured map of the charge on the run's voxels to hold it against: x_m, y_m, solidity, vx, vy")
+    parser.add_argument("--tracer", type=Path, action="append", default=[], metavar="FILE",
+                        help="a tracer's track, lines of t, x, y, z in s and m, to hold the charge against; may be given again")
+    parser.add_argument("-o", "--output", type=Path, help="the file to write")
+    options = parser.parse_args()
+    if len(options.cases) == 1:
+        output = options.output or options.cases[0] / "report.html"
+        text = report_case(options.cases[0], options.begin, options.measured, options.tracer)
+    elif options.measured or options.tracer:
+        raise RuntimeError(f"--measured and --tracer are for one case; {len(options.cases)} were given")
+    else:
+        output = options.output or Path("comparison.html")
+        text = compare_cases(options.cases, options.begin)
+    # An older report stays until the new one is whole
+    part = output.with_name(output.name + ".part")
+    part.write_text(text, encoding="utf-8")
+    part.replace(output)
+    print(output)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (RuntimeError, OSError) as error:
+        sys.exit(f"report: error: {error}")
