@@ -209,6 +209,7 @@ Assembly assemble(const PolygonSet& set, double tolerance) {
   Problems warnings;
   warn_of_rare_boundary(welded, sides.open_cell, warnings);
   warn_of_shared_faces(welded, sides.open_cell, warnings);
+  warn_of_merged_cells(welded, sides.open_cell, warnings);
   assembly.warnings = warnings.sentences();
 
   const std::vector<int> number = numbers_by_neighbourhood(sides, assembly.bodies);

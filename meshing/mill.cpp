@@ -25,8 +25,11 @@ double read_angular_velocity(const Section& in, const Geometry& geometry) {
     return in.number("angular_velocity", {"an angular velocity in rad/s other than 0, negative for clockwise",
                                           [](double v) { return v != 0; }});
   }
-  const double fraction = in.number(
-      "fraction_of_critical", positive("a fraction of the critical speed (or the key angular_velocity)"));
+  const double fraction =
+      in.number("fraction_of_critical",
+                {"a fraction of the critical speed above 0 and up to 3, 0.75 for 75 % (or the key "
+                 "angular_velocity)",
+                 [](double v) { return v > 0 && v <= 3; }});
   const double sign = in.choice("sense", {"clockwise", "anticlockwise"}) == "clockwise" ? -1 : 1;
   return sign * fraction * critical_speed(geometry);
 }

@@ -15,7 +15,17 @@ namespace {
 /// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
 constexpr double most_cells = 1e8;
 
-/// The width of the lifters' feet, which may be that of rectangular lifters.
+/// Where sources do not give them: height of lifters over the mill's radius; radii of the grates over the
+/// radius inside the lifters and over each other; depth of pulp lifters over the mill's diameter; radius
+/// inside which these let go over the grates' inner radius. As chosen for the 30 cm mill of cases/mills.
+constexpr double usual_lifter_height = 1.0 / 15;
+constexpr double usual_grate_radius = 0.93;
+constexpr double usual_grate_ratio = 0.69;
+constexpr double usual_pulp_depth = 0.11;
+constexpr double usual_discharge_ratio = 0.52;
+
+/// The width of the lifters' feet, which may be that of rectangular lifters; without one, their height or
+/// what their pitch leaves.
 double read_width(const Section& in, const Lifters& lifters, double radius) {
   const double tip_radius = radius - lifters.height;
   const double chord = 2 * std::sqrt(radius * radius - tip_radius * tip_radius);
@@ -23,13 +33,18 @@ double read_width(const Section& in, const Lifters& lifters, double radius) {
   double pitch = 2 * radius;
   if (trapezoid && lifters.count > 1) pitch = 2 * radius * std::sin(pi / lifters.count);
   if (!trapezoid && lifters.count > 2) pitch = 2 * tip_radius * std::tan(pi / lifters.count);
+  const double fallback = std::min(lifters.height, std::min(chord, pitch) / 2);
   if (chord <= pitch) {
-    return in.number("width", positive_below("a length", chord, " m",
-                                             "the shell's chord at the height of the lifters' tops"));
+    return in.number(
+        "width",
+        positive_below("a length", chord, " m", "the shell's chord at the height of the lifters' tops"),
+        fallback);
   }
-  return in.number("width", positive_below("a length", pitch, " m",
-                                           trapezoid ? "the pitch of the lifters' feet on the shell"
-                                                     : "the pitch of the lifters at their tops"));
+  return in.number("width",
+                   positive_below("a length", pitch, " m",
+                                  trapezoid ? "the pitch of the lifters' feet on the shell"
+                                            : "the pitch of the lifters at their tops"),
+                   fallback);
 }
 
 double read_top_width(const Section& in, const Lifters& lifters, double radius) {
@@ -52,7 +67,8 @@ Lifters read_lifters(const Section& in, double radius) {
     }
     return lifters;
   }
-  lifters.height = in.number("height", positive_below("a length", radius, " m", "the radius"));
+  lifters.height = in.number("height", positive_below("a length", radius, " m", "the radius"),
+                             usual_lifter_height * radius);
   lifters.width = read_width(in, lifters, radius);
   lifters.top_width = read_top_width(in, lifters, radius);
   return lifters;
@@ -84,9 +100,11 @@ Rule share(const std::string& what) {
 Grates read_grates(const Section& in, double room) {
   Grates grates;
   grates.outer_radius =
-      in.number("outer_radius", positive_below("a length", room, " m", "the radius inside the lifters"));
+      in.number("outer_radius", positive_below("a length", room, " m", "the radius inside the lifters"),
+                usual_grate_radius * room);
   grates.inner_radius =
-      in.number("inner_radius", circle(room, grates.outer_radius, "not above the outer radius"));
+      in.number("inner_radius", circle(room, grates.outer_radius, "not above the outer radius"),
+                std::max(usual_grate_ratio * grates.outer_radius, smallest_circle * room));
   if (grates.outer_radius - grates.inner_radius < same_circle * grates.outer_radius) {
     in.refuse("inner_radius", "a length at least 0.5 % below outer_radius");
   }
@@ -96,14 +114,16 @@ Grates read_grates(const Section& in, double room) {
   return grates;
 }
 
-PulpLifters read_pulp_lifters(const Section& in, double room, const Grates& grates) {
+PulpLifters read_pulp_lifters(const Section& in, const Geometry& geometry, double room) {
+  const double grates = geometry.grates->inner_radius;
   PulpLifters pulp;
-  pulp.depth = in.number("depth", positive("a length in m"));
+  pulp.depth = in.number("depth", positive("a length in m"), usual_pulp_depth * geometry.diameter);
   pulp.layers = in.integer("layers", {"a whole number of layers, 2 or more (else cells in corners have two "
                                       "neighbours only)",
                                       [](double v) { return v >= 2; }});
   pulp.discharge_radius =
-      in.number("discharge_radius", circle(room, grates.inner_radius, "not above the grates' inner radius"));
+      in.number("discharge_radius", circle(room, grates, "not above the grates' inner radius"),
+                std::max(usual_discharge_ratio * grates, smallest_circle * room));
   return pulp;
 }
 
@@ -122,7 +142,7 @@ void read_openings(const Section& in, Geometry& geometry) {
   if (in.has("pulp_lifters")) {
     if (!geometry.grates) in.refuse("pulp_lifters", "it with the key grates only");
     geometry.pulp_lifters = read_pulp_lifters(
-        in.section("pulp_lifters", {"depth", "layers", "discharge_radius"}), room, *geometry.grates);
+        in.section("pulp_lifters", {"depth", "layers", "discharge_radius"}), geometry, room);
   }
 }
 

@@ -159,7 +159,8 @@ void Problems::stop() const {
 }
 
 void check_groups(const PolygonSet& set, Problems& problems) {
-  for (const std::string& name : set.groups) {
+  for (std::size_t group = 0; group < set.groups.size(); ++group) {
+    const std::string& name = set.groups[group];
     const auto is_letter = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
     };
@@ -168,8 +169,13 @@ void check_groups(const PolygonSet& set, Problems& problems) {
     };
     if (!name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), may_follow))
       continue;
+    const auto first = std::find_if(set.polygons.begin(), set.polygons.end(), [&](const Polygon& polygon) {
+      return polygon.group == static_cast<int>(group);
+    });
     problems.add("group name",
-                 set.source + ": the group '" + name +
+                 (first == set.polygons.end() ? set.source
+                                              : place(set, static_cast<int>(first - set.polygons.begin()))) +
+                     ": the group '" + name +
                      "' cannot name a patch of OpenFOAM: expected a letter or '_', then letters, "
                      "digits, '_', '-' or '.'");
   }
@@ -306,6 +312,26 @@ void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_
                  place(welded, faces[1]) + ": the face " + around(welded, faces[1]) +
                      " lies between the same two cells as " + place(welded, faces[0]) + ", one of " +
                      std::to_string(faces.size()) + " such faces: is one between others missing?");
+  }
+}
+
+void warn_of_merged_cells(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings) {
+  std::map<int, std::vector<int>> faces_of;
+  for (std::size_t side = 0; side < cell_of_side.size(); ++side) {
+    if (cell_of_side[side] >= 0) faces_of[cell_of_side[side]].push_back(static_cast<int>(side / 2));
+  }
+  std::map<std::size_t, std::size_t> cells_with;
+  for (const auto& entry : faces_of) ++cells_with[entry.second.size()];
+  const auto usual = std::max_element(cells_with.begin(), cells_with.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (usual == cells_with.end() || 100 * usual->second < 99 * faces_of.size()) return;
+  for (const auto& entry : faces_of) {
+    const std::vector<int>& faces = entry.second;
+    if (faces.size() <= usual->first) continue;
+    warnings.add("cells with more faces than the others",
+                 place(welded, faces[0]) + ": the cell behind the face " + around(welded, faces[0]) +
+                     " has " + std::to_string(faces.size()) + " faces, nearly all others have " +
+                     std::to_string(usual->first) + ": is one between two cells missing?");
   }
 }
 

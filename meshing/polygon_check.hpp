@@ -55,9 +55,11 @@ void check_manifold(const WeldedSet& welded, const EdgeTable& edges, const std::
 /// Polygons of the group `internal` with a cell on one side only.
 void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
 /// No errors, but what a missing face looks like: faces at the boundary of groups that have more faces
-/// between two cells, unless one group holds the whole boundary; and cells with several faces between them.
+/// between two cells, unless one group holds the whole boundary; cells with several faces between them; and,
+/// where 99 % of the cells have the same number of faces, cells with more.
 void warn_of_rare_boundary(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
 void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
+void warn_of_merged_cells(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& warnings);
 
 /// Numbers of faces with the same points, in groups of two or more; those passed over are in none.
 std::vector<std::vector<int>> faces_of_equal_points(const std::vector<Face>& faces,

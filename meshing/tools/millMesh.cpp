@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <fstream>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mesh_report.hpp"
@@ -24,6 +28,30 @@ struct Options {
   double time = 0;
 };
 
+/// Content of the files of a folder that are there, by name.
+std::map<fs::path, std::string> contents(const fs::path& folder) {
+  std::map<fs::path, std::string> found;
+  if (!fs::is_directory(folder)) return found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    found[entry.path()] = {std::istreambuf_iterator<char>(in), {}};
+  }
+  return found;
+}
+
+/// Writes the walls and tells which files of others, such as walls from CAD, they replaced.
+void replace_walls(const WallSurface& surface, Ends ends, const fs::path& folder) {
+  const auto before = contents(folder);
+  write_walls(surface, ends, folder);
+  const auto after = contents(folder);
+  for (const auto& [file, content] : before) {
+    const auto now = after.find(file);
+    if (now == after.end()) std::cout << "removed: " << file.string() << ", no wall of this mill\n";
+    if (now != after.end() && now->second != content)
+      std::cout << "replaced: " << file.string() << ", which held another surface\n";
+  }
+}
+
 void run(const Options& options) {
   const Mill mill = read_mill(options.mill);
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
@@ -41,7 +69,7 @@ void run(const Options& options) {
   if (options.case_folder.empty()) return;
 
   const fs::path folder = options.case_folder;
-  write_walls(surface, mill.geometry.ends, folder / "walls");
+  replace_walls(surface, mill.geometry.ends, folder / "walls");
   write_poly_mesh(turned(mesh, mill.angular_velocity * options.time), folder);
   write_mill_properties(mill, openings, options.time, folder);
 }

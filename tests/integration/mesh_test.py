@@ -45,6 +45,19 @@ class Mesh(unittest.TestCase):
         self.assertGreaterEqual(float(re.search(r"Face volume ratio : minimum: (\S+)", report).group(1)), 1 / 3)
         return report
 
+    def test_walls_of_another_origin_are_not_replaced_silently(self):
+        case = Path(tempfile.mkdtemp(prefix="walls-"))
+        self.addCleanup(shutil.rmtree, case)
+        self.assertNotIn("replaced", run(case, "millMesh", SLICE, "--case", "."))
+        shell, lifters = case / "walls" / "shell.stl", case / "walls" / "lifters.stl"
+        drawn = shell.read_text().replace("solid shell", "solid cad")
+        shell.write_text(drawn)
+        (case / "walls" / "feedEnd.stl").write_text(drawn)
+        told = run(case, "millMesh", SLICE, "--case", ".")
+        self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", told.replace("./", ""))
+        self.assertIn("removed: walls/feedEnd.stl, no wall of this mill", told.replace("./", ""))
+        self.assertNotIn(lifters.name, told)
+
     def test_periodic_slice(self):
         self.check()
 
@@ -80,8 +93,10 @@ class Mesh(unittest.TestCase):
                 self.assertRegex(report, r"grates +\d+ .* ok")
 
     def test_plain_ends_of_the_30_cm_mill(self):
-        self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), NO_PULP_LIFTERS, counts(5, 1, 1, 5), layers(9),
-                   mill=LARGE)
+        for number in (9, 33):
+            with self.subTest(layers=number):
+                self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), NO_PULP_LIFTERS, counts(5, 1, 1, 5),
+                           layers(number), mill=LARGE)
 
     def test_periodic_slice_of_the_30_cm_mill(self):
         self.check((r"  ends: plain\n", "  slice: 0.0165\n  ends: plain\n"), mill=LARGE)

@@ -223,6 +223,22 @@ TEST(Assemble, warns_of_a_hole_in_the_outer_wall_of_many_cells) {
   }
 }
 
+TEST(Assemble, warns_of_a_cell_that_a_missing_face_made_of_two) {
+  const VolumeMesh mesh = mill(ordinary_mills()[3]);
+  PolygonSet set = taken_apart(mesh, 1);
+  const auto inside = std::find_if(set.polygons.begin(), set.polygons.end(), [&](const Polygon& polygon) {
+    return set.groups[static_cast<std::size_t>(polygon.group)] == "internal";
+  });
+  set.polygons.erase(inside);
+  const Assembly found = assemble(set);
+  EXPECT_EQ(found.mesh.cells, mesh.cells - 1);
+  ASSERT_EQ(found.warnings.size(), 1u);
+  EXPECT_NE(
+      found.warnings[0].find(" has 10 faces, nearly all others have 6: is one between two cells missing?"),
+      std::string::npos)
+      << found.warnings[0];
+}
+
 TEST(Assemble, warns_of_two_cells_with_several_faces_between_them) {
   PolygonSet set = empty_set();
   add_prism(set, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 0, 1);
@@ -535,8 +551,11 @@ TEST(AssembleRefuses, a_name_that_cannot_name_a_patch) {
   for (const std::string name : {"a/b", "1wall", "-", "in let", "a\u00e9", "a:b", ""}) {
     PolygonSet set = cube();
     set.groups[1] = name;
-    expect_refusal(
-        set, "hand.obj: the group '" + name + "' cannot name a patch of OpenFOAM: expected a letter or '_'");
+    const auto first = std::find_if(set.polygons.begin(), set.polygons.end(),
+                                    [](const Polygon& polygon) { return polygon.group == 1; });
+    ASSERT_NE(first, set.polygons.end());
+    expect_refusal(set, "hand.obj:" + std::to_string(first->line) + ": the group '" + name +
+                            "' cannot name a patch of OpenFOAM: expected a letter or '_'");
   }
   for (const std::string name : {"a", "_", "wall.1-B_2"}) {
     PolygonSet set = cube();

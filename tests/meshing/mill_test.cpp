@@ -71,6 +71,34 @@ TEST(ReadMill, fills_in_the_documented_defaults) {
   EXPECT_DOUBLE_EQ(mill.charge.start_length, 0.98 * 0.024);
 }
 
+TEST(ReadMill, fills_in_dimensions_that_sources_seldom_give) {
+  EXPECT_EQ(read(with(example_mill, "    width: 0.006\n", "")).geometry.lifters.width, 0.008);
+  const Lifters bare = read(with(example_mill, "    height: 0.008\n    width: 0.006\n", "")).geometry.lifters;
+  EXPECT_DOUBLE_EQ(bare.height, 0.06 / 15);
+  EXPECT_DOUBLE_EQ(bare.width, 0.06 / 15);
+  // 60 lifters of 8 mm leave 5.45 mm to each at their tops
+  const double pitch = 2 * 0.052 * std::tan(std::acos(-1.0) / 60);
+  EXPECT_DOUBLE_EQ(read(with(example_mill, "count: 12\n    height: 0.008\n    width: 0.006",
+                             "count: 60\n    height: 0.008"))
+                       .geometry.lifters.width,
+                   pitch / 2);
+
+  const Geometry open =
+      read(with(example_mill, "speed:", "  grates: {sectors: 6}\n  pulp_lifters: {layers: 2}\nspeed:"))
+          .geometry;
+  EXPECT_DOUBLE_EQ(open.grates->outer_radius, 0.93 * 0.052);
+  EXPECT_DOUBLE_EQ(open.grates->inner_radius, 0.69 * 0.93 * 0.052);
+  EXPECT_DOUBLE_EQ(open.pulp_lifters->depth, 0.11 * 0.12);
+  EXPECT_DOUBLE_EQ(open.pulp_lifters->discharge_radius, 0.52 * 0.69 * 0.93 * 0.052);
+  // No smaller than the smallest circle of the mesh
+  const Geometry narrow =
+      read(with(example_mill,
+                "speed:", "  grates: {outer_radius: 0.02, sectors: 6}\n  pulp_lifters: {layers: 2}\nspeed:"))
+          .geometry;
+  EXPECT_DOUBLE_EQ(narrow.grates->inner_radius, 0.69 * 0.02);
+  EXPECT_DOUBLE_EQ(narrow.pulp_lifters->discharge_radius, 0.25 * 0.052);
+}
+
 TEST(ReadMill, turns_clockwise_with_negative_speed) {
   const double critical = std::sqrt(9.81 / 0.06);
   EXPECT_DOUBLE_EQ(read(example_mill).angular_velocity, -0.5 * critical);
@@ -125,10 +153,9 @@ TEST(ReadMill, names_a_misspelt_key_and_the_nearest_known_one) {
 }
 
 TEST(ReadMill, names_a_missing_key_and_its_section) {
-  EXPECT_EQ(refusal("    height: 0.008\n", ""),
-            "mill.yaml:6: key 'geometry.lifters.height' is missing: expected a length above 0 and below the "
-            "radius, "
-            "0.06 m");
+  EXPECT_EQ(
+      refusal("    count: 12\n", ""),
+      "mill.yaml:6: key 'geometry.lifters.count' is missing: expected a whole number of lifters, 0 or more");
   EXPECT_EQ(refusal("diameter: 0.008, ", ""),
             "mill.yaml:15: key 'charge.classes[0].diameter' is missing: expected a ball's diameter above 0 "
             "and below "
@@ -296,6 +323,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"count: 12", "count: 12.5", "'geometry.lifters.count' = 12.5: expected a whole number"},
         Refused{"count: 12", "count: -1", "'geometry.lifters.count' = -1"},
         Refused{"fraction_of_critical: 0.5", "fraction_of_critical: 0", "'speed.fraction_of_critical' = 0"},
+        Refused{
+            "fraction_of_critical: 0.5", "fraction_of_critical: 75",
+            "'speed.fraction_of_critical' = 75: expected a fraction of the critical speed above 0 and up to "
+            "3, 0.75 for 75 %"},
         Refused{"sense: clockwise", "sense: left", "expected one of clockwise, anticlockwise"},
         Refused{"mass: 0.02", "mass: -0.02",
                 "'charge.classes[0].mass' = -0.02: expected a mass in kg above 0"},

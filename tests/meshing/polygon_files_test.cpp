@@ -204,11 +204,11 @@ TEST(ReadPly, refuses_what_it_cannot_read_with_the_line_or_the_item) {
   EXPECT_EQ(read_refusal("t.ply", text + "2 3 0 1 4\n2 3 0 1 2\n2 3 0 1 2\n2 3 0 1 2\n0\n"),
             "t.ply:19: point 4: expected an index from 0 to 3");
   EXPECT_EQ(read_refusal("t.ply", text + "2 3 0 1 -1\n"),
-            "t.ply:19: face 1: point -1.000000: expected an index from 0");
+            "t.ply:19: face 1: point -1: expected an index from 0");
   EXPECT_EQ(read_refusal("t.ply", text + "2.4 3 0 1 2\n"),
-            "t.ply:19: face 1: patch 2.400000: expected a whole number from 0");
+            "t.ply:19: face 1: patch 2.4: expected a whole number from 0");
   EXPECT_EQ(read_refusal("t.ply", text + "-2 3 0 1 2\n"),
-            "t.ply:19: face 1: patch -2.000000: expected a whole number from 0");
+            "t.ply:19: face 1: patch -2: expected a whole number from 0");
   EXPECT_EQ(read_refusal("t.ply", with(text, "vertex_indices", "corners")),
             "t.ply:14: the header's element 'face' has no list 'vertex_indices' or 'vertex_index'");
   EXPECT_EQ(read_refusal("t.ply", with(text, "list uchar int vertex_indices", "int vertex_index")),
