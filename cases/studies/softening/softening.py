@@ -19,6 +19,7 @@ from millfoam.mill_runs import MILL
 HERE = Path(__file__).parent.resolve()
 MODULI = (1e7, 1e8, 1e9)
 SEEDS = (20121, 20122)  # the other seed: of all but the stiffest
+DENSE = 0.05  # solidity from which on a voxel's speed is shown
 START, LENGTH, VOXELS = 0.6, 0.024, 24  # averages begin, s; the slice's length, m; across the mill
 COLUMNS = ("run", "modulus_Pa", "time_step_us", "wall_time_s", "power_W", "power_error_W", "overlap_largest_percent",
            "overlap_99_percent", "solidity_difference", "velocity_x_difference", "velocity_y_difference", "centroid_x_mm",
@@ -73,23 +74,28 @@ def write_table(rows, path):
 
 
 def plot(runs, path):
-    """Solidity of every run, and below it its difference to the last one's."""
+    """Solidity and speed across the axis of every run, and below each its difference from the last run's."""
     last = runs[-1].charge
-    figure, axes = plt.subplots(2, len(runs), figsize=(3.1 * len(runs), 6.2), constrained_layout=True, squeeze=False)
+    figure, axes = plt.subplots(4, len(runs), figsize=(3.1 * len(runs), 12), constrained_layout=True, squeeze=False)
     for column, dry in enumerate(runs):
         charge = dry.charge
-        inside = charge.inside > 0.01
-        apart = charge.solidity - last.solidity
-        panels = ((charge.solidity, "YlOrBr", (0, 0.65)), (apart, "RdBu_r", (-0.1, 0.1)))
-        for axis, (values, colours, limits) in zip(axes[:, column], panels):
-            image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(inside, values, np.nan), cmap=colours,
+        inside, speed = charge.inside > 0.01, np.linalg.norm(charge.velocity[..., :2], axis=-1)
+        # Where balls are rare the difference is chance
+        dense = (charge.solidity > DENSE) & (last.solidity > DENSE)
+        panels = (("solidity", charge.solidity, inside, "YlOrBr", (0, 0.65)),
+                  (f"less that of {runs[-1].name}", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
+                  ("speed, m/s", speed, charge.solidity > DENSE, "viridis", (0, 0.9)),
+                  (f"less that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense, "RdBu_r",
+                   (-0.05, 0.05)))
+        for axis, (title, values, shown, colours, limits) in zip(axes[:, column], panels):
+            image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(shown, values, np.nan), cmap=colours,
                                     vmin=limits[0], vmax=limits[1])
-            axis.set(aspect="equal", xlabel="x, mm")
+            axis.set(aspect="equal")
+            axis.set_title(f"{dry.name}: {title}", fontsize=9)
             if column == len(runs) - 1:
                 figure.colorbar(image, ax=axis, shrink=0.8)
-        axes[0, column].set_title(f"{dry.name}: solidity", fontsize=10)
-        axes[1, column].set_title(f"less that of {runs[-1].name}", fontsize=10)
-    figure.savefig(path, dpi=100)
+        axes[-1, column].set_xlabel("x, mm")
+    figure.savefig(path, dpi=70)
     plt.close(figure)
 
 
