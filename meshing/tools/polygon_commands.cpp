@@ -10,6 +10,7 @@
 #include "meshing/mill_mesh.hpp"
 #include "meshing/obj_file.hpp"
 #include "meshing/openfoam_files.hpp"
+#include "meshing/text_numbers.hpp"
 #include "meshing/wall_files.hpp"
 
 namespace millfoam::meshing {
@@ -73,6 +74,14 @@ void run_faces(const FacesOptions& options) {
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);
 }
 
+/// CLI11's own check tells the largest double as a limit.
+const CLI::Validator above_nought{
+    [](const std::string& word) {
+      const auto value = to_number(word);
+      return value && *value > 0 ? std::string() : "'" + word + "': expected a length in m above 0";
+    },
+    "LENGTH"};
+
 struct SurfaceOptions {
   std::vector<std::string> parts;
   std::string case_folder;
@@ -125,7 +134,7 @@ void add_polygon_commands(CLI::App& app) {
   assemble
       ->add_option("--tolerance", of_assemble->tolerance,
                    "points nearer than this, m, are one; 1e-9 of the bounding box's diagonal unless given")
-      ->check(CLI::PositiveNumber);
+      ->check(above_nought);
   assemble->callback([of_assemble] { run_assemble(*of_assemble); });
 
   CLI::App* faces =
@@ -150,7 +159,7 @@ void add_polygon_commands(CLI::App& app) {
   surface
       ->add_option("--tolerance", of_surface->tolerance,
                    "corners nearer than this, m, are one; 1e-6 of the bounding box's diagonal unless given")
-      ->check(CLI::PositiveNumber);
+      ->check(above_nought);
   surface
       ->add_option("--ends", of_surface->ends,
                    "'periodic': walls of a slice, which may be open at its two ends; 'plain': closed walls")

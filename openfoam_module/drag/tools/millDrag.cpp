@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // millDrag: tabulates the drag laws and their ranges.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <string>
 
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/pore_viscosity.hpp"
@@ -67,6 +69,20 @@ void print_table(const Options& options) {
     }
 }
 
+/// A check of an option's word; CLI11's own would tell the largest double as a limit.
+CLI::Validator finite_number(const std::string& expected, bool (*holds)(double)) {
+  return {[=](const std::string& word) {
+            double value = 0;
+            const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+            return is_number && holds(value) ? std::string() : "'" + word + "': expected " + expected;
+          },
+          "NUMBER"};
+}
+
+const CLI::Validator above_nought = finite_number("a number above 0", [](double value) { return value > 0; });
+const CLI::Validator not_negative =
+    finite_number("a number that is 0 or more", [](double value) { return value >= 0; });
+
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--law", options.law, "name of a law, or all")->capture_default_str();
   app.add_flag("--ranges", options.ranges, "list the laws with their ranges and references instead");
@@ -75,21 +91,21 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(0.0, 0.999));
   auto* re = app.add_option("--re", options.re, "Reynolds numbers rho e v d/mu")
                  ->delimiter(',')
-                 ->check(CLI::NonNegativeNumber);
+                 ->check(not_negative);
   auto* superficial =
       app.add_option("--superficial", options.superficial,
                      "superficial velocities e v, m/s, in place of --re: adds the viscosity mu and the "
                      "pressure gradient dpdx, Pa/m")
           ->delimiter(',')
-          ->check(CLI::NonNegativeNumber)
+          ->check(not_negative)
           ->excludes(re);
   app.add_option("--mu", options.viscosity, "viscosity, Pa s; of a Bingham slurry its plastic viscosity")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(above_nought);
   app.add_option("--tau0", options.yield_stress,
                  "yield stress, Pa: the viscosity is the apparent one in the pores")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative)
       ->needs(superficial);
   app.add_option("--viscosity-ratio", options.viscosity_ratio, "cap of the apparent viscosity over mu")
       ->capture_default_str()
@@ -97,8 +113,8 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(superficial);
   app.add_option("--rho", options.density, "density, kg/m^3; F and beta at given Re do not depend on it")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(CLI::PositiveNumber);
+      ->check(above_nought);
+  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(above_nought);
   app.add_option("--format", options.format)->check(CLI::IsMember({"csv"}))->capture_default_str();
   app.callback([&options] {
     if (options.ranges) return;
