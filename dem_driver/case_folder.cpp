@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "dem_driver/segments.hpp"
+#include "dem_driver/wall_check.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -31,6 +32,7 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
   for (const auto& part : parts) {
     const fs::path file = folder.walls() / (part + ".stl");
     if (!fs::exists(file)) throw std::runtime_error(file.string() + ": no such wall, run millMesh first");
+    check_wall(file);
   }
   return parts;
 }

@@ -31,8 +31,9 @@ struct CaseFolder {
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
-/// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd.
-/// Throws std::runtime_error naming the first `walls/<part>.stl` that does not exist.
+/// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd. Each
+/// file is read. Throws std::runtime_error naming the first `walls/<part>.stl` that does not exist or that
+/// check_wall refuses.
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill);
 
 /// Every `dump.*.txt` in the dumps folder.

@@ -2,16 +2,22 @@
 #include "dem_driver/charge_plan.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <iomanip>
 #include <ostream>
-#include <sstream>
+#include <string>
 
+#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pi.hpp"
+#include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
+
+using meshing::shown;
 
 double ball_volume(double diameter) {
   return pi / 6 * std::pow(diameter, 3);
@@ -21,11 +27,26 @@ double start_length(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic ? mill.geometry.length : mill.charge.start_length;
 }
 
+/// A class without a ball would still set the time-step and the softness of the balls that there are.
+[[noreturn]] void refuse_empty_class(const meshing::Mill& mill, std::size_t number) {
+  const auto& size = mill.charge.classes[number];
+  // A charge of one class may be given by `fill`, without a list of classes.
+  const bool is_whole_charge = mill.charge.classes.size() == 1;
+  throw KeyError(is_whole_charge ? "charge" : "charge.classes[" + std::to_string(number) + "]",
+                 shown(size.mass) + " kg of balls of " + shown(size.diameter) +
+                     " m in this mill, which rounds to 0 balls",
+                 "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) +
+                     " kg: raise the mass" +
+                     (is_whole_charge ? "" : ", or leave the class out (small ones by charge.fines_below)"));
+}
+
 std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
   std::vector<ClassCount> classes;
-  for (const auto& size : mill.charge.classes) {
-    const double one = mill.ball.density * ball_volume(size.diameter);
+  for (std::size_t i = 0; i < mill.charge.classes.size(); ++i) {
+    const auto& size = mill.charge.classes[i];
+    const double one = ball_mass(mill, size.diameter);
     const long count = std::lround(size.mass / one);
+    if (count == 0 && size.diameter >= mill.charge.fines_below) refuse_empty_class(mill, i);
     classes.push_back({size.diameter, size.mass, static_cast<double>(count) * one, count});
   }
   std::stable_sort(classes.begin(), classes.end(),
@@ -36,16 +57,15 @@ std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
 void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
   for (const auto& size : classes) {
     if (size.diameter < std::min(2 * mill.charge.start_radius, start_length(mill))) continue;
-    std::ostringstream message;
-    message << "charge: a ball of diameter " << size.diameter
-            << " m does not fit into the start cylinder (radius " << mill.charge.start_radius << " m, length "
-            << start_length(mill) << " m)";
-    throw std::runtime_error(message.str());
+    throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
+                   "a start cylinder (its length is " + shown(start_length(mill)) +
+                       " m) in which a ball of diameter " + shown(size.diameter) + " m has room");
   }
 }
 
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.
-std::vector<Round> cut_into_rounds(const std::vector<ClassCount>& classes, double cylinder) {
+std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
+  const double cylinder = pi * mill.charge.start_radius * mill.charge.start_radius * start_length(mill);
   std::vector<Round> rounds;
   double inside = 0;
   double room = round_solidity * cylinder;
@@ -62,13 +82,12 @@ std::vector<Round> cut_into_rounds(const std::vector<ClassCount>& classes, doubl
       if (left == 0) break;
       room = round_solidity * (cylinder - inside / heap_solidity);
       // Below this a round would bring next to nothing, so that rounds would go on for ever.
-      if (room < volume || room < 0.005 * cylinder) {
-        std::ostringstream message;
-        message << "charge: the balls do not fit into the start cylinder (volume " << cylinder << " m^3); "
-                << left << " balls of " << size.diameter
-                << " m and all smaller ones are left over: raise charge.start_radius or lower the masses";
-        throw std::runtime_error(message.str());
-      }
+      if (room < volume || room < 0.005 * cylinder)
+        throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
+                       "a start cylinder (its volume is " + shown(cylinder) +
+                           " m^3) in which all balls have room: " + std::to_string(left) + " of " +
+                           shown(size.diameter) +
+                           " m and all smaller ones are left over; raise it or lower the masses");
       rounds.emplace_back();
     }
   }
@@ -76,6 +95,10 @@ std::vector<Round> cut_into_rounds(const std::vector<ClassCount>& classes, doubl
 }
 
 }  // namespace
+
+double ball_mass(const meshing::Mill& mill, double diameter) {
+  return mill.ball.density * ball_volume(diameter);
+}
 
 double ClassCount::surface() const {
   return static_cast<double>(count) * pi * diameter * diameter;
@@ -97,10 +120,10 @@ ChargePlan plan_charge(const meshing::Mill& mill) {
   ChargePlan plan;
   for (const auto& size : count_balls(mill))
     (size.diameter < mill.charge.fines_below ? plan.fines : plan.classes).push_back(size);
-  if (plan.balls() == 0) throw std::runtime_error("charge: no class has the mass of even one ball");
+  assert(!plan.classes.empty());
   check_fits(mill, plan.classes);
   const double radius = mill.charge.start_radius;
-  plan.rounds = cut_into_rounds(plan.classes, pi * radius * radius * start_length(mill));
+  plan.rounds = cut_into_rounds(mill, plan.classes);
   // Half as long again as a free fall through the start cylinder.
   plan.round_settle_time = 1.5 * std::sqrt(2 * 2 * radius / meshing::gravity);
   return plan;

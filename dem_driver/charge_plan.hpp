@@ -43,9 +43,12 @@ inline constexpr double round_solidity = 0.2;
 /// free.
 inline constexpr double heap_solidity = 0.6;
 
-/// Counts the balls of each class by mass, n = round(mass/(density pi/6 d^3)), and cuts them into rounds.
-/// Throws std::runtime_error when no ball results, when a ball is larger than the start cylinder, or when the
-/// charge does not fit into the start cylinder.
+/// Mass of one ball, density pi/6 d^3, kg.
+double ball_mass(const meshing::Mill& mill, double diameter);
+
+/// Counts the balls of each class by mass, n = round(mass/ball_mass), and cuts them into rounds. The mill has
+/// a class to simulate (simulated_classes). Throws KeyError when a simulated class results in no ball, when a
+/// ball is larger than the start cylinder, or when the charge does not fit into the start cylinder.
 ChargePlan plan_charge(const meshing::Mill& mill);
 
 /// Prints asked and realised mass per class, and what is left out as fines.

@@ -2,13 +2,17 @@
 #include "dem_driver/deck.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <ostream>
-#include <sstream>
 #include <stdexcept>
+#include <system_error>
 
+#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pi.hpp"
+#include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -55,12 +59,9 @@ long records_per_restart(long records) {
 long steps_between_contacts(const meshing::Mill& mill, double time_step) {
   const double interval = mill.dem.contact_interval;
   if (interval == 0) return 0;
-  if (interval < time_step * (1 - 1e-9)) {
-    std::ostringstream message;
-    message << "key 'dem.contact_interval': " << interval << " s, expected 0 or at least the time-step, "
-            << time_step << " s";
-    throw std::runtime_error(message.str());
-  }
+  if (interval < time_step * (1 - 1e-9))
+    throw KeyError("dem.contact_interval", meshing::shown(interval),
+                   "0 or at least the time-step, " + meshing::shown(time_step) + " s");
   return std::lround(interval / time_step);
 }
 
@@ -123,10 +124,11 @@ void write_matrix(std::ostream& out, const char* id, const char* property, const
   out << '\n';
 }
 
-/// Thickness of the layer in which neighbours are looked for ahead of time, m. A tenth of the largest ball,
-/// but 0.4 to 1 of the smallest's diameter: of 0.2 to 1.2 that was fastest for balls of 5 mm, of 2 to 8 mm
-/// and of 1.25 to 10 mm (dem_driver/README.md). LIGGGHTS allows no other style than `bin` beside walls of
-/// triangles, and other bins than its own were slower.
+/// Thickness of the layer in which neighbours are looked for ahead of time, m. A tenth of the largest ball's
+/// diameter, but 0.4 to 1 of the smallest's. In the measurements (dem_driver/README.md) that is the fastest
+/// for 2 to 8 mm, and for 1.25 to 10 mm within 5 % of the fastest, which was half as thick again: a thicker
+/// layer makes longer lists of neighbours, which cost memory. LIGGGHTS allows no other style than `bin`
+/// beside walls of triangles, and other bins than its own were slower.
 double neighbour_skin(const ChargePlan& charge) {
   const double smallest = charge.classes.back().diameter;
   return std::clamp(0.1 * charge.classes.front().diameter, 0.4 * smallest, smallest);
@@ -328,8 +330,17 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   return plan;
 }
 
+int read_ranks(const std::string& word) {
+  int ranks = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, ranks);
+  if (error != std::errc() || stop != end || ranks < 1)
+    throw std::runtime_error("-np " + word + ": expected a whole number from 1 on");
+  return ranks;
+}
+
 RankGrid split_ranks(int ranks, double length, double largest_diameter) {
-  if (ranks < 1) throw std::runtime_error("-np: " + std::to_string(ranks) + ", expected at least 1 rank");
+  assert(ranks >= 1);
   const double thinnest = 1.5 * largest_diameter;
   int z = std::clamp(static_cast<int>(length / thinnest), 1, ranks);
   while (ranks % z != 0) --z;

@@ -30,13 +30,16 @@ struct DemPlan {
 
 /// Chooses the time-step and cuts charge and duration into whole balls and steps. The duration is rounded up
 /// to a whole number of record intervals, and the interval of the contacts to the nearest whole number of
-/// steps. Throws std::runtime_error as `choose_time_step` and `plan_charge` do, and for an interval of the
-/// contacts below the time-step.
+/// steps. Throws KeyError as `choose_time_step` and `plan_charge` do, and for an interval of the contacts
+/// below the time-step.
 DemPlan plan_dem(const meshing::Mill& mill);
 
-/// Ranks along x, y and z. The axis is cut first, because the charge lies evenly along it: as often as
-/// leaves every rank one and a half of the largest balls. What is left is cut across y, then x. Throws
-/// std::runtime_error for ranks < 1.
+/// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is no whole
+/// number from 1 on.
+int read_ranks(const std::string& word);
+
+/// Ranks along x, y and z; lengths in m. The axis is cut first, because the charge lies evenly along it: as
+/// often as leaves every rank one and a half of the largest balls. What is left is cut across y, then x.
 struct RankGrid {
   int x = 1;
   int y = 1;

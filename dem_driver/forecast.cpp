@@ -42,14 +42,17 @@ class TrialFolder {
   }
   ~TrialFolder() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    if (!kept_) fs::remove_all(path_, ignored);
   }
+  /// Leaves the folder where it is.
+  void keep() { kept_ = true; }
   TrialFolder(const TrialFolder&) = delete;
   TrialFolder& operator=(const TrialFolder&) = delete;
   const fs::path& path() const { return path_; }
 
  private:
   fs::path path_;
+  bool kept_ = false;
 };
 
 /// Balls times steps over the time of LIGGGHTS' loops while the mill turned.
@@ -130,7 +133,10 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   trial.geometry.inlet.reset();
   trial.geometry.grates.reset();
   trial.geometry.pulp_lifters.reset();
-  for (auto& size : trial.charge.classes) size.mass *= trial.geometry.length / mill.geometry.length;
+  // No class vanishes: it would no longer set the skin of the neighbour lists as it does in the mill.
+  for (auto& size : trial.charge.classes)
+    size.mass =
+        std::max(size.mass * trial.geometry.length / mill.geometry.length, ball_mass(trial, size.diameter));
 
   trial.dem.settle_time = 0.1;
   trial.dem.record_interval = trial_steps / 10 * whole.step.value;
@@ -144,9 +150,10 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   return trial;
 }
 
-Cost measure_cost(const meshing::Mill& mill, int ranks) {
-  const TrialFolder temporary;
-  const CaseFolder folder{temporary.path()};
+namespace {
+
+/// Runs the trial mill in an empty folder.
+Cost measure_in(const CaseFolder& folder, const meshing::Mill& mill, int ranks) {
   const meshing::Mill trial = trial_mill(mill, ranks);
   const auto section = meshing::make_cross_section(trial.geometry, trial.resolution);
   meshing::write_walls(meshing::make_wall_surface(section, trial.geometry.length), trial.geometry.ends,
@@ -161,6 +168,18 @@ Cost measure_cost(const meshing::Mill& mill, int ranks) {
   return {logged_rate(folder.log()), dump_bytes_per_ball(folder, plan),
           largest_child() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks,
           contact_bytes_per_ball(folder, plan)};
+}
+
+}  // namespace
+
+Cost measure_cost(const meshing::Mill& mill, int ranks) {
+  TrialFolder temporary;
+  try {
+    return measure_in({temporary.path()}, mill, ranks);
+  } catch (const RunError&) {
+    temporary.keep();  // the message names files of it
+    throw;
+  }
 }
 
 Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks) {

@@ -30,7 +30,7 @@ inline constexpr double trial_balls = 3000;
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
 /// Runs the trial mill in a temporary folder and measures it, half a minute. Throws RunError as run_liggghts
-/// does.
+/// does; only then the folder stays, with the log that the message names.
 Cost measure_cost(const meshing::Mill& mill, int ranks);
 
 /// Steps times balls at that rate, insertion round by round, and what is written.

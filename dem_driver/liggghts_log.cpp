@@ -10,6 +10,7 @@ namespace millfoam::dem_driver {
 
 namespace {
 
+constexpr std::size_t head_length = 5;
 constexpr std::size_t tail_length = 12;
 
 std::vector<std::string> split(const std::string& line) {
@@ -21,6 +22,15 @@ std::vector<std::string> split(const std::string& line) {
 
 bool starts_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
+}
+
+/// A line of dashes, between which Open MPI puts its messages.
+bool is_rule(const std::string& line) {
+  return line.find_first_not_of('-') == std::string::npos;
+}
+
+std::string indented(const std::string& line) {
+  return "  " + line + '\n';
 }
 
 /// LIGGGHTS mixes warnings into its table, so a row is told by being all numbers.
@@ -42,9 +52,12 @@ void LiggghtsLog::read(const std::string& line) {
   if (line.empty()) return;
   tail_.push_back(line);
   if (tail_.size() > tail_length) tail_.pop_front();
+  if (head_.size() < head_length && !is_rule(line)) head_.push_back(line);
 
   const auto words = split(line);
-  if (starts_with(line, "ERROR")) {
+  if (starts_with(line, "LIGGGHTS (")) {
+    begun_ = true;
+  } else if (starts_with(line, "ERROR")) {
     if (error_.empty()) error_ = line;
   } else if (starts_with(line, inserted_mark)) {
     read_insertion(line);
@@ -105,9 +118,15 @@ void LiggghtsLog::read_insertion(const std::string& line) {
   expected_balls_ = total;
 }
 
+std::string LiggghtsLog::first_lines() const {
+  std::string text;
+  for (const auto& line : head_) text += indented(line);
+  return text;
+}
+
 std::string LiggghtsLog::last_lines() const {
   std::string text;
-  for (const auto& line : tail_) text += "  " + line + '\n';
+  for (const auto& line : tail_) text += indented(line);
   return text;
 }
 

@@ -34,7 +34,9 @@ class LiggghtsLog {
   bool finished() const { return finished_; }          ///< the deck came to its end
   const std::string& error() const { return error_; }  ///< first line that begins with ERROR, or empty
   std::optional<long> restart_step() const { return restart_step_; }  ///< of the last whole restart file
-  std::string last_lines() const;                                     ///< for a message, each on its own line
+  bool begun() const { return begun_; }  ///< LIGGGHTS itself has printed, not only what was to start it
+  std::string first_lines() const;       ///< for a message, each on its own line, without rules
+  std::string last_lines() const;        ///< for a message, each on its own line
 
  private:
   void read_thermo(const std::vector<std::string>& words);
@@ -42,6 +44,7 @@ class LiggghtsLog {
   void check_balls(long step, long balls) const;
 
   const DemPlan& plan_;
+  std::vector<std::string> head_;
   std::deque<std::string> tail_;
   std::vector<std::string> columns_;  ///< of the thermo table that is being read, else empty
   std::string error_;
@@ -49,6 +52,7 @@ class LiggghtsLog {
   long balls_ = 0;
   long last_step_ = 0;
   long steps_done_ = 0;
+  bool begun_ = false;
   bool turning_ = false;
   bool finished_ = false;
   std::optional<long> restart_step_;

@@ -58,7 +58,7 @@ std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
 
 /// Reads the child's output to its end. Throws RunError without the log's name: the caller adds it.
 void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const CaseFolder& folder,
-            const DemPlan& plan, ProgressOutput output) {
+            const DemPlan& plan, int ranks, ProgressOutput output) {
   Progress progress(output.out, output.terminal, plan.total_steps());
   std::optional<long> last_restart;
   try {
@@ -78,6 +78,9 @@ void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const Ca
   progress.end();
   const int code = child.wait();
   if (!log.error().empty()) throw RunError("LIGGGHTS stopped: " + log.error());
+  if (code != 0 && ranks > 1 && !log.begun())
+    throw RunError("mpirun refused to run LIGGGHTS on " + std::to_string(ranks) + " ranks (exit code " +
+                   std::to_string(code) + ")");
   if (code != 0) throw RunError("LIGGGHTS stopped with exit code " + std::to_string(code));
   if (!log.finished()) throw RunError("LIGGGHTS ended before the deck's last line");
 }
@@ -106,10 +109,13 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   const auto start = std::chrono::steady_clock::now();
   try {
     ChildProcess child(words, folder.dem(), environment());
-    follow(child, log, file, folder, plan, progress);
+    follow(child, log, file, folder, plan, ranks, progress);
   } catch (const RunError& error) {
-    throw RunError(std::string(error.what()) + "\nlog: " + folder.log().string() + ", its last lines:\n" +
-                   log.last_lines());
+    // Open MPI gives its reason first, and then much advice.
+    const bool of_mpirun = ranks > 1 && !log.begun();
+    throw RunError(
+        std::string(error.what()) + "\nlog: " + folder.log().string() +
+        (of_mpirun ? ", its first lines:\n" + log.first_lines() : ", its last lines:\n" + log.last_lines()));
   }
   result.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.balls = log.balls();

@@ -29,8 +29,9 @@ struct ProgressOutput {
 /// `in.resume` where the run goes on from step `resumed_at`; everything it prints goes to
 /// DIR/dem/log.liggghts, after what an earlier part has left there. Shows progress, stops at the first sign
 /// of a useless run, and keeps only the last restart file. Throws RunError when `liggghts` (or `mpirun`) is
-/// not on PATH, when LIGGGHTS fails, loses balls or inserts another number than asked, or when the number of
-/// dumps is not the plan's; the message has the log's name and last lines.
+/// not on PATH, when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number
+/// than asked, or when the number of dumps is not the plan's; the message has the log's name and last lines,
+/// or mpirun's first ones.
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
                        std::optional<long> resumed_at = std::nullopt);
 

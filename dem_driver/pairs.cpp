@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
-#include <stdexcept>
+
+#include "dem_driver/mill_key.hpp"
+#include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -19,8 +21,8 @@ std::vector<meshing::SizeClass> simulated_classes(const meshing::Mill& mill) {
   std::copy_if(mill.charge.classes.begin(), mill.charge.classes.end(), std::back_inserter(classes),
                [&](const auto& size) { return size.diameter >= mill.charge.fines_below; });
   if (classes.empty())
-    throw std::runtime_error(
-        "charge.classes: no size class to simulate, expected one not below charge.fines_below");
+    throw KeyError("charge.fines_below", meshing::shown(mill.charge.fines_below),
+                   "a diameter in m not above the largest ball's: no size class is left to simulate");
   return classes;
 }
 

@@ -35,7 +35,7 @@ ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& sti
 
 /// The stiffness that `mill.yaml` asks for: dem.youngs_modulus as it stands, or the softest with which the
 /// largest expected overlap stays within dem.largest_overlap, never stiffer than the real ball. Throws
-/// std::runtime_error naming the key when a modulus is softer than LIGGGHTS accepts.
+/// KeyError when a modulus is softer than LIGGGHTS accepts.
 Stiffness choose_stiffness(const meshing::Mill& mill);
 
 }  // namespace millfoam::dem_driver

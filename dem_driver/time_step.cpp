@@ -9,7 +9,9 @@
 #include <sstream>
 
 #include "dem_driver/contact.hpp"
+#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
+#include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -58,8 +60,9 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   double longest = std::numeric_limits<double>::infinity();
   for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
   if (!(longest > 0) || !std::isfinite(mill.dem.record_interval / longest))
-    throw std::runtime_error(
-        "no time-step follows from the balls' modulus, dem.rayleigh_fraction and the smallest ball");
+    throw KeyError(
+        "dem.rayleigh_fraction", meshing::shown(mill.dem.rayleigh_fraction),
+        "a fraction from which, with the balls' modulus and the smallest ball, a time-step follows");
   // The slack keeps an interval that is a whole number of longest steps from being cut once more by
   // round-off.
   step.steps_per_record =

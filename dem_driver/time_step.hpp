@@ -36,8 +36,8 @@ inline constexpr double allowed_overlap_ratio = 0.15;
 /// Chooses the stiffness (choose_stiffness) and the time-step: the smallest of a fraction
 /// (`dem.rayleigh_fraction`) of the shortest Rayleigh time of all balls, a tenth of the shortest Hertz
 /// contact, and the time in which the hardest impact crosses a sixth of the allowed overlap; then shortened
-/// so that `dem.record_interval` is a whole number of steps. Throws std::runtime_error for a mill without
-/// balls or with values that give no finite step.
+/// so that `dem.record_interval` is a whole number of steps. Throws KeyError for a mill without balls or with
+/// values that give no finite step.
 TimeStep choose_time_step(const meshing::Mill& mill);
 
 /// Prints what softer and harder balls would mean for this mill: modulus, largest expected overlap, time-step

@@ -46,9 +46,12 @@ bool is_binary(const std::string& bytes) {
 std::vector<StlTriangle> read_binary(const std::string& bytes, const std::string& name) {
   const std::size_t count = binary_count(bytes), expected = binary_header + binary_triangle * count;
   if (bytes.size() != expected) {
-    throw SurfaceError(name + ": " + std::to_string(bytes.size()) + " bytes, expected " +
-                       std::to_string(expected) + " of a binary STL of " + std::to_string(count) +
-                       " triangles");
+    const std::string what = bytes.size() < binary_header
+                                 ? "the header of a binary STL"
+                                 : "the " + std::to_string(count) + " triangles announced in its header";
+    throw SurfaceError(name + (bytes.size() < expected ? ": is cut short" : ": is too long") +
+                       ": there are " + std::to_string(bytes.size()) + " bytes, expected " +
+                       std::to_string(expected) + " for " + what);
   }
   std::vector<StlTriangle> triangles(count);
   std::size_t place = binary_header;

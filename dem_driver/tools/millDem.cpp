@@ -19,6 +19,7 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/mill_key.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/time_step.hpp"
@@ -51,6 +52,12 @@ std::string identity(const std::string& deck) {
   return kept;
 }
 
+std::string in_words(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 std::string read_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -64,11 +71,10 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
     throw std::runtime_error(folder.deck().string() +
                              ": the run there is of another mill.yaml or other walls than these" + otherwise);
   if (step > plan.turning_steps) {
-    std::ostringstream message;
-    message << "key 'dem.duration': " << static_cast<double>(plan.turning_steps) * plan.step.value
-            << " s, expected no less than the " << static_cast<double>(step) * plan.step.value
-            << " s that the run in " << folder.root.string() << " has come to" << otherwise;
-    throw std::runtime_error(message.str());
+    const auto seconds = [&](long steps) { return in_words(static_cast<double>(steps) * plan.step.value); };
+    throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
+                               "no less than the " + seconds(step) + " s that the run in " +
+                                   folder.root.string() + " has come to" + otherwise);
   }
   const long expected = step / plan.step.steps_per_record + 1;
   const long found = dem_driver::count_dumps_until(folder, step);
@@ -96,15 +102,6 @@ void print_plan(const meshing::Mill& mill, const dem_driver::DemPlan& plan) {
   dem_driver::print_charge(std::cout, plan.charge);
 }
 
-/// Plans the run; what cannot be is refused with the file's name.
-dem_driver::DemPlan plan_of(const Options& options, const meshing::Mill& mill) {
-  try {
-    return dem_driver::plan_dem(mill);
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(options.mill_file + ": " + error.what());
-  }
-}
-
 /// Makes the folder ready for LIGGGHTS: from `step` on, or anew.
 void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (step) {
@@ -119,7 +116,7 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
 void run(const Options& options) {
   const auto mill = meshing::read_mill(options.mill_file);
   const dem_driver::CaseFolder folder{options.case_folder};
-  const auto plan = plan_of(options, mill);
+  const auto plan = dem_driver::plan_dem(mill);
   const auto parts = dem_driver::find_walls(folder, mill);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
@@ -155,7 +152,7 @@ void run(const Options& options) {
 
 void plan(const Options& options) {
   const auto mill = meshing::read_mill(options.mill_file);
-  const auto plan = plan_of(options, mill);
+  const auto plan = dem_driver::plan_dem(mill);
   print_plan(mill, plan);
   const auto cost = dem_driver::measure_cost(mill, options.ranks);
   dem_driver::print_forecast(std::cout, dem_driver::forecast(plan, cost, options.ranks), cost, options.ranks);
@@ -173,7 +170,10 @@ using Action = void (*)(const Options&);
 
 void add_common(CLI::App& app, Options& options) {
   app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
-  app.add_option("--np", options.ranks, "number of MPI ranks (also -np)")->check(CLI::PositiveNumber);
+  app.add_option_function<std::string>(
+         "--np", [&](const std::string& word) { options.ranks = dem_driver::read_ranks(word); },
+         "number of MPI ranks (also -np)")
+      ->type_name("N");
 }
 
 /// `millDem plan …` or `millDem …`: the run has no name of its own, because it is what everybody wants.
@@ -199,16 +199,16 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
 
 int main(int argc, char** argv) {
   Options options;
-  Action action = nullptr;
   CLI::App app{"Dry run of a tumbling mill with LIGGGHTS: DIR/walls/*.stl to DIR/dumps/dump.*.txt",
                "millDem"};
   try {
-    action = parse(app, options, arguments(argc, argv));
+    const Action action = parse(app, options, arguments(argc, argv));
+    action(options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
-  }
-  try {
-    action(options);
+  } catch (const dem_driver::KeyError& error) {
+    std::cerr << "millDem: error: " << dem_driver::with_place(options.mill_file, error) << '\n';
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "millDem: error: " << error.what() << '\n';
     return 1;

@@ -80,9 +80,9 @@ TEST(CaseFolder, AMissingWallIsNamed) {
   auto mill = small_mill();
   mill.geometry.ends = meshing::Ends::plain;
   mill.geometry.lifters = {4, 0.002, 0.002};
-  touch(folder.walls() / "shell.stl");
-  touch(folder.walls() / "lifters.stl");
-  touch(folder.walls() / "feedEnd.stl");
+  tests::write_drum(folder, mill.geometry);
+  for (const char* part : {"lifters.stl", "feedEnd.stl"})
+    std::filesystem::copy_file(folder.walls() / "shell.stl", folder.walls() / part);
   const std::string message = message_of([&] { find_walls(folder, mill); });
   EXPECT_NE(message.find("dischargeEnd.stl"), std::string::npos);
   EXPECT_NE(message.find("millMesh"), std::string::npos);
@@ -91,9 +91,20 @@ TEST(CaseFolder, AMissingWallIsNamed) {
 TEST(CaseFolder, APeriodicSliceHasNoEndsEvenIfTheirFilesLieThere) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};
-  touch(folder.walls() / "shell.stl");
+  tests::write_drum(folder, small_mill().geometry);
   touch(folder.walls() / "feedEnd.stl");
   EXPECT_EQ(find_walls(folder, small_mill()), std::vector<std::string>{"shell"});
+}
+
+TEST(CaseFolder, AWallThatIsCutIsNamed) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  tests::write_drum(folder, small_mill().geometry);
+  const auto shell = folder.walls() / "shell.stl";
+  std::filesystem::resize_file(shell, std::filesystem::file_size(shell) / 2);
+  const std::string message = message_of([&] { find_walls(folder, small_mill()); });
+  EXPECT_EQ(message.rfind(shell.string() + ':', 0), 0u) << message;
+  EXPECT_NE(message.find("is cut short"), std::string::npos) << message;
 }
 
 TEST(CaseFolder, TheRunFileGivesTimestepIntervalAndSpeedToFullPrecision) {

@@ -63,8 +63,9 @@ TEST(ChargePlan, NoRoundFillsMoreThanItsShareOfTheStartCylinder) {
 TEST(ChargePlan, AChargeThatDoesNotFitTheStartCylinderIsRefused) {
   auto mill = small_mill();
   mill.charge.classes.at(0).mass *= 50;
-  EXPECT_NE(message_of([&] { plan_charge(mill); }).find("do not fit into the start cylinder"),
-            std::string::npos);
+  const std::string message = message_of([&] { plan_charge(mill); });
+  EXPECT_EQ(message.find("key 'charge.start_radius' = 0.018: expected a start cylinder"), 0u) << message;
+  EXPECT_NE(message.find("left over"), std::string::npos) << message;
 }
 
 TEST(ChargePlan, ABallLargerThanTheStartCylinderIsRefusedWithItsDiameter) {
@@ -73,10 +74,30 @@ TEST(ChargePlan, ABallLargerThanTheStartCylinderIsRefusedWithItsDiameter) {
   EXPECT_NE(message_of([&] { plan_charge(mill); }).find("0.037"), std::string::npos);
 }
 
-TEST(ChargePlan, AChargeLighterThanOneBallIsRefused) {
+TEST(ChargePlan, AChargeLighterThanHalfABallIsRefused) {
   auto mill = small_mill();
   mill.charge.classes = {{0.003, 1e-6}};
-  EXPECT_NE(message_of([&] { plan_charge(mill); }).find("mass of even one ball"), std::string::npos);
+  EXPECT_EQ(message_of([&] { plan_charge(mill); }),
+            "key 'charge' = 1e-06 kg of balls of 0.003 m in this mill, which rounds to 0 balls: expected at "
+            "least half of one ball's mass, 3.53429e-05 kg: raise the mass");
+}
+
+TEST(ChargePlan, AClassLighterThanHalfABallIsRefusedAsItWouldStillSetTheTimeStep) {
+  auto mill = small_mill();
+  mill.charge.classes.push_back({0.001, 0.49 * ball_mass(mill, 0.001)});
+  EXPECT_EQ(message_of([&] { plan_charge(mill); }),
+            "key 'charge.classes[2]' = 6.41409e-07 kg of balls of 0.001 m in this mill, which rounds to 0 "
+            "balls: expected at least half of one ball's mass, 1.309e-06 kg: raise the mass, or leave the "
+            "class out (small ones by charge.fines_below)");
+  mill.charge.classes.back().mass = 0.51 * ball_mass(mill, 0.001);
+  EXPECT_EQ(plan_charge(mill).classes.back().count, 1);
+}
+
+TEST(ChargePlan, FinesMayBeLighterThanHalfABall) {
+  auto mill = small_mill();
+  mill.charge.classes.push_back({0.001, 1e-9});
+  mill.charge.fines_below = 0.0015;
+  EXPECT_EQ(plan_charge(mill).classes.size(), 2u);
 }
 
 TEST(ChargePlan, TheReportHasAskedAndRealisedMass) {

@@ -11,8 +11,8 @@ namespace millfoam::dem_driver {
 namespace {
 
 using tests::message_of;
-using tests::PathVariable;
 using tests::TemporaryFolder;
+using tests::Variable;
 
 TEST(ChildProcess, ArgumentsWithShellCharactersArriveUnchanged) {
   const std::string nasty = "a b; echo $HOME `id` \"'";
@@ -29,7 +29,7 @@ TEST(ChildProcess, ItRunsInItsFolderAlsoWhenTheNameHasABlank) {
 }
 
 TEST(ChildProcess, AddedVariablesReplaceThoseOfThisProcess) {
-  const PathVariable path("/nowhere:" + std::string(std::getenv("PATH")));
+  const Variable path("PATH", "/nowhere:" + std::string(std::getenv("PATH")));
   ChildProcess child({find_on_path("sh")->string(), "-c", "echo $PATH"}, "/", {"PATH=/usr/bin:/bin"});
   EXPECT_EQ(child.read_line(), "/usr/bin:/bin");
 }
@@ -55,7 +55,7 @@ TEST(ChildProcess, AFolderThatDoesNotExistIsNamed) {
 }
 
 TEST(ChildProcess, AProgramThatIsNotOnPathIsNotFound) {
-  const PathVariable path("/no/such/folder");
+  const Variable path("PATH", "/no/such/folder");
   EXPECT_EQ(find_on_path("true"), std::nullopt);
 }
 

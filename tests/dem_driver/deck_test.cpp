@@ -187,8 +187,11 @@ TEST(Deck, RanksSplitTheAxisAsOftenAsLeavesEachOneAndAHalfBalls) {
   EXPECT_TRUE(has_line(deck_of(mill, {"shell"}, 6), "processors 1 1 6"));
 }
 
-TEST(Deck, NoRanksAreRefused) {
-  EXPECT_NE(message_of([] { split_ranks(0, 1, 0.1); }).find("-np: 0"), std::string::npos);
+TEST(Deck, RanksAreAWholeNumberFromOneOn) {
+  EXPECT_EQ(read_ranks("1"), 1);
+  EXPECT_EQ(read_ranks("24"), 24);
+  for (const std::string word : {"0", "-1", "x", "2x", "1.5", "", "99999999999"})
+    EXPECT_EQ(message_of([&] { read_ranks(word); }), "-np " + word + ": expected a whole number from 1 on");
 }
 
 TEST(Deck, SofterSmallBallsAreATypeOfTheirOwnAndTheWallIsTheLast) {
@@ -207,14 +210,26 @@ TEST(Deck, SofterSmallBallsAreATypeOfTheirOwnAndTheWallIsTheLast) {
 
 TEST(Deck, TheNeighbourSkinGrowsWithTheRangeOfSizes) {
   auto mill = small_mill();
+  mill.geometry.diameter = 0.1;
   mill.geometry.length = 0.03;
+  mill.charge.start_radius = 0.045;
   const auto skin = [&](double largest) {
-    mill.charge.classes.back() = {largest, 1e-3};
+    mill.charge.classes.back() = {largest, ball_mass(mill, largest)};
     return after(deck_of(mill), "neighbor").front();
   };
   EXPECT_EQ(skin(0.004), "0.0008");
   EXPECT_EQ(skin(0.012), "0.0012");
   EXPECT_EQ(skin(0.028), "0.002");
+}
+
+TEST(Deck, TheNeighbourSkinIsThatOfTheMeasurements) {
+  auto mill = small_mill();
+  const auto skin_over_smallest = [&](double smallest, double largest) {
+    mill.charge.classes = {{largest, ball_mass(mill, largest)}, {smallest, ball_mass(mill, smallest)}};
+    return std::stod(after(deck_of(mill), "neighbor").front()) / smallest;
+  };
+  EXPECT_NEAR(skin_over_smallest(0.002, 0.008), 0.4, 1e-12);
+  EXPECT_NEAR(skin_over_smallest(0.00125, 0.01), 0.8, 1e-12);
 }
 
 TEST(Deck, ARestartFileGetsItsNameWhenItIsWhole) {
@@ -284,7 +299,8 @@ TEST(Deck, ContactsShareTheComputeOfTheOverlapsWhichAreItsLastColumn) {
 
 TEST(Deck, ContactsMoreOftenThanEveryStepAreRefused) {
   const std::string message = message_of([] { plan_dem(mill_with_contacts(1e-9)); });
-  EXPECT_NE(message.find("'dem.contact_interval': 1e-09 s"), std::string::npos) << message;
+  EXPECT_EQ(message.find("key 'dem.contact_interval' = 1e-09: expected 0 or at least the time-step, "), 0u)
+      << message;
   const double step = plan_dem(small_mill()).step.value;
   EXPECT_EQ(plan_dem(mill_with_contacts(step)).contact_steps, 1);
 }

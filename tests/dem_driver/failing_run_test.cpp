@@ -12,22 +12,20 @@ namespace millfoam::dem_driver {
 namespace {
 
 using tests::message_of;
-using tests::PathVariable;
 using tests::small_mill;
 using tests::TemporaryFolder;
+using tests::Variable;
 
 /// A case with a `liggghts` of its own, before everything else on PATH.
 class FailingRun : public ::testing::Test {
  protected:
   /// What run_liggghts complains about when LIGGGHTS does `script`.
-  std::string complaint(const std::string& script) {
-    const auto program = temporary_.path() / "liggghts";
-    std::ofstream(program) << "#!/bin/sh\n" << script << '\n';
-    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    const PathVariable path(temporary_.path().string() + ":" + std::getenv("PATH"));
+  std::string complaint(const std::string& script, int ranks = 1) {
+    tests::write_script(temporary_.path() / "liggghts", script);
+    const Variable path("PATH", temporary_.path().string() + ":" + std::getenv("PATH"));
     prepare_folders(folder_);
     std::ostringstream progress;
-    return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false}); });
+    return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), ranks, {progress, false}); });
   }
 
   bool complains(const std::string& script, const std::string& words) {
@@ -87,9 +85,23 @@ TEST_F(FailingRun, MissingDumpsAreCounted) {
   EXPECT_NE(message.find("1 dumps, expected 31"), std::string::npos) << message;
 }
 
+TEST_F(FailingRun, TooManyRanksAreRefusedWithTheBeginningOfWhatMpirunSays) {
+  tests::write_script(temporary_.path() / "mpirun", tests::refusal_of_open_mpi);
+  const std::string message = complaint("exit 3", 64);
+  EXPECT_EQ(message.find("mpirun refused to run LIGGGHTS on 64 ranks (exit code 1)"), 0u) << message;
+  EXPECT_NE(message.find("  There are not enough slots"), std::string::npos) << message;
+  EXPECT_NE(message.find("Either request fewer slots"), std::string::npos) << message;
+  EXPECT_EQ(message.find("---"), std::string::npos) << message;
+}
+
+TEST_F(FailingRun, OnManyRanksAFailureOfLiggghtsIsNotMpiruns) {
+  tests::write_script(temporary_.path() / "mpirun", "echo 'LIGGGHTS (Version 3.8.0)'\nexit 7");
+  EXPECT_EQ(complaint("exit 3", 2).find("LIGGGHTS stopped with exit code 7"), 0u);
+}
+
 TEST_F(FailingRun, WithoutLiggghtsOnPathThePackageIsNamed) {
   prepare_folders(folder_);
-  const PathVariable path("/no/such/folder");
+  const Variable path("PATH", "/no/such/folder");
   std::ostringstream progress;
   const std::string message = message_of([&] {
     run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false});

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "small_mill.hpp"
@@ -43,6 +45,31 @@ TEST(Forecast, TheTrialIsLongEnoughToBeSplitAsTheMillIs) {
   const auto trial = trial_mill(mill, 40);
   EXPECT_EQ(split_ranks(40, mill.geometry.length, 0.003).z, 40);
   EXPECT_EQ(split_ranks(40, trial.geometry.length, 0.003).z, 40);
+}
+
+TEST(Forecast, AClassOfOneBallIsInTheTrialToo) {
+  auto mill = long_mill();
+  mill.charge.classes.push_back({0.004, ball_mass(mill, 0.004)});
+  const auto trial = trial_mill(mill, 1);
+  ASSERT_LT(trial.geometry.length, 0.7 * mill.geometry.length);
+  EXPECT_EQ(plan_charge(trial).classes.front().count, 1);
+  EXPECT_EQ(plan_charge(trial).classes.front().diameter, 0.004);
+}
+
+TEST(Forecast, ATrialThatFailsLeavesTheLogThatItNames) {
+  const tests::TemporaryFolder temporary;
+  const tests::Variable folder("TMPDIR", temporary.path());
+  for (const char* program : {"liggghts", "mpirun"})
+    tests::write_script(temporary.path() / program, tests::refusal_of_open_mpi);
+  const tests::Variable path("PATH", temporary.path().string() + ":" + std::getenv("PATH"));
+  auto mill = small_mill();
+  mill.resolution = {0.002, 2};
+  const std::string message = tests::message_of([&] { measure_cost(mill, 64); });
+  EXPECT_NE(message.find("on 64 ranks"), std::string::npos) << message;
+  EXPECT_NE(message.find("There are not enough slots"), std::string::npos) << message;
+  const auto begin = message.find("log: ") + 5;
+  const std::string log = message.substr(begin, message.find(',', begin) - begin);
+  EXPECT_TRUE(std::filesystem::is_regular_file(log)) << message;
 }
 
 TEST(Forecast, TheTrialHasSoftBallsHoweverHardTheMillsAre) {

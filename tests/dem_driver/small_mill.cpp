@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <utility>
 
 #include "dem_driver/pi.hpp"
 
@@ -81,13 +82,21 @@ void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry) {
   out << "endsolid shell\n";
 }
 
-PathVariable::PathVariable(const std::string& value) {
-  if (const char* path = std::getenv("PATH")) before_ = path;
-  setenv("PATH", value.c_str(), 1);
+void write_script(const fs::path& file, const std::string& commands) {
+  std::ofstream(file) << "#!/bin/sh\n" << commands << '\n';
+  fs::permissions(file, fs::perms::owner_all);
 }
 
-PathVariable::~PathVariable() {
-  setenv("PATH", before_.c_str(), 1);
+Variable::Variable(std::string name, const std::string& value) : name_(std::move(name)) {
+  if (const char* before = std::getenv(name_.c_str())) before_ = before;
+  setenv(name_.c_str(), value.c_str(), 1);
+}
+
+Variable::~Variable() {
+  if (before_)
+    setenv(name_.c_str(), before_->c_str(), 1);
+  else
+    unsetenv(name_.c_str());
 }
 
 }  // namespace millfoam::dem_driver::tests

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,43 @@ class TemporaryFolder {
 /// Writes `walls/shell.stl` of a smooth drum, 60 flat sides.
 void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry);
 
-/// Sets PATH for the life of the object.
-class PathVariable {
+/// Writes a shell script that can be run.
+void write_script(const std::filesystem::path& file, const std::string& commands);
+
+/// Script of an mpirun that does what Open MPI's does when it has fewer slots than are asked for.
+inline constexpr char refusal_of_open_mpi[] = R"(cat <<'END'
+--------------------------------------------------------------------------
+There are not enough slots available in the system to satisfy the 64
+slots that were requested by the application:
+
+  /usr/bin/setpriv
+
+Either request fewer slots for your application, or make more slots
+available for use.
+
+A "slot" is the Open MPI term for an allocatable unit where we can
+launch a process.  The number of slots available are defined by the
+environment in which Open MPI processes are run:
+
+  1. Hostfile, via "slots=N" clauses (N defaults to number of
+     processor cores if not provided)
+  2. The --host command line parameter, via a ":N" suffix on the
+     hostname (N defaults to 1 if not provided)
+--------------------------------------------------------------------------
+END
+exit 1)";
+
+/// Sets a variable of the environment for the life of the object.
+class Variable {
  public:
-  explicit PathVariable(const std::string& value);
-  ~PathVariable();
-  PathVariable(const PathVariable&) = delete;
-  PathVariable& operator=(const PathVariable&) = delete;
+  Variable(std::string name, const std::string& value);
+  ~Variable();
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
 
  private:
-  std::string before_;
+  std::string name_;
+  std::optional<std::string> before_;
 };
 
 /// The message of what `action` throws; empty when it throws nothing.

@@ -180,7 +180,7 @@ class DemRun(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in (case / "dumps").iterdir()), before)
 
         (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
-        with self.assertRaisesRegex(RunError, "dem.duration.*0.05 s.*0.1 s"):
+        with self.assertRaisesRegex(RunError, r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected no less than the 0.1 s"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         (case / "mill.yaml").write_text(MILL)
         lost = next((case / "contacts").glob("walls.*.txt"))
@@ -193,6 +193,29 @@ class DemRun(unittest.TestCase):
         with self.assertRaisesRegex(RunError, "20 dumps up to step .* expected 21"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertTrue((case / "dumps" / "run.txt").is_file())
+
+    def test_a_wall_that_is_cut_is_refused_before_anything_is_removed(self):
+        case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.05"))
+        run(case, "millDem", "mill.yaml", "--case", ".")
+        before = sorted(case.glob("*/*"))
+        shell = case / "walls" / "shell.stl"
+        shell.write_bytes(shell.read_bytes()[:-200])
+        with self.assertRaisesRegex(RunError, r"shell.stl:\d+: is cut short: .*, expected 'endsolid'"):
+            run(case, "millDem", "mill.yaml", "--case", ".")
+        self.assertEqual(sorted(case.glob("*/*")), before)
+
+    def test_what_cannot_be_is_refused_with_the_line_or_the_option(self):
+        case = self.make_case()
+        for old, new, message in (
+                ("youngs_modulus: 1e7", "youngs_modulus: 1e6", "mill.yaml:10: key 'dem.youngs_modulus' = 1e.06: expected"),
+                ("contact_interval: 0.012", "contact_interval: 1e-9", "mill.yaml:11: key 'dem.contact_interval' = 1e-09: exp"),
+                ("mass: 0.002}", "mass: 1e-9}", r"mill.yaml:7: key 'charge.classes\[1\]' = 1e-09 kg of balls of 0.002 m")):
+            (case / "mill.yaml").write_text(MILL.replace(old, new))
+            with self.assertRaisesRegex(RunError, message):
+                run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+        for ranks in ("0", "x", "-1"):
+            with self.assertRaisesRegex(RunError, f"error: -np {ranks}: expected a whole number from 1 on"):
+                run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only", "-np", ranks)
 
     def test_two_runs_in_one_folder_are_refused(self):
         case = self.make_case()

@@ -178,6 +178,18 @@ TEST(StlFile, AFileCutAtAnyByteIsRefused) {
   }
 }
 
+TEST(StlFile, ABinaryFileThatIsCutIsToldWithTheBytesThatItsTrianglesNeed) {
+  const TemporaryFolder folder;
+  const std::string whole = binary_stl(box_surface({0, 0, 0}, {1, 2, 3}));
+  const auto cut_after = [&](std::size_t bytes) {
+    return refusal({folder.write("wall.stl", whole.substr(0, bytes))});
+  };
+  expect_named(cut_after(200), {"wall.stl: is cut short: there are 200 bytes",
+                                "expected 684 for the 12 triangles announced in its header"});
+  expect_named(cut_after(50),
+               {"is cut short: there are 50 bytes", "expected 84 for the header of a binary STL"});
+}
+
 TEST(StlFile, OneThatIsNotThereIsNamed) {
   expect_named(refusal({"gone.stl"}), {"gone.stl", "open"});
   EXPECT_THROW(read_surface({}), SurfaceError);
