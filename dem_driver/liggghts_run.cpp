@@ -97,6 +97,10 @@ double logged_time(const std::filesystem::path& file) {
 
 }  // namespace
 
+void require_programs(int ranks) {
+  command("", ranks);
+}
+
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
                        std::optional<long> resumed_at) {
   const auto words = command(resumed_at ? folder.resume_deck() : folder.deck(), ranks);

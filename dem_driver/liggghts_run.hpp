@@ -25,6 +25,9 @@ struct ProgressOutput {
   bool terminal = false;
 };
 
+/// Throws RunError that names the program and its package when one of those that a run needs is not on PATH.
+void require_programs(int ranks);
+
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
 /// `in.resume` where the run goes on from step `resumed_at`; everything it prints goes to
 /// DIR/dem/log.liggghts, after what an earlier part has left there. Shows progress, stops at the first sign

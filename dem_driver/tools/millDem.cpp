@@ -130,7 +130,10 @@ void run(const Options& options) {
     return;
   }
   print_plan(mill, plan);
-  if (!options.deck_only) prepare(folder, step);
+  if (!options.deck_only) {
+    dem_driver::require_programs(options.ranks);
+    prepare(folder, step);
+  }
   dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;

@@ -194,10 +194,14 @@ class DemRun(unittest.TestCase):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertTrue((case / "dumps" / "run.txt").is_file())
 
-    def test_a_wall_that_is_cut_is_refused_before_anything_is_removed(self):
+    def test_a_wall_that_is_cut_and_a_missing_program_are_told_before_anything_is_removed(self):
         case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.05"))
         run(case, "millDem", "mill.yaml", "--case", ".")
         before = sorted(case.glob("*/*"))
+        told = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True, text=True,
+                              env={**os.environ, "PATH": "/no/such/folder"})
+        self.assertIn("liggghts is not on PATH", told.stderr)
+        self.assertEqual(sorted(case.glob("*/*")), before)
         shell = case / "walls" / "shell.stl"
         shell.write_bytes(shell.read_bytes()[:-200])
         with self.assertRaisesRegex(RunError, r"shell.stl:\d+: is cut short: .*, expected 'endsolid'"):

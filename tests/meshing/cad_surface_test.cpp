@@ -311,8 +311,7 @@ TEST(Examine, refuses_files_that_it_cannot_read_with_the_line) {
   EXPECT_EQ(refusal_of(""), "shell.stl: has no triangles");
   EXPECT_EQ(refusal_of("solid\nendsolid\n"), "shell.stl: has no triangles");
   EXPECT_EQ(refusal_of("binary"),
-            "shell.stl: is no STL file: expected 'solid', or the length of a binary file with its number of "
-            "triangles");
+            "shell.stl: is no STL file: expected 'solid', or a binary file with a header of 84 bytes");
   EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 nan\n"),
             "shell.stl:3: 'nan': expected three coordinates, finite numbers");
   EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 0\nfacet\n"),
@@ -321,8 +320,14 @@ TEST(Examine, refuses_files_that_it_cannot_read_with_the_line) {
   EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 0\n"), "shell.stl:3: the file ends within a facet");
   EXPECT_EQ(refusal_of("solid\ntriangle\n"), "shell.stl:2: 'triangle': expected the text of an STL file");
   std::string cut = binary_stl(box(0.2, 0.1));
+  const std::string announced = std::to_string(cut.size()) + " for the 12 triangles announced in its header";
+  const auto sizes = [&] {
+    return ": there are " + std::to_string(cut.size()) + " bytes, expected " + announced;
+  };
   cut.resize(cut.size() - 10);
-  EXPECT_EQ(refusal_of(cut), "shell.stl:1: 'solid,': expected the text of an STL file");
+  EXPECT_EQ(refusal_of(cut), "shell.stl: is cut short" + sizes());
+  cut.resize(cut.size() + 11);
+  EXPECT_EQ(refusal_of(cut), "shell.stl: is too long" + sizes());
   CadTriangles infinite = box(0.2, 0.1);
   infinite[2][1].y() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(refusal_of(binary_stl(infinite)), "shell.stl: triangle 3: a coordinate that is not finite");

@@ -96,7 +96,7 @@ def balance_numbers(case):
         feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
         rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),
                  ("feed less discharge", f"{feed - out:+.1f} ml/s")]
-    if "Re_mean" in told:
+    if case.met_balls:
         rows += [("particle Reynolds number in slurry, mean", f"{mean['Re_mean']:.0f}"),
                  ("particle Reynolds number, 95 % of the balls below", f"{mean['Re_95']:.0f}")]
     return rows

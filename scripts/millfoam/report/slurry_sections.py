@@ -79,7 +79,7 @@ def balance_section(case, _readings):
              page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that walls and balls "
                           "give to it (torque by the balance of angular momentum, times the mill's speed).",
                           title="Centre and power")]
-    if "Re_mean" in case.balance:
+    if case.met_balls:
         cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, by their volume.",
                                   title="Particle Reynolds numbers"))
     return cards

@@ -213,6 +213,11 @@ class MillCase:
         through = max(np.abs(told["feed"]).max(), np.abs(told["discharge"]).max()) * np.ptp(told["Time"])
         return through > 1e-6 * told["holdUp"].max()
 
+    @property
+    def met_balls(self):
+        """Whether slurryBalance told Reynolds numbers of balls in slurry."""
+        return "Re_mean" in self.balance and bool((self.balance["Re_mean"] > 0).any())
+
     def axial(self, quantity):
         """Places (m) [slices], times (s) [n] and values [n, slices] of axialProfiles, or None."""
         found = self._table("axialProfiles", lambda: tables.read_table(self.folder, "axialProfiles", quantity))
