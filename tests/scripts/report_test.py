@@ -113,6 +113,16 @@ class OneCase(Case):
         self.assertIn("3.210 ± 0.012 W", found.text)
         self.assertNotIn("✗ fails", found.text)
 
+    def test_a_dry_run_beside_the_mesh_of_a_flow_to_come_is_no_failed_flow(self):
+        self.undrawn()
+        dry = write_dry(self.folder / "dry")
+        (dry / "constant").mkdir()
+        (dry / "constant" / "millProperties").write_text("radius 0.15;\n")
+        self.assertNotIn("The flow is not shown", self.assert_whole(report_case(dry)).text)
+        (dry / "constant" / "millProperties").write_text("radius 0.15;\nomega -6;\ntime0 0;\nlength 0.3;\n")
+        (dry / "log.flow").write_text("killed\n")
+        self.assertIn("The flow is not shown", self.assert_whole(report_case(dry)).text)
+
     def test_a_flow_with_everything_has_all_sections(self):
         found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
         self.assertLessEqual({"overview", "checks", "charge", "slurry", "axis", "balance", "ledger", "run"}, set(found.ids))

@@ -62,8 +62,8 @@ def charge_section(case, readings):
 def charge_maps(case, readings):
     found, mean = readings.charge, case.charge
     if isinstance(found, str):
-        return [page.picture(maps.solidity_figure(case, mean), f"Solidity averaged over axis and time. Not read: {found}.",
-                             title="Charge")]
+        words = f"Solidity averaged over axis and time. Not read: {found.rstrip('?')}."
+        return [page.picture(maps.solidity_figure(case, mean), words, title="Charge")]
     return [page.picture(charge_plots.charge_figure(mean, found, case.radius),
                          "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the shoulder on "
                          "the rising side to the toe; the charge turns about the centre of circulation.", title="Charge"),

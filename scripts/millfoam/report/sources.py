@@ -12,6 +12,7 @@ from .. import solids, tables
 from ..contacts import contact_steps
 from ..dem_tracks import read_notes
 from ..dry_runs import read_results
+from ..foam import times
 from ..mill_flow import MillFlow
 
 
@@ -177,7 +178,9 @@ class MillCase:
 
     @cached_property
     def flow(self):
-        if not (self.folder / "constant" / "millProperties").is_file():
+        # millMesh writes the mill's mesh and numbers for a dry run too
+        begun = times(self.folder) or any(self.folder.glob("processor*")) or any(self.folder.glob("log.flow*"))
+        if not ((self.folder / "constant" / "millProperties").is_file() and begun):
             return None
         try:
             return MillFlow(self.folder)
