@@ -196,6 +196,22 @@ class FedMill(unittest.TestCase):
                 self.assertIn(words, self.refused(pattern, new))
 
 
+    def test_balls_before_the_inlet_take_nothing_from_the_feed(self):
+        case = self.folder / "balls"
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", "0.0*"))
+        (case / "constant" / "bedProperties").write_text(
+            "FoamFile { version 2; format ascii; class dictionary; object bedProperties; }\n"
+            "blocks { front { box (-1 -1 -1) (1 0 0.1); edge 0.05; edgeAxes (0 1 1); solidity 0.55; diameter 0.005; velocity (0 0 0); } }\n"
+            "drag { law Beetstra; }\n")
+        end_at(case, HALF)
+        run(case, "slurryFoam")
+        told = read_columns(case, "slurryBalance")
+        np.testing.assert_allclose(told["feed"], FEED, rtol=1e-6)
+        self.assertLess(np.abs(told["missing"]).max(), 1e-9 * told["holdUp"][0])
+        flow = MillFlow(case)
+        solidity = foam.read_field(flow.frames[-1][1] / "solidity", flow.mesh.cells)
+        self.assertGreater(solidity.max(), 0.5)
+
     def test_sub_cycles_are_refused(self):
         case = self.folder / "sub-cycles"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns(f"{END:g}"))

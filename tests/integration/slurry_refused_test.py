@@ -86,6 +86,13 @@ class Bed(RefusedTest):
     def test_a_misspelt_block(self):
         self.assert_bed_refused(f"blok {{ {BLOCK} }}", "blok", "block")
 
+    def test_a_file_without_a_header_is_not_taken_for_none(self):
+        case = self.small()
+        case.bed(self.block())
+        path = case.path / "constant" / "bedProperties"
+        path.write_text(re.sub(r"FoamFile\s*\{[^}]*\}", "", path.read_text()))
+        self.assert_says(case, "bedProperties", "has no header 'FoamFile")
+
     def test_an_entry_of_ones_own_is_accepted(self):
         case = self.small()
         case.bed(f"mySolidity 0.5; {self.block('solidity 0.5', 'solidity $mySolidity')}")

@@ -34,6 +34,7 @@ Usage
 
 #include "argList.H"
 #include "meshAssembly.H"
+#include "optionalDictionary.H"
 #include "polyMesh.H"
 #include "timeSelector.H"
 #include "untrapped.H"
@@ -94,9 +95,7 @@ static PtrList<meshPart> openParts(const argList& args, const Time& time)
 //- DEM time at flow time 0
 static scalar findTime0(const argList& args, const Time& time)
 {
-    const IOdictionary mill(IOobject(
-        "millProperties", time.constant(), time, IOobject::READ_IF_PRESENT,
-        IOobject::NO_WRITE, false));
+    const IOdictionary mill(optionalDictionary("millProperties", time, false));
 
     scalar time0 = 0;
     const bool known = mill.readIfPresent("time0", time0);

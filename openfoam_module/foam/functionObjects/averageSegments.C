@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "averageSegments.H"
+#include "optionalDictionary.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
 #include "Pstream.H"
@@ -57,9 +58,7 @@ static BoxGrid readGrid(const dictionary& dict)
 //- Times of windows and of the run
 static SlurryHeader readHeader(const dictionary& dict, const Time& time)
 {
-    const IOdictionary mill(IOobject(
-        "millProperties", time.constant(), time, IOobject::READ_IF_PRESENT,
-        IOobject::NO_WRITE, false));
+    const IOdictionary mill(optionalDictionary("millProperties", time, false));
     SlurryHeader header;
     header.time0 = mill.lookupOrDefault<scalar>("time0", 0);
     header.window = dict.get<scalar>("window");

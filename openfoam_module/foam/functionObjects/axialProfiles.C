@@ -6,6 +6,7 @@
 #include "axialProfiles.H"
 #include "addToRunTimeSelectionTable.H"
 #include "clock.H"
+#include "optionalDictionary.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -28,9 +29,8 @@ const Foam::FixedList<
 
 void Foam::functionObjects::axialProfiles::place(const dictionary& dict)
 {
-    const IOdictionary mill(IOobject(
-        "millProperties", mesh_.time().constant(), mesh_.time(),
-        IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
+    const IOdictionary mill(
+        optionalDictionary("millProperties", mesh_.time(), false));
     FixedList<scalar, 2> ends(Zero);
     if (!dict.readIfPresent("ends", ends) &&
         !mill.readIfPresent("length", ends[1]))

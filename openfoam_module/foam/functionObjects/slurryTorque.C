@@ -5,6 +5,7 @@
 
 #include "slurryTorque.H"
 #include "gravityMeshObject.H"
+#include "optionalDictionary.H"
 #include "turbulentTransportModel.H"
 #include "wallPolyPatch.H"
 
@@ -36,9 +37,8 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
 //- Angular speed of the mill about z, rad/s
 static scalar speedOf(const fvMesh& mesh, const dictionary& dict)
 {
-    const IOdictionary mill(IOobject(
-        "millProperties", mesh.time().constant(), mesh.time(),
-        IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
+    const IOdictionary mill(
+        optionalDictionary("millProperties", mesh.time(), false));
     scalar speed = 0;
     if (!dict.readIfPresent("speed", speed) &&
         !mill.readIfPresent("omega", speed))

@@ -15,6 +15,7 @@
 #include "zeroField.H"
 #include "zeroGradientFvPatchFields.H"
 #include "oneField.H"
+#include "optionalDictionary.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -90,9 +91,7 @@ void Foam::slurryFlow::keepState()
 
 Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 : mesh_(mesh),
-  bedDict_(IOobject(
-      "bedProperties", mesh.time().constant(), mesh, IOobject::READ_IF_PRESENT,
-      IOobject::NO_WRITE)),
+  bedDict_(optionalDictionary("bedProperties", mesh)),
   g_(IOobject(
       "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
       IOobject::NO_WRITE)),
@@ -141,10 +140,8 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       surfaceTension(mixture_)),
   transport_(surface_, alpha_),
   grates_(
-      IOdictionary(IOobject(
-          "grateProperties", mesh.time().constant(), mesh,
-          IOobject::READ_IF_PRESENT, IOobject::NO_WRITE)),
-      mesh, fluidsOf(mixture_)),
+      IOdictionary(optionalDictionary("grateProperties", mesh)), mesh,
+      fluidsOf(mixture_)),
   forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
   fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),

@@ -34,6 +34,7 @@ Usage
 #include "fvMesh.H"
 #include "knownEntries.H"
 #include "movingBed.H"
+#include "optionalDictionary.H"
 #include "planeCut.H"
 #include "surfaceFields.H"
 #include "Time.H"
@@ -238,9 +239,7 @@ int main(int argc, char* argv[])
             << "constant/g is " << g.value() << "; a start needs gravity to"
             << " tell below from above" << exit(FatalIOError);
     }
-    const IOdictionary bedDict(IOobject(
-        "bedProperties", runTime.constant(), mesh, IOobject::READ_IF_PRESENT,
-        IOobject::NO_WRITE));
+    const IOdictionary bedDict(optionalDictionary("bedProperties", mesh));
     const movingBed bed(bedDict, mesh);
 
     volScalarField alpha(

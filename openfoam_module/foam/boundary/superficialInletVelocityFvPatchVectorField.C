@@ -1,0 +1,112 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "superficialInletVelocityFvPatchVectorField.H"
+#include "addToRunTimeSelectionTable.H"
+#include "volFields.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::superficialInletVelocityFvPatchVectorField::
+    superficialInletVelocityFvPatchVectorField(
+        const fvPatch& patch, const DimensionedField<vector, volMesh>& field)
+: fixedValueFvPatchVectorField(patch, field),
+  rate_(nullptr),
+  voidageName_("flowVoidage")
+{
+}
+
+
+Foam::superficialInletVelocityFvPatchVectorField::
+    superficialInletVelocityFvPatchVectorField(
+        const fvPatch& patch, const DimensionedField<vector, volMesh>& field,
+        const dictionary& dict)
+: fixedValueFvPatchVectorField(patch, field, dict, false),
+  rate_(Function1<scalar>::New("volumetricFlowRate", dict)),
+  voidageName_(dict.lookupOrDefault<word>("voidage", "flowVoidage"))
+{
+    if (dict.found("value"))
+    {
+        fvPatchVectorField::operator=(vectorField("value", dict, patch.size()));
+    }
+    else
+    {
+        evaluate(Pstream::commsTypes::blocking);
+    }
+}
+
+
+Foam::superficialInletVelocityFvPatchVectorField::
+    superficialInletVelocityFvPatchVectorField(
+        const superficialInletVelocityFvPatchVectorField& from,
+        const fvPatch& patch, const DimensionedField<vector, volMesh>& field,
+        const fvPatchFieldMapper& mapper)
+: fixedValueFvPatchVectorField(from, patch, field, mapper),
+  rate_(from.rate_.clone()),
+  voidageName_(from.voidageName_)
+{
+}
+
+
+Foam::superficialInletVelocityFvPatchVectorField::
+    superficialInletVelocityFvPatchVectorField(
+        const superficialInletVelocityFvPatchVectorField& from)
+: fixedValueFvPatchVectorField(from),
+  rate_(from.rate_.clone()),
+  voidageName_(from.voidageName_)
+{
+}
+
+
+Foam::superficialInletVelocityFvPatchVectorField::
+    superficialInletVelocityFvPatchVectorField(
+        const superficialInletVelocityFvPatchVectorField& from,
+        const DimensionedField<vector, volMesh>& field)
+: fixedValueFvPatchVectorField(from, field),
+  rate_(from.rate_.clone()),
+  voidageName_(from.voidageName_)
+{
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::superficialInletVelocityFvPatchVectorField::updateCoeffs()
+{
+    if (updated())
+    {
+        return;
+    }
+    const scalar superficial =
+        rate_->value(db().time().timeOutputValue()) / gSum(patch().magSf());
+    scalarField voidage(size(), 1);
+    if (db().foundObject<volScalarField>(voidageName_))
+    {
+        voidage =
+            patch().lookupPatchField<volScalarField, scalar>(voidageName_);
+    }
+    operator==(-patch().nf() * superficial / voidage);
+    fixedValueFvPatchVectorField::updateCoeffs();
+}
+
+
+void Foam::superficialInletVelocityFvPatchVectorField::write(Ostream& os) const
+{
+    fvPatchVectorField::write(os);
+    rate_->writeData(os);
+    os.writeEntryIfDifferent<word>("voidage", "flowVoidage", voidageName_);
+    writeEntry("value", os);
+}
+
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+makePatchTypeField(
+    fvPatchVectorField, superficialInletVelocityFvPatchVectorField);
+}
+
+// ************************************************************************* //
