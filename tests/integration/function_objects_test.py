@@ -19,6 +19,7 @@ from slurry_case import SLURRY, SlurryTest
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
 FEED, HALF, END, WINDOW = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s
+SPEED = -2.5  # that a balance in a box is told, rad/s
 OBJECTS = f"""
 functions
 {{
@@ -225,7 +226,7 @@ class InABox(SlurryTest):
         """Columns of a balance in a run of the case."""
         control = case.path / "system" / "controlDict"
         control.write_text(control.read_text() + """
-            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed 1; writePrecision 12; } }""")
+            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed %g; writePrecision 12; } }""" % SPEED)
         self.assert_runs(case, "slurryFoam")
         return read_columns(case.path, "slurryBalance")
 
@@ -234,6 +235,10 @@ class InABox(SlurryTest):
         walls = sum(values for name, values in told.items() if name.startswith("torque_") and name != "torque_all")
         late = told["Time"] > 0.02  # the impulsive start is over
         np.testing.assert_allclose(walls[late], told["torque_all"][late], rtol=0.02)
+        for name in told:
+            if name.startswith("torque_"):
+                power = told["power" if name == "torque_all" else name.replace("torque", "power")]
+                np.testing.assert_allclose(power, told[name] * SPEED, rtol=1e-9)
         # A pool that sloshes: its weight's moment is no more than near
         weight = SLURRY * told["holdUp"] * 9.81 * told["x"]
         self.assertGreater(np.abs(told["torque_all"][late] / weight[late] - 1).max(), 0.01)
@@ -251,6 +256,10 @@ class InABox(SlurryTest):
         reynolds = SLURRY * (1 - phi) * slip * d / 1.4e-3
         self.assertAlmostEqual(told["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
         self.assertAlmostEqual(told["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]), delta=1e-6 * reynolds.max())
+        below = [phi[wet][chosen].sum() / phi[wet].sum() for chosen in (
+            reynolds[wet] < told["Re_95"][-1] * (1 - 1e-9), reynolds[wet] <= told["Re_95"][-1] * (1 + 1e-9))]
+        self.assertLessEqual(below[0], 0.95)
+        self.assertGreaterEqual(below[1], 0.95)
 
 
 if __name__ == "__main__":

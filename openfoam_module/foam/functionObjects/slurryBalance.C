@@ -56,6 +56,10 @@ void Foam::functionObjects::slurryBalance::begin()
         writeTabbed(file(), "torque_" + patch + "_Nm");
     }
     writeTabbed(file(), "torque_all_Nm");
+    for (const word& patch : torque_.names())
+    {
+        writeTabbed(file(), "power_" + patch + "_W");
+    }
     writeTabbed(file(), "power_W");
     if (fields_.bed<volScalarField>("solidity"))
     {
@@ -180,7 +184,12 @@ bool Foam::functionObjects::slurryBalance::write()
     {
         file() << tab << value;
     }
-    file() << tab << torqueAll_ << tab << torqueAll_ * torque_.speed();
+    file() << tab << torqueAll_;
+    for (const scalar value : walls)
+    {
+        file() << tab << value * torque_.speed();
+    }
+    file() << tab << torqueAll_ * torque_.speed();
     if (fields_.bed<volScalarField>("solidity"))
     {
         writeSlip();
