@@ -8,15 +8,15 @@ import numpy as np
 from .charge import free_surface
 
 CLOSEST = 0.634  # solidity that differences are normed by: random close packing
-COLUMNS = ("x_m", "y_m", "solidity", "vx", "vy")
+COLUMNS, VELOCITIES = ("x_m", "y_m", "solidity"), ("vx", "vy")
 BIN = 0.01  # of the histogram of solidity differences
 
 
 @dataclass
 class Difference:
     """Of two maps on the same voxels: mean |solidity A - B| / 0.634 over the mill's inside; means of |vx A - B| and |vy A - B|
-    weighted by both solidities' mean, over the mean of the two largest speeds. `missing` voxels within the mill, of which one of
-    the maps does not know the solidity, are left out."""
+    weighted by both solidities' mean, over the mean of the two largest speeds, NaN where no voxel has both velocities. `missing`
+    voxels within the mill, of which one of the maps does not know the solidity, are left out."""
     solidity: float
     velocity_x: float
     velocity_y: float
@@ -40,8 +40,8 @@ class DifferenceMaps:
 
 @dataclass
 class SurfaceDifference:
-    """Of the heights of two free surfaces, y_A - y_B, evenly over the x (m) from `begin` to `end` where both exist: mean and
-    standard deviation (m)."""
+    """Of the heights of two free surfaces, y_A - y_B, evenly over the x (m) from `begin` to `end` where both exist and are known:
+    mean and standard deviation (m)."""
     mean: float
     deviation: float
     begin: float
@@ -69,11 +69,12 @@ def difference(a, b):
     """Difference of two SolidsMap on the same voxels; ValueError where these differ."""
     inside, missing = _known(a, b)
     solidity = np.sum(inside * np.abs(np.nan_to_num(a.solidity - b.solidity))) / np.sum(inside) / CLOSEST
-    weight = inside * np.nan_to_num(a.solidity + b.solidity) / 2
+    both = np.isfinite(a.velocity[..., 0]) & np.isfinite(b.velocity[..., 0])
+    weight = np.where(both, inside * np.nan_to_num(a.solidity + b.solidity) / 2, 0.0)
+    if not np.sum(weight) > 0:
+        return Difference(float(solidity), np.nan, np.nan, missing)
     norm = sum(np.nanmax(np.linalg.norm(one.velocity[..., :2], axis=-1)) for one in (a, b)) / 2
     apart = np.abs(np.nan_to_num(a.velocity) - np.nan_to_num(b.velocity))
-    both = np.isfinite(a.velocity[..., 0]) & np.isfinite(b.velocity[..., 0])
-    weight = np.where(both, weight, 0.0)
     mean = [np.sum(weight * apart[..., axis]) / np.sum(weight) / norm for axis in (0, 1)]
     return Difference(float(solidity), float(mean[0]), float(mean[1]), missing)
 
@@ -92,12 +93,15 @@ def difference_maps(a, b, bin_width=BIN):
 
 def surface_difference(a, b, points=200):
     """SurfaceDifference of two FreeSurface; RuntimeError if they stand over no common x."""
-    begin, end = max(one.points[:, 0].min() for one in (a, b)), min(one.points[:, 0].max() for one in (a, b))
+    begin, end = max(np.nanmin(one.points[:, 0]) for one in (a, b)), min(np.nanmax(one.points[:, 0]) for one in (a, b))
     if begin >= end:
         raise RuntimeError(f"the free surfaces do not stand over each other: one begins at x = {1e3 * begin:.1f} mm, the other "
                            f"ends at {1e3 * end:.1f} mm")
     x = np.linspace(begin, end, points + 2)[1:-1]
     apart = a.height(x) - b.height(x)
+    apart = apart[np.isfinite(apart)]
+    if len(apart) == 0:
+        raise RuntimeError("free surface not known: nowhere on both maps")
     return SurfaceDifference(float(apart.mean()), float(apart.std()), float(begin), float(end))
 
 
@@ -135,16 +139,19 @@ def read_measured(path, like):
     """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes over.
 
     path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s; both empty where no
-    velocity was measured), in any order and among others. Voxels may be missing: their solidity and velocity are NaN.
-    ValueError, naming file, line, column and value, for a missing column, what is no number, a solidity beyond 0 to 1, a place
-    that is no voxel's centre, and a voxel told twice."""
+    velocity was measured, both columns missing where none was at all), in any order and among others, blanks around names and
+    numbers or not. Voxels may be missing: their solidity and velocity are NaN. ValueError, naming file, line, column and value, for a missing column, what is no number, a solidity beyond 0
+    to 1, a place that is no voxel's centre, and a voxel told twice."""
     solidity, velocity = np.full(like.solidity.shape, np.nan), np.full(like.velocity.shape, np.nan)
-    with open(path, newline="") as file:
+    # Spreadsheets put a mark before UTF-8
+    with open(path, newline="", encoding="utf-8-sig") as file:
         rows = csv.DictReader(file)
-        for column in COLUMNS:
-            if column not in (rows.fieldnames or ()):
-                raise ValueError(f"{path}, line 1: no column {column} in '{','.join(rows.fieldnames or ())}'; expected "
-                                 f"{', '.join(COLUMNS)}")
+        rows.fieldnames = names = [name.strip() for name in rows.fieldnames or ()]
+        measured = VELOCITIES if set(VELOCITIES) & set(names) else ()
+        for column in COLUMNS + measured:
+            if column not in names:
+                raise ValueError(f"{path}, line 1: no column {column} in '{','.join(names)}'; expected "
+                                 f"{', '.join(COLUMNS + VELOCITIES)}")
         for row in rows:
             line = rows.line_num
             place = tuple(_voxel(path, line, column, _number(path, row, line, column), edges)
@@ -152,8 +159,8 @@ def read_measured(path, like):
             if np.isfinite(solidity[place]):
                 raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told before")
             solidity[place] = _number(path, row, line, "solidity", 0, 1)
-            if any((row[column] or "").strip() for column in ("vx", "vy")):
-                velocity[place] = [*(_number(path, row, line, column) for column in ("vx", "vy")), 0]
+            if any((row[column] or "").strip() for column in measured):
+                velocity[place] = [*(_number(path, row, line, column) for column in measured), 0]
     if not np.isfinite(solidity).any():
         raise ValueError(f"{path}: no voxels")
     return replace(like, solidity=solidity, velocity=velocity)

@@ -18,6 +18,7 @@ EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
 WALL = 0.008  # what is nearer to the shell is between or at lifters, m
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
 POINTS = 100  # along the free surface
+KNOWN = 0.5  # length of the free surface that must be known where a map misses voxels, of the mill's radius
 
 
 def smoothed(charge, radius, smoothing=SMOOTHING):
@@ -48,8 +49,9 @@ def logistic(x, a, b, c, d):
 class FreeSurface:
     """Free surface of the bulk of the charge, from the shoulder to the toe.
 
-    points [POINTS, 2]: x, y (m), equally far from each other along it; parameters: a (m), b, c (1/m), d (m) of the logistic
-    y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean square of what the points' y differ from it by."""
+    points [POINTS, 2]: x, y (m), equally far from each other along it, NaN where a measured map does not know it; parameters:
+    a (m), b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean square of what the points'
+    y differ from it by; NaN where what is known of the surface has no logistic."""
     points: np.ndarray
     parameters: tuple
     rmsd: float
@@ -59,7 +61,8 @@ class FreeSurface:
         return logistic(np.asarray(x, dtype=float), *self.parameters)
 
     def height(self, x):
-        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN beside it."""
+        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN beside it and
+        where it is not known."""
         x = np.atleast_1d(np.asarray(x, dtype=float))
         (x0, y0), (x1, y1) = self.points[:-1].T[..., None], self.points[1:].T[..., None]
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -97,21 +100,43 @@ def _evenly(line, count):
     return np.column_stack([np.interp(np.linspace(0, way[-1], count), way, values) for values in line.T])
 
 
+def is_known(charge, points, margin):
+    """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill whose solidity the map misses [n]."""
+    rows, columns = np.nonzero(~np.isfinite(charge.solidity) & (charge.inside > 0))
+    beside = [np.maximum(np.maximum(edges[index] - place[:, None], place[:, None] - edges[index + 1]), 0.0)
+              for edges, index, place in ((charge.x, columns, points[:, 0]), (charge.y, rows, points[:, 1]))]
+    return np.all(np.hypot(*beside) > margin, axis=1)
+
+
+def _length(line):
+    """Length of a polyline [n, 2] without its pieces from or to NaN."""
+    return np.nansum(np.linalg.norm(np.diff(line, axis=0), axis=1))
+
+
 def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
-    """The free surface's points [POINTS, 2] (m) from shoulder to toe, see free_surface."""
+    """The free surface's points [POINTS, 2] (m) from shoulder to toe, NaN where it is not known, see free_surface."""
     solidity = smoothed(charge, radius, smoothing)
     lines = contour_generator(*charge.centres(), solidity).lines(EDGE * solidity.max())
     pieces = [piece for line in lines for piece in pieces_within(line, radius - wall)]
     if not pieces:
-        raise RuntimeError(f"no free surface: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
-                           f"{1e3 * wall:g} mm from the shell; centrifuging?")
-    points = _evenly(max(pieces, key=lambda piece: np.linalg.norm(np.diff(piece, axis=0), axis=1).sum()), POINTS)
+        missing = np.sum(~np.isfinite(charge.solidity) & (charge.inside > 0))
+        what, why = ("free surface not known", f"{missing} voxels are missing") if missing else ("no free surface", "centrifuging?")
+        raise RuntimeError(f"{what}: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
+                           f"{1e3 * wall:g} mm from the shell; {why}")
+    # Beside what a map misses, the contour is the edge of what it knows
+    margin = max(np.diff(charge.x).max(), np.diff(charge.y).max(), smoothing * radius)
+    lines = (_evenly(piece, POINTS) for piece in pieces)
+    points = max((np.where(is_known(charge, line, margin)[:, None], line, np.nan) for line in lines), key=_length)
+    if np.isnan(points).any() and _length(points) < KNOWN * radius:
+        raise RuntimeError(f"free surface not known: {1e3 * _length(points):.0f} mm of it are farther than {1e3 * margin:.1f} mm "
+                           f"from voxels that the map misses; expected {1e3 * KNOWN * radius:.0f} mm or more")
     # On the way from the shoulder to the toe the charge is on the right in a clockwise mill, on the left in another
     along = np.gradient(points, axis=0)
     inwards = -charge.sense * np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1, keepdims=True)
     step = SMOOTHING * radius / 2
-    rise = at_points(charge, solidity, points + step * inwards) - at_points(charge, solidity, points - step * inwards)
-    return points if rise.mean() > 0 else points[::-1]
+    told = np.isfinite(inwards).all(axis=1)
+    ahead, behind = (at_points(charge, solidity, (points + way * inwards)[told]) for way in (step, -step))
+    return points if np.mean(ahead - behind) > 0 else points[::-1]
 
 
 def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
@@ -119,9 +144,18 @@ def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
 
     The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity left, where
     it is farther than `wall` (m) from the shell. Of several pieces from shell to shell the longest counts: that bounds the bulk.
-    Balls in flight are thinner than EDGE and outside of it; a cataract that is not belongs to it."""
+    Balls in flight are thinner than EDGE and outside of it; a cataract that is not belongs to it.
+
+    Of a map that misses voxels in the mill it is read only where it is farther from these than a voxel's width and the
+    smoothing's; RuntimeError "free surface not known" where that leaves less than KNOWN radii of it."""
     points = surface_points(charge, radius, wall, smoothing)
-    parameters, rmsd = fit_logistic(*points.T, radius)
+    known = np.isfinite(points[:, 0])
+    try:
+        parameters, rmsd = fit_logistic(*points[known].T, radius)
+    except RuntimeError:
+        if known.all():
+            raise
+        parameters, rmsd = (np.nan,) * 4, np.nan  # a straight part of a surface fixes no step
     return FreeSurface(points, parameters, rmsd)
 
 
@@ -159,4 +193,7 @@ def toe_and_shoulder(charge, radius, wall=WALL):
     """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the points at
     which the free surface meets the circle `wall` (m) from the shell."""
     points = surface_points(charge, radius, wall)
+    for end, name in ((-1, "toe"), (0, "shoulder")):
+        if np.isnan(points[end]).any():
+            raise RuntimeError(f"free surface not known at the {name}: voxels there are missing")
     return tuple(float(shell_angle(*points[end], charge.sense)) for end in (-1, 0))

@@ -3,13 +3,17 @@
 """How far two maps of a charge are apart, on maps whose difference is known, and measured maps out of a CSV."""
 import tempfile
 import unittest
+import warnings
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
 from charge_test import RADIUS, below, charge_map, turning
 from millfoam.compare import CLOSEST, compare, difference, difference_maps, read_measured, surface_difference
-from millfoam.free_surface import free_surface
+from millfoam.free_surface import free_surface, toe_and_shoulder
+from millfoam.report import held_against
 from millfoam.solids import SolidsMap
 
 
@@ -111,6 +115,28 @@ class Measured(unittest.TestCase):
         found = surface_difference(free_surface(charge, RADIUS), free_surface(holed, RADIUS))
         self.assertLess(max(abs(found.mean), found.deviation), 1e-3)
 
+    def test_only_what_is_known_of_the_surface_is_read(self):
+        # Without this the edge of the lower rows is taken for the surface
+        line = lambda x: -0.03 - 0.4 * x
+        charge = charge_map(below(line), turning(5, (-0.03, -0.06)), voxels=32)
+        whole = free_surface(charge, RADIUS)
+        for rows, columns in ((slice(14), slice(None)), (slice(None), slice(18)), (slice(None), slice(14, None))):
+            with self.subTest(f"{rows} {columns}"):
+                part = np.full_like(charge.solidity, np.nan)
+                part[rows, columns] = charge.solidity[rows, columns]
+                found = surface_difference(whole, free_surface(replace(charge, solidity=part), RADIUS))
+                self.assertLess(max(abs(found.mean), found.deviation), 1e-3)
+                self.assertGreater(found.end - found.begin, 0.4 * RADIUS)
+                self.assertLess(found.end - found.begin, 1.4 * RADIUS)
+                with self.assertRaisesRegex(RuntimeError, "free surface not known at the (toe|shoulder)"):
+                    toe_and_shoulder(replace(charge, solidity=part), RADIUS)
+
+    def test_a_surface_beyond_what_is_known_is_refused(self):
+        charge = charge_map(below(lambda x: -0.01 + 0 * x), turning(5, (0, -0.06)), voxels=32)
+        charge.solidity[13:] = np.nan
+        with self.assertRaisesRegex(RuntimeError, "free surface not known: 0 mm of it are farther than 9.4 mm"):
+            free_surface(charge, RADIUS)
+
     def test_a_whole_map_that_was_written_is_no_different(self):
         charge = charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, -0.06)), voxels=33)
         folder = tempfile.TemporaryDirectory(prefix="measured-")
@@ -124,10 +150,34 @@ class Measured(unittest.TestCase):
         self.assertEqual(found.difference.missing, 0)
         self.assertLess(max(found.difference.solidity, found.difference.velocity_x, abs(found.surface.mean)), 1e-6)
 
+    def test_names_may_have_blanks_and_velocities_may_be_missing(self):
+        rows = ["\ufeffx_m, y_m, solidity , vx, vy", "0.125, 0.125, 0.4, 1.5, -0.5", "0.375, 0.125, 0.2, , "]
+        spaced = self.read(*rows)
+        np.testing.assert_allclose(spaced.solidity[0, :2], (0.4, 0.2))
+        np.testing.assert_allclose(spaced.velocity[0, 0], (1.5, -0.5, 0))
+        still = self.read(*(",".join(row.split(",")[:3]) for row in rows))
+        np.testing.assert_allclose(still.solidity[0, :2], (0.4, 0.2))
+        self.assertTrue(np.isnan(still.velocity).all())
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            apart = difference(uniform(0.5, 1.5), still)
+        self.assertAlmostEqual(apart.solidity, (0.1 + 0.3) / 2 / CLOSEST)
+        self.assertTrue(np.isnan(apart.velocity_x) and np.isnan(apart.velocity_y))
+
+    def test_the_report_says_what_is_not_known(self):
+        charge = charge_map(below(lambda x: -0.01 + 0 * x), turning(5, (0, -0.06)), voxels=32)
+        other = replace(charge, solidity=charge.solidity.copy(), velocity=np.full_like(charge.velocity, np.nan))
+        other.solidity[13:] = np.nan
+        rows = dict(held_against.difference_rows(SimpleNamespace(charge=charge, radius=RADIUS), other,
+                                                 difference_maps(charge, other)))
+        self.assertEqual((rows["velocity, x"], rows["velocity, y"]), ("not known", "not known"))
+        self.assertIn("not known", rows["free surface"])
+
     def test_what_is_wrong_is_named(self):
         head, first, *_ = self.ROWS
         for rows, message in (
                 (["x_m,y_m,solidity,vx", first], "line 1: no column vy in 'x_m,y_m,solidity,vx'"),
+                (["x_m,y_m,vx,vy", first], "line 1: no column solidity in 'x_m,y_m,vx,vy'"),
                 ([], "line 1: no column x_m"),
                 ([head], "measured.csv: no voxels"),
                 ([head, first, "0.375,0.125,much,0,0"], "line 3, column solidity: 'much'; expected a number from 0 to 1"),
