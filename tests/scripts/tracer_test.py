@@ -4,11 +4,14 @@
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
 from millfoam.compare import difference
 from millfoam.dem_tracks import read_tracks
+from millfoam.report import held_against
 from millfoam.tracer import Trajectory, read_trajectory, residence, tracer_map, velocities
 
 UNIT = [np.linspace(0, 1, 5)] * 3  # 4 x 4 x 4 voxels of 0.25
@@ -166,6 +169,44 @@ class File(unittest.TestCase):
                               ("0 1 2 3\n1 x 2 3\n", r":2: 'x'"), ("t,x,y,z\nt,x,y,z\n", r":2: 't'")):
             with self.assertRaisesRegex(RuntimeError, r"\.csv" + (message if message[0] == ":" else ".*" + message)):
                 self.read(text)
+
+
+class InTheReport(unittest.TestCase):
+    EDGES = [np.linspace(-0.06, 0.06, 5)] * 2 + [np.array([0, 0.02])]
+
+    def orbit(self, scale):
+        track = orbit(0.05)
+        return Trajectory(track.time, scale * (track.position + (0, 0, -0.49)))
+
+    def test_a_track_in_millimetres_or_of_another_place_is_refused_with_both_extents(self):
+        for periodic in (False, True):
+            held_against.refuse_outside("a.csv", self.orbit(1), self.EDGES, periodic)
+            with self.assertRaises(RuntimeError) as caught:
+                held_against.refuse_outside("a.csv", self.orbit(1000), self.EDGES, periodic)
+            for part in ("a.csv: 100 % of its time is outside", "from x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels "
+                         "from x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
+                self.assertIn(part, str(caught.exception))
+
+    def test_a_track_that_leaves_for_less_than_half_of_its_time_is_taken(self):
+        for out, taken in ((0.45, True), (0.55, False)):
+            track = Trajectory([0, 1 - out, 1 - out + 1e-9, 1], [[0, 0, 0.01]] * 2 + [[0, 0, 0.03]] * 2)
+            if taken:
+                held_against.refuse_outside("a.csv", track, self.EDGES, False)
+            else:
+                with self.assertRaisesRegex(RuntimeError, "a.csv: 55 % of its time"):
+                    held_against.refuse_outside("a.csv", track, self.EDGES, False)
+
+    def test_the_section_names_the_file_among_several(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [Path(folder) / name for name in ("good.csv", "far.csv")]
+            for path, scale in zip(paths, (1, 1000)):
+                track = self.orbit(scale)
+                np.savetxt(path, np.column_stack([track.time, track.position]))
+            case = SimpleNamespace(folder=folder, solids="solids.h5")
+            voxels = self.EDGES, None, False, 1e-5
+            with mock.patch.object(held_against, "charge_voxels", lambda _: voxels), \
+                    self.assertRaisesRegex(RuntimeError, "far.csv: 100 % of its time is outside"):
+                held_against.tracer_section(case, paths)
 
 
 class Tracks(unittest.TestCase):

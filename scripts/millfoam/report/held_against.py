@@ -6,6 +6,7 @@ import numpy as np
 from .. import compare, tracer
 from . import maps, page
 
+MOST_OUTSIDE = 0.5  # of a track's time, outside of the voxels: it is in other units then, or of another place
 ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both largest "
          "speeds.")
 
@@ -28,6 +29,8 @@ def tracer_section(case, paths):
         raise RuntimeError(f"{case.folder}: no solids.h5 to hold {paths[0]} against")
     tracks = [read_track(path) for path in paths]
     edges, inside, periodic, volume = charge_voxels(case)
+    for path, track in zip(paths, tracks):
+        refuse_outside(path, track, edges, periodic)
     found = tracer.tracer_map(tracks, edges, volume, inside, periodic=periodic, sense=case.charge.sense)
     length = sum(track.time[-1] - track.time[0] for track in tracks)
     names = ", ".join(path.name for path in paths)
@@ -49,6 +52,22 @@ def read_track(path):
     if len(track.time) < 3:
         raise RuntimeError(f"{path}: {len(track.time)} points, expected 3 or more")
     return track
+
+
+def refuse_outside(path, track, edges, periodic):
+    """RuntimeError naming the file, the track's extent and the voxels' if more than half of its time is outside the voxels."""
+    _, _, outside = tracer.residence(track, edges, np.zeros_like(track.position), periodic)
+    share = outside / (track.time[-1] - track.time[0])
+    if share > MOST_OUTSIDE:
+        voxels = np.array([(planes[0], planes[-1]) for planes in edges])
+        raise RuntimeError(f"{path}: {100 * share:.0f} % of its time is outside of the voxels: it reaches from "
+                           f"{extent(np.transpose([track.position.min(axis=0), track.position.max(axis=0)]))}, the voxels from "
+                           f"{extent(voxels)} m; expected t in s, x, y and z in m, x and y from the mill's axis")
+
+
+def extent(ends):
+    """x, y and z from where to where, of [3, 2]."""
+    return ", ".join(f"{axis} = {low:.3g} to {high:.3g}" for axis, (low, high) in zip("xyz", ends))
 
 
 def charge_voxels(case):
@@ -88,9 +107,8 @@ def velocity_cards(case, apart, name):
 
 def difference_rows(case, other, apart):
     """Rows (name, text) of compare's numbers; what the other map does not allow is told."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found = compare.difference(case.charge, other)
-    known = np.isfinite(apart.velocity_x).any()
+    found = compare.difference(case.charge, other)
+    known = np.isfinite(found.velocity_x)
     rows = [("solidity", f"{100 * found.solidity:.3g} %")]
     rows += [(f"velocity, {axis}", f"{100 * value:.3g} %" if known else "not known")
              for axis, value in (("x", found.velocity_x), ("y", found.velocity_y))]
