@@ -272,8 +272,8 @@ class Tracer(unittest.TestCase):
             "seed: 3,\n   contact_interval: 0.012", "seed: 3"))
         run(cls.case, "millMesh", "mill.yaml", "--case", ".")
         run(cls.case, "millDem", "mill.yaml", "--case", ".")
-        run(cls.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.033, -0.033, 0, 0.033, 0.033, 0.03, "--shape", 11,
-            11, 5, "--periodic", "z", "--inside", "walls/*.stl", "--start", cls.BEGIN, "--window", 0.05, "-o", "solids.h5")
+        run(cls.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.033, -0.033, 0, 0.033, 0.033, 0.03, "--shape",
+            11, 11, 5, "--periodic", "z", "--inside", "walls/*.stl", "--start", cls.BEGIN, "--window", 0.05, "-o", "solids.h5")
         balls = np.loadtxt(cls.case / "dumps" / "dump.0.txt", skiprows=9)  # id, …, radius
         cls.volume = np.sum(4 / 3 * np.pi * balls[:, -1] ** 3)
         cls.ids = {size: balls[np.isclose(2 * balls[:, -1], size), 0].astype(int) for size in (0.004, 0.002)}
@@ -298,8 +298,8 @@ class Tracer(unittest.TestCase):
 
     def test_all_balls_of_a_diameter_are_near_the_average_of_all(self):
         self.assertEqual([len(ids) for ids in self.ids.values()], [221, 177])
-        # Three times what was measured: room for another platform's arithmetic, after which the balls take other ways, and still
-        # a quarter of what one ball differs by
+        # Three times what was measured: room for another platform's arithmetic, after which balls take other ways, and still a
+        # quarter of what one ball differs by
         found = self.apart(self.tracks(0.004))
         self.assertLess(found.solidity, 0.03)
         self.assertLess(max(found.velocity_x, found.velocity_y), 0.02)
@@ -316,8 +316,8 @@ class Tracer(unittest.TestCase):
                  for some in (self.tracks(0.004, turns=0.5), tracks)]
         self.assertGreater(apart[1], 4 * all_of_them)
         # Of independent times the root of four, 2; measured: 1.7
-        print(f"one ball over half a turn and {(self.END - self.BEGIN) / self.turn:.1f} turns: {apart[0]:.3f}, {apart[1]:.3f}; all "
-              f"balls {all_of_them:.3f}")
+        print(f"one ball over half a turn and {(self.END - self.BEGIN) / self.turn:.1f} turns: {apart[0]:.3f}, {apart[1]:.3f}; "
+              f"all balls {all_of_them:.3f}")
         self.assertGreater(apart[0] / apart[1], 1.3)
         self.assertLess(apart[0] / apart[1], 2.5)
 
