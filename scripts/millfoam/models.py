@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
 
 GRAVITY = 9.81
+POOR = 0.03  # of the radius that a fit may leave and still describe a surface
 
 
 @dataclass
@@ -74,7 +75,8 @@ def _branches(internal, wall, number, height):
 
 def fit_free_surface(x, y, number, filling=None, clockwise=True):
     """FreeSurface whose mu_i and mu_w are fitted to points x, y [n] (units of the radius) of a free surface, n > 2, and the root
-    mean square of what is left in y: (FreeSurface, float). With a filling the height follows from it, otherwise it is fitted."""
+    mean square of what is left in y: (FreeSurface, float). With a filling the height follows from it, otherwise it is fitted.
+    Friction is not negative: a surface that asks for that is fitted with none."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if x.shape != y.shape or len(x) < 3 or not np.all(x ** 2 + y ** 2 < 1):
         raise ValueError(f"points x {x.shape}, y {y.shape}; expected 3 or more within the mill")
@@ -91,12 +93,18 @@ def fit_free_surface(x, y, number, filling=None, clockwise=True):
         beyond = np.where(along < found.x[0], along - found.x[0], np.where(along > found.x[-1], along - found.x[-1], 0.0))
         return np.interp(along, found.x, found.y) + found.internal * beyond - y
 
-    start = [slope, 0.0] + ([np.clip(height, -0.99, 0.99)] if filling is None else [])
-    fit = least_squares(misfit, start, x_scale="jac")
+    start = [max(slope, 0.05), 0.05] + ([np.clip(height, -0.99, 0.99)] if filling is None else [])
+    lower = [0.0, 0.0, -np.inf][:len(start)]
+    fit = least_squares(misfit, start, x_scale="jac", bounds=(lower, np.inf))
     best = surface(fit.x)
     if clockwise:
         best = free_surface(best.internal, best.wall, number, height=best.height)
     return best, float(np.sqrt(np.mean(fit.fun ** 2)))
+
+
+def describes(surface, rmsd):
+    """Whether a fitted FreeSurface describes what it was fitted to: friction above its bound of nought, a small rest."""
+    return min(surface.internal, surface.wall) > 1e-3 and rmsd <= POOR
 
 
 @dataclass

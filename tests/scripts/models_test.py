@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 from scipy.integrate import quad
 
-from millfoam.models import Charge, fit_free_surface, free_surface, slurry_depth, slurry_hold_up, surface_number
+from millfoam.models import Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up, surface_number
 
 CHARGE = Charge(radius=0.15, length=0.3, porosity=0.4, diameter=0.005)
 SLURRY = {"viscosity": 0.01, "density": 1300.0}
@@ -53,6 +53,19 @@ class Surface(unittest.TestCase):
             self.assertAlmostEqual(found.wall, 0.7, places=3)
             self.assertAlmostEqual(found.height, surface.height, places=4)
             self.assertLess(rest, 1e-4)
+
+    def test_that_is_fitted_is_described(self):
+        surface = free_surface(0.45, 0.7, 0.5, filling=0.35)
+        self.assertTrue(describes(*fit_free_surface(surface.x[5:-5], surface.y[5:-5], 0.5)))
+
+    def test_that_asks_for_negative_friction_is_fitted_with_none_and_not_described(self):
+        along = np.linspace(-0.7, 0.6, 60)
+        # Bent up at both ends, as no friction bends it; steepest at the axis, as much of the ends' friction and less than none
+        # within would make it
+        for height in (0.4 * along + 0.3 * along ** 2, 0.4 * np.sin(3 * along)):
+            found, rest = fit_free_surface(-along, height, 0.2)
+            self.assertGreaterEqual(min(found.internal, found.wall), 0)
+            self.assertFalse(describes(found, rest))
 
     def test_number_has_no_dimension(self):
         # Lengths in cm and times in ms with gravity in cm/ms^2 would give the same: Omega^2 d / g and R / L are pure numbers
