@@ -92,6 +92,11 @@ class Flow(Verdicts):
                 self.check(self.courant([good] * (101 - count) + [one] * count), state)
         self.check(self.courant([(0.74, 0.59, 0.149)] * 100), "holds")
 
+    def test_steps_are_judged_by_what_is_told(self):
+        found = self.courant([(0.55, 0.4, 0.1)] * 100, "maxCo 0.5;\nmaxAlphaCo 0.4;\nmaxVoidageChange $most;\n").found
+        self.assertTrue(found.startswith("0.0 % of the steps are beyond 1.5 times what controlDict asks for (limit 1 %); "), found)
+        self.assertTrue(found.endswith("Courant number 0.55 for 0.5, at the surface 0.4 for 0.4, change of voidage 0.1"), found)
+
     def test_steps_or_limits_that_are_not_told_are_unknown(self):
         self.check(self.courant([(0.1, 0.1, 0.1)]), "unknown")
         self.check(self.courant([(9, 9, 9)] * 10, "maxCo $co;\n"), "unknown")
