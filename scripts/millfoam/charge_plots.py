@@ -6,7 +6,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .mill_plots import draw_sense
+from .mill_plots import draw_outline
 
 BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
 ARROWS = 17  # across the mill
@@ -34,20 +34,29 @@ def _arrows(axis, charge):
     axis.quiverkey(arrows, 0.9, 1.03, key, f"{key:g} m/s", labelpos="W", coordinates="axes")
 
 
-def charge_figure(charge, readings, radius):
+def charge_figure(charge, readings, radius, outline=None):
     """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
-    shell and its sense, centre of circulation and the line through it, free surface with its logistic, toe and shoulder."""
-    figure, axis = plt.subplots(figsize=(5.8, 6.2), constrained_layout=True)
-    figure.colorbar(draw_charge(axis, charge, readings, radius), ax=axis, label="solidity, –", shrink=0.75)
+    outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through it, free surface
+    with its logistic, toe and shoulder."""
+    figure, (axis, room) = plt.subplots(2, 1, figsize=(5.2, 5.1), constrained_layout=True, gridspec_kw={"height_ratios": (6.6, 1)})
+    room.axis("off")
+    figure.colorbar(_draw(axis, charge, readings, radius, outline), ax=axis, label="solidity, –", shrink=0.9)
+    # Of the figure, as it is wider than the map, which an axis' legend would shrink
+    figure.legend(loc="lower center", fontsize=9, frameon=False)
     return figure
 
 
 def draw_charge(axis, charge, readings, radius):
     """What charge_figure shows, on an axis; returns the solidity's image, for a colour bar."""
+    image = _draw(axis, charge, readings, radius, None)
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
+    return image
+
+
+def _draw(axis, charge, readings, radius, outline):
     solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
     image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap="YlOrBr", vmin=0, vmax=0.65)
-    turn = np.linspace(0, 2 * np.pi, 361)
-    axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="k", lw=1)
+    draw_outline(axis, outline, radius, charge.sense)
     _arrows(axis, charge)
     surface, profile = readings.surface, readings.tangential
     outwards = np.array(readings.centre) / np.hypot(*readings.centre)
@@ -60,9 +69,7 @@ def draw_charge(axis, charge, readings, radius):
     axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
     axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
               label=_signed("centre of circulation ({:.1f}, {:.1f}) mm and line".format(*1e3 * np.array(readings.centre))))
-    draw_sense(axis, radius, charge.sense)
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
-    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
     return image
 
 

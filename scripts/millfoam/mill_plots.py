@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of a mill: maps of charge and slurry, a strip of frames, an animation."""
 import io
+from dataclasses import dataclass
 
 import matplotlib
 
@@ -18,9 +19,20 @@ SLURRY, SPEED, SOLIDITY = "Blues", "viridis", "YlOrBr"
 
 def draw_mill(axis, flow, time):
     """The mill's outline at flow time `time` and an arrow for its sense of rotation; axes in mm."""
-    outline = 1e3 * flow.turned(flow.outline(), time)
-    axis.plot(*outline.T, color="0.15", lw=1.2)
-    draw_sense(axis, flow.radius, flow.omega)
+    draw_outline(axis, flow.turned(flow.outline(), time), flow.radius, flow.omega)
+
+
+def draw_outline(axis, outline, radius, omega):
+    """A mill's outline [n, 2] (m), None for the circle of its `radius` (m), and an arrow for its sense at `omega` (rad/s)."""
+    outline = circle(radius) if outline is None else outline
+    axis.plot(*(1e3 * outline.T), color="0.15", lw=1.2)
+    draw_sense(axis, radius, omega)
+
+
+def circle(radius):
+    """Points [361, 2] of the circle of a radius about the axis, in its unit."""
+    turn = np.linspace(0, 2 * np.pi, 361)
+    return radius * np.column_stack([np.cos(turn), np.sin(turn)])
 
 
 def draw_sense(axis, radius, omega):
@@ -44,8 +56,28 @@ def _arrows(axis, x, y, velocity, speed):
                 headwidth=4, pivot="mid", alpha=0.75)
 
 
+@dataclass
+class TimesMap(SlurryMap):
+    """SlurryMap of written times; seen [ny, nx], at how many of them a pixel was in the mill."""
+    seen: np.ndarray
+    times: int
+
+
+def mean_of_times(maps):
+    """TimesMap of the times of several, on the same pixels."""
+    seen = sum(one.seen for one in maps)
+    held = [np.nan_to_num(one.share) * one.seen for one in maps]
+    known = [np.where(np.isfinite(one.velocity), part[..., None], 0) for one, part in zip(maps, held)]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(seen > 0, sum(held) / seen, np.nan)
+        velocity = sum(np.nan_to_num(one.velocity) * part for one, part in zip(maps, known)) / sum(known)
+    times = sum(one.times for one in maps)
+    return TimesMap(maps[0].x, maps[0].y, share, np.where((share > 0.02)[..., None], velocity, np.nan), seen, times,
+                    source=f"the {times} written times", sense=maps[0].sense)
+
+
 def mean_flow(flow, begin):
-    """SlurryMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the share."""
+    """TimesMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the share."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     chosen = [(time, path) for time, path in flow.frames if time >= begin - 1e-9]
     share, momentum = 0.0, 0.0
@@ -66,7 +98,8 @@ def mean_flow(flow, begin):
         mean = np.where(seen > 0, share / seen, np.nan)
         velocity = np.where((mean > 0.02)[..., None], momentum / share[..., None], np.nan)
     edges = np.linspace(-flow.radius, flow.radius, PIXELS + 1)
-    return SlurryMap(edges, edges, mean, velocity, source=f"the {len(chosen)} written times", sense=np.sign(flow.omega))
+    return TimesMap(edges, edges, mean, velocity, seen, len(chosen), source=f"the {len(chosen)} written times",
+                    sense=np.sign(flow.omega))
 
 
 def plot_maps(flow, solids, begin, out):
@@ -180,15 +213,13 @@ def frame_figure(flow, time, path, ends=None):
     return figure
 
 
-def charge_figure(charge, radius, omega):
-    """Figure of a SolidsMap's solidity in the circle of a mill of `radius` (m) that turns at `omega` (rad/s)."""
+def charge_figure(charge, radius, omega, outline=None):
+    """Figure of a SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), in its `outline` [n, 2] (m)."""
     figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
     solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
     image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
     figure.colorbar(image, ax=axis, shrink=0.85, label="solidity over the axis, –")
-    turn = np.linspace(0, 2 * np.pi, 361)
-    axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="0.15", lw=1.2)
-    draw_sense(axis, radius, omega)
+    draw_outline(axis, outline, radius, omega)
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10)
     return figure
 

@@ -10,7 +10,7 @@ from PIL import Image
 from charge_test import RADIUS, below, charge_map, turning
 from millfoam.charge import charge_with_errors, read_charge
 from millfoam.charge_plots import charge_figure, tangential_figure
-from millfoam.mill_plots import save
+from millfoam.mill_plots import circle, save
 
 
 class Pictures(unittest.TestCase):
@@ -21,6 +21,15 @@ class Pictures(unittest.TestCase):
             picture = io.BytesIO()
             save(figure, picture)
             self.assertGreater(np.asarray(Image.open(picture).convert("L"), float).std(), 10)
+
+    def test_show_the_outline_that_is_given_or_the_circle(self):
+        charge = charge_map(below(lambda x: -0.02 - 0.5 * x), turning(5, (-0.03, -0.06)), voxels=33)
+        readings = read_charge(charge, RADIUS)
+        square = RADIUS * np.array([[1, 0], [0, 1], [-1, 0], [0, -1], [1, 0]])
+        for outline, points in ((square, square), (None, circle(RADIUS))):
+            figure = charge_figure(charge, readings, RADIUS, outline)
+            lines = [line.get_xydata() for line in figure.axes[0].lines]
+            self.assertTrue(any(line.shape == points.shape and np.allclose(line, 1e3 * points) for line in lines))
 
     def test_errors_of_windows_that_are_alike_are_nought(self):
         maps = [charge_map(below(lambda x: -0.02 - 0.5 * x), turning(5, (-0.03, -0.06)), voxels=33)] * 4

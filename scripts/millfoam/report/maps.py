@@ -10,15 +10,8 @@ DIFFERENCE = "RdBu_r"
 
 
 def draw_mill(axis, case):
-    """The mill of a case: its outline at the end of the flow, or shell and the circle that the lifters' tips sweep."""
-    if case.flow:
-        mill_plots.draw_mill(axis, case.flow, case.last)
-        return
-    turn = np.linspace(0, 2 * np.pi, 361)
-    height = case.mill["geometry"].get("lifters", {}).get("height", 0)
-    for radius, style in ((case.radius, "-"), (case.radius - height, ":")):
-        axis.plot(1e3 * radius * np.cos(turn), 1e3 * radius * np.sin(turn), color="0.15", lw=1, ls=style)
-    mill_plots.draw_sense(axis, case.radius, case.omega)
+    """The mill of a case: its outline at the end of the averaged time, and its sense of rotation."""
+    mill_plots.draw_outline(axis, case.outline, case.radius, case.omega)
 
 
 def map_figure(case, x, y, values, label, colours, limits):

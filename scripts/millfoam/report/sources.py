@@ -14,6 +14,7 @@ from ..dem_tracks import read_notes
 from ..dry_runs import read_results
 from ..foam import times
 from ..mill_flow import MillFlow
+from ..mill_plots import circle
 
 
 class NoMill(RuntimeError):
@@ -35,6 +36,18 @@ def read_mill(folder):
     if missing:
         raise NoMill(f"{path}: no {missing[0]}; expected the description of a mill (meshing/README.md)")
     return text, mill
+
+
+def lifter_outline(radius, count, height, width, top_width, angle):
+    """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from +x; height
+    from the shell to the middle of the flat top, width of the foot between its points on the shell."""
+    if not count:
+        return circle(radius)
+    half, pitch = np.arcsin(width / 2 / radius), 2 * np.pi / count
+    arc = radius * np.exp(1j * np.linspace(half, pitch - half, max(3, 360 // count)))
+    lifter = [radius * np.exp(-1j * half), radius - height - 0.5j * top_width, radius - height + 0.5j * top_width]
+    points = np.concatenate([np.exp(1j * (angle + number * pitch)) * np.concatenate([lifter, arc]) for number in range(count)])
+    return np.column_stack([points.real, points.imag])[[*range(len(points)), 0]]
 
 
 class MillCase:
@@ -71,6 +84,37 @@ class MillCase:
     def is_slice(self):
         """Whether the mill is a periodic slice."""
         return self.mill["geometry"].get("ends") == "periodic" or "slice" in self.mill["geometry"]
+
+    @property
+    def lifter_height(self):
+        """m; 0 for a smooth drum."""
+        lifters = self.mill["geometry"].get("lifters") or {}
+        return float(lifters.get("height", self.radius / 15)) if lifters.get("count") else 0.0
+
+    @cached_property
+    def turn(self):
+        """Time of a turn of the mill, s."""
+        return 2 * np.pi / abs(self.omega)
+
+    @cached_property
+    def has_balls(self):
+        """Whether the charge is in the flow, or there is no flow."""
+        return bool(not self.flow or self.law or self.flow.displaced)
+
+    @cached_property
+    def outline(self):
+        """The mill's outline [n, 2] (m) at the end of the averaged time."""
+        if self.flow:
+            return self.flow.turned(self.flow.outline(), self.last)
+        return self.outline_at(self.charge_span[1] if self.solids else 0)
+
+    def outline_at(self, time):
+        """The outline [n, 2] (m) by mill.yaml at DEM time `time` (s): lifter 1 stands at +x at time 0."""
+        lifters = self.mill["geometry"].get("lifters") or {}
+        count = lifters.get("count", 0)
+        width = lifters.get("width", min(self.lifter_height, np.pi * self.radius / max(count, 1)))
+        return lifter_outline(self.radius, count, self.lifter_height, width, lifters.get("top_width", width),
+                              self.omega * time)
 
     @cached_property
     def omega(self):
