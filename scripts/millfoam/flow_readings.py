@@ -11,11 +11,12 @@ import numpy as np
 from . import slurry_maps
 from .axial import AxialSeries, axial_series
 from .free_surface import free_surface
-from .mill_plots import mean_flow
+from .mill_plots import TimesMap, mean_flow, mean_of_times
 from .slurry import read_slurry_map
 from .slurry_shape import read_frame, reynolds
 
 BLOCKS = 5  # of the averaged time, for errors
+RING = 1.5  # heights of a lifter from the shell to the circle on which the slurry is read: what lifters carry is beyond
 # Of the published slurries: density, kg/m3 -> solids, % by mass
 CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 
@@ -45,6 +46,23 @@ def series_mean(values, blocks=BLOCKS):
     parts = np.array([np.mean(part, axis=0) for part in split])
     error = parts.std(axis=0, ddof=1) / np.sqrt(len(parts)) if len(parts) > 1 else np.full(parts.shape[1:], np.nan)
     return np.mean(values, axis=0), error
+
+
+@dataclass(frozen=True)
+class Way:
+    """Of the slurry by blocks of time: angles of its toe and shoulder (degrees, from straight down) on the circle of
+    ring_depth, and velocity along the axis of its halves there (m/s, to the discharge positive)."""
+    toe_angle: Mean
+    shoulder_angle: Mean
+    toe: Mean
+    shoulder: Mean
+
+    @property
+    def circulates(self):
+        """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where that is
+        within two standard errors."""
+        signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value)) for half in (self.toe, self.shoulder)]
+        return "yes" if signs == [1, -1] else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
 
 
 @dataclass
@@ -109,6 +127,40 @@ def charge_tilt(charge, radius, span):
     return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
 
 
+def ring_depth(lifter_height):
+    """From the shell to the circle on which the slurry's toe and shoulder are read, m."""
+    return RING * lifter_height
+
+
+def angle_mean(angles):
+    """block_mean of angles [n] (degrees), which may stand on either side of 180; from -180 to 180."""
+    about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
+    found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
+    return Mean(float((found.value + about + 180) % 360 - 180), found.error)
+
+
+def slurry_way(maps, radius, lifter_height):
+    """Way of slurry_maps.SlurryMap of successive blocks of time. RuntimeError where slurry has no ends on the circle."""
+    ends = [slurry_maps.slurry_ends(one, radius, ring_depth(lifter_height)) for one in maps]
+    ways = [slurry_maps.axial_flow(one, *both) for one, both in zip(maps, ends)]
+    angles = [angle_mean(one) for one in zip(*ends)]
+    return Way(*angles, *(block_mean([getattr(way, half).mean for way in ways]) for half in ("toe", "shoulder")))
+
+
+def mean_slurry(case, maps):
+    """SlurryMap of the averaged time of a report.sources.MillCase, of whose blocks there are `maps`."""
+    if all(isinstance(one, TimesMap) for one in maps):
+        return mean_of_times(maps)
+    return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
+                           np.sign(case.omega))
+
+
+def humps_at_ends(humps, z):
+    """How many axial.Humps stand at an end of the slices z [n] (m): the profile has no hump there that it tells."""
+    slack = 0.1 * (z[1] - z[0])
+    return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
+
+
 def blocks_of(count):
     """Numbers of `count` windows or times in a row, in BLOCKS parts as equal as can be, or fewer of one each."""
     return np.array_split(np.arange(count), min(BLOCKS, count))
@@ -148,15 +200,15 @@ def read_series(case):
 
 def read_maps(case, found):
     """Surface and way along the axis, into RunReadings."""
-    inner = case.radius - 1.5 * case.mill["geometry"]["lifters"]["height"]
+    inner = case.radius - ring_depth(case.lifter_height)
     maps = list(slurry_blocks(case))
     lines = [surface_line(one, case.radius, inner) for one in maps]
     tilt, deviation = (block_mean([line[k] for line in lines]) for k in (0, 1))
     span = max(line[2][0] for line in lines), min(line[2][1] for line in lines)
     found.surface = Surface(tilt, deviation, charge_tilt(case.charge, case.radius, span) if found.law else None)
     if found.ends:
-        ways = [slurry_maps.axial_flow(one, *slurry_maps.slurry_ends(one, case.radius, case.radius - inner)) for one in maps]
-        found.toe, found.shoulder = (block_mean([getattr(way, half).mean for way in ways]) for half in ("toe", "shoulder"))
+        way = slurry_way(maps, case.radius, case.lifter_height)
+        found.toe, found.shoulder = way.toe, way.shoulder
 
 
 def read_reynolds(case):

@@ -13,6 +13,7 @@ import numpy as np
 
 from millfoam import foam, mill_plots
 from millfoam.axial import axial_profile, discharge, fit_gaussians, slurry_volumes
+from millfoam.flow_readings import RING, humps_at_ends, ring_depth
 from millfoam.mill_flow import MillFlow
 from millfoam.slurry_maps import axial_flow, axial_velocity, slurry_ends
 
@@ -26,7 +27,8 @@ def plot_profile(profile, fits, path):
     along = np.linspace(profile.z[0], profile.z[-1], 200)
     for humps, style in zip(fits, ("--", ":")):
         axes[0].plot(1e3 * along, 1e3 * humps.fitted(along), color="0.3", ls=style, lw=1.2,
-                     label=f"{len(humps.places)} Gaussians, RMSD {1e3 * humps.rmsd:.2g} mm")
+                     label=f"{len(humps.places)} Gaussians, RMSD {1e3 * humps.rmsd:.2g} mm"
+                           + (" (at the profile's end)" if humps_at_ends(humps, profile.z) else ""))
     axes[0].set_ylabel("height of the slurry's\ncentre of mass, mm")
     axes[0].legend(fontsize=8)
     axes[1].plot(z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=3)
@@ -57,8 +59,9 @@ def millimetres(lengths, digits):
 def print_axial_flow(flow, slurry):
     """Where the slurry reaches, and its way along the axis at the toe and at the shoulder."""
     height = float(foam.read_dictionary(flow.case / "constant" / "millProperties")["lifterHeight"])
-    toe, shoulder = slurry_ends(slurry, flow.radius, 1.5 * height)
-    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down")
+    toe, shoulder = slurry_ends(slurry, flow.radius, ring_depth(height))
+    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' heights from "
+          "the shell")
     if np.isfinite([toe, shoulder]).all():
         along = axial_flow(slurry, toe, shoulder)
         for name, half in (("toe", along.toe), ("shoulder", along.shoulder)):
@@ -100,7 +103,7 @@ def main():
     for humps in fits:
         print(f"{len(humps.places)} Gaussians: humps at {millimetres(humps.places, 0)} mm, "
               f"{millimetres(humps.heights, 2)} mm high, {millimetres(humps.distances, 0)} mm apart, "
-              f"RMSD {1e3 * humps.rmsd:.2g} mm")
+              f"RMSD {1e3 * humps.rmsd:.2g} mm" + (", at the profile's end" if humps_at_ends(humps, profile.z) else ""))
     print_axial_flow(flow, slurry)
     print(f"p_rgh in the slurry: {profile.pressure[0]:.1f} Pa at the feed end, {profile.pressure[-1]:.1f} Pa at the "
           f"discharge end, drop {profile.pressure[0] - profile.pressure[-1]:.1f} Pa")
