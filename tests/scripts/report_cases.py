@@ -28,7 +28,8 @@ slurry: {{density: 1500, plastic_viscosity: 0.01}}
 RESULTS = {"balls": 1000, "lost_balls": 0, "steady": "yes", "steady_from": 1.0, "power": 3.21, "power_error": 0.0123,
            "ball_overlap_largest": 2e-4, "ball_overlap_99": 5e-5, "wall_time": 60}
 BALANCE = ("Time_s", "holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3", "missing_m3", "x_m", "y_m", "z_m",
-           "power_W", "Re_mean", "Re_95")
+           "torque_shell_Nm", "torque_lifters_Nm", "torque_all_Nm", "power_shell_W", "power_lifters_W", "power_W", "Re_mean",
+           "Re_95", "slip_max_m/s")
 HEAD = "FoamFile {{ version 2.0; format ascii; class {}; object {}; }}\n"
 
 
@@ -99,6 +100,23 @@ def write_flow(folder, title="A mill", tables=True, voxels=True):
     return folder
 
 
+def write_fluid_only(folder, **asked):
+    """A flow as of write_flow, without balls."""
+    write_flow(folder, **asked)
+    for path in (folder / "solids.h5", folder / "constant" / "bedProperties", *(folder / "dumps").iterdir()):
+        path.unlink()
+    log = folder / "log.flow"
+    log.write_text("\n".join(line for line in log.read_text().split("\n") if not line.startswith(("Drag", "bed"))))
+    return folder
+
+
+def make_slice(folder):
+    """Of a mill's case that was written one of a periodic slice."""
+    text = (folder / "mill.yaml").read_text()
+    (folder / "mill.yaml").write_text(text.replace("ends: plain", "ends: periodic"))
+    return folder
+
+
 def write_mesh(folder, points):
     """constant/polyMesh of a mesh of hexahedra (tests/integration/mesh.py), whose lower end is the feed's."""
     folder.mkdir(parents=True)
@@ -142,7 +160,8 @@ def write_tables(folder):
     noise = np.random.default_rng(2).normal(0, 1, time.shape)
     one = np.ones_like(time)
     columns = (time, 8e-4 + 1e-6 * noise, 2e-5 * one, 2e-5 + 1e-7 * noise, 0 * one, 0 * one, 1e-14 * one, 0.01 + 1e-5 * noise,
-               -0.09 + 1e-5 * noise, 0.03 * one, 0.5 + 0.01 * noise, 40 * one, 90 * one)
+               -0.09 + 1e-5 * noise, 0.03 * one, -0.01 * one, -0.07 * one, -0.08 * one, 0.06 * one, 0.42 * one,
+               0.5 + 0.01 * noise, 40 * one, 90 * one, np.where(time > 0.6, 1.25, 0.5))
     write_table(folder, "slurryBalance", "slurryBalance", BALANCE, np.column_stack(columns))
     z = LENGTH * (np.arange(8) + 0.5) / 8
     for name, values in (("holdUp", 1e-4 + 0 * z), ("height", -0.09 + 0.02 * z), ("p_rgh", 100 - 1000 * z)):

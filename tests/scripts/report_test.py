@@ -12,11 +12,16 @@ from unittest import mock
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.report import page
+from millfoam.axial import Humps
+from millfoam.flow_readings import Mean, Way, angle_mean, slurry_blocks, slurry_way
+from millfoam.mill_plots import circle, mean_flow, mean_of_times
+from millfoam.report import comparison, figures, page
 from millfoam.report.build import compare_cases, report_case
-from millfoam.report.sources import MillCase, NoMill
-from millfoam.report.words import decimals, typeset, uncertain
-from report_cases import OMEGA, TIME0, write_dry, write_flow, write_slurry, write_solids
+from millfoam.report.readings import Readings, humps_told
+from millfoam.report.sections import last_turn
+from millfoam.report.sources import MillCase, NoMill, lifter_outline
+from millfoam.report.words import decimals, millilitres, short_shares, span_of_time, typeset, uncertain
+from report_cases import OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_slurry, write_solids
 
 REPORT = Path(__file__).resolve().parents[2] / "scripts" / "report"
 VOID = {"meta", "link", "img", "input", "br"}
@@ -90,6 +95,15 @@ class Words(unittest.TestCase):
         self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
                          "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
         self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
+
+    def test_units_shares_volumes_and_times_are_as_one_writes_them(self):
+        self.assertEqual(typeset("0.0232 m^3, 128.7 cm^2, m^35"), "0.0232 m³, 128.7 cm², m^35")
+        self.assertEqual(short_shares("at most 51.676534 % of 2.0000001e-05 %, 12 %, 0.123456 s"),
+                         "at most 51.7 % of 2e-05 %, 12 %, 0.123456 s")
+        self.assertEqual([millilitres(volume) for volume in (1.2345e-2, 1.04e-5, 9.651e-6, 0)],
+                         ["12345 ml", "10.4 ml", "9.65 ml", "0 ml"])
+        self.assertEqual([span_of_time(seconds) for seconds in (0, 45, 59.9, 90)], ["below 1 s", "45 s", "60 s", "1.5 min"])
+        self.assertEqual([last_turn(seconds, 1.0) for seconds in (1.05, 0.48)], ["The last turn", "The last 0.48 of a turn"])
 
     def test_digits_are_those_that_the_error_allows(self):
         self.assertEqual([decimals(error) for error in (0.0123, 0.03, 0.5, 1.7, 4, 25)], [3, 2, 1, 1, 0, 0])
@@ -165,6 +179,104 @@ class OneCase(Case):
             MillCase(self.folder / "flow", 9)
 
 
+    def test_a_periodic_slice_has_no_ends(self):
+        self.undrawn()
+        found = self.assert_whole(report_case(make_slice(write_flow(self.folder / "flow"))))
+        self.assertNotRegex(found.text, "drop of p_rgh|feed|discharge")
+        self.assertIn("toe of the slurry", found.text)
+
+    def test_a_flow_without_balls_has_no_words_on_the_charge(self):
+        self.undrawn()
+        found = self.assert_whole(report_case(write_fluid_only(self.folder / "flow")))
+        self.assertNotRegex(found.text, "orange|clear of the charge|batch means|balls give")
+        self.assertIn("drop of p_rgh", found.text)
+
+    def test_power_by_wall_and_slip_are_told_where_the_table_has_them(self):
+        self.undrawn()
+        found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
+        words = re.sub(r"\s+", " ", found.text)
+        self.assertIn("shell −0.01 0.06 lifters −0.07 0.42 all −0.08 0.5", words)
+        self.assertIn("largest slip past the balls at any time 1.25 m/s", words)
+
+    def test_of_a_dry_run_the_lifters_stand_where_they_have_turned_to(self):
+        case = MillCase(write_dry(self.folder / "dry"))
+        angle = OMEGA * case.charge_span[1]
+        turned = case.outline @ [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        np.testing.assert_allclose(turned, lifter_outline(0.15, 8, 0.01, 0.01, 0.01, 0), atol=1e-12)
+
+
+class Outline(unittest.TestCase):
+    def test_is_the_shell_less_the_lifters(self):
+        outline = lifter_outline(0.15, 4, 0.02, 0.01, 0.006, 0)
+        np.testing.assert_array_equal(outline[0], outline[-1])
+        np.testing.assert_allclose(outline[:4], [[np.sqrt(0.15 ** 2 - 0.005 ** 2), -0.005], [0.13, -0.003], [0.13, 0.003],
+                                                 [np.sqrt(0.15 ** 2 - 0.005 ** 2), 0.005]])
+        x, y = outline.T
+        area = 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
+        self.assertAlmostEqual(area, np.pi * 0.15 ** 2 - 4 * 0.02 * 0.008, delta=2e-5)
+
+    def test_of_a_smooth_drum_is_a_circle(self):
+        np.testing.assert_array_equal(lifter_outline(0.15, 0, 0.02, 0.01, 0.01, 1), circle(0.15))
+
+
+class SlurryWay(Case):
+    def test_circulates_by_two_standard_errors(self):
+        angle = Mean(0.0)
+        for toe, shoulder, told in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"), ((3, 1), (-1, 1), "undecided"),
+                                    ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"), ((3, np.nan), (-3, 1), "undecided")):
+            self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, told)
+
+    def test_angles_are_averaged_across_180_degrees(self):
+        found = angle_mean([175, -175, 178, -178])
+        self.assertAlmostEqual(abs(found.value), 180)
+        self.assertAlmostEqual(found.error, np.std([-5, 5, -2, 2], ddof=1) / 2)
+
+    def test_of_blocks_of_written_times_is_the_mean_of_all(self):
+        case = MillCase(write_flow(self.folder / "flow", tables=False, voxels=False))
+        whole, parts = mean_flow(case.flow, case.begin), mean_of_times(list(slurry_blocks(case)))
+        np.testing.assert_allclose(parts.share, whole.share)
+        np.testing.assert_allclose(parts.velocity, whole.velocity, atol=1e-12)
+        self.assertEqual(parts.source, whole.source)
+
+    def test_of_the_report_is_the_studys(self):
+        self.undrawn()
+        flow = write_flow(self.folder / "flow")
+        case = MillCase(flow)
+        self.assertEqual(Readings(case).way, slurry_way(list(slurry_blocks(case)), case.radius, 0.01))
+        words = re.sub(r"\s+", " ", self.assert_whole(report_case(flow)).text)
+        self.assertIn("on the circle 1.5 lifters' heights (15 mm) from the shell", words)
+        self.assertIn("to the discharge at the toe and back at the shoulder yes", words)
+
+    def test_errors_of_blocks_shorter_than_a_turn_are_lower_bounds(self):
+        case = MillCase(write_flow(self.folder / "flow"))
+        self.assertIn("lower bounds of errors: the charge's of 0.1 s, the slurry's of 0.1 s", Readings(case).short_blocks())
+        case.turn = 0.1
+        self.assertEqual(Readings(case).short_blocks(), "")
+
+    def test_humps_at_the_profiles_end_are_told(self):
+        z = np.linspace(0.01, 0.29, 15)
+        for places, told in (((0.01, 0.29), "2 of 2 at the profile's end"), ((0.1, 0.29), "1 of 2"), ((0.1, 0.2), None)):
+            words = humps_told(Humps(places, (1, 1), (0.05, 0.05), 0, 1e-3), z)
+            self.assertIn(told or "100 mm apart, RMSD 1 mm", words)
+            self.assertEqual("end" in words, told is not None)
+
+
+class Curves(Case):
+    def test_power_begins_after_the_start_up_and_sets_its_axis_late(self):
+        case = MillCase(write_flow(self.folder / "flow"))
+        case.balance["power"][:2] = 1e4
+        times, power = figures.quarter_turns(case, "power")
+        self.assertGreater(times[0], case.turn / 4)
+        self.assertLess(power.max(), 0.6)
+        low, high = figures.late_limits(np.arange(10.0), np.array([99, 50, 9, 1, 1, 1, 2, 1, 1, 1.0]))
+        self.assertEqual((low, high), (0, 2.4))
+
+    def test_reynolds_numbers_stand_on_a_linear_axis_from_nought(self):
+        axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]
+        self.assertEqual((axis.get_yscale(), axis.get_ylim()[0]), ("linear", 0))
+        plt.close(axis.figure)
+
+
 class Refused(Case):
     def assert_refused(self, message):
         with self.assertRaisesRegex(NoMill, message):
@@ -233,6 +345,20 @@ class Several(Case):
         found = self.assert_whole(compare_cases([*flows, write_dry(self.folder / "dry")]))
         self.assertIn("a/case against b/case, ", found.text)
         self.assertLessEqual({"numbers", "checks", "charge", "slurry"}, set(found.ids))
+        self.assertIn("p_rgh", found.text)
+        self.assertNotIn("Head", found.text)
+
+    def test_a_case_that_cannot_be_compared_is_named_with_the_reason(self):
+        self.undrawn()
+        flow, dry = write_flow(self.folder / "flow"), write_dry(self.folder / "dry")
+        other = write_dry(self.folder / "other")
+        (other / "mill.yaml").write_text((other / "mill.yaml").read_text().replace("diameter: 0.3\n", "diameter: 0.32\n"))
+        words = re.sub(r"\s+", " ", self.assert_whole(compare_cases([flow, dry, other])).text)
+        self.assertIn("other – – – not compared: another mill, of 320 mm instead of 300 mm", words)
+        one, finer = (MillCase(path) for path in (flow, dry))
+        finer.charge.x = np.linspace(-0.15, 0.15, 50)
+        self.assertEqual(comparison.not_compared(finer, one, finer.charge, one.charge), "other voxels")
+        self.assertIsNone(comparison.not_compared(one, one, one.charge, one.charge))
 
     def test_measurements_are_held_against_one_case_only(self):
         ended = self.command(self.folder, self.folder, "--measured", "map.csv")

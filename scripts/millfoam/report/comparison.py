@@ -15,7 +15,7 @@ def sections(cases, readings, names):
             ("checks", "Can they be believed?", [verdict_table(cases, names)]),
             ("charge", "Charge", charge_cards(cases, readings, names)),
             ("slurry", "Slurry", slurry_cards(cases, readings, names)),
-            ("axis", "Along the axis", axial_cards(readings, names)),
+            ("axis", "Along the axis", axial_cards(cases, readings, names)),
             ("time", "Against time", time_cards(cases, names))]
 
 
@@ -35,8 +35,9 @@ def numbers(cases, readings, names):
     keys = list(dict.fromkeys(key for column in columns for key in column))
     rows = [(key, *(column.get(key, "–") for column in columns)) for key in keys]
     rows.insert(0, ("run", *(case.summary() for case in cases)))
+    short = [f" {name}:{words}" for name, words in zip(names, [one.short_blocks(slurry=False) for one in readings]) if words]
     return page.table(["", *names], rows, wide=True, note="±: standard errors of batch means over time. Angles are counted from "
-                                                          "straight down, positive where the shell rises.")
+                                                          "straight down, positive where the shell rises." + "".join(short))
 
 
 def verdict_table(cases, names):
@@ -48,6 +49,13 @@ def verdict_table(cases, names):
 
 def same_pixels(a, b):
     return len(a.x) == len(b.x) and len(a.y) == len(b.y) and np.allclose(a.x, b.x) and np.allclose(a.y, b.y)
+
+
+def not_compared(case, first, one, other):
+    """Why maps of a case and the first are not held against each other; None where they are."""
+    if not np.isclose(case.radius, first.radius):
+        return f"another mill, of {2e3 * case.radius:.4g} mm instead of {2e3 * first.radius:.4g} mm"
+    return None if same_pixels(one, other) else "other voxels"
 
 
 def charge_cards(cases, readings, names):
@@ -66,7 +74,9 @@ def charge_differences(told):
     """Maps of the differences from the first of (case, readings, name), and a table of their numbers."""
     (first, _, first_name), cards, rows = told[0], [], []
     for case, _, name in told[1:]:
-        if case.solids == first.solids or not same_pixels(case.charge, first.charge):
+        reason = not_compared(case, first, case.charge, first.charge)
+        if reason or case.solids == first.solids:
+            rows.append((name, "–", "–", "–", f"not compared: {reason or 'the same dry charge'}"))
             continue
         apart = compare.difference_maps(case.charge, first.charge)
         figure = maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –", 0.05)
@@ -112,26 +122,29 @@ def slurry_cards(cases, readings, names):
     cards = [page.picture(maps.map_figure(case, one.x, one.y, one.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1)),
                           f"Share of the fluid that is slurry, averaged over the axis and {one.source}.", title=name)
              for case, one, name in told]
-    _, first, first_name = told[0]
+    first_case, first, first_name = told[0]
     for case, one, name in told[1:]:
-        if same_pixels(one, first):
+        reason = not_compared(case, first_case, one, first)
+        if reason:
+            cards.append(page.paragraph(f"Slurry of {name} is not compared with that of {first_name}: {reason}."))
+        else:
             figure = maps.difference_figure(case, one.x, one.y, one.share - first.share, "difference of the share, –", 0.1)
             cards.append(page.picture(figure, f"Share of slurry of {name} less that of {first_name}. Red: more slurry.",
                                       title=f"{name} less {first_name}"))
     return cards
 
 
-def axial_cards(readings, names):
+def axial_cards(cases, readings, names):
     found = [(name, reading.profile) for name, reading in zip(names, readings)
              if isinstance(reading.profile, axial.AxialProfile) and len(reading.profile.z) > 2]
     if not found:
         return []
-    z = "z from the feed end, mm"
+    z = "z, mm" if any(case.is_slice for case in cases) else "z from the feed end, mm"
     return [page.picture(figures.lines_against([(name, 1e3 * one.z, 1e3 * one.height) for name, one in found], z,
                                                "height of the centre, mm"), "Mean over time.",
                          title="Height of the slurry's centre"),
             page.picture(figures.lines_against([(name, 1e3 * one.z, one.pressure) for name, one in found], z, "p_rgh, Pa"),
-                         "Pressure in the slurry without what the depth makes, mean over time.", title="Head")]
+                         "Pressure in the slurry without what the depth makes, mean over time.", title="p_rgh")]
 
 
 def time_cards(cases, names):
@@ -140,11 +153,13 @@ def time_cards(cases, names):
         return []
     curves = {key: [(name, case.balance["Time"], scale * case.balance[key]) for name, case in told]
               for key, scale in (("holdUp", 1e6), ("y", 1e3))}
-    power = [(name, case.balance["Time"][1:], figures.running_mean(case.balance["Time"], case.balance["power"],
-                                                                   np.pi / 2 / abs(case.omega))[1:]) for name, case in told]
+    power = [(name, *figures.quarter_turns(case, "power")) for name, case in told]
+    limits = np.array([figures.late_limits(times, values) for _, times, values in power])
     return [page.picture(figures.lines_against(curves["holdUp"], "flow time, s", "hold-up, ml"), "Slurry in the mill.",
                          title="Hold-up"),
             page.picture(figures.lines_against(curves["y"], "flow time, s", "y, mm"), "Of the slurry's volume.",
                          title="Height of the centre"),
-            page.picture(figures.lines_against(power, "flow time, s", "power, W\n(mean over a quarter turn)"),
-                         "What walls and balls give.", title="Power for the slurry")]
+            page.picture(figures.lines_against(power, "flow time, s", "power, W\n(mean over a quarter turn)",
+                                               (limits[:, 0].min(), limits[:, 1].max())),
+                         "What walls, and balls where there are any, give; the start-up may be beyond the axis.",
+                         title="Power for the slurry")]

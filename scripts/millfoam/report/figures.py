@@ -34,13 +34,31 @@ def running_mean(times, values, width):
     return (total[1:] - np.interp(begin, clock, total)) / (times - begin)
 
 
+def quarter_turns(case, name):
+    """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without the first
+    steps' start-up on; of a shorter run over what there is, from its half on."""
+    times = case.balance["Time"]
+    mean = running_mean(times, case.balance[name], case.turn / 4)
+    clear = times[0] + 1.05 * case.turn / 4
+    whole = times >= (clear if clear < times[-1] else times[0] / 2 + times[-1] / 2)
+    return times[whole], mean[whole]
+
+
+def late_limits(times, values):
+    """Limits of an axis for values whose start-up, the first half of the time, may go beyond; 0 is between them."""
+    late = values[times >= times[0] / 2 + times[-1] / 2]
+    low, high = min(0, late.min()), max(0, late.max())
+    return 1.2 * low, 1.2 * high or 1e-12
+
+
 def energy(case):
     """Power and energies of the dry run against time."""
     figure, (top, bottom) = axes_of(2)
     time, told = case.energy["time_s"], case.energy
-    turn = 2 * np.pi / abs(case.omega)
     top.plot(time, told["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
-    top.plot(time, running_mean(time, told["power_W"], turn / 4), color=BLUE, label="mean over a quarter of a turn")
+    whole = time >= min(1.05 * case.turn / 4, time[-1] / 2)
+    top.plot(time[whole], running_mean(time, told["power_W"], case.turn / 4)[whole], color=BLUE,
+             label="mean over a quarter of a turn")
     late = told["power_W"][len(time) // 4:]
     top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
     top.set_ylabel("power, W")
@@ -71,15 +89,16 @@ def overlaps(case):
 
 def holdup(case):
     """Hold-up, feed and discharge of the slurry against time."""
-    told, turn = case.balance, 2 * np.pi / abs(case.omega)
-    figure, axes = axes_of(2 if case.is_open else 1)
+    told, is_open = case.balance, case.is_open and not case.is_slice
+    figure, axes = axes_of(2 if is_open else 1)
     axes[0].plot(told["Time"], 1e6 * told["holdUp"], color=BLUE)
     axes[0].set_ylabel("hold-up, ml")
-    if not case.is_open:  # a closed mill: the line would be stretched to its round-off
+    if not is_open:  # a closed mill: the line would be stretched to its round-off
         axes[0].set_ylim(0, 1.2e6 * told["holdUp"].max())
     else:
         for key, colour in (("feed", GREEN), ("discharge", RED)):
-            axes[1].plot(told["Time"], 1e6 * running_mean(told["Time"], told[key], turn / 4), color=colour, label=key)
+            times, mean = quarter_turns(case, key)
+            axes[1].plot(times, 1e6 * mean, color=colour, label=key)
         axes[1].set_ylabel("ml/s, mean over a\nquarter of a turn")
         axes[1].set_ylim(bottom=0)
         axes[1].legend()
@@ -89,15 +108,15 @@ def holdup(case):
 
 def centre_and_power(case):
     """Centre of the slurry and the power that it takes against time."""
-    told, turn = case.balance, 2 * np.pi / abs(case.omega)
+    told = case.balance
     figure, (top, bottom) = axes_of(2)
     top.plot(told["Time"], 1e3 * told["x"], color=BLUE, label="x (below 0: rising side)")
     top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
     top.set_ylabel("centre of the slurry, mm")
     top.legend()
-    bottom.plot(told["Time"][1:], running_mean(told["Time"], told["power"], turn / 4)[1:], color=BLUE)
-    late = running_mean(told["Time"], told["power"], turn / 4)[told["Time"] >= min(turn / 4, told["Time"][-1] / 2)]
-    bottom.set_ylim(min(0, late.min()), 1.2 * max(late.max(), 1e-12))
+    times, power = quarter_turns(case, "power")
+    bottom.plot(times, power, color=BLUE)
+    bottom.set_ylim(late_limits(times, power))
     bottom.set(ylabel="power for the slurry, W\n(mean over a quarter turn)", xlabel="flow time, s")
     return figure
 
@@ -108,13 +127,15 @@ def reynolds(case):
     figure, (axis,) = axes_of()
     axis.plot(told["Time"], told["Re_mean"], color=BLUE, label="mean over the balls")
     axis.plot(told["Time"], told["Re_95"], color=RED, label="95 % of the balls below")
-    axis.set(xlabel="flow time, s", ylabel="particle Reynolds number", yscale="log")
+    axis.set(xlabel="flow time, s", ylabel="particle Reynolds number",
+             ylim=(0, 1.1 * max(np.percentile(told["Re_95"], 99.5), told["Re_mean"].max())))
     axis.legend()
     return figure
 
 
-def axial(profile, fits):
-    """Height of the slurry's centre of mass, hold-up and head along the axis; fits: curves (label, z, height)."""
+def axial(profile, fits, along):
+    """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves (label, z,
+    height)."""
     figure, (height, held, head) = axes_of(3, height=2.3)
     z = 1e3 * profile.z
     height.fill_between(z, 1e3 * (profile.height - profile.height_spread), 1e3 * (profile.height + profile.height_spread),
@@ -123,22 +144,22 @@ def axial(profile, fits):
     for (label, at, curve), colour in zip(fits, (RED, GREEN)):
         height.plot(1e3 * at, 1e3 * curve, color=colour, lw=1.2, label=label)
     height.set_ylabel("height of the\ncentre, mm")
-    height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2)
+    height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=1 if any("end)" in label for label, _, _ in fits) else 2)
     held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
     held.set_ylabel("hold-up, ml per mm")
     head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)
-    head.set(ylabel="p_rgh, Pa", xlabel="z from the feed end, mm")
+    head.set(ylabel="p_rgh, Pa", xlabel=along)
     return figure
 
 
-def axial_against_time(places, times, values):
-    """Height of the centre of mass over axis and time."""
+def axial_against_time(places, times, values, along):
+    """Height of the centre of mass over the axis, which is called `along`, and time."""
     figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
     image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower, vmax=upper,
                             rasterized=True)
     figure.colorbar(image, ax=axis, label="height of the centre, mm")
-    axis.set(xlabel="flow time, s", ylabel="z from the feed end, mm")
+    axis.set(xlabel="flow time, s", ylabel=along)
     return figure
 
 
@@ -147,12 +168,12 @@ def _legend_above(axis, labels):
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2 if max(map(len, labels)) < 22 else 1)
 
 
-def lines_against(curves, xlabel, ylabel):
-    """Curves (label, x, y) of several cases in one panel."""
+def lines_against(curves, xlabel, ylabel, limits=None):
+    """Curves (label, x, y) of several cases in one panel; limits of y."""
     figure, (axis,) = axes_of()
     for (label, x, y), colour in zip(curves, COLOURS):
         axis.plot(x, y, color=colour, label=label, lw=1.3)
-    axis.set(xlabel=xlabel, ylabel=ylabel)
+    axis.set(xlabel=xlabel, ylabel=ylabel, ylim=limits)
     _legend_above(axis, [label for label, _, _ in curves])
     return figure
 

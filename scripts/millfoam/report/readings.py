@@ -2,11 +2,11 @@
 """What is read off a case's maps and tables, once for all sections, and the numbers that are asked for first."""
 import numpy as np
 
-from .. import axial, charge, mill_plots
-from ..flow_readings import read_series
-from ..slurry import read_slurry_map
+from .. import axial, charge
+from ..flow_readings import humps_at_ends, mean_slurry, read_series, slurry_blocks, slurry_way
+from ..slurry_maps import SlurryMap
 from ..tables import time_mean
-from .words import uncertain
+from .words import millilitres, uncertain
 
 
 class Readings:
@@ -16,7 +16,10 @@ class Readings:
         self.case = case
         self.charge = self.attempt(lambda: charge.read_charge(case.charge, case.radius)) if case.solids else None
         self.errors = self.attempt(self._errors) if isinstance(self.charge, charge.Charge) else None
-        self.slurry = self.attempt(self._slurry) if case.flow else None
+        # Blocks are read once for the mean and for its errors
+        self.blocks = self.attempt(lambda: list(slurry_blocks(case))) if case.flow else None
+        self.slurry = self.attempt(lambda: mean_slurry(case, self.blocks)) if isinstance(self.blocks, list) else self.blocks
+        self.way = self.attempt(self._way) if isinstance(self.slurry, SlurryMap) else None
         self.profile = self.attempt(self._profile) if case.flow else None
         self.humps = {}
         if isinstance(self.profile, axial.AxialProfile):
@@ -36,17 +39,28 @@ class Readings:
         """Standard error of a reading of the charge over time; NaN where it is not known."""
         return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
 
+    def short_blocks(self, slurry=True):
+        """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where they are of blocks of time
+        that are shorter than a turn of the mill. Empty where they are not."""
+        case, lengths = self.case, {}
+        if isinstance(self.errors, dict):
+            lengths["the charge's"] = np.ptp(case.charge_span) / self.errors["centre"].blocks
+        if slurry and isinstance(self.blocks, list):
+            lengths["the slurry's"] = (case.last - case.begin) / len(self.blocks)
+        short = [f"{name} of {length:.2g} s" for name, length in lengths.items() if length < 0.99 * case.turn]
+        return (f" Blocks shorter than a turn of the mill ({case.turn:.2g} s) give lower bounds of errors: {', '.join(short)}."
+                if short else "")
+
     def _errors(self):
         maps = self.case.charge_windows
         return charge.charge_with_errors(maps, self.case.radius) if len(maps) >= 4 else None
 
-    def _slurry(self):
-        """SlurryMap by the voxels that the flow averaged, or else by its written times."""
-        case = self.case
-        if case.slurry:
-            return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
-                                   np.sign(case.omega))
-        return mill_plots.mean_flow(case.flow, case.begin)
+    def _way(self):
+        """flow_readings.Way by blocks of time, or of the mean where one of them tells nothing."""
+        try:
+            return slurry_way(self.blocks, self.case.radius, self.case.lifter_height)
+        except RuntimeError:
+            return slurry_way([self.slurry], self.case.radius, self.case.lifter_height)
 
     def _profile(self):
         """AxialProfile by the function object's tables, or else by the written times."""
@@ -65,13 +79,20 @@ def key_numbers(case, readings):
         rows += charge_numbers(readings)
     if case.balance is not None:
         rows += balance_numbers(case)
-    if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2:
+    if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2 and not case.is_slice:
         rows.append(("drop of p_rgh in the slurry along the axis, by a straight line", f"{axial.drop(readings.profile):.3g} Pa"))
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
-            apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
-            rows.append((f"axial profile, {count} Gaussians", f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm"))
+            rows.append((f"axial profile, {count} Gaussians", humps_told(fit, readings.profile.z)))
     return rows
+
+
+def humps_told(fit, z):
+    """Distances and RMSD of axial.Humps on slices z (m), and whether they end where the slices do."""
+    apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
+    ended = humps_at_ends(fit, z)
+    words = f"; {ended} of {len(fit.places)} at the profile's end: how far apart is only the span of its slices" if ended else ""
+    return f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm{words}"
 
 
 def charge_numbers(readings):
@@ -89,10 +110,10 @@ def balance_numbers(case):
     if not late.any():
         return []
     mean = {name: time_mean(told["Time"], values, case.begin) for name, values in told.items()}
-    rows = [("hold-up of slurry", f"{1e6 * mean['holdUp']:.4g} ml"),
+    rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4)),
             ("centre of the slurry, x", f"{1e3 * mean['x']:.1f} mm"), ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
             ("power for the slurry", f"{mean['power']:.3g} W")]
-    if case.is_open:
+    if case.is_open and not case.is_slice:
         feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
         rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),
                  ("feed less discharge", f"{feed - out:+.1f} ml/s")]

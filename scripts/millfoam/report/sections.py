@@ -10,16 +10,17 @@ from . import figures, maps, page
 from .contact_cards import contact_section
 from .readings import key_numbers
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
+from .words import short_shares, span_of_time
 
 FRAMES = 40  # of the animation, at most
 
 
 def overview(case, readings):
-    cards = [page.table(None, key_numbers(case, readings), title="Key numbers", note=spans(case))]
+    cards = [page.table(None, key_numbers(case, readings), title="Key numbers", note=spans(case, readings))]
     return [animation(case)] + cards if case.flow or case.solids else cards
 
 
-def spans(case):
+def spans(case, readings):
     words = []
     if not (case.solids or case.flow):
         return "Power: mean of the dry run since it is steady, with the standard error of batch means."
@@ -27,25 +28,35 @@ def spans(case):
         words.append(f"charge averaged over DEM time {case.charge_span[0]:.3g} to {case.charge_span[1]:.3g} s")
     if case.flow:
         words.append(f"flow from {case.begin:.3g} to {case.last:.3g} s")
-    return ("Averages: " + ", ".join(words) + ". ±: standard errors of batch means over time. Angles are counted from straight "
-            "down, positive where the shell rises.")
+    told = "Averages: " + ", ".join(words) + "."
+    if case.solids or case.results:
+        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where the shell "
+                 "rises.")
+    return told + readings.short_blocks(slurry=False)
 
 
 def animation(case):
     """Charge and slurry over the last turn of the mill, or what there is of it."""
-    turn = 2 * np.pi / abs(case.omega)
     if case.flow:
-        frames = [frame for frame in case.flow.frames if frame[0] >= max(case.last - turn, 1e-9)]
+        frames = [frame for frame in case.flow.frames if frame[0] >= max(case.last - case.turn, 1e-9)]
+        shown = case.last - max([time for time, _ in case.flow.frames if time < frames[0][0]], default=0)
         frames = [frames[k] for k in np.unique(np.linspace(0, len(frames) - 1, FRAMES).astype(int))]
         ends = case.flow.end_wall()
+        edge = " and edge of the charge (orange, solidity 0.2)" if case.has_balls else ""
         return page.player((mill_plots.frame_figure(case.flow, *frame, ends) for frame in frames),
-                           f"Share of slurry over the axis (blue) and edge of the charge (orange, solidity 0.2), flow time "
-                           f"{frames[0][0]:.2f} to {frames[-1][0]:.2f} s.", title="The last turn")
-    maps = solids.read_windows(case.solids, case.charge_span[1] - turn, case.charge_span[1])
-    maps = [maps[k] for k in np.unique(np.linspace(0, len(maps) - 1, FRAMES).astype(int))]
-    return page.player((mill_plots.charge_figure(one, case.radius, case.omega) for one in maps),
-                       f"Solidity over the axis, window by window, DEM time {maps[0].begin:.2f} to {maps[-1].end:.2f} s.",
-                       title="The last turn")
+                           f"Share of slurry over the axis (blue){edge}, flow time {frames[0][0]:.2f} to "
+                           f"{frames[-1][0]:.2f} s.", title=last_turn(shown, case.turn))
+    windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
+    shown = windows[-1].end - windows[0].begin
+    windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
+    return page.player((mill_plots.charge_figure(one, case.radius, case.omega, case.outline_at(one.end)) for one in windows),
+                       f"Solidity over the axis, window by window, DEM time {windows[0].begin:.2f} to {windows[-1].end:.2f} s; "
+                       "the mill's outline at the end of each.", title=last_turn(shown, case.turn))
+
+
+def last_turn(seconds, turn):
+    """Title of a time (s) that is shown, of a mill whose turn takes `turn` s."""
+    return "The last turn" if seconds > 0.99 * turn else f"The last {seconds / turn:.2f} of a turn"
 
 
 def charge_section(case, readings):
@@ -64,7 +75,7 @@ def charge_maps(case, readings):
     if isinstance(found, str):
         words = f"Solidity averaged over axis and time. Not read: {found.rstrip('?')}."
         return [page.picture(maps.solidity_figure(case, mean), words, title="Charge")]
-    return [page.picture(charge_plots.charge_figure(mean, found, case.radius),
+    return [page.picture(charge_plots.charge_figure(mean, found, case.radius, case.outline),
                          "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the shoulder on "
                          "the rising side to the toe; the charge turns about the centre of circulation.", title="Charge"),
             page.picture(charge_plots.tangential_figure(found.tangential),
@@ -102,17 +113,19 @@ def ledger_section(case, _readings):
         cards.append(page.table(None, values, title="Mesh of the flow"))
     ranges = re.findall(r"^bed: beyond .*$", case.log("flow"), re.M)
     if ranges:
-        cards.append(page.table(None, [(ranges[-1].removeprefix("bed: "),)], title="Drag law"))
+        cards.append(page.table(None, [(short_shares(ranges[-1].removeprefix("bed: ")),)], title="Drag law"))
     return cards
 
 
 def run_section(case, _readings):
     """Versions and cost, and the mill's description."""
     rows = [(name, found) for name, found in versions(case)]
-    costs = [(name, f"{seconds / 60:.1f} min") for name, seconds in stage_costs(case)]
+    costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case)]
     cards = [page.table(None, rows, title="Programs")] if rows else []
     if costs:
-        cards.append(page.table(None, costs, title="Cost by stage", note="Wall time of stages that ended or failed, every time that they ran; not of those that were killed."))
+        cards.append(page.table(None, costs, title="Cost by stage",
+                                note="Wall time of stages that ended or failed, every time that they ran; not of those that "
+                                     "were killed."))
     return cards + [page.folded("mill.yaml", case.mill_text)]
 
 
@@ -130,7 +143,7 @@ def versions(case):
             yield f"millFoam, of the {stage}", ran[stage]
     found = re.findall(r"^Build\s*:\s*(\S+)", case.log("flow"), re.M)
     if found:
-        yield "OpenFOAM", found[-1]
+        yield "OpenFOAM", found[-1].replace("OPENFOAM=", "")
     found = re.findall(r"^Exec\s*:\s*(\S+)", case.log("flow"), re.M)
     if found:
         yield "flow solver", found[-1]

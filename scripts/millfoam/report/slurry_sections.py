@@ -3,9 +3,11 @@
 import numpy as np
 
 from .. import axial, charge, mill_plots, models, slurry_maps
+from ..flow_readings import RING, Way, humps_at_ends, ring_depth
 from ..free_surface import at_points
 from ..tables import time_mean
 from . import figures, maps, page
+from .words import millilitres, uncertain
 
 
 def slurry_section(case, readings):
@@ -20,39 +22,45 @@ def slurry_section(case, readings):
              page.picture(maps.speed_figure(case, slurry.x, slurry.y, slurry.velocity, slurry.share > 0.05),
                           "Mean velocity of the slurry across the axis: colour for its size, arrows for its direction.",
                           title="Speed of the slurry")]
-    if case.length > 0.5 * case.radius:
+    if case.length > 0.5 * case.radius and not case.is_slice:
         cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share is over a "
                                   "half. Red: to the discharge.", title="Slurry along the axis"))
     if case.load:
         cards.append(page.picture(mill_plots.load_figure(case.flow, case.begin),
                                   "Force of the fluid on the balls over their weight: where it nears 1 (line) the coupling in "
                                   "one direction does not hold.", title="Force on the balls"))
-    return cards + [page.table(None, slurry_rows(case, slurry), title="Read off the maps", note="Angles from straight down, "
-                               "positive where the shell rises.")]
+    note = (f"Angles from straight down, positive where the shell rises, on the circle {RING:g} lifters' heights "
+            f"({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of {len(readings.blocks)} "
+            f"blocks of time.{readings.short_blocks()}")
+    return cards + [page.table(None, slurry_rows(case, readings), title="Read off the maps", note=note)]
 
 
-def slurry_rows(case, slurry):
+def slurry_rows(case, readings):
     """Rows (name, text) of toe, shoulder, pool and way along the axis."""
-    wall = case.mill["geometry"].get("lifters", {}).get("height", 0.0)
-    toe, shoulder = slurry_maps.slurry_ends(slurry, case.radius, wall)
-    rows = [(f"{name} of the slurry at the lifters' tips", f"{angle:.0f}°" if np.isfinite(angle) else "none")
-            for name, angle in (("shoulder", shoulder), ("toe", toe))]
+    slurry, way = readings.slurry, readings.way
+    if isinstance(way, Way):
+        rows = [(f"{name} of the slurry", uncertain(angle.value, angle.error, "°"))
+                for name, angle in (("shoulder", way.shoulder_angle), ("toe", way.toe_angle))]
+    else:
+        rows = [(f"{name} of the slurry", "none") for name in ("shoulder", "toe")]
     solidity = np.zeros_like(slurry.share)
     if case.solids and case.law:
         points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
         solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
     pool = slurry_maps.pool(slurry, solidity)
-    rows.append(("pool clear of the charge", f"{1e6 * pool.area * case.length:.3g} ml, surface at y = {1e3 * pool.level:.1f} mm"
-                 if pool.area > 0 else "none"))
-    try:
-        way = slurry_maps.axial_flow(slurry, toe, shoulder)
-        rows += [(f"along the axis at the {name}: mean (90 % of it)",
-                  f"{1e3 * half.mean:+.3g} mm/s ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
-                 for name, half in (("toe", way.toe), ("shoulder", way.shoulder))]
-        rows.append(("to the discharge at the toe and back at the shoulder", "yes" if way.circulates else "no"))
-    except RuntimeError as error:
-        rows.append(("along the axis", str(error)))
-    return rows
+    rows.append(("pool clear of the charge" if case.has_balls else "pool",
+                 f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0
+                 else "none"))
+    if case.is_slice:
+        return rows
+    if not isinstance(way, Way):
+        return rows + [("along the axis", str(way))]
+    halves = slurry_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
+    rows += [(f"along the axis at the {name}: mean (90 % of it)", uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
+              + f" ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
+             for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]
+    words = {"undecided": "undecided: a mean is within two standard errors of nought, or its error is not known"}
+    return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
 
 
 def axial_section(case, readings):
@@ -62,27 +70,60 @@ def axial_section(case, readings):
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
             at = np.linspace(readings.profile.z[0], readings.profile.z[-1], 300)
-            fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm", at, fit.fitted(at)))
-    cards = [page.picture(figures.axial(readings.profile, fits), "By slices along the axis, averaged over time; p_rgh is the "
-                          "pressure without what the depth makes.", title="Profile along the axis")]
+            ended = " (at the profile's end)" if humps_at_ends(fit, readings.profile.z) else ""
+            fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm{ended}", at, fit.fitted(at)))
+    ended = " Of Gaussians at the profile's end the distance is only its span." if any("end)" in label for label, _, _ in fits) else ""
+    cards = [page.picture(figures.axial(readings.profile, fits, along(case)), "By slices along the axis, averaged over time; "
+                          f"p_rgh is the pressure without what the depth makes.{ended}", title="Profile along the axis")]
     heights = case.axial("height")
     if heights:
-        cards.append(page.picture(figures.axial_against_time(*heights),
+        cards.append(page.picture(figures.axial_against_time(*heights, along(case)),
                                   "Height of the slurry's centre of mass by slices against time.", title="Profile against time"))
     return cards
+
+
+def along(case):
+    """What the axis along the mill is called."""
+    return "z, mm" if case.is_slice else "z from the feed end, mm"
 
 
 def balance_section(case, _readings):
     if case.balance is None or len(case.balance["Time"]) < 2:
         return []
-    cards = [page.picture(figures.holdup(case), "Slurry in the mill and through its openings.", title="Hold-up"),
-             page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that walls and balls "
+    through = " and through its openings" if case.is_open and not case.is_slice else ""
+    givers = "walls and balls" if case.has_balls else "walls"
+    cards = [page.picture(figures.holdup(case), f"Slurry in the mill{through}.", title="Hold-up"),
+             page.picture(figures.centre_and_power(case), f"Centre of the slurry's volume, and the power that {givers} "
                           "give to it (torque by the balance of angular momentum, times the mill's speed).",
                           title="Centre and power")]
     if case.met_balls:
         cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, by their volume.",
                                   title="Particle Reynolds numbers"))
+    head, rows = wall_table(case)
+    if rows:
+        cards.append(page.table(head, rows, title="Torque and power",
+                                note=f"About +z on the slurry, means from {case.begin:.3g} s on; of walls: by pressure and "
+                                     "friction there, of all: by the balance of angular momentum."))
     return cards
+
+
+def wall_table(case):
+    """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest slip."""
+    told = case.balance
+    if not (told["Time"] >= case.begin).any():
+        return None, []
+    walls = list(dict.fromkeys(name.split("_", 1)[1] for name in told
+                               if name.startswith(("torque_", "power_")) and name != "torque_all"))
+
+    def cell(name):
+        return (time_mean(told["Time"], told[name], case.begin), ".3g") if name in told else "–"
+
+    rows = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
+    if "torque_all" in told:
+        rows.append(("all", cell("torque_all"), cell("power")))
+    if "slip_max" in told and case.met_balls:
+        rows.append(("largest slip past the balls at any time", f"{told['slip_max'][told['Time'] >= case.begin].max():.3g} m/s", ""))
+    return ["", "torque, N m", "power, W"], rows
 
 
 def models_section(case, readings):
@@ -95,11 +136,14 @@ def models_section(case, readings):
         found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
         if not isinstance(found, str):
             model, rmsd = found
+            why = (f"the fit leaves more than {100 * models.POOR:.0f} % of the radius" if rmsd > models.POOR else
+                   "a friction of the fit is nought, and would be below")
+            poor = "" if models.describes(model, rmsd) else f" The model does not describe this surface: {why}."
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),
                                   ("Taberlet", case.radius * np.column_stack([model.x, model.y]))], case.radius, case.omega),
-                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3g}, μw {model.wall:.3g}; "
-                f"RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.",
+                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw {model.wall:.3f}; "
+                f"RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.{poor}",
                 title="Free surface by Taberlet, Richard & Hinch"))
     rows = moys(case)
     if rows:
