@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report in a browser, as wide as a desk's screen and as a telephone: nothing is cut off or broken, and its player plays.
+"""A report and a comparison in a browser, as wide as a desk's screen and as a telephone: nothing is cut off or broken, and the
+report's player plays.
 
 report_browser.html loads the page in a frame of each width and writes what it finds into itself; Chromium prints that."""
 import json
@@ -15,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "scripts"))
-from report_cases import write_flow  # noqa: E402
+from report_cases import write_dry, write_flow, write_fluid_only  # noqa: E402
 
 WIDTHS = (1280, 390)
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -23,10 +24,12 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--allow-file-access-from-files",
          "--hide-scrollbars", "--enable-logging=stderr", "--v=0")
-BAD = """<!DOCTYPE html><html><head><title>bad</title></head><body><p style="width: 2000px">wide</p>
+PLAYER = """<div class="player"><img alt="a" src="{0}"><button>Play</button><input type="range" max="1" value="0">
+<script type="application/json">["{0}", "{1}"]</script></div>"""
+DOTS = [f"data:image/gif;base64,R0lGODlhAQABAIAAA{colour}///ywAAAAAAQABAAACAkQBADs=" for colour in ("AAAAP", "P8AAP")]
+BAD = f"""<!DOCTYPE html><html><head><title>bad</title></head><body><p style="width: 2000px">wide</p>
 <img alt="none" src="data:image/png;base64,AAAA">
-<div class="player"><img alt="a" src="data:,0"><button>Play</button><input type="range" max="1" value="0">
-<script type="application/json">["data:,0", "data:,1"]</script></div><script>nothing.at.all();</script></body></html>"""
+{PLAYER.format("data:,0", "data:,1")}<script>nothing.at.all();</script></body></html>"""
 
 
 def browser():
@@ -50,15 +53,23 @@ def measure(page, folder):
     return {entry["width"]: entry for entry in json.loads(unescape(found.group(1)))}, errors
 
 
-class Report(unittest.TestCase):
+class Whole:
+    """What holds of every page; images: more than so many are in it."""
+    images = 8
+
     @classmethod
     def setUpClass(cls):
         browser()
         cls.folder = Path(tempfile.mkdtemp(prefix="report-browser-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         page = cls.folder / "report.html"
-        subprocess.run([ROOT / "scripts" / "report", write_flow(cls.folder / "mill"), "-o", page], check=True)
+        subprocess.run([ROOT / "scripts" / "report", *cls.cases(cls.folder), "-o", page], check=True)
+        cls.prepare(page)
         cls.found, cls.errors = measure(page, cls.folder)
+
+    @classmethod
+    def prepare(cls, page):
+        pass
 
     def each(self, *keys):
         """The values of these keys [widths]."""
@@ -77,8 +88,14 @@ class Report(unittest.TestCase):
 
     def test_every_image_is_there(self):
         for images, broken in self.each("images", "broken"):
-            self.assertGreater(images, 8)
+            self.assertGreater(images, self.images)
             self.assertEqual(broken, 0)
+
+
+class Report(Whole, unittest.TestCase):
+    @staticmethod
+    def cases(folder):
+        return [write_flow(folder / "mill")]
 
     def test_cards_stand_side_by_side_on_a_screen_and_below_each_other_on_a_telephone(self):
         self.assertEqual([columns for columns, in self.each("columns")], [2, 1])
@@ -87,6 +104,20 @@ class Report(unittest.TestCase):
         for frames, player in self.each("frames", "player"):
             self.assertGreater(frames, 2)
             self.assertEqual(player, {"plays": True, "slides": True, "stays": True, "playsAgain": True, "pauses": True})
+
+
+class Comparison(Whole, unittest.TestCase):
+    images = 5
+
+    @staticmethod
+    def cases(folder):
+        return [write_flow(folder / "with_balls_and_a_long_name"), write_fluid_only(folder / "without_balls"),
+                write_dry(folder / "dry")]
+
+    @classmethod
+    def prepare(cls, page):
+        # A comparison has no player, which report_browser.html looks for
+        page.write_text(page.read_text().replace("</main>", PLAYER.format(*DOTS) + "</main>"))
 
 
 class Faults(unittest.TestCase):

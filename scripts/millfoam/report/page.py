@@ -19,7 +19,7 @@ header div, main, footer { max-width: 1180px; margin: 0 auto; }
 header h1 { margin: 0 0 .3rem; font-size: 1.7rem; line-height: 1.2; }
 header p { margin: 0; color: #b9c7d3; }
 header, figcaption, li, .note { overflow-wrap: anywhere; }
-td, th { min-width: 4.5rem; }
+td, th { min-width: 4.5rem; overflow-wrap: normal; word-break: normal; hyphens: none; }
 nav { position: sticky; top: 0; z-index: 2; background: var(--card); border-bottom: 1px solid var(--line);
       overflow-x: auto; white-space: nowrap; }
 nav ul { max-width: 1180px; margin: 0 auto; padding: .55rem 1rem; list-style: none; display: flex; gap: 1.1rem; }
@@ -35,7 +35,11 @@ h3 { margin: 0 0 .4rem; font-size: 1rem; }
 figure { margin: 0; }
 img { display: block; width: 100%; max-width: 600px; height: auto; margin: 0 auto; }
 figcaption, .note { color: var(--soft); font-size: .9rem; margin: .5rem 0 0; }
-.scroll { overflow-x: auto; }
+/* A shade at the side towards which a table goes on */
+.scroll { overflow-x: auto; background: linear-gradient(to right, var(--card) 50%, transparent) left / 40px 100% no-repeat local,
+          linear-gradient(to left, var(--card) 50%, transparent) right / 40px 100% no-repeat local,
+          linear-gradient(to right, #10202e40, transparent) left / 14px 100% no-repeat scroll,
+          linear-gradient(to left, #10202e40, transparent) right / 14px 100% no-repeat scroll; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .3rem .7rem .3rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 thead th { color: var(--soft); font-weight: 600; }
