@@ -1,24 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statements about slurry in the 30 cm mill (M. Malahe, MSc thesis, University of Cape Town, 2012) held against runs: each gives
-verdicts with the numbers that say so.
+"""Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) held against runs of the 30 cm mill,
+and what does not lie along the axis also against the 12 cm mill's slice: each gives verdicts with the numbers that say so.
 
 Verdicts: `confirmed` and `contradicted` where the difference is more than twice its standard error over time, `undecided` where
-it is not, `not tested` where a run is missing: which one is told. Tilts, numbers of humps and shares that are held against a
-limit are compared as they are; their errors are told. Runs of the 30 cm mill count from LATEST on."""
+it is not or a run is not steady (see `unsteady`), `not tested` where a run is missing: which one is told. Tilts, numbers of
+humps and shares that are held against a limit are compared as they are; their errors are told. Runs of the 30 cm mill count
+from LATEST on."""
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import find_peaks
 
 from .axial import fit_gaussians
-from .flow_readings import Mean, series_mean
+from .flow_readings import Mean, read_run, read_series, series_mean
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02  # of a flat surface, at most: degrees; deviation from its line over the mill's diameter
 TWICE = (1.5, 2.5)  # what counts as about twice
 SLIGHTLY = 0.03  # of a height, over the mill's diameter
 CLEARLY = 1.1  # ratio of two pressure drops from which one is clearly larger
-REYNOLDS = {20: 150, 40: 90}  # solids of the slurry, % by mass -> number that most of the slurry is below
+REYNOLDS = {20: 150, 40: 90}  # all that is published: solids of the slurry, % by mass -> number that most of it is below
+LARGE, SLICE = "30 cm mill", "12 cm slice"
+HALF_BLOCKS = 3  # of either half of the averaged time
 CONFIRMED, CONTRADICTED, UNDECIDED, NOT_TESTED = "confirmed", "contradicted", "undecided", "not tested"
 
 
@@ -41,53 +45,122 @@ def by_sign(difference):
     return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[sign(difference)]
 
 
-def large_mill(run):
-    return abs(run.diameter - 0.3) < 1e-6
+def mill_of(run):
+    """LARGE, SLICE, or None for another mill."""
+    if abs(run.diameter - 0.3) < 1e-6 and run.ends:
+        return LARGE
+    return SLICE if abs(run.diameter - 0.12) < 1e-6 and not run.ends else None
+
+
+class Which(NamedTuple):
+    """A run to look for: speed (% of critical), law (None: no balls), slurry (% solids; None: any), mill."""
+    speed: int
+    law: str
+    solids: int = None
+    mill: str = LARGE
+
+    def fits(self, run):
+        """Whether a run is one of these."""
+        same = (mill_of(run), run.speed, run.law) == (self.mill, self.speed, self.law)
+        return same and self.solids in (None, run.solids)
+
+    def __str__(self):
+        if self.mill == SLICE:
+            return f"{SLICE} at {self.speed} %, {self.law or 'without balls'}" + (
+                f", {self.solids} % slurry" if self.solids else "")
+        return (f"coupled_{self.speed}_{self.law}" if self.law else f"fluid_only_{self.speed}") + (
+            f" with {self.solids} % slurry" if self.solids != 20 else "")
 
 
 class Runs:
     """RunReadings to choose from, and why a run that was asked for is not there."""
 
     def __init__(self, runs):
-        self.short = [run for run in runs if large_mill(run) and run.last < LATEST]
+        self.short = [run for run in runs if mill_of(run) == LARGE and run.last < LATEST]
         self.runs = [run for run in runs if run not in self.short]
 
-    def find(self, speed, law, solids):
-        """The run of the 30 cm mill with this speed (% of critical), law (None: no balls) and slurry (% solids), or None."""
-        return next((run for run in self.runs if self._is(run, speed, law, solids)), None)
+    def find(self, which):
+        """The first run that is Which, or None."""
+        return next((run for run in self.runs if which.fits(run)), None)
 
-    @staticmethod
-    def _is(run, speed, law, solids):
-        return large_mill(run) and (run.speed, run.law, run.solids) == (speed, law, solids)
-
-    def missing(self, speed, law, solids):
+    def missing(self, which):
         """What to say of a run that find() does not find."""
-        name = (f"coupled_{speed}_{law}" if law else f"fluid_only_{speed}") + (f" with {solids} % slurry" if solids != 20 else "")
         for run in self.short:
-            if self._is(run, speed, law, solids):
-                return f"{name} ends at {run.last:g} s; expected {LATEST:g} s or more"
-        return f"missing: {name}"
+            if which.fits(run):
+                return f"{which} ends at {run.last:g} s; expected {LATEST:g} s or more"
+        return f"missing: {which}"
+
+    def of(self, mill):
+        """The runs of a mill with balls."""
+        return [run for run in self.runs if mill_of(run) == mill and run.law]
+
+    def slice_speeds(self):
+        """Speeds (% of critical) of the slice's runs; the mill case's if there are none."""
+        return sorted({run.speed for run in self.runs if mill_of(run) == SLICE}) or [50]
+
+    def places(self):
+        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared; of the slice those that there
+        are, and where that is one only, beside it what it could be held against."""
+        found = [(LARGE, 75, [20, 40])]
+        for speed in self.slice_speeds():
+            solids = {run.solids for run in self.of(SLICE) if run.speed == speed and run.solids}
+            if len(solids) < 2:
+                solids = {20, 40} if not solids else solids | ({40} if max(solids) < 40 else {20})
+            found.append((SLICE, speed, sorted(solids)))
+        return found
+
+
+def turn(run):
+    """Time of a turn of a run's mill, s."""
+    return 2 * np.pi / (run.speed / 100 * np.sqrt(9.81 / (run.diameter / 2)))
+
+
+def unsteady(run):
+    """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill, or the
+    height of the slurry's centre of mass differs between its halves by more than two standard errors.
+
+    The errors are those of HALF_BLOCKS block means within either half: over all of the time the drift itself would count."""
+    if not run.series:
+        return f"{run.name}: its height over time is not known"
+    times, heights = run.series.times, height_over_time(run)
+    span = times[-1] - times[0]
+    if span < 0.999 * turn(run):  # times are rounded
+        return f"{run.name}: averaged over {span:.2g} s, less than a turn of the mill, {turn(run):.2g} s"
+    halves = [Mean(*map(float, series_mean(half, HALF_BLOCKS))) for half in np.array_split(heights, 2)]
+    drift = halves[1] - halves[0]
+    if not np.isfinite(drift.error):
+        return f"{run.name}: {len(times)} times are too few to tell a drift"
+    return f"{run.name}: its height drifts by {drift.told('mm', 1e3, '.2f')} from half to half" if sign(drift) else ""
+
+
+def judged(verdict, figure, *runs):
+    """A verdict on runs and its number; where a run is not steady, `undecided` with the reason."""
+    reasons = [reason for reason in map(unsteady, runs) if reason]
+    if verdict in (CONFIRMED, CONTRADICTED) and reasons:
+        return UNDECIDED, f"{figure}; not steady: {'; '.join(reasons)}"
+    return verdict, figure
 
 
 def flat_without_balls(runs):
     """Without solids the slurry's free surface is flat across the mill."""
     statement, found = "without solids the free surface is flat across the mill", []
-    for speed in (60, 75):
-        run = runs.find(speed, None, 20)
+    slices = [Which(speed, None, None, SLICE) for speed in runs.slice_speeds()]
+    for which in (Which(60, None, 20), Which(75, None, 20), *slices):
+        run = runs.find(which)
         if not run or not run.surface:
-            found.append(Verdict(statement, f"fluid_only_{speed}", NOT_TESTED, unread(run, runs, speed, None, 20)))
+            found.append(Verdict(statement, str(which), NOT_TESTED, unread(run, runs, which)))
             continue
         tilt, deviation = run.surface.tilt, run.surface.deviation.value
         flat = abs(tilt.value) <= FLAT_TILT and deviation <= FLAT_DEVIATION * run.diameter
-        found.append(Verdict(statement, run.name, CONFIRMED if flat else CONTRADICTED,
-                             f"tilt {tilt.told('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
-                             f"degrees, {1e3 * FLAT_DEVIATION * run.diameter:g} mm)"))
+        figure = (f"tilt {tilt.told('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} degrees, "
+                  f"{1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
+        found.append(Verdict(statement, run.name, *judged(CONFIRMED if flat else CONTRADICTED, figure, run)))
     return found
 
 
-def unread(run, runs, speed, law, solids):
+def unread(run, runs, which):
     """Why a statement was not tested: its run is missing, or its failure."""
-    return "; ".join(run.failures) or f"{run.name}: nothing was read" if run else runs.missing(speed, law, solids)
+    return "; ".join(run.failures) or f"{run.name}: nothing was read" if run else runs.missing(which)
 
 
 def maxima(z, height, error):
@@ -100,10 +173,10 @@ def maxima(z, height, error):
 def humps_without_balls(runs):
     """Two humps along the axis without solids, about twice as far apart at 75 % of the critical speed as at 60 %."""
     statement, found, apart = "without solids the height of the centre of mass has two humps along the axis", [], {}
-    for speed in (60, 75):
-        run = runs.find(speed, None, 20)
+    for which in (Which(60, None, 20), Which(75, None, 20)):
+        run = runs.find(which)
         if not run or not run.series:
-            found.append(Verdict(statement, f"fluid_only_{speed}", NOT_TESTED, unread(run, runs, speed, None, 20)))
+            found.append(Verdict(statement, str(which), NOT_TESTED, unread(run, runs, which)))
             continue
         height, errors = series_mean(run.series.height)
         error = float(np.sqrt(np.mean(errors**2)))
@@ -113,10 +186,10 @@ def humps_without_balls(runs):
             found.append(Verdict(statement, run.name, NOT_TESTED, str(failure)))
             continue
         places = maxima(run.series.z, height, error)
-        apart[speed] = fit.distances[0], len(places) == 2
-        found.append(Verdict(statement, run.name, CONFIRMED if len(places) == 2 else CONTRADICTED,
-                             f"maxima at {millimetres(places)} mm of {millimetres(run.series.z[[0, -1]])}; two Gaussians at "
-                             f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm"))
+        apart[which.speed] = fit.distances[0], len(places) == 2, run
+        figure = (f"maxima at {millimetres(places)} mm of {millimetres(run.series.z[[0, -1]])}; two Gaussians at "
+                  f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
+        found.append(Verdict(statement, run.name, *judged(CONFIRMED if len(places) == 2 else CONTRADICTED, figure, run)))
     return found + [distance_ratio(apart)]
 
 
@@ -125,7 +198,7 @@ def millimetres(lengths):
 
 
 def distance_ratio(apart):
-    """Verdict on the distances of two Gaussians by speed: speed -> (m, whether the profile has two humps)."""
+    """Verdict on the distances of two Gaussians by speed: speed -> (m, whether the profile has two humps, run)."""
     statement, names = "the humps are about twice as far apart at 75 % speed as at 60 %", "fluid_only_60, fluid_only_75"
     gone = [f"the profile of fluid_only_{speed}" for speed in (60, 75) if speed not in apart]
     if gone:
@@ -133,8 +206,9 @@ def distance_ratio(apart):
     ratio = apart[75][0] / apart[60][0]
     both = apart[60][1] and apart[75][1]
     verdict = (CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED) if both else UNDECIDED
-    return Verdict(statement, names, verdict, f"{1e3 * apart[75][0]:.0f} over {1e3 * apart[60][0]:.0f} mm = {ratio:.2f}"
-                                              + ("" if both else ", of Gaussians; not both profiles have two humps"))
+    figure = f"{1e3 * apart[75][0]:.0f} over {1e3 * apart[60][0]:.0f} mm = {ratio:.2f}" + (
+        "" if both else ", of Gaussians; not both profiles have two humps")
+    return Verdict(statement, names, *judged(verdict, figure, apart[60][2], apart[75][2]))
 
 
 def surface_follows(runs):
@@ -144,79 +218,116 @@ def surface_follows(runs):
         if run.law and run.surface and run.surface.charge_tilt is not None:
             tilt, charge = run.surface.tilt, run.surface.charge_tilt
             margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error)
-            found.append(Verdict(statement, run.name, by_sign(margin),
-                                 f"tilt of the slurry {tilt.told('degrees')}, of the charge {charge:.1f} (level: 0)"))
-    return found or [Verdict(statement, "", NOT_TESTED, runs.missing(75, "Beetstra", 20))]
+            figure = f"tilt of the slurry {tilt.told('degrees')}, of the charge {charge:.1f} (level: 0)"
+            found.append(Verdict(statement, run.name, *judged(by_sign(margin), figure, run)))
+        elif run.law:
+            found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+    return found + [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which)) for which in lacking(runs)]
+
+
+def lacking(runs):
+    """Which run is to be named for each mill of which there is none with balls."""
+    return [which for which in (Which(75, "Beetstra", 20), Which(50, "Beetstra", None, SLICE)) if not runs.of(which.mill)]
+
+
+def height_over_time(run):
+    """Height of the slurry's centre of mass above the axis at the times of a run's series (m)."""
+    series = run.series
+    known = np.where(series.holdup > 0, series.height, 0.0)
+    return (known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1)
 
 
 def height(run):
     """Mean height of the slurry's centre of mass above the axis (m)."""
-    series = run.series
-    known = np.where(series.holdup > 0, series.height, 0.0)
-    value, error = series_mean((known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1))
-    return Mean(float(value), float(error))
+    return Mean(*map(float, series_mean(height_over_time(run))))
 
 
 def pair(runs, statement, first, second, judge):
-    """Verdict of judge(run, run) on two runs (speed, law, solids); `not tested` where one is missing, or one has more slices."""
-    found = [runs.find(*which) for which in (first, second)]
-    gone = [unread(run, runs, *which) for run, which in zip(found, (first, second)) if not run or not run.series]
-    names = ", ".join(f"coupled_{which[0]}_{which[1]}" + (f" ({which[2]} %)" if first[2] != second[2] else "")
-                      for which in (first, second))
+    """Verdict of judge(run, run) on two runs (Which); `not tested` where one is missing, or one has more slices."""
+    found = [runs.find(which) for which in (first, second)]
+    gone = [unread(run, runs, which) for run, which in zip(found, (first, second)) if not run or not run.series]
+    names = f"{first}; {second}"
     if not gone and len(found[0].series.z) != len(found[1].series.z):
         gone = [f"{one.name} has {len(one.series.z)} slices along the axis" for one in found] + ["expected as many"]
-    return Verdict(statement, names, NOT_TESTED, "; ".join(gone)) if gone else Verdict(statement, names, *judge(*found))
+    if gone:
+        return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
+    return Verdict(statement, names, *judged(*judge(*found), *found))
 
 
 def concentration_raises(runs):
-    """A higher concentration of the slurry raises it."""
+    """A higher concentration of the slurry raises it: the highest of a mill and law against the lowest."""
     def judge(thin, thick):
         rise = height(thick) - height(thin)
         return by_sign(rise), f"rises by {rise.told('mm', 1e3, '.2f')}"
 
-    return [pair(runs, "a higher slurry concentration raises it", (75, law, 20), (75, law, 40), judge)
-            for law in ("Beetstra", "ErgunWenYu")]
+    return [pair(runs, "a higher slurry concentration raises it",
+                 *(Which(speed, law, one, mill) for one in (solids[0], solids[-1])), judge)
+            for mill, speed, solids in runs.places() for law in ("Beetstra", "ErgunWenYu")]
 
 
 def drag_raises(runs):
-    """Ergun/Wen-Yu puts the slurry slightly higher than Beetstra, by less with 40 % slurry than with 20 %."""
+    """Ergun/Wen-Yu puts the slurry slightly higher than Beetstra, by less with 40 % slurry than with 20 %; in the slice with
+    each slurry that there is, and by less with the thickest than with the thinnest."""
     def judge(beetstra, ergun):
         rise = height(ergun) - height(beetstra)
         slight = abs(rise.value) <= SLIGHTLY * ergun.diameter
         return by_sign(rise) if slight else CONTRADICTED, f"higher by {rise.told('mm', 1e3, '.2f')}"
 
-    laws, rises, gone = ("Beetstra", "ErgunWenYu"), {}, []
-    for solids in (20, 40):
-        both = {law: runs.find(75, law, solids) for law in laws}
-        if all(run and run.series for run in both.values()):
-            rises[solids] = height(both["ErgunWenYu"]) - height(both["Beetstra"])
-        gone += [unread(run, runs, 75, law, solids) for law, run in both.items() if not run or not run.series]
-    names, statement = "coupled_75_Beetstra, coupled_75_ErgunWenYu (20, 40 %)", "that difference shrinks from 20 % to 40 % slurry"
+    higher, shrinks = [], []
+    for mill, speed, solids in runs.places():
+        laws = {one: [Which(speed, law, one, mill) for law in ("Beetstra", "ErgunWenYu")] for one in solids}
+        there = [one for one in solids if all(map(runs.find, laws[one]))] if mill == SLICE else []
+        higher += [pair(runs, "Ergun/Wen-Yu puts the slurry slightly higher than Beetstra", *laws[one], judge)
+                   for one in there or solids[:1]]
+        ends = (there[0], there[-1]) if len(there) > 1 else (solids[0], solids[-1])
+        shrinks.append(drag_difference_shrinks(runs, laws[ends[0]] + laws[ends[1]]))
+    return higher + shrinks
+
+
+def drag_difference_shrinks(runs, four):
+    """Verdict on the difference between the heights with both laws: four Which, both laws with the thin slurry, then with the
+    thick one."""
+    thin, thick = (which.solids for which in (four[0], four[2]))
+    statement = f"that difference shrinks from {thin} % to {thick} % slurry"
+    found = [runs.find(which) for which in four]
+    gone = [unread(run, runs, which) for which, run in zip(four, found) if not run or not run.series]
+    names = "; ".join(map(str, four[:2])) + f" ({thin}, {thick} %)"
     if gone:
-        shrinks = Verdict(statement, names, NOT_TESTED, "; ".join(gone))
-    else:
-        shrinks = Verdict(statement, names, by_sign(rises[20] - rises[40]),
-                          f"{rises[20].told('mm', 1e3, '.2f')} and {rises[40].told('mm', 1e3, '.2f')}")
-    return [pair(runs, "Ergun/Wen-Yu puts the slurry slightly higher than Beetstra", (75, "Beetstra", 20), (75, "ErgunWenYu", 20),
-                 judge), shrinks]
+        return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
+    rises = [height(found[second]) - height(found[second - 1]) for second in (1, 3)]
+    figure = " and ".join(rise.told("mm", 1e3, ".2f") for rise in rises)
+    return Verdict(statement, names, *judged(by_sign(rises[0] - rises[1]), figure, *found))
 
 
 def reynolds_below(runs):
-    """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit."""
+    """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit that is published for
+    some concentrations."""
     found = []
     for solids, limit in REYNOLDS.items():
         statement = f"particle Reynolds numbers are mostly under {limit} for {solids} % slurry"
-        tested = [run for run in runs.runs if large_mill(run) and run.solids == solids and run.reynolds]
-        for run in tested:
-            number, slurry = run.reynolds
-            share = slurry[number < limit].sum() / slurry.sum()
-            order = np.argsort(number)
-            median = number[order][np.searchsorted(np.cumsum(slurry[order]), slurry.sum() / 2)]
-            found.append(Verdict(statement, run.name, CONFIRMED if share > 0.5 else CONTRADICTED,
-                                 f"{100 * share:.0f} % of the slurry in the bed is under {limit}; median {median:.0f}"))
-        if not tested:
-            found.append(Verdict(statement, "", NOT_TESTED, runs.missing(75, "Beetstra", solids)))
-    return found
+        for mill, speed in ((LARGE, 75), (SLICE, runs.slice_speeds()[0])):
+            tested = [run for run in runs.of(mill) if run.solids == solids]
+            for run in tested:
+                if not run.reynolds:
+                    found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+                    continue
+                share = run.reynolds[1][run.reynolds[0] < limit].sum() / run.reynolds[1].sum()
+                middle = median(*run.reynolds)
+                figure = f"{100 * share:.0f} % of the slurry in the bed is under {limit}; median {middle:.0f}"
+                found.append(Verdict(statement, run.name, *judged(CONFIRMED if share > 0.5 else CONTRADICTED, figure, run)))
+            if not tested:
+                which = Which(speed, "Beetstra", solids, mill)
+                found.append(Verdict(statement, mill, NOT_TESTED, runs.missing(which)))
+    others = [run for mill in (LARGE, SLICE) for run in runs.of(mill) if run.solids not in REYNOLDS and run.reynolds]
+    return found + [Verdict("particle Reynolds numbers are mostly under a limit", run.name, NOT_TESTED,
+                            f"none is published for {f'{run.solids} %' if run.solids else 'this'} slurry, for "
+                            f"{' and '.join(map(str, REYNOLDS))} % only; median {median(*run.reynolds):.0f}") for run in others]
+
+
+def median(values, weights):
+    """The value [n] up to which half of the weights [n] lie."""
+    order = np.argsort(values)
+    return values[order][np.searchsorted(np.cumsum(weights[order]), weights.sum() / 2)]
 
 
 def drop(run):
@@ -239,20 +350,24 @@ def pressure_drops(runs):
         return verdict, f"{more.told('Pa')} against {less.told('Pa')}" + (
             "; the pressure does not fall towards the discharge" if max(more.value, less.value) < 0 else "")
 
-    return [pair(runs, "the axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra", (75, "Beetstra", 20),
-                 (75, "ErgunWenYu", 20), judge)]
+    return [pair(runs, "the axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra",
+                 Which(75, "Beetstra", 20), Which(75, "ErgunWenYu", 20), judge)]
 
 
 def circulation(runs):
     """Slurry moves towards the discharge at the toe and back towards the feed at the shoulder."""
     statement, found = "slurry moves to the discharge in the toe region and back at the shoulder", []
-    for run in runs.runs:
-        if large_mill(run) and run.law and run.toe:
+    for run in runs.of(LARGE):
+        if run.toe:
             signs = sign(run.toe), sign(run.shoulder)
             verdict = CONFIRMED if signs == (1, -1) else CONTRADICTED if signs[0] < 0 or signs[1] > 0 else UNDECIDED
-            found.append(Verdict(statement, run.name, verdict, f"mean {run.toe.told('mm/s', 1e3)} on the toe's half, "
-                                                               f"{run.shoulder.told('mm/s', 1e3)} on the shoulder's"))
-    return found or [Verdict(statement, "", NOT_TESTED, runs.missing(75, "Beetstra", 20))]
+            figure = (f"mean {run.toe.told('mm/s', 1e3)} on the toe's half, {run.shoulder.told('mm/s', 1e3)} on the "
+                      "shoulder's")
+            found.append(Verdict(statement, run.name, *judged(verdict, figure, run)))
+        else:
+            found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+    which = Which(75, "Beetstra", 20)
+    return found or [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which))]
 
 
 STATEMENTS = (flat_without_balls, humps_without_balls, surface_follows, concentration_raises, drag_raises, reynolds_below,
@@ -263,3 +378,14 @@ def verdicts(runs):
     """[Verdict] of all statements on RunReadings."""
     found = Runs(runs)
     return [verdict for statement in STATEMENTS for verdict in statement(found)]
+
+
+def read(case):
+    """RunReadings of a report.sources.MillCase with a flow, of a slice too with its series: it tells whether it is steady."""
+    found = read_run(case)
+    if found.series is None and not found.ends:
+        try:
+            found.series = read_series(case)
+        except (RuntimeError, OSError) as error:
+            found.failures.append(f"{case.name}: height over time not read: {error}")
+    return found

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up flows."""
+import importlib.util
 import tempfile
 import unittest
 from pathlib import Path
@@ -29,11 +30,19 @@ def series(profile=-0.05, pressure=0.0, noise=1e-4):
 
 
 def run(speed=75, law=None, solids=20, last=5.0, **read):
-    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, **read)
+    """A run of the 30 cm mill, steady if nothing else is told."""
+    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, **{"series": series(), **read})
 
 
-def verdicts_of(function, *runs):
-    return [one.verdict for one in function(statements.Runs(runs))]
+def a_slice(law=None, solids=30, last=5.0, **read):
+    """A run of the 12 cm mill's slice at half of the critical speed."""
+    return RunReadings(f"slice_{law}_{solids}", 0.12, 50, law, solids, last, False, **{"series": series(), **read})
+
+
+def verdicts_of(function, *runs, of_slice=False):
+    """The verdicts on the 30 cm mill, or those on the 12 cm mill's slice."""
+    found = function(statements.Runs(runs))
+    return [one.verdict for one in found if of_slice == ("slice" in one.runs + one.figure)]
 
 
 class Flat(unittest.TestCase):
@@ -47,9 +56,10 @@ class Flat(unittest.TestCase):
     def test_a_run_that_is_short_or_missing_is_told(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
         found = statements.flat_without_balls(statements.Runs([short]))
-        self.assertEqual([one.verdict for one in found], [NOT_TESTED, NOT_TESTED])
+        self.assertEqual([one.verdict for one in found], [NOT_TESTED] * 3)
         self.assertIn("fluid_only_60 ends at 3.4 s; expected 4.5 s", found[0].figure)
         self.assertIn("missing: fluid_only_75", found[1].figure)
+        self.assertEqual("missing: 12 cm slice at 50 %, without balls", found[2].figure)
 
     def test_what_could_not_be_read_is_told(self):
         found = statements.flat_without_balls(statements.Runs([run(failures=["surface not read: no slurry"])]))
@@ -102,6 +112,32 @@ class WithBalls(unittest.TestCase):
             found = verdicts_of(statements.drag_raises, *self.pair(0.002), *self.pair(later, 40))
             self.assertEqual(found[1], verdict)
 
+    def test_a_slice_is_compared_with_what_slurries_there_are(self):
+        runs = [a_slice(law, solids, series=series(height)) for law, solids, height in (
+            ("Beetstra", 30, -0.05), ("ErgunWenYu", 30, -0.049), ("Beetstra", 50, -0.045), ("ErgunWenYu", 50, -0.0445))]
+        for function, count in ((statements.drag_raises, 3), (statements.concentration_raises, 2)):
+            self.assertEqual(verdicts_of(function, *runs, of_slice=True), [CONFIRMED] * count)
+            self.assertEqual(set(verdicts_of(function, *runs)), {NOT_TESTED})
+        shrinks = statements.drag_raises(statements.Runs(runs))[-1]
+        self.assertEqual(shrinks.statement, "that difference shrinks from 30 % to 50 % slurry")
+        self.assertIn("1.00 ± 0.0", shrinks.figure)
+        self.assertEqual(verdicts_of(statements.drag_raises, *runs[:2], of_slice=True), [CONFIRMED, NOT_TESTED])
+        missing = statements.concentration_raises(statements.Runs(runs[:1]))[2]
+        self.assertEqual(missing.figure, "missing: 12 cm slice at 50 %, Beetstra, 40 % slurry")
+
+    def test_a_slice_is_flat_without_balls_and_follows_them(self):
+        flat = a_slice(surface=Surface(Mean(2), Mean(0.001)))
+        self.assertEqual(verdicts_of(statements.flat_without_balls, flat, of_slice=True), [CONFIRMED])
+        follows = a_slice("Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
+        self.assertEqual(verdicts_of(statements.surface_follows, follows, of_slice=True), [CONFIRMED])
+        self.assertEqual(verdicts_of(statements.surface_follows, follows), [NOT_TESTED])
+
+    def test_a_slice_says_nothing_along_the_axis(self):
+        runs = [a_slice(law, 20, series=series(pressure=-1e3 * Z)) for law in (None, "Beetstra", "ErgunWenYu")]
+        for function in (statements.humps_without_balls, statements.pressure_drops, statements.circulation):
+            self.assertEqual(set(verdicts_of(function, *runs)), {NOT_TESTED})
+            self.assertEqual(verdicts_of(function, *runs, of_slice=True), [])
+
     def test_concentration_raises(self):
         runs = run(law="Beetstra", series=series(-0.05)), run(law="Beetstra", solids=40, series=series(-0.04))
         self.assertEqual(verdicts_of(statements.concentration_raises, *runs), [CONFIRMED, NOT_TESTED])
@@ -111,6 +147,15 @@ class WithBalls(unittest.TestCase):
         for slurry, verdict in (((3.0, 1.0), CONFIRMED), ((1.0, 3.0), CONTRADICTED)):
             one = run(law="Beetstra", reynolds=(numbers, np.array(slurry)))
             self.assertEqual(verdicts_of(statements.reynolds_below, one), [verdict, NOT_TESTED])
+            thick = a_slice("Beetstra", 40, reynolds=(numbers, np.array(slurry)))
+            self.assertEqual(verdicts_of(statements.reynolds_below, thick, of_slice=True), [NOT_TESTED, verdict])
+
+    def test_reynolds_numbers_of_slurries_without_a_published_limit_are_not_tested(self):
+        for one in (run(law="Beetstra", solids=30), a_slice("Beetstra", 30), a_slice("Beetstra", None)):
+            one.reynolds = np.array([50.0, 400.0]), np.array([3.0, 1.0])
+            found = statements.reynolds_below(statements.Runs([one]))
+            self.assertEqual({each.verdict for each in found}, {NOT_TESTED})
+            self.assertRegex(found[-1].figure, "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
 
     def test_a_pressure_drop_must_be_one_and_clearly_larger(self):
         def runs(beetstra, ergun):
@@ -132,7 +177,96 @@ class WithBalls(unittest.TestCase):
             self.assertEqual(verdicts_of(statements.circulation, one), [verdict])
 
     def test_every_statement_without_runs_is_not_tested(self):
-        self.assertEqual({one.verdict for one in statements.verdicts([])}, {NOT_TESTED})
+        found = statements.verdicts([])
+        self.assertEqual({one.verdict for one in found}, {NOT_TESTED})
+        self.assertTrue(all("missing" in one.figure for one in found))
+        of_slice = {one.statement for one in found if "slice" in one.figure}
+        self.assertEqual(len(of_slice), 7)
+
+
+class Steady(unittest.TestCase):
+    def moved(self, change, **other):
+        """A run whose height over time is changed by change(share of the time)."""
+        found = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0), **other)
+        found.series.height = found.series.height + change(np.linspace(0, 1, len(TIMES)))[:, None]
+        return found
+
+    def judged(self, one):
+        return statements.surface_follows(statements.Runs([one]))[0]
+
+    def test_a_drift_between_the_halves_leaves_a_statement_undecided(self):
+        self.assertEqual(self.judged(self.moved(lambda t: 0 * t)).verdict, CONFIRMED)
+        # A wave of whole periods in each half is no drift
+        self.assertEqual(self.judged(self.moved(lambda t: 1e-3 * np.sin(12 * np.pi * t))).verdict, CONFIRMED)
+        found = self.judged(self.moved(lambda t: 2e-3 * t))
+        self.assertEqual(found.verdict, UNDECIDED)
+        self.assertRegex(found.figure, "not steady: .*: its height drifts by 1.0[0-9] ± 0.[0-9]+ mm from half to half")
+
+    def test_less_than_a_turn_leaves_a_statement_undecided(self):
+        one = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
+        self.assertAlmostEqual(statements.turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
+        late = TIMES > 4.0
+        one.series = AxialSeries(Z, TIMES[late], *(values[late] for values in (
+            one.series.height, one.series.holdup, one.series.pressure)))
+        found = self.judged(one)
+        self.assertEqual(found.verdict, UNDECIDED)
+        self.assertIn("averaged over 0.9 s, less than a turn of the mill, 1 s", found.figure)
+
+    def test_each_of_two_runs_must_be_steady(self):
+        runs = self.moved(lambda t: 0 * t), self.moved(lambda t: 5e-3 * t)
+        runs[1].law = "ErgunWenYu"
+        found = statements.drag_raises(statements.Runs(runs))[0]
+        self.assertEqual(found.verdict, UNDECIDED)
+        self.assertIn("not steady: run_75_Beetstra_20: its height drifts", found.figure)
+
+    def test_what_is_not_known_to_be_steady_is_undecided(self):
+        self.assertEqual(self.judged(run(law="Beetstra", series=None, surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
+                         UNDECIDED)
+
+    def test_a_slice_is_read_with_its_series(self):
+        for ends, read in ((False, True), (True, False)):
+            found = RunReadings("a", 0.12, 50, "Beetstra", 30, 5.0, ends)
+            with mock.patch.object(statements, "read_run", lambda _, found=found: found), \
+                    mock.patch.object(statements, "read_series", lambda _: "its series"):
+                self.assertEqual(statements.read(None).series, "its series" if read else None)
+
+
+class Study(unittest.TestCase):
+    """What cases/studies/thesis_statements takes without being told."""
+
+    def setUp(self):
+        path = Path(__file__).parents[2] / "cases" / "studies" / "thesis_statements" / "statements.py"
+        specification = importlib.util.spec_from_file_location("thesis_statements", path)
+        self.study = importlib.util.module_from_spec(specification)
+        specification.loader.exec_module(self.study)
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def make(self, name, whole=True, bed="    law    Beetstra;\n    multiplier  1;   // as it is\n"):
+        folder = self.folder / name
+        (folder / "constant").mkdir(parents=True)
+        (folder / "constant" / "bedProperties").write_text(bed)
+        if whole:
+            (folder / "whole").write_text("")
+        return folder
+
+    def test_whole_slices_of_the_mills_mesh_with_their_own_drag_are_taken_or_else_coarse_ones(self):
+        self.assertEqual(self.study.slices_there(self.folder / "none"), [])
+        coarse = self.make("coarse_Beetstra")
+        self.make("coarse_no_drag")
+        self.assertEqual(self.study.slices_there(self.folder), [coarse])
+        fine = [self.make("Beetstra"), self.make("ErgunWenYu")]
+        for name in ("no_drag", "whole_run"):
+            self.make(name)
+        self.make("Hill", whole=False)
+        self.assertEqual(self.study.slices_there(self.folder), fine)
+
+    def test_the_law_is_that_of_the_case(self):
+        case = SimpleNamespace(folder=self.make("Tang", bed="law  Tang;\nmultiplier 1;\n"), solids="solids.h5", law=None)
+        self.study.take_law(case)
+        self.assertEqual(case.law, "Tang")
+        case.folder = self.make("less", bed="law  Tang;\nmultiplier 0;\n")
+        with self.assertRaisesRegex(RuntimeError, "multiplier 0; expected 1"):
+            self.study.take_law(case)
 
 
 class Reading(unittest.TestCase):

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the thesis' statements about slurry in the 30 cm mill against runs: a table on the screen, statements.csv and
-statements.md."""
+"""Holds the thesis' statements about slurry against runs of the 30 cm mill and of the 12 cm mill's slice: a table on the
+screen, statements.csv and statements.md."""
 import argparse
 import csv
+import re
 import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from millfoam.flow_readings import read_run
 from millfoam.report.sources import MillCase
-from millfoam.statements import Verdict, verdicts
+from millfoam.statements import Verdict, read, verdicts
 
 HERE = Path(__file__).parent.resolve()
 MILLS = HERE.parents[1] / "mills"
+LAWS = HERE.parent / "mill_drag_comparison" / "runs" / "flows"
+OTHERS = ("no_drag", "whole_run")  # of the mills' laws, but not with their drag or windows
 VARIANTS = ("fluid_only_60", "fluid_only_75", "coupled_75_Beetstra", "coupled_75_ErgunWenYu")
 
 
@@ -21,12 +23,34 @@ def is_run(folder):
     return (folder / "constant" / "millProperties").is_file()
 
 
+def slices_there(runs=LAWS):
+    """The 12 cm slices of mill_drag_comparison that are whole: of the mill case's mesh, or else all coarse ones."""
+    whole = sorted(folder.parent for folder in runs.glob("*/whole") if not folder.parent.name.endswith(OTHERS))
+    fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
+    return fine or whole
+
+
 def folders_there():
-    """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike, and mill_12cm."""
+    """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike; the slices of
+    mill_drag_comparison, which share their balls; and mill_12cm."""
     layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40") for variant in VARIANTS]
               for name in ("runs_33", "runs_9")]
     begun = next((folders for folders in layers if any(map(is_run, folders))), [])
-    return [folder for folder in [*begun, MILLS / "mill_12cm"] if is_run(folder)]
+    return [folder for folder in [*begun, *slices_there(), MILLS / "mill_12cm"] if is_run(folder)]
+
+
+def take_law(case):
+    """Gives a MillCase with balls the drag law of its bedProperties: mill_drag_comparison's have no log.flow to tell it.
+    RuntimeError if its drag is multiplied."""
+    path = case.folder / "constant" / "bedProperties"
+    if not path.is_file() or not case.solids:
+        return
+    text = path.read_text()
+    law, multiplier = (re.search(rf"^\s*{key}\s+([\w.+-]+)\s*;", text, re.M) for key in ("law", "multiplier"))
+    if multiplier and float(multiplier.group(1)) != 1:
+        raise RuntimeError(f"{path}: multiplier {multiplier.group(1)}; expected 1, the law's own drag")
+    if law:
+        case.law = law.group(1)
 
 
 def read_cases(folders):
@@ -37,8 +61,9 @@ def read_cases(folders):
             case = MillCase(folder)
             if not case.flow:
                 raise RuntimeError(f"{folder}: no flow; expected reconstructed times with alpha.slurry in it")
+            take_law(case)
             print(f"{folder} …", flush=True)
-            runs.append(read_run(case))
+            runs.append(read(case))
             messages += runs[-1].failures
         except (RuntimeError, OSError) as error:
             messages.append(str(error))
@@ -59,7 +84,7 @@ def write(found, messages, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", type=Path, metavar="CASE",
-                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, and mill_12cm]")
+                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, mill_drag_comparison's, mill_12cm]")
     parser.add_argument("--output", type=Path, default=HERE, help="folder of the tables [this study's]")
     options = parser.parse_args()
     runs, messages = read_cases(options.cases or folders_there())
