@@ -38,8 +38,8 @@ def charge_figure(charge, readings, radius, outline=None):
     """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
     outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through it, free surface
     with its logistic, toe and shoulder."""
-    figure, (axis, room) = plt.subplots(2, 1, figsize=(5.2, 5.1), constrained_layout=True, gridspec_kw={"height_ratios": (6.6, 1)})
-    room.axis("off")
+    figure, axis = plt.subplots(figsize=(5.2, 5.1), layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0.14, 1, 0.86))
     figure.colorbar(_draw(axis, charge, readings, radius, outline), ax=axis, label="solidity, –", shrink=0.9)
     # Of the figure, as it is wider than the map, which an axis' legend would shrink
     figure.legend(loc="lower center", fontsize=9, frameon=False)

@@ -268,8 +268,10 @@ class Curves(Case):
         times, power = figures.quarter_turns(case, "power")
         self.assertGreater(times[0], case.turn / 4)
         self.assertLess(power.max(), 0.6)
-        low, high = figures.late_limits(np.arange(10.0), np.array([99, 50, 9, 1, 1, 1, 2, 1, 1, 1.0]))
-        self.assertEqual((low, high), (0, 2.4))
+        for early, limits in (((99, 50, 9), (0, 3.3)), ((2.5, 1, 1), (0, 2.75)), ((-0.5, 0, 0), (-0.55, 2.2)),
+                              ((-99, 0, 0), (-1.1, 2.2))):
+            found = figures.late_limits(np.arange(10.0), np.array([*early, 1, 1, 1, 2, 1, 1, 1.0]))
+            np.testing.assert_allclose(found, limits)
 
     def test_reynolds_numbers_stand_on_a_linear_axis_from_nought(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]

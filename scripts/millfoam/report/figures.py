@@ -45,10 +45,12 @@ def quarter_turns(case, name):
 
 
 def late_limits(times, values):
-    """Limits of an axis for values whose start-up, the first half of the time, may go beyond; 0 is between them."""
+    """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half and nought
+    span, and on either side half as much again as far as there are values."""
     late = values[times >= times[0] / 2 + times[-1] / 2]
     low, high = min(0, late.min()), max(0, late.max())
-    return 1.2 * low, 1.2 * high or 1e-12
+    more = (high - low) / 2
+    return 1.1 * min(low, max(low - more, values.min())), 1.1 * max(high, min(high + more, values.max())) or 1e-12
 
 
 def energy(case):
