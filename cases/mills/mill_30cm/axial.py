@@ -60,8 +60,8 @@ def print_axial_flow(flow, slurry):
     """Where the slurry reaches, and its way along the axis at the toe and at the shoulder."""
     height = float(foam.read_dictionary(flow.case / "constant" / "millProperties")["lifterHeight"])
     toe, shoulder = slurry_ends(slurry, flow.radius, ring_depth(height))
-    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' heights from "
-          "the shell")
+    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' heights "
+          "from the shell")
     if np.isfinite([toe, shoulder]).all():
         along = axial_flow(slurry, toe, shoulder)
         for name, half in (("toe", along.toe), ("shoulder", along.shoulder)):

@@ -36,7 +36,8 @@ figure { margin: 0; }
 img { display: block; width: 100%; max-width: 600px; height: auto; margin: 0 auto; }
 figcaption, .note { color: var(--soft); font-size: .9rem; margin: .5rem 0 0; }
 /* A shade at the side towards which a table goes on */
-.scroll { overflow-x: auto; background: linear-gradient(to right, var(--card) 50%, transparent) left / 40px 100% no-repeat local,
+.scroll { overflow-x: auto;
+          background: linear-gradient(to right, var(--card) 50%, transparent) left / 40px 100% no-repeat local,
           linear-gradient(to left, var(--card) 50%, transparent) right / 40px 100% no-repeat local,
           linear-gradient(to right, #10202e40, transparent) left / 14px 100% no-repeat scroll,
           linear-gradient(to left, #10202e40, transparent) right / 14px 100% no-repeat scroll; }

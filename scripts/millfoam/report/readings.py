@@ -40,8 +40,8 @@ class Readings:
         return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
 
     def short_blocks(self, slurry=True):
-        """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where they are of blocks of time
-        that are shorter than a turn of the mill. Empty where they are not."""
+        """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where their blocks of time are
+        shorter than a turn of the mill. Empty where they are not."""
         case, lengths = self.case, {}
         if isinstance(self.errors, dict):
             lengths["the charge's"] = np.ptp(case.charge_span) / self.errors["centre"].blocks
@@ -91,7 +91,7 @@ def humps_told(fit, z):
     """Distances and RMSD of axial.Humps on slices z (m), and whether they end where the slices do."""
     apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
     ended = humps_at_ends(fit, z)
-    words = f"; {ended} of {len(fit.places)} at the profile's end: how far apart is only the span of its slices" if ended else ""
+    words = f"; {ended} of {len(fit.places)} at the profile's end: how far apart is only its slices' span" if ended else ""
     return f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm{words}"
 
 

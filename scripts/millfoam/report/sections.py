@@ -30,8 +30,8 @@ def spans(case, readings):
         words.append(f"flow from {case.begin:.3g} to {case.last:.3g} s")
     told = "Averages: " + ", ".join(words) + "."
     if case.solids or case.results:
-        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where the shell "
-                 "rises.")
+        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where the "
+                 "shell rises.")
     return told + readings.short_blocks(slurry=False)
 
 

@@ -72,7 +72,8 @@ def axial_section(case, readings):
             at = np.linspace(readings.profile.z[0], readings.profile.z[-1], 300)
             ended = " (at the profile's end)" if humps_at_ends(fit, readings.profile.z) else ""
             fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm{ended}", at, fit.fitted(at)))
-    ended = " Of Gaussians at the profile's end the distance is only its span." if any("end)" in label for label, _, _ in fits) else ""
+    at_end = any("end)" in label for label, _, _ in fits)
+    ended = " Of Gaussians at the profile's end the distance is only its span." if at_end else ""
     cards = [page.picture(figures.axial(readings.profile, fits, along(case)), "By slices along the axis, averaged over time; "
                           f"p_rgh is the pressure without what the depth makes.{ended}", title="Profile along the axis")]
     heights = case.axial("height")
@@ -122,7 +123,8 @@ def wall_table(case):
     if "torque_all" in told:
         rows.append(("all", cell("torque_all"), cell("power")))
     if "slip_max" in told and case.met_balls:
-        rows.append(("largest slip past the balls at any time", f"{told['slip_max'][told['Time'] >= case.begin].max():.3g} m/s", ""))
+        slip = told["slip_max"][told["Time"] >= case.begin].max()
+        rows.append(("largest slip past the balls at any time", f"{slip:.3g} m/s", ""))
     return ["", "torque, N m", "power, W"], rows
 
 
@@ -142,8 +144,8 @@ def models_section(case, readings):
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),
                                   ("Taberlet", case.radius * np.column_stack([model.x, model.y]))], case.radius, case.omega),
-                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw {model.wall:.3f}; "
-                f"RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.{poor}",
+                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw {model.wall:.3f}"
+                f"; RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.{poor}",
                 title="Free surface by Taberlet, Richard & Hinch"))
     rows = moys(case)
     if rows:
