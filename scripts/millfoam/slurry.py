@@ -73,4 +73,4 @@ def _over_axis(means, inside_of, lengths, layers, edges, span, sense):
         return VoxelMap(*edges, np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
                         np.where(enough[..., None], flux / slurry[..., None], np.nan), room / (layers.sum() * np.sum(lengths)),
                         np.where(room > 0, slurry / room, 0.0), np.where(enough, head / slurry, np.nan), *span,
-                        source="what the flow averaged on voxels (slurry.h5)", sense=sense)
+                        source="the flow's samples on voxels (slurry.h5)", sense=sense)
