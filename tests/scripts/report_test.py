@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import matplotlib.pyplot as plt
@@ -15,7 +16,7 @@ import numpy as np
 from millfoam.axial import Humps
 from millfoam.flow_readings import Mean, Way, angle_mean, slurry_blocks, slurry_way
 from millfoam.mill_plots import circle, mean_flow, mean_of_times
-from millfoam.report import comparison, figures, page
+from millfoam.report import comparison, figures, page, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.readings import Readings, humps_told
 from millfoam.report.sections import last_turn
@@ -115,6 +116,24 @@ class Words(unittest.TestCase):
         for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),
                      page.table(["<"], [("&", 1.0)], title="<", note="&"), page.folded("<&>", "<script>&")):
             self.assertNotRegex(made, r"&(?!amp;|lt;|gt;|quot;)|<script|<&|< ")
+
+
+class Models(Case):
+    def test_moys_hold_up_stands_along_the_axis_and_adds_up_to_its_volume(self):
+        (self.folder / "constant").mkdir()
+        (self.folder / "constant" / "millProperties").write_text("outletRadius 0.05;\n")
+        mill = {"charge": {"classes": [{"diameter": 0.005, "mass": 1.0}]}, "slurry": {"plastic_viscosity": 0.01, "density": 1200.0}}
+        case = SimpleNamespace(folder=self.folder, mill=mill, radius=0.15, length=0.3, feed=5e-5, begin=0.0,
+                               charge=SimpleNamespace(solidity=np.full((3, 3), 0.6)),
+                               balance={"Time": np.array([0.0, 1.0]), "holdUp": np.array([2e-3, 2e-3])})
+        profile = SimpleNamespace(z=np.linspace(0.05, 0.25, 5), holdup=np.full(5, 4e-4))
+        with mock.patch.object(figures, "holdup_along", wraps=figures.holdup_along) as drawn:
+            cards = slurry_sections.moys(case, profile)
+        self.assertEqual(len(cards), 2)
+        _, z, model = drawn.call_args.args
+        told = float(re.search(r"hold-up by the model.*?(\d+) ml", cards[0]).group(1))
+        self.assertAlmostEqual(1e6 * np.trapz(model, z), told, delta=1)
+        self.assertEqual(len(slurry_sections.moys(case, "no profile")), 1)
 
 
 class OneCase(Case):

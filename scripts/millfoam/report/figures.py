@@ -135,6 +135,16 @@ def reynolds(case):
     return figure
 
 
+def holdup_along(profile, z, model):
+    """Hold-up per length along the axis: of an AxialProfile, and of a model (m2) at z (m)."""
+    figure, (axis,) = axes_of()
+    axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE, label="simulation")
+    axis.plot(1e3 * z, 1e3 * model, color=RED, label="Moys")
+    axis.set(xlabel="z from the feed end, mm", ylabel="hold-up, ml per mm", ylim=(0, None))
+    axis.legend()
+    return figure
+
+
 def axial(profile, fits, along):
     """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves (label, z,
     height)."""

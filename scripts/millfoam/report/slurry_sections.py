@@ -4,6 +4,7 @@ import numpy as np
 
 from .. import axial, charge, mill_plots, models, slurry_maps
 from ..flow_readings import RING, Way, humps_at_ends, ring_depth
+from ..foam import read_dictionary
 from ..free_surface import at_points
 from ..tables import time_mean
 from . import figures, maps, page
@@ -147,31 +148,36 @@ def models_section(case, readings):
                 f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw {model.wall:.3f}"
                 f"; RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.{poor}",
                 title="Free surface by Taberlet, Richard & Hinch"))
-    rows = moys(case)
-    if rows:
-        cards.append(page.table(None, rows, title="Hold-up by Moys' model",
-                                note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the "
-                                     "slurry that the mill lifts."))
+    pulp = case.mill["geometry"].get("pulp_lifters")
+    if case.solids and case.flow and case.law and case.feed and case.balance is not None and pulp:
+        cards += moys(case, readings.profile)
     return cards
 
 
-def moys(case):
-    """Rows (name, text) of Moys' hold-up beside the simulated one, of a mill with feed, balls and a discharge."""
-    pulp = case.mill["geometry"].get("pulp_lifters")
-    if not (case.solids and case.flow and case.law and case.feed and case.balance is not None and pulp):
-        return []
+def moys(case, profile):
+    """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a mill with
+    feed, balls and a discharge over a lip."""
     dense = case.charge.solidity[case.charge.solidity > 0.3]
     porosity = float(1 - dense.mean())
     bed = models.Charge(case.radius, case.length, porosity, mean_diameter(case))
     slurry = case.mill["slurry"]
-    lip = case.radius - pulp["discharge_radius"]
+    lip = case.radius - float(read_dictionary(case.folder / "constant" / "millProperties")["outletRadius"])
     fluid = (slurry["plastic_viscosity"], slurry["density"])
     held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
-    return [("porosity of the dense charge (solidity over 0.3)", f"{porosity:.3f}"),
+    rows = [("porosity of the dense charge (solidity over 0.3)", f"{porosity:.3f}"),
             ("depth at the discharge's lip", f"{1e3 * lip:.1f} mm"),
             ("depth at the feed end by the model", f"{1e3 * float(models.slurry_depth(bed, 0, case.feed, lip, *fluid)):.1f} mm"),
             ("hold-up by the model", f"{1e6 * models.slurry_hold_up(bed, case.feed, lip, *fluid):.0f} ml"),
             ("simulated hold-up, with the pulp lifters", f"{1e6 * held:.0f} ml")]
+    cards = [page.table(None, rows, title="Hold-up by Moys' model",
+                        note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the slurry that "
+                             "the mill lifts.")]
+    if len(getattr(profile, "z", ())) >= 3:
+        z = np.linspace(0, case.length, 200)
+        model = porosity * bed.cross_section(models.slurry_depth(bed, z, case.feed, lip, *fluid))
+        cards.append(page.picture(figures.holdup_along(profile, z, model), "Slurry in the pores of a resting charge by the model, "
+                                  "and all slurry of the simulation, by slices along the axis.", title="Moys' hold-up profile"))
+    return cards
 
 
 def mean_diameter(case):
