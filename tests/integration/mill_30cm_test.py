@@ -3,11 +3,13 @@
 """The fed mill's first hundredths of a second, coarse and without balls: what is fed is there, what is written can go on."""
 import re
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from millfoam import axial, foam
 from millfoam.mill_flow import MillFlow
@@ -59,6 +61,16 @@ class FedMill(unittest.TestCase):
         self.assertEqual(len(profile.z), 9)
         self.assertLess(np.ptp(profile.height[:-1]), 2e-3)
         self.assertAlmostEqual(profile.height.mean(), -0.09, delta=0.01)
+
+    def test_profiles_are_drawn_of_one_run_and_of_several(self):
+        (self.case / "log.flow").write_text(self.log)
+        told = run(self.case, sys.executable, CASE / "axial.py", ".")
+        self.assertRegex(told, r"feed 65\.3 ml/s, discharge")
+        for name in ("axial.csv", "axial.png", "z_velocity.png"):
+            self.assertGreater((self.case / "pictures" / name).stat().st_size, 300, name)
+        run(self.case, sys.executable, CASE / "axial_together.py", ".", self.case, "-o", "both.png")
+        with Image.open(self.case / "both.png") as picture:
+            self.assertGreater(len(set(picture.convert("RGB").getdata())), 100)
 
     def test_slurry_enters_by_the_feed_alone(self):
         alpha = foam.read_field(self.flow.frames[-1][1] / "alpha.slurry", self.flow.mesh.cells)

@@ -23,9 +23,11 @@ def draw_profiles(axes, cases):
     for case in cases:
         z, height, spread, _, pressure = np.loadtxt(case / "pictures" / "axial.csv", delimiter=",", skiprows=1, unpack=True)
         line, = axes[0].plot(1e3 * z, 1e3 * height, "o-", ms=3, label=case.name)
-        axes[0].fill_between(1e3 * z, 1e3 * (height - spread), 1e3 * (height + spread), color=line.get_color(), alpha=0.15, lw=0)
+        axes[0].fill_between(1e3 * z, 1e3 * (height - spread), 1e3 * (height + spread), color=line.get_color(), alpha=0.15,
+                             lw=0)
         axes[1].plot(1e3 * z, pressure, "o-", ms=3)
-    axes[0].set(xlabel="z from the feed end, mm", ylabel="height of the slurry's centre of mass, mm\n(shaded: deviation over time)")
+    axes[0].set(xlabel="z from the feed end, mm",
+                ylabel="height of the slurry's centre of mass, mm\n(shaded: deviation over time)")
     axes[1].set(xlabel="z from the feed end, mm", ylabel="p_rgh in the slurry, Pa")
     axes[0].legend(fontsize=8)
     for axis in axes:
@@ -36,7 +38,8 @@ def draw_map(axis, case):
     flow = MillFlow(case)
     last = flow.frames[-1][0]
     slurry = mill_plots.mean_flow(flow, 2.0 if last > 3 else last / 2)
-    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * axial_velocity(slurry), cmap="RdBu_r", vmin=-LIMIT, vmax=LIMIT)
+    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * axial_velocity(slurry), cmap="RdBu_r", vmin=-LIMIT,
+                            vmax=LIMIT)
     mill_plots.draw_mill(axis, flow, last)
     axis.set_title(case.name, fontsize=9)
     return image
