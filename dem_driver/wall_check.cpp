@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/wall_check.hpp"
 
-#include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -17,7 +15,6 @@ namespace millfoam::dem_driver {
 namespace {
 
 constexpr std::size_t binary_header = 84;  // 80 characters and the number of triangles
-constexpr std::size_t binary_triangle = 50;
 
 [[noreturn]] void refuse(const std::string& place, const std::string& found, const std::string& expected) {
   throw std::runtime_error(place + ": " + found + ", expected " + expected);
@@ -42,18 +39,6 @@ std::string first_word(const std::string& text) {
 }
 
 void check_binary(const std::string& bytes, const std::string& name) {
-  const std::string there = std::to_string(bytes.size()) + " bytes";
-  if (bytes.size() < binary_header)
-    refuse(name, "is cut short: there are " + there, "at least the 84 of a binary STL's header");
-  std::uint32_t triangles = 0;
-  std::memcpy(&triangles, bytes.data() + binary_header - sizeof triangles, sizeof triangles);
-  const std::size_t needed = binary_header + binary_triangle * triangles;
-  if (bytes.size() != needed) {
-    const std::string relation = bytes.size() < needed ? "is cut short" : "is too long";
-    refuse(name, relation + ": there are " + there,
-           std::to_string(needed) + " for the " + std::to_string(triangles) +
-               " triangles announced in its header");
-  }
   if (first_word(bytes) == "solid")
     refuse(name, "is a binary STL whose header begins with 'solid'",
            "another header, because LIGGGHTS takes this for a text");
@@ -103,12 +88,10 @@ void check_wall(const std::filesystem::path& file) {
   // No text holds a zero; the number of triangles in a binary header does, below 16 millions.
   const bool binary = bytes.find('\0') < binary_header;
   TextEnd end;
-  if (binary)
-    check_binary(bytes, name);
-  else
-    end = check_text(bytes, name);
+  if (!binary) end = check_text(bytes, name);
   meshing::PolygonSet wall;
   meshing::read_stl(file, meshing::default_group, 1, wall);
+  if (binary) check_binary(bytes, name);
   const std::size_t triangles = wall.polygons.size();
   if (!binary && static_cast<std::size_t>(end.endfacets) != triangles)
     refuse(

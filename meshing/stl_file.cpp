@@ -138,13 +138,16 @@ void read_stl(const std::filesystem::path& file, const std::string& group, doubl
   if (!stream.is_open() || stream.bad()) reader.refuse("", "cannot be read");
   if (is_binary(bytes)) {
     reader.read_binary(bytes);
-  } else if (bytes.size() >= header_size && bytes.find('\0') < header_size) {
+  } else if (bytes.find('\0') < header_size) {
     // No text holds a zero; the number of triangles in a binary header does, below 16 millions
+    const std::string there = ": there are " + std::to_string(bytes.size()) + " bytes, expected ";
+    if (bytes.size() < header_size)
+      reader.refuse("", "is cut short" + there + "at least the 84 of a binary STL's header");
     const std::size_t triangles = number_at<std::uint32_t>(bytes, header_size - 4);
     const std::size_t needed = header_size + triangle_size * triangles;
-    reader.refuse("", std::string(bytes.size() < needed ? "is cut short" : "is too long") + ": there are " +
-                          std::to_string(bytes.size()) + " bytes, expected " + std::to_string(needed) +
-                          " for the " + std::to_string(triangles) + " triangles announced in its header");
+    reader.refuse("", (bytes.size() < needed ? "is cut short" : "is too long") + there +
+                          std::to_string(needed) + " for the " + std::to_string(triangles) +
+                          " triangles announced in its header");
   } else if (begins_with_solid(bytes)) {
     reader.read_text(bytes);
   } else {
