@@ -67,7 +67,7 @@ class Way:
 
 @dataclass
 class Surface:
-    """Slurry's free surface across the mill: tilt (degrees, positive where the rising side is higher) of the straight line
+    """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight line
     through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the charge, if there
     is one."""
     tilt: Mean

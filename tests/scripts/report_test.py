@@ -20,7 +20,7 @@ from millfoam.report import comparison, figures, page, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.readings import Readings, humps_told
 from millfoam.report.sections import last_turn
-from millfoam.report.sources import MillCase, NoMill, lifter_outline
+from millfoam.report.sources import MillCase, NoMill, lifter_outline, usual_width
 from millfoam.report.words import decimals, millilitres, short_shares, span_of_time, typeset, uncertain
 from report_cases import OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_slurry, write_solids
 
@@ -225,6 +225,11 @@ class OneCase(Case):
 
 
 class Outline(unittest.TestCase):
+    def test_width_that_is_left_open_is_that_of_the_mesh(self):
+        # As fills_in_dimensions_that_sources_seldom_give has it of millMesh
+        self.assertEqual(usual_width(0.06, 12, 0.008, False), 0.008)
+        self.assertAlmostEqual(usual_width(0.06, 60, 0.008, False), 0.052 * np.tan(np.pi / 60), delta=1e-12)
+
     def test_is_the_shell_less_the_lifters(self):
         outline = lifter_outline(0.15, 4, 0.02, 0.01, 0.006, 0)
         np.testing.assert_array_equal(outline[0], outline[-1])

@@ -38,6 +38,18 @@ def read_mill(folder):
     return text, mill
 
 
+def usual_width(radius, count, height, trapezoid):
+    """Width (m) of lifters' feet where mill.yaml leaves it open, as millMesh has it: their height, or half of what chord and
+    pitch leave."""
+    tips = radius - height
+    pitch = 2 * radius
+    if trapezoid and count > 1:
+        pitch = 2 * radius * np.sin(np.pi / count)
+    if not trapezoid and count > 2:
+        pitch = 2 * tips * np.tan(np.pi / count)
+    return min(height, np.sqrt(radius**2 - tips**2), pitch / 2)
+
+
 def lifter_outline(radius, count, height, width, top_width, angle):
     """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from +x; height
     from the shell to the middle of the flat top, width of the foot between its points on the shell."""
@@ -112,7 +124,7 @@ class MillCase:
         """The outline [n, 2] (m) by mill.yaml at DEM time `time` (s): lifter 1 stands at +x at time 0."""
         lifters = self.mill["geometry"].get("lifters") or {}
         count = lifters.get("count", 0)
-        width = lifters.get("width", min(self.lifter_height, np.pi * self.radius / max(count, 1)))
+        width = lifters.get("width", usual_width(self.radius, count, self.lifter_height, "top_width" in lifters))
         return lifter_outline(self.radius, count, self.lifter_height, width, lifters.get("top_width", width),
                               self.omega * time)
 
