@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <numeric>
 
+#include "meshing/mill_charge.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/pi.hpp"
+#include "meshing/resolved_mill.hpp"
 #include "meshing/surface_check.hpp"
 
 namespace millfoam::meshing {
@@ -66,6 +68,26 @@ std::string ball_lines(double ball, const std::vector<double>& volumes) {
 }
 
 }  // namespace
+
+std::string mill_lines(const MillDescription& description) {
+  const Mill& mill = description.mill;
+  const ChargeNumbers charge = count_charge(mill);
+  std::string text =
+      line("mill                     %s", mill.title.c_str()) +
+      line(
+          "speed                    %.4g rad/s, %.3g %% of the critical, %s seen with x to the right and y "
+          "up",
+          mill.angular_velocity, 100 * std::abs(mill.angular_velocity) / critical_speed(mill.geometry),
+          mill.sense()) +
+      line("charge                   %ld balls, %.4g kg, load %.3g %%", charge.balls, charge.mass,
+           100 * charge.load);
+  if (charge.fines_mass > 0)
+    text += line(
+        "fines                    %.4g kg (%.3g %% of the mass) are left out; with them the load is %.3g %%",
+        charge.fines_mass, 100 * charge.fines_mass / (charge.mass + charge.fines_mass),
+        100 * charge.load_asked);
+  return text + line("fingerprint              %s", fingerprints(description).flow.c_str());
+}
 
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& q,
                         const Openings& openings) {

@@ -11,6 +11,9 @@
 
 namespace millfoam::meshing {
 
+/// What a tool prints of the mill first: its title, size, sense of rotation, charge and fingerprint.
+std::string mill_lines(const MillDescription& description);
+
 /// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
 /// openings against those asked for, and advice on averaging where cells are smaller than the largest ball.
 /// Lines end with '\n'.

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "meshing/mill_error.hpp"
 
 namespace millfoam::meshing {
 
@@ -107,7 +110,6 @@ struct Slurry {
   double plastic_viscosity = 0;  ///< Pa s
   double yield_stress = 0;       ///< Pa
   double surface_tension = 0;    ///< N/m
-  double level = 0;              ///< m, height y of the free surface at the start
 };
 
 /// Air above the slurry.
@@ -131,10 +133,63 @@ struct Resolution {
   std::optional<BlockCounts> counts = std::nullopt;  ///< instead of the size
 };
 
+/// Voxels of a box whose cross-section is a square about the axis.
+struct Voxels {
+  std::array<double, 3> lower = {};  ///< x, y, z, m
+  std::array<double, 3> upper = {};  ///< m
+  std::array<int, 3> shape = {};     ///< numbers along x, y, z
+};
+
+/// How the charge is averaged for the flow.
+struct Averages {
+  Voxels voxels;
+  double window = 0;            ///< s, a whole number of records
+  std::optional<double> start;  ///< DEM time, s; nothing: when the dry run has become steady
+  std::string method;           ///< exact or sample
+  int template_points = 0;      ///< along a diameter, of `sample`
+};
+
+/// The slurry at the start of the flow: a level, or a volume.
+struct FlowStart {
+  std::optional<double> level;  ///< m, height y of a pool's surface
+  double volume = 0;            ///< m^3, without a level; 0: the mill is empty
+  double fill = 0;              ///< the volume over that of the resting charge's pores
+};
+
+/// What the flow writes on voxels of the lab frame.
+struct FlowAverages {
+  Voxels voxels;
+  double start = 0;     ///< flow time from which the mean over the run is taken, s
+  double window = 0;    ///< s
+  double interval = 0;  ///< between samples, s
+};
+
+/// How the slurry's flow is done.
+struct Flow {
+  std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;          ///< s
+  bool balls = true;            ///< false: the mill without its charge
+  std::string law;              ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;        ///< on the drag
+  std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
+  bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;              ///< slurry at time 0
+  double feed = 0;              ///< m^3/s, through the inlet
+  double max_courant = 0;       ///< limits of the time-step
+  double max_surface_courant = 0;
+  double max_voidage_change = 0;
+  double max_time_step = 0;   ///< s
+  double write_interval = 0;  ///< between written fields, s
+  int slices = 0;             ///< along the axis, of profiles
+  FlowAverages averages;
+};
+
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
 struct Mill {
   std::string title;
   Geometry geometry;
+  double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
   double angular_velocity =
       0;  ///< rad/s, right-handed about +z: negative turns clockwise with x right and y up
   Charge charge;
@@ -143,9 +198,13 @@ struct Mill {
   Contact ball_ball;
   Contact ball_wall;
   Dem dem;
+  Averages averages;
   Slurry slurry;
   Air air;
   Resolution resolution;
+  Flow flow;
+  double turn() const;        ///< time of one turn, s
+  const char* sense() const;  ///< clockwise or anticlockwise, seen with x to the right and y up
 };
 
 /// Gravity's magnitude used by every stage, m/s^2; it points to -y.
@@ -154,14 +213,22 @@ inline constexpr double gravity = 9.81;
 /// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.
 double critical_speed(const Geometry& geometry);
 
-/// A `mill.yaml` that cannot be used; the message is "file:line: key 'a.b': value, what was expected".
-class MillError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
+class MillDocument;
+
+/// A mill and what it was read from.
+struct MillDescription {
+  Mill mill;
+  std::shared_ptr<const MillDocument> document;
 };
 
 /// Reads and checks a mill description. Every key is documented in meshing/README.md.
+/// @param file  mill.yaml, or a resolved mill (mill.json)
+/// @param set   changes "path=value" (MillDocument)
 /// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or
 /// one that is impossible (negative size, lifter longer than the radius, …).
-Mill read_mill(const std::filesystem::path& file);
+MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set = {});
+
+/// The mill alone.
+Mill read_mill(const std::filesystem::path& file, const std::vector<std::string>& set = {});
 
 }  // namespace millfoam::meshing

@@ -24,6 +24,11 @@ constexpr double usual_grate_ratio = 0.69;
 constexpr double usual_pulp_depth = 0.11;
 constexpr double usual_discharge_ratio = 0.52;
 
+/// Where mill.yaml leaves the mesh open, it is one that gives a first answer in minutes: cells over the
+/// mill's radius, and layers along the axis over the cells.
+constexpr double usual_cell = 1.0 / 13;
+constexpr double usual_layer = 2.5;
+
 /// The width of the lifters' feet, which may be that of rectangular lifters; without one, their height or
 /// what their pitch leaves.
 double read_width(const Section& in, const Lifters& lifters, double radius) {
@@ -173,12 +178,18 @@ double section_cells(const BlockCounts& counts, const Geometry& geometry) {
          1.0 * geometry.lifters.count * counts.gap * counts.height;
 }
 
+/// Layers of about 2.5 cells; between two walls at least two.
+int usual_layers(const Geometry& geometry, double cell_size) {
+  const int fewest = geometry.ends == Ends::plain ? 2 : 1;
+  return std::max(fewest, static_cast<int>(std::lround(geometry.length / (usual_layer * cell_size))));
+}
+
 }  // namespace
 
 Geometry read_geometry(const Section& in) {
   Geometry geometry;
-  geometry.diameter = in.number("diameter", positive("a length in m"));
-  geometry.length = in.number("length", positive("a length in m"));
+  geometry.diameter = in.number("diameter", length_of_mill());
+  geometry.length = in.number("length", length_of_mill());
   geometry.ends = in.choice("ends", {"plain", "periodic"}) == "plain" ? Ends::plain : Ends::periodic;
   geometry.lifters =
       read_lifters(in.section("lifters", {"count", "height", "width", "top_width"}), geometry.radius());
@@ -188,26 +199,36 @@ Geometry read_geometry(const Section& in) {
 
 Resolution read_resolution(const Section& in, const Geometry& geometry) {
   Resolution resolution;
-  resolution.layers = in.integer("layers", at_least_one("layers"));
-  const int layers = resolution.layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0);
-  double cells = 0;
+  double section = 0;  // cells in the cross-section
   if (in.has("counts")) {
     if (in.has("cell_size")) in.refuse("cell_size", "either cell_size or counts");
     const auto keys = geometry.lifters.count > 0 ? Section::Keys{"gap", "lifter", "height", "ring"}
                                                  : Section::Keys{"gap", "ring"};
     resolution.counts = read_counts(in.section("counts", keys), geometry);
-    cells = section_cells(*resolution.counts, geometry) * layers;
+    section = section_cells(*resolution.counts, geometry);
   } else {
     resolution.cell_size = in.number(
-        "cell_size", positive_below("a length (or the key counts)", geometry.radius(), " m", "the radius"));
-    cells = analytic_section(geometry) / (resolution.cell_size * resolution.cell_size) * layers;
+        "cell_size", positive_below("a length (or the key counts)", geometry.radius(), " m", "the radius"),
+        usual_cell * geometry.radius());
+    section = analytic_section(geometry) / (resolution.cell_size * resolution.cell_size);
   }
+  resolution.layers = in.integer("layers", at_least_one("layers"),
+                                 usual_layers(geometry, shell_cell_size(resolution, geometry)));
+  const double cells =
+      section * (resolution.layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0));
   if (cells > most_cells) {
     in.refuse(resolution.counts ? "counts" : "cell_size",
               (resolution.counts ? "numbers that give" : "a length that gives") +
                   std::string(" at most 1e8 cells, not ") + shown(cells));
   }
   return resolution;
+}
+
+double shell_cell_size(const Resolution& resolution, const Geometry& geometry) {
+  if (!resolution.counts) return resolution.cell_size;
+  const int around =
+      std::max(1, geometry.lifters.count) * (resolution.counts->gap + resolution.counts->lifter);
+  return 2 * pi * geometry.radius() / around;
 }
 
 }  // namespace millfoam::meshing

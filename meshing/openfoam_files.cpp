@@ -79,29 +79,6 @@ void write_zones(const fs::path& folder, const std::string& kind, const std::vec
   });
 }
 
-void write_openings(std::ostream& out, const Mill& mill, const Openings& openings) {
-  const Geometry& geometry = mill.geometry;
-  const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
-  if (geometry.inlet) {
-    number("inletRadius", geometry.inlet->radius);
-    number("inletArea", openings.inlet_area);
-  }
-  if (geometry.grates) {
-    number("grateInnerRadius", geometry.grates->inner_radius);
-    number("grateOuterRadius", geometry.grates->outer_radius);
-    number("grateArea", openings.grate_area);
-    number("grateOpenFraction", geometry.grates->open_fraction);
-    number("grateLayerThickness", geometry.pulp_lifters
-                                      ? geometry.pulp_lifters->depth / geometry.pulp_lifters->layers
-                                      : geometry.length / mill.resolution.layers);
-  }
-  if (geometry.pulp_lifters) {
-    number("pulpLifterDepth", geometry.pulp_lifters->depth);
-    number("outletRadius", geometry.pulp_lifters->discharge_radius);
-    number("outletArea", openings.outlet_area);
-  }
-}
-
 template <typename Mesh>
 void write_mesh(const Mesh& mesh, const fs::path& case_folder) {
   const fs::path whole = case_folder / "constant" / "polyMesh";
@@ -143,31 +120,6 @@ void write_poly_mesh(const VolumeMesh& mesh, const fs::path& case_folder) {
 
 void write_poly_mesh(const PolyMesh& mesh, const fs::path& case_folder) {
   write_mesh(mesh, case_folder);
-}
-
-void write_mill_properties(const Mill& mill, const Openings& openings, double time,
-                           const fs::path& case_folder) {
-  write_file(case_folder / "constant" / "millProperties", [&](std::ostream& out) {
-    write_header(out, "dictionary", "constant", "millProperties");
-    const auto number = [&](const char* key, double value) { out << key << ' ' << exact(value) << ";\n"; };
-    number("radius", mill.geometry.radius());
-    number("length", mill.geometry.length);
-    number("lifterHeight", mill.geometry.lifters.height);
-    out << "endsType " << (mill.geometry.ends == Ends::plain ? "plain" : "periodic") << ";\n";
-    number("omega", mill.angular_velocity);
-    number("time0", time);
-    number("ballDensity", mill.ball.density);
-    number("slurryDensity", mill.slurry.density);
-    number("slurryViscosity", mill.slurry.plastic_viscosity);
-    number("slurryKinematicViscosity", mill.slurry.plastic_viscosity / mill.slurry.density);
-    number("yieldStress", mill.slurry.yield_stress);
-    number("surfaceTension", mill.slurry.surface_tension);
-    number("slurryLevel", mill.slurry.level);
-    number("airDensity", mill.air.density);
-    number("airViscosity", mill.air.viscosity);
-    number("airKinematicViscosity", mill.air.viscosity / mill.air.density);
-    write_openings(out, mill, openings);
-  });
 }
 
 }  // namespace millfoam::meshing

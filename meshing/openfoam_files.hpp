@@ -3,8 +3,6 @@
 
 #include <filesystem>
 
-#include "meshing/mill.hpp"
-#include "meshing/openings.hpp"
 #include "meshing/volume_mesh.hpp"
 
 namespace millfoam::meshing {
@@ -14,11 +12,5 @@ namespace millfoam::meshing {
 /// then takes the place of an older polyMesh with all that is in it.
 void write_poly_mesh(const VolumeMesh& mesh, const std::filesystem::path& case_folder);
 void write_poly_mesh(const PolyMesh& mesh, const std::filesystem::path& case_folder);
-
-/// Writes `constant/millProperties`: the mill's numbers as plain `key value;` lines that dictionaries of the
-/// case take in with `#include`. The areas are those of `openings`, which the mesh has. `time` is the DEM
-/// time, s, that the case's mesh is turned to. See meshing/README.md.
-void write_mill_properties(const Mill& mill, const Openings& openings, double time,
-                           const std::filesystem::path& case_folder);
 
 }  // namespace millfoam::meshing

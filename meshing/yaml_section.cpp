@@ -5,13 +5,11 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
-
-#include "meshing/mill.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -68,19 +66,6 @@ std::string shown(const YAML::Node& node) {
   return is_plain_scalar(node) ? node.Scalar() : '"' + node.Scalar() + '"';
 }
 
-std::vector<YAML::Node> load(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw MillError(file.string() + ": cannot be read: expected a mill description (YAML)");
-  }
-  try {
-    return YAML::LoadAll(stream);
-  } catch (const YAML::ParserException& error) {
-    throw MillError(file.string() + ":" + std::to_string(error.mark.line + 1) +
-                    ": not valid YAML: " + error.msg);
-  }
-}
-
 }  // namespace
 
 std::string shown(double value) {
@@ -89,45 +74,38 @@ std::string shown(double value) {
   return text.str();
 }
 
-Section Section::open(const std::filesystem::path& file, const Keys& known) {
-  const auto documents = load(file);
-  if (documents.empty() || documents.front().IsNull()) {
-    throw MillError(file.string() + ":1: the file is empty: expected a mill description with " +
-                    joined(known));
-  }
-  if (documents.size() > 1) {
-    throw MillError(file.string() + ": holds " + std::to_string(documents.size()) +
-                    " YAML documents: expected one mill description");
-  }
-  const YAML::Node& root = documents.front();
-  if (!root.IsMap()) {
-    throw MillError(file.string() + ":" + std::to_string(root.Mark().line + 1) +
-                    ": not a map of keys: expected a mill description with " + joined(known));
-  }
-  return {root, file.string(), "", 1, known};
-}
+Section::Section(std::shared_ptr<MillDocument> document, const Keys& known)
+    : Section(document->root(), document, "", known) {}
 
-Section::Section(const YAML::Node& node, std::string file, std::string path, int line, const Keys& known)
-    : node_(node), file_(std::move(file)), path_(std::move(path)), line_(line), known_(known) {
+Section::Section(const YAML::Node& node, std::shared_ptr<MillDocument> document, std::string path,
+                 const Keys& known)
+    : node_(node), document_(std::move(document)), path_(std::move(path)), known_(known) {
   check_keys();
 }
 
 void Section::check_keys() const {
   std::set<std::string> seen;
   for (const auto& entry : node_) {
-    const int line = entry.first.Mark().line + 1;
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : shown(entry.first);
+    const std::string path = path_of(key);
+    // Keys that --set has made have no line
+    if (entry.first.Mark().line >= 0) document_->note_line(path, entry.first.Mark().line + 1);
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-      fail(line, "key '" + path_of(key) + "' is unknown: " + suggestion(key, known_));
+      fail(path, "key '" + path + "' is unknown: " + suggestion(key, known_));
     }
-    if (!seen.insert(key).second) fail(line, "key '" + path_of(key) + "' is given twice: expected it once");
+    if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected it once");
   }
 }
 
 Section Section::section(const std::string& key, const Keys& known) const {
   const YAML::Node node = value(key, "a map with " + joined(known));
   if (!node.IsMap()) refuse(key, "a map with " + joined(known));
-  return {node, file_, path_of(key), line_of(key), known};
+  return {node, document_, path_of(key), known};
+}
+
+Section Section::optional_section(const std::string& key, const Keys& known) const {
+  if (has(key)) return section(key, known);
+  return {YAML::Node(YAML::NodeType::Map), document_, path_of(key), known};
 }
 
 std::vector<Section> Section::list(const std::string& key, const Keys& known) const {
@@ -137,11 +115,11 @@ std::vector<Section> Section::list(const std::string& key, const Keys& known) co
   std::vector<Section> sections;
   for (const YAML::Node& item : node) {
     const std::string path = path_of(key) + "[" + std::to_string(sections.size()) + "]";
-    const int line = item.Mark().line + 1;
+    if (item.Mark().line >= 0) document_->note_line(path, item.Mark().line + 1);
     if (!item.IsMap()) {
-      fail(line, "key '" + path + "' = " + shown(item) + ": expected a map with " + joined(known));
+      fail(path, "key '" + path + "' = " + shown(item) + ": expected a map with " + joined(known));
     }
-    sections.push_back({item, file_, path, line, known});
+    sections.push_back({item, document_, path, known});
   }
   return sections;
 }
@@ -155,29 +133,59 @@ bool Section::is_text(const std::string& key) const {
   return node.IsDefined() && node.IsScalar();
 }
 
+bool Section::is(const std::string& key, const std::string& word) const {
+  return is_text(key) && find(key).Scalar() == word;
+}
+
 double Section::number(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
   const auto number = is_plain_scalar(node) ? parse<double>(node.Scalar()) : std::nullopt;
   if (!number || !std::isfinite(*number) || !rule.holds(*number)) refuse(key, rule.expected);
+  document_->record(path_of(key), *number);
   return *number;
 }
 
 double Section::number(const std::string& key, const Rule& rule, double fallback) const {
-  return has(key) ? number(key, rule) : fallback;
+  if (has(key)) return number(key, rule);
+  document_->record(path_of(key), fallback);
+  return fallback;
 }
 
 int Section::integer(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
   const auto number = is_plain_scalar(node) ? parse<int>(node.Scalar()) : std::nullopt;
   if (!number || !rule.holds(*number)) refuse(key, rule.expected);
+  document_->record(path_of(key), *number);
   return *number;
 }
 
+int Section::integer(const std::string& key, const Rule& rule, int fallback) const {
+  if (has(key)) return integer(key, rule);
+  document_->record(path_of(key), fallback);
+  return fallback;
+}
+
+bool Section::boolean(const std::string& key, bool fallback) const {
+  bool truth = fallback;
+  if (has(key)) {
+    const YAML::Node node = find(key);
+    const std::string word = is_plain_scalar(node) ? node.Scalar() : "";
+    truth = word == "true" || word == "yes";
+    if (!truth && word != "false" && word != "no") refuse(key, "true or false");
+  }
+  document_->record(path_of(key), truth);
+  return truth;
+}
+
 std::string Section::text(const std::string& key, const std::string& fallback) const {
-  if (!has(key)) return fallback;
-  const YAML::Node node = value(key, "a text");
-  if (!node.IsScalar()) refuse(key, "a text");
-  return node.Scalar();
+  std::string words = fallback;
+  if (has(key)) {
+    const YAML::Node node = value(key, "a text");
+    if (!node.IsScalar()) refuse(key, "a text");
+    words = node.Scalar();
+  }
+  document_->record(path_of(key), words);
+  return words;
 }
 
 std::string Section::choice(const std::string& key, const Keys& choices) const {
@@ -186,12 +194,19 @@ std::string Section::choice(const std::string& key, const Keys& choices) const {
   if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
     refuse(key, expected);
   }
+  document_->record(path_of(key), node.Scalar());
   return node.Scalar();
+}
+
+std::string Section::choice(const std::string& key, const Keys& choices, const std::string& fallback) const {
+  if (has(key)) return choice(key, choices);
+  document_->record(path_of(key), fallback);
+  return fallback;
 }
 
 void Section::refuse(const std::string& key, const std::string& expected) const {
   const YAML::Node node = find(key);
-  fail(line_of(key), "key '" + path_of(key) + "'" + (node.IsDefined() ? " = " + shown(node) : " is missing") +
+  fail(path_of(key), "key '" + path_of(key) + "'" + (node.IsDefined() ? " = " + shown(node) : " is missing") +
                          ": expected " + expected);
 }
 
@@ -209,19 +224,12 @@ YAML::Node Section::find(const std::string& key) const {
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-int Section::line_of(const std::string& key) const {
-  for (const auto& entry : node_) {
-    if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.first.Mark().line + 1;
-  }
-  return line_;
-}
-
 std::string Section::path_of(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
-void Section::fail(int line, const std::string& message) const {
-  throw MillError(file_ + ":" + std::to_string(line) + ": " + message);
+void Section::fail(const std::string& path, const std::string& message) const {
+  throw MillError(document_->place(path) + ": " + message);
 }
 
 }  // namespace millfoam::meshing

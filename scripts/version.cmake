@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+cmake_minimum_required(VERSION 3.25)
 # Writes the version that the programs carry, at every build: cmake -DSOURCE=… -DVERSION=… -DOUTPUT=… -P version.cmake
 # The version is that of the project and, in a git tree, the commit, with -dirty where files were changed since. The file is
 # touched only when its content changes, so that nothing else is compiled again.

@@ -5,15 +5,19 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "meshing/mesh_quality.hpp"
 #include "meshing/mesh_report.hpp"
+#include "meshing/mesh_results.hpp"
 #include "meshing/mill_mesh.hpp"
+#include "meshing/mill_properties.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/openfoam_files.hpp"
 #include "meshing/surface_check.hpp"
+#include "meshing/tools/mill_options.hpp"
 #include "meshing/tools/polygon_commands.hpp"
 #include "meshing/wall_files.hpp"
 
@@ -23,9 +27,10 @@ using namespace millfoam::meshing;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string mill;
-  std::string case_folder;  // empty: nothing is written
-  double time = 0;
+  MillOptions mill;
+  std::string case_folder;     // empty: nothing is written
+  std::optional<double> time;  // s; else the flow's start
+  bool walls_only = false;
 };
 
 /// Content of the files of a folder that are there, by name.
@@ -33,6 +38,7 @@ std::map<fs::path, std::string> contents(const fs::path& folder) {
   std::map<fs::path, std::string> found;
   if (!fs::is_directory(folder)) return found;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".stl") continue;
     std::ifstream in(entry.path(), std::ios::binary);
     found[entry.path()] = {std::istreambuf_iterator<char>(in), {}};
   }
@@ -52,13 +58,25 @@ void replace_walls(const WallSurface& surface, Ends ends, const fs::path& folder
   }
 }
 
+/// DEM time to which the mesh is turned, s.
+double mesh_time(const Options& options, const Mill& mill) {
+  if (options.time) return *options.time;
+  const auto start = start_of_flow(mill, options.case_folder);
+  if (!start)
+    std::cout << "note: averages.start is 'steady' and there is no solids.json yet: the mesh is turned to "
+                 "DEM time 0; "
+                 "call millMesh again after millAverage\n";
+  return start.value_or(0);
+}
+
 void run(const Options& options) {
-  const Mill mill = read_mill(options.mill);
+  const MillDescription description = options.mill.read();
+  const Mill& mill = description.mill;
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const Openings openings = find_openings(section, mill.geometry);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   const MeshQuality q = quality(mesh);
-  std::cout << mesh_report(mill, mesh, q, openings) << std::flush;
+  std::cout << mill_lines(description) << mesh_report(mill, mesh, q, openings) << std::flush;
   require_quality(q, flow_volume(mill.geometry), mill.geometry.length);
   const WallSurface surface = make_wall_surface(section, mill.geometry.length);
   const double of_walls = require_watertight(surface);
@@ -70,8 +88,13 @@ void run(const Options& options) {
 
   const fs::path folder = options.case_folder;
   replace_walls(surface, mill.geometry.ends, folder / "walls");
-  write_poly_mesh(turned(mesh, mill.angular_velocity * options.time), folder);
-  write_mill_properties(mill, openings, options.time, folder);
+  write_wall_results(description, surface, of_walls, folder / "walls");
+  write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
+  if (options.walls_only) return;
+  const double time = mesh_time(options, mill);
+  write_poly_mesh(turned(mesh, mill.angular_velocity * time), folder);
+  write_mill_properties(description, openings, time, folder);
+  write_mesh_results(description, mesh, q, openings, time, folder);
 }
 
 }  // namespace
@@ -79,20 +102,28 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{"Writes a mill's walls for LIGGGHTS, and its mesh and numbers for OpenFOAM, from mill.yaml."};
   Options options;
-  app.add_option("mill", options.mill, "the mill's description, mill.yaml");
-  app.add_option("--case", options.case_folder, "folder that receives walls/ and constant/");
+  add_mill_options(app, options.mill);
+  add_version(app, "millMesh");
+  app.add_option("--case", options.case_folder,
+                 "folder that receives walls/, constant/, mill.json (the resolved mill) and mesh.json");
   auto* quality =
       app.add_flag("--quality", "print the mesh's quality against its limits; writes with --case only");
-  app.add_option("--at-time", options.time,
-                 "DEM time in s that the flow's mesh is turned to; the walls stay at 0")
-      ->capture_default_str();
+  app.add_flag("--walls", options.walls_only, "write walls/ and mill.json only, which the dry run needs");
+  app.add_option(
+      "--at-time", options.time,
+      "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "
+      "the walls stay at 0");
   add_polygon_commands(app);
   app.require_subcommand(0, 1);
   app.callback([&] {
     if (!app.get_subcommands().empty()) return;
-    if (options.mill.empty()) throw CLI::RequiredError("mill");
+    if (options.mill.file.empty()) throw CLI::RequiredError("mill");
+    if (!options.mill.resolved.empty()) {
+      write_resolved_mill(options.mill.read(), "millMesh", options.mill.resolved);
+      return;
+    }
     if (options.case_folder.empty() && quality->empty())
-      throw std::runtime_error("expected --case DIR, or --quality");
+      throw std::runtime_error("expected --case DIR, --quality or --resolved FILE");
     run(options);
   });
   try {

@@ -7,10 +7,12 @@
 #include "meshing/assembly.hpp"
 #include "meshing/cad_surface.hpp"
 #include "meshing/face_file.hpp"
+#include "meshing/mesh_results.hpp"
 #include "meshing/mill_mesh.hpp"
 #include "meshing/obj_file.hpp"
 #include "meshing/openfoam_files.hpp"
 #include "meshing/text_numbers.hpp"
+#include "meshing/tools/mill_options.hpp"
 #include "meshing/wall_files.hpp"
 
 namespace millfoam::meshing {
@@ -55,16 +57,16 @@ void run_assemble(const AssembleOptions& options) {
 }
 
 struct FacesOptions {
-  std::string mill;
+  MillOptions mill;
   std::string file;
 };
 
 void run_faces(const FacesOptions& options) {
   if (!has_extension(options.file, ".obj"))
     throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
-  const Mill mill = read_mill(options.mill);
+  const Mill mill = options.mill.read().mill;
   if (mill.geometry.ends == Ends::periodic)
-    throw std::runtime_error(options.mill +
+    throw std::runtime_error(options.mill.file +
                              ": the mill's ends are periodic, and cells out of faces know no cyclic patches: "
                              "expected 'ends: plain' without 'slice'");
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
@@ -120,6 +122,7 @@ void run_surface(const SurfaceOptions& options) {
   const std::filesystem::path folder = std::filesystem::path(options.case_folder) / "walls";
   for (const auto& file : write_walls(report.surface, ends, folder))
     std::printf("written    %s\n", file.string().c_str());
+  write_wall_results(std::nullopt, report.surface, report.volume, folder);
 }
 
 }  // namespace
@@ -140,7 +143,7 @@ void add_polygon_commands(CLI::App& app) {
   CLI::App* faces =
       app.add_subcommand("faces", "Writes a mill's mesh as polygons, for editing and 'assemble'.");
   const auto of_faces = std::make_shared<FacesOptions>();
-  faces->add_option("mill", of_faces->mill, "the mill's description, mill.yaml")->required();
+  add_mill_options(*faces, of_faces->mill)->required();
   faces->add_option("-o", of_faces->file, "OBJ file to write: a group for each patch, and 'internal'")
       ->required();
   faces->callback([of_faces] { run_faces(*of_faces); });

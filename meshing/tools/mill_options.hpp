@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "meshing/mill.hpp"
+#include "meshing/resolved_mill.hpp"
+#include "millfoam_version.hpp"
+
+namespace millfoam::meshing {
+
+/// What every tool that reads a mill takes.
+struct MillOptions {
+  std::string file;              ///< mill.yaml, or a resolved mill.json
+  std::vector<std::string> set;  ///< changes "path=value"
+  std::string resolved;          ///< file that receives the resolved mill; empty: none is asked for
+
+  MillDescription read() const { return describe_mill(file, set); }
+};
+
+/// Adds the mill (a positional), `--set` and `--resolved`. The tool writes the resolved mill and stops where
+/// `--resolved` is given.
+inline CLI::Option* add_mill_options(CLI::App& app, MillOptions& options) {
+  auto* mill =
+      app.add_option("mill", options.file, "the mill's description, mill.yaml (or a resolved mill.json)");
+  app.add_option("--set", options.set,
+                 "PATH=VALUE in the place of a key of the mill, as in flow.law=Hill; ~ removes the key; may "
+                 "be given again")
+      ->expected(1)
+      ->take_all()
+      ->type_name("PATH=VALUE");
+  app.add_option(
+         "--resolved", options.resolved,
+         "write the mill with every default and derived number to this file (- : standard output) and stop")
+      ->type_name("FILE");
+  return mill;
+}
+
+/// Adds `--version`, "<tool> <version>".
+inline void add_version(CLI::App& app, const std::string& tool) {
+  app.set_version_flag("--version", tool + " " + version());
+}
+
+}  // namespace millfoam::meshing
