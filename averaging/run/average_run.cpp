@@ -11,6 +11,7 @@
 
 #include "averaging/dumps/dump_reader.hpp"
 #include "averaging/dumps/dump_series.hpp"
+#include "averaging/dumps/run_notes.hpp"
 #include "averaging/files/xdmf.hpp"
 #include "averaging/overlap/superquadric.hpp"
 #include "averaging/run/cell_setup.hpp"

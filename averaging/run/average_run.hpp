@@ -22,7 +22,7 @@ inline constexpr double usual_smoothing = 2.5;
 /// The cells of a mesh file.
 struct MeshRequest {
   std::filesystem::path file;
-  std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.txt
+  std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.json
   bool at_rest = false;             ///< no motion at all
   std::optional<double> period_z;   ///< m; the mesh spans one period along z
   bool smoothed = false;            ///< by conservative diffusion
@@ -49,7 +49,7 @@ struct AverageRequest {
   explicit AverageRequest(GridRequest cells) : grid(std::move(cells)) {}
 
   std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
-  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.txt beside the dumps
+  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.json beside the dumps
   std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
   GridRequest grid;
   SharingMethod method = SharingMethod::exact;

@@ -136,8 +136,8 @@ std::vector<std::filesystem::path> matching_files(const std::vector<std::string>
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
-  app.add_option("--dt", options.timestep, "DEM time-step, s; unless given, out of run.txt beside the dumps");
-  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.txt");
+  app.add_option("--dt", options.timestep, "DEM time-step, s; unless given, out of run.json beside the dumps");
+  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.json");
   app.add_option("-o,--output", options.output,
                  "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
 

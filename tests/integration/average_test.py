@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
-import os
+import json
 import resource
 import signal
 import subprocess
@@ -32,7 +32,8 @@ def write_dumps(folder):
         (folder / f"dump.{100 * record}.txt").write_text(
             f"ITEM: TIMESTEP\n{100 * record}\nITEM: NUMBER OF ATOMS\n{BALLS}\nITEM: BOX BOUNDS ff ff pp\n"
             f"-1 1\n-1 1\n0 1\nITEM: ATOMS id type x y z vx vy vz radius\n{text}\n")
-    (folder / "run.txt").write_text("timestep 1e-4\ninterval 100\nangular_velocity 2\n")
+    (folder / "run.json").write_text(
+        json.dumps({"timestep_s": 1e-4, "interval": 100, "angular_velocity_rad_s": 2}))
 
 
 class MillAverage(unittest.TestCase):
@@ -178,7 +179,7 @@ class MillAverage(unittest.TestCase):
         self.refused(self.command("--template", "1", "--method", "sample"), "--template is 1", "2 to 200")
         (self.folder / "folder").mkdir()
         self.refused(self.command(output="folder"), "'folder' is a folder")
-        self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.txt", "2 rad/s")
+        self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.json", "2 rad/s")
         self.refused(self.command("--inside", "no*.stl"), "--inside 'no*.stl' matches no file")
         self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape", "a mesh has its own")
         self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")

@@ -219,13 +219,13 @@ TEST_F(AverageRun, ADamagedNoteOfHowFarItWasStartsAfresh) {
 }
 
 TEST_F(AverageRun, TakesTheTimestepFromTheNotesBesideTheDumps) {
-  folder.write("run.txt", "timestep 1e-4\ninterval 100\nangular_velocity -6.4\n");
+  folder.write("run.json", R"({"timestep_s": 1e-4, "interval": 100, "angular_velocity_rad_s": -6.4})");
   request.timestep.reset();
   run();
   EXPECT_EQ(SolidsReader(output()).timestep(), 1e-4);
   EXPECT_EQ(SolidsReader(output()).header().angular_velocity, -6.4);
   request.timestep = 2e-4;
-  expect_named(message_of<DumpError>([&] { run(); }), {"0.0002", "0.0001", "run.txt"});
+  expect_named(message_of<DumpError>([&] { run(); }), {"0.0002", "0.0001", "run.json"});
 }
 
 TEST_F(AverageRun, ABrokenDumpLeavesNoSolidsFile) {
