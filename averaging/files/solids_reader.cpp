@@ -134,6 +134,8 @@ struct SolidsReader::Open {
     found.program = read_known("program");
     found.mill_charge = read_known("mill_charge");
     found.mill_averages = read_known("mill_averages");
+    found.run_id = read_known("run_id");
+    found.fines_share = read_optional("fines_share");
     return found;
   }
 

@@ -70,6 +70,8 @@ struct SolidsWriter::Open {
     write_known(root, "program", header.program);
     write_known(root, "mill_charge", header.mill_charge);
     write_known(root, "mill_averages", header.mill_averages);
+    write_known(root, "run_id", header.run_id);
+    if (header.fines_share) hdf5::write_attribute(root, "fines_share", *header.fines_share);
   }
 
   void create_windows() {

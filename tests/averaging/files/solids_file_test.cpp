@@ -41,8 +41,19 @@ struct SolidsFile : ::testing::Test {
   SolidsFile() { write(window_number(1)); }
 
   void write(const WindowAverage& second) const {
-    SolidsHeader header{0.5, 1e-5, false, "exact", -6.4, 0, 0.6, true, "millAverage 1.2", "0123456789abcdef",
-                        {}};
+    SolidsHeader header{0.5,
+                        1e-5,
+                        false,
+                        "exact",
+                        -6.4,
+                        0,
+                        0.6,
+                        true,
+                        "millAverage 1.2",
+                        "0123456789abcdef",
+                        {},
+                        "fedcba9876543210",
+                        0.25};
     SolidsWriter writer(path, grid, header);
     writer.append(window_number(0));
     writer.append(second);
@@ -85,6 +96,8 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(reader.header().program, "millAverage 1.2");
   EXPECT_EQ(reader.header().mill_charge, "0123456789abcdef");
   EXPECT_EQ(reader.header().mill_averages, "");
+  EXPECT_EQ(reader.header().run_id, "fedcba9876543210");
+  EXPECT_EQ(reader.header().fines_share, 0.25);
   const auto& box = std::get<BoxGrid>(reader.grid());
   EXPECT_EQ(box.lower(), grid.lower());
   EXPECT_EQ(box.upper(), grid.upper());
