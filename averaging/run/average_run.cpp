@@ -9,67 +9,30 @@
 #include <functional>
 #include <utility>
 
-#include "averaging/dumps/dump_reader.hpp"
-#include "averaging/dumps/dump_series.hpp"
+#include "averaging/files/output_lock.hpp"
 #include "averaging/files/xdmf.hpp"
-#include "averaging/overlap/superquadric.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/checkpoint.hpp"
+#include "averaging/run/job.hpp"
+#include "averaging/run/program.hpp"
 #include "averaging/run/record_worker.hpp"
 #include "averaging/run/run_signature.hpp"
+#include "averaging/run/summary_file.hpp"
 #include "averaging/run/window_series.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
-/// Records in a block: as many as let merging cost little beside the records themselves, but few enough to
-/// give work to many threads and ranks. Of the run alone, so that the result does not depend on these.
-std::size_t block_size(const std::vector<WindowPlan>& plans) {
-  std::size_t records = 0;
-  for (const WindowPlan& plan : plans) {
-    for (const WindowSpan& span : plan.windows) records = std::max(records, span.first_record + span.records);
-  }
-  return std::clamp<std::size_t>(records / 64, 1, 16);
-}
-
-/// The dumps of a run and how they are cut.
-struct Job {
-  std::vector<DumpFile> dumps;
-  RunSettings settings;
-  std::vector<WindowPlan> plans;  ///< for each series of windows
-  std::vector<RecordBlock> blocks;
-};
-
-/// sum d^3 / sum d^2; 0 of no balls.
-double sauter_diameter(const ParticleRecord& record) {
-  double volume = 0, area = 0;
-  for (std::size_t p = 0; p < record.particles.size(); ++p) {
-    const double d =
-        record.shapes.empty() ? 2 * record.particles[p].radius : volume_equivalent_diameter(record.shapes[p]);
-    volume += d * d * d;
-    area += d * d;
-  }
-  return area > 0 ? volume / area : 0;
-}
-
-Job prepare(const AverageRequest& request, const AverageProgress& progress) {
-  Job job;
-  job.dumps = find_dumps(request.dumps);
-  const std::optional<RunNotes> notes = read_run_notes(job.dumps.front().path.parent_path());
-  job.settings.timestep = agreed_timestep(request.timestep, notes);
-  job.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, notes);
-  std::vector<long long> steps;
-  for (const DumpFile& dump : job.dumps) steps.push_back(dump.step);
+/// Checks that every file that a run is to write may be written, before it begins. Throws SolidsFileError.
+std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
+  std::vector<OutputLock> locks;
   for (const WindowsRequest& windows : request.windows) {
-    job.plans.push_back(plan_windows(steps, {job.settings.timestep, notes ? notes->interval : std::nullopt,
-                                             windows.length, request.start, request.end}));
-    for (const std::string& sentence : job.plans.back().notes) progress.note(sentence);
+    require_solids_or_nothing(windows.output);
+    require_summary_or_nothing(summary_path(windows.output));
+    locks.emplace_back(windows.output);
   }
-  job.settings.sauter_diameter =
-      sauter_diameter(read_dump(job.dumps[job.plans[0].windows[0].first_record].path));
-  job.blocks = plan_blocks(job.plans, block_size(job.plans));
-  return job;
+  return locks;
 }
 
 /// Rank 0's part: the blocks go into the windows, the windows into the files.
@@ -123,11 +86,13 @@ class Collector {
     save();
     std::vector<SolidsSummary> summaries;
     for (std::size_t s = 0; s < series_.size(); ++s) {
-      SolidsSummary summary{request_.windows[s].output, setup_.smoothing, {}};
-      series_[s].write(setup_.grid, header(s), [&](const WindowAverage& window) {
+      const std::filesystem::path& output = request_.windows[s].output;
+      SolidsSummary summary = begin_summary(output, header(s), setup_.grid);
+      series_[s].write(setup_.grid, summary.header, [&](const WindowAverage& window) {
         summary.windows.push_back(
             summarise(setup_.grid, window.time, window.ledger, window.balls_per_cell, window.mean));
       });
+      write_summary(summary_path(output), summary);
       summaries.push_back(std::move(summary));
     }
     // First the note, so that a kill in between leaves none without its journals.
@@ -175,6 +140,13 @@ class Collector {
     header.smoothing = setup_.smoothing;
     header.solidity_cap = request_.solidity_cap;
     header.inside_fractions = !setup_.room.volumes.empty();
+    header.program = program();
+    header.mill_averages = request_.mill_averages;
+    if (job_.notes) {
+      header.mill_charge = job_.notes->mill_charge;
+      header.run_id = job_.notes->run_id;
+      header.fines_share = job_.notes->fines_share;
+    }
     return header;
   }
 
@@ -276,11 +248,15 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
                                        Team& team) {
   // A name that cannot be used is refused before the work, not after it.
   for (const WindowsRequest& windows : request.windows) xdmf_path(windows.output);
+  const std::vector<OutputLock> locks = team.rank() == 0 ? lock_outputs(request) : std::vector<OutputLock>{};
   const Job job = prepare(request, progress);
   const CellSetup setup = set_up(request, job.settings, progress.note);
 
   std::unique_ptr<Collector> collector;
-  if (team.rank() == 0) collector = std::make_unique<Collector>(request, progress, job, setup);
+  if (team.rank() == 0) {
+    require_fitting_grid(request, job, setup);
+    collector = std::make_unique<Collector>(request, progress, job, setup);
+  }
   const long long first = team.from_first(collector ? static_cast<long long>(collector->next_block()) : 0);
   BlockLoop loop(job, setup, team, request.threads);
   loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });

@@ -22,7 +22,7 @@ inline constexpr double usual_smoothing = 2.5;
 /// The cells of a mesh file.
 struct MeshRequest {
   std::filesystem::path file;
-  std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.txt
+  std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.json
   bool at_rest = false;             ///< no motion at all
   std::optional<double> period_z;   ///< m; the mesh spans one period along z
   bool smoothed = false;            ///< by conservative diffusion
@@ -49,7 +49,7 @@ struct AverageRequest {
   explicit AverageRequest(GridRequest cells) : grid(std::move(cells)) {}
 
   std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
-  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.txt beside the dumps
+  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.json beside the dumps
   std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
   GridRequest grid;
   SharingMethod method = SharingMethod::exact;
@@ -59,8 +59,12 @@ struct AverageRequest {
   std::vector<WindowsRequest> windows;  ///< all are averaged in one pass over the dumps
   std::optional<double> start;          ///< DEM time, s
   std::optional<double> end;            ///< DEM time, s
-  int threads = 0;                      ///< of this process; 0: as many as OpenMP gives
-  double checkpoint_interval = 10;      ///< s between notes of how far the run has come
+  /// Share of the balls' volume that may lie outside the grid in the first record and in the last one. A grid
+  /// that misses more cannot be meant for these balls.
+  double largest_outside = 0.5;
+  std::string mill_averages;  ///< fingerprint of the mill and its averages, for the file; empty: not known
+  int threads = 0;            ///< of this process; 0: as many as OpenMP gives
+  double checkpoint_interval = 10;  ///< s between notes of how far the run has come
 };
 
 /// What happens on the way.
@@ -69,13 +73,16 @@ struct AverageProgress {
   std::function<void(const std::string& sentence)> note;          ///< records left out, windows not full
 };
 
-/// Averages dumps into a solids file and its .xdmf for each series of windows, and returns a summary of each
-/// (of none on ranks other than the first). Holds one record and the moments of one run of records for each
-/// thread, and the windows under way.
+/// Averages dumps into a solids file, its .xdmf and its summary in JSON for each series of windows, and
+/// returns these summaries (none on ranks other than the first). Holds one record and the moments of one run
+/// of records for each thread, and the windows under way.
 ///
 /// A run that was killed is taken up where it was: beside each output lie its finished windows (`.journal`)
 /// and, beside the first, how far the run had come (`.resume`), as long as it is not finished. The files do
 /// not depend on the numbers of threads and ranks, nor on where a run was taken up.
+///
+/// Before anything is written it refuses outputs whose names belong to files of other kinds or that another
+/// process is writing, and a grid that cannot be meant for the balls (`largest_outside`, `smallest_fill`).
 ///
 /// Throws DumpError, WindowError, SolidsFileError, MeshFileError or std::invalid_argument.
 std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,

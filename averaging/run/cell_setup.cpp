@@ -80,7 +80,7 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
   if (settings.angular_velocity.value_or(0) != 0) {
     motion = parse_motion({rotation(*settings.angular_velocity)});
   } else if (!settings.angular_velocity) {
-    note("the walls are taken to be at rest: neither --speed nor run.txt gives the mill's angular velocity");
+    note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
   return std::make_shared<VoxelRoom>(grid, surface, motion, time);
 }
@@ -117,7 +117,7 @@ std::vector<std::string> motion_of(const MeshRequest& mesh, const RunSettings& s
   if (mesh.at_rest) return {};
   if (!mesh.motion.empty()) return mesh.motion;
   if (!settings.angular_velocity) {
-    note("the mesh is taken to be at rest: neither --motion, --speed nor run.txt says how it moves");
+    note("the mesh is taken to be at rest: neither --motion, --speed nor run.json says how it moves");
     return {};
   }
   note("the mesh turns with the mill: " + rotation(*settings.angular_velocity) + " rad/s");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "averaging/pi.hpp"
 
@@ -39,26 +40,6 @@ std::string ledger_row(std::size_t number, const WindowSummary& window) {
                    100 * share(ledger.clipped, ledger.volume_in), marks.c_str());
 }
 
-/// Of all windows together.
-WindowSummary overall(const SolidsSummary& summary) {
-  WindowSummary all;
-  double balls = 0;
-  for (const WindowSummary& window : summary.windows) {
-    all.balls_per_cell += window.balls_per_cell / static_cast<double>(summary.windows.size());
-    all.occupied_cells += window.occupied_cells;
-    all.small_cells += window.small_cells;
-    all.occupied_volume += window.occupied_volume;
-    balls += window.ball_density * window.occupied_volume;
-    all.mean_solidity += window.mean_solidity * static_cast<double>(window.occupied_cells);
-    all.largest_solidity = std::max(all.largest_solidity, window.largest_solidity);
-  }
-  if (all.occupied_cells > 0) {
-    all.mean_solidity /= static_cast<double>(all.occupied_cells);
-    all.ball_density = balls / all.occupied_volume;
-  }
-  return all;
-}
-
 /// The volume over which fields are averaged: a cell or, when they are smoothed over a width b and that is
 /// more, the space that the kernel exp(-r^2/b^2) fills, pi^(3/2) b^3.
 double averaging_volume(const WindowSummary& all, double smoothing) {
@@ -67,45 +48,51 @@ double averaging_volume(const WindowSummary& all, double smoothing) {
 }
 
 /// What the laws of drag need of an averaging volume, where it is missed, and what to change.
-std::string advice(const WindowSummary& all, double smoothing) {
-  if (all.occupied_cells == 0)
-    return "warning: there are no balls in any cell: is the grid where they are?\n";
-  std::string text;
-  const double volume = averaging_volume(all, smoothing);
-  const double per_volume = all.ball_density * volume;
+std::vector<Remark> size_advice(const WindowSummary& all, double smoothing) {
+  std::vector<Remark> found;
+  const double per_volume = all.ball_density * averaging_volume(all, smoothing);
   const double edge = std::cbrt(fewest_balls / all.ball_density);
   if (per_volume < fewest_balls) {
-    text += formatted(
-        "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: take cells of "
-        "%.2g m "
-        "or more (on a mesh: --smooth %.2g)\n",
-        per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
+    found.push_back(
+        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived on %g to "
+                          "%g: take cells of %.2g m or more (on a mesh: --smooth %.2g)",
+                          per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi))});
   } else if (per_volume > most_balls) {
-    text += formatted(
-        "advice: %.2g balls in an averaging volume; the drag laws were derived on %g to %g: cells down to "
-        "%.2g m "
-        "(on a mesh: --smooth %.2g) would show more\n",
-        per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi));
+    found.push_back(
+        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived on %g to "
+                          "%g: cells down to %.2g m (on a mesh: --smooth %.2g) would show more",
+                          per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi))});
   }
   if (all.small_cells > 0 && smoothing == 0) {
-    text += formatted(
-        "advice: %.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh with "
-        "--smooth "
-        "of 2 to 3 diameters, give fields on which a drag law means something\n",
-        100 * static_cast<double>(all.small_cells) / static_cast<double>(all.occupied_cells));
+    found.push_back(
+        {false,
+         formatted("%.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh "
+                   "with --smooth of 2 to 3 diameters, give fields on which a drag law means something",
+                   100 * static_cast<double>(all.small_cells) / static_cast<double>(all.occupied_cells))});
   }
-  if (all.largest_solidity >= 1) {
-    text +=
-        "warning: the largest solidity leaves no room for the fluid, a flow will refuse it: use cells larger "
-        "than the balls, or --cap\n";
-  } else if (all.largest_solidity > densest) {
-    text += formatted(
-        "advice: the largest solidity is above that of the densest packing of equal spheres, %g: the cells "
-        "are "
-        "small for the balls, or the balls overlap\n",
-        densest);
+  return found;
+}
+
+void remark_on_solidity(double largest, std::vector<Remark>& found) {
+  if (largest >= 1) {
+    found.push_back({true,
+                     "the largest solidity leaves no room for the fluid, a flow will refuse it: use cells "
+                     "larger than the balls, or --cap"});
+  } else if (largest > densest) {
+    found.push_back({false, formatted("the largest solidity is above that of the densest packing of equal "
+                                      "spheres, %g: the cells are small for the balls, or the balls overlap",
+                                      densest)});
   }
-  return text;
+}
+
+const char* kind_of(const BoxGrid&) {
+  return "box";
+}
+const char* kind_of(const CylinderGrid&) {
+  return "cylinder";
+}
+const char* kind_of(const MeshCells&) {
+  return "cells";
 }
 
 }  // namespace
@@ -134,16 +121,56 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
   return summary;
 }
 
+SolidsSummary begin_summary(const std::filesystem::path& file, const SolidsHeader& header, const Grid& grid) {
+  std::vector<std::size_t> shape = field_shape(grid);
+  std::reverse(shape.begin(), shape.end());
+  const char* kind = std::visit([](const auto& cells) { return kind_of(cells); }, grid);
+  return {file, header, kind, std::move(shape), {}};
+}
+
 SolidsSummary summarise(const std::filesystem::path& file) {
   const SolidsReader solids(file);
   const std::vector<Ledger> ledgers = solids.read_ledgers();
   const std::vector<double> balls = solids.read_balls_per_cell();
-  SolidsSummary summary{file, solids.header().smoothing, {}};
+  SolidsSummary summary = begin_summary(file, solids.header(), solids.grid());
   for (std::size_t w = 0; w < ledgers.size(); ++w) {
     summary.windows.push_back(
         summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_unchecked(w)));
   }
   return summary;
+}
+
+WindowSummary overall(const SolidsSummary& summary) {
+  WindowSummary all;
+  double balls = 0;
+  for (const WindowSummary& window : summary.windows) {
+    all.balls_per_cell += window.balls_per_cell / static_cast<double>(summary.windows.size());
+    all.occupied_cells += window.occupied_cells;
+    all.small_cells += window.small_cells;
+    all.occupied_volume += window.occupied_volume;
+    balls += window.ball_density * window.occupied_volume;
+    all.mean_solidity += window.mean_solidity * static_cast<double>(window.occupied_cells);
+    all.largest_solidity = std::max(all.largest_solidity, window.largest_solidity);
+  }
+  if (all.occupied_cells > 0) {
+    all.mean_solidity /= static_cast<double>(all.occupied_cells);
+    all.ball_density = balls / all.occupied_volume;
+  }
+  return all;
+}
+
+std::vector<Remark> remarks(const SolidsSummary& summary) {
+  const WindowSummary all = overall(summary);
+  if (all.occupied_cells == 0) return {{true, "there are no balls in any cell: is the grid where they are?"}};
+  std::vector<Remark> found = size_advice(all, summary.header.smoothing);
+  remark_on_solidity(all.largest_solidity, found);
+  if (summary.header.fines_share.value_or(0) > 0) {
+    found.push_back(
+        {false, formatted("%.1f %% of the charge's mass are fines, which are no balls: they are in "
+                          "none of these fields",
+                          100 * *summary.header.fines_share)});
+  }
+  return found;
 }
 
 std::string report(const SolidsSummary& summary) {
@@ -155,7 +182,10 @@ std::string report(const SolidsSummary& summary) {
   text += formatted("solidity of occupied cells: mean %.4f, largest %.4f\n", all.mean_solidity,
                     all.largest_solidity);
   text += formatted("balls per occupied cell: mean %.3g\n", all.balls_per_cell);
-  return text + advice(all, summary.smoothing);
+  for (const Remark& remark : remarks(summary)) {
+    text += (remark.warning ? "warning: " : "advice: ") + remark.sentence + '\n';
+  }
+  return text;
 }
 
 std::vector<std::string> ledger_failures(const SolidsSummary& summary, double tolerance) {

@@ -25,15 +25,33 @@ struct WindowSummary {
 /// A solids file in numbers.
 struct SolidsSummary {
   std::filesystem::path file;
-  double smoothing = 0;  ///< width of the diffusion on the mesh, m; 0: none
+  SolidsHeader header;
+  std::string grid;  ///< kind: box, cylinder or cells
+  std::vector<std::size_t>
+      shape;  ///< nx ny nz of a box, nr ntheta nz of a cylinder, number of cells of a mesh
   std::vector<WindowSummary> windows;
+};
+
+/// A sentence on what the numbers of a solids file call for.
+struct Remark {
+  bool warning = false;  ///< a flow through these solids fails or is wrong; else advice
+  std::string sentence;
 };
 
 WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
                         const SolidsWindow& fields);
 
+/// A summary that has no windows yet.
+SolidsSummary begin_summary(const std::filesystem::path& file, const SolidsHeader& header, const Grid& grid);
+
 /// Reads a solids file through. Throws SolidsFileError.
 SolidsSummary summarise(const std::filesystem::path& file);
+
+/// Of all windows together; its time and ledger are left empty.
+WindowSummary overall(const SolidsSummary& summary);
+
+/// Advice and warnings where the numbers call for them.
+std::vector<Remark> remarks(const SolidsSummary& summary);
 
 /// The ledger window by window, the summary, and advice where the numbers call for it.
 std::string report(const SolidsSummary& summary);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 
+#include "averaging/run/summary_file.hpp"
 #include "averaging/tools/mpi_team.hpp"
 #include "averaging/tools/options.hpp"
 
@@ -48,8 +49,10 @@ int run(const Options& options, Team& team) {
 
 int report_file(const Options& options) {
   constexpr double usual_tolerance = 0.01;
+  if (!options.json.empty()) require_summary_or_nothing(options.json);
   const SolidsSummary summary = summarise(options.report);
   std::cout << report(summary);
+  if (!options.json.empty()) write_summary(options.json, summary);
   return verdict(summary, tolerance(options, usual_tolerance));
 }
 
@@ -65,8 +68,8 @@ int main(int argc, char** argv) {
     if (!options.report.empty()) return report_file(options);
     team = MpiTeam::launched() ? std::make_unique<MpiTeam>() : std::make_unique<Team>();
     return run(options, *team);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
   } catch (const std::exception& error) {
     const bool full = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
     std::cerr << "millAverage: error: "

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "averaging/dumps/text_lines.hpp"
+#include "averaging/run/program.hpp"
 
 namespace millfoam::averaging {
 
@@ -135,9 +136,11 @@ std::vector<std::filesystem::path> matching_files(const std::vector<std::string>
 }  // namespace
 
 void declare(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", program());
   app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
-  app.add_option("--dt", options.timestep, "DEM time-step, s; unless given, out of run.txt beside the dumps");
-  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.txt");
+  app.add_option("--dt", options.timestep,
+                 "DEM time-step, s; unless given, out of run.json beside the dumps");
+  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.json");
   app.add_option("-o,--output", options.output,
                  "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
 
@@ -178,7 +181,9 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--checkpoint", options.checkpoint_interval, "time between notes of how far the run is, s")
       ->capture_default_str();
-  app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
+  CLI::Option* const report =
+      app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
+  app.add_option("--json", options.json, "with --report: also write them to this file")->needs(report);
   app.add_option("--tolerance", options.tolerance,
                  "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
                  "--report, else none]");
@@ -221,6 +226,7 @@ AverageRequest as_request(const Options& options) {
   request.windows = windows(options);
   request.start = options.start;
   request.end = options.end;
+  request.largest_outside = std::max(request.largest_outside, tolerance(options, 0));
   request.threads = options.threads;
   request.checkpoint_interval = options.checkpoint_interval;
   return request;

@@ -35,6 +35,7 @@ struct Options {
   double checkpoint_interval = 10;
   std::optional<double> tolerance;
   std::string report;
+  std::string json;
   std::string output;
 };
 

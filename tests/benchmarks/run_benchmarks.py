@@ -101,7 +101,7 @@ def write_dumps(folder, records, balls):
                       "-0.06 0.06\n-0.06 0.06\n0 0.024\nITEM: ATOMS id type x y z vx vy vz radius \n")
             for number, row in enumerate(rows):
                 out.write(f"{number + 1} 1 " + " ".join(f"{value:.6g}" for value in row) + " \n")
-    (folder / "run.txt").write_text("timestep 1e-5\ninterval 100\nangular_velocity -6.4\n")
+    (folder / "run.json").write_text('{"timestep_s": 1e-5, "interval": 100, "angular_velocity_rad_s": -6.4}')
 
 
 def repeat_dumps(folder, there, wanted):

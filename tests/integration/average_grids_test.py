@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """millAverage over its options: boxes, cylinders and meshes, walls, motions, smoothing, caps, kinds of dumps."""
 import gzip
+import json
 import subprocess
 import tempfile
 import unittest
@@ -56,7 +57,8 @@ class AverageTest(unittest.TestCase):
     def dump(self, step, columns, folder="dumps", packed=False):
         """Columns: the dump's own names, with a value for each ball."""
         (self.folder / folder).mkdir(exist_ok=True)
-        (self.folder / folder / "run.txt").write_text(f"timestep {DT}\ninterval {INTERVAL}\nangular_velocity {OMEGA}\n")
+        (self.folder / folder / "run.json").write_text(
+            json.dumps({"timestep_s": DT, "interval": INTERVAL, "angular_velocity_rad_s": OMEGA}))
         rows = "".join(f"{i} " + " ".join(map(repr, row)) + "\n"
                        for i, row in enumerate(np.column_stack(list(columns.values())).tolist(), 1))
         bounds = "".join(f"{low} {high}\n" for low, high in zip(LOWER, UPPER))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
-import os
+import json
 import resource
 import signal
 import subprocess
@@ -16,6 +16,8 @@ import numpy as np
 RECORDS, BALLS = 60, 400
 # Open MPI leaves memory behind in libraries that it has unloaded by then, for which a build with sanitizers would fail.
 MPIRUN = ("mpirun", "--oversubscribe", "-x", "ASAN_OPTIONS=detect_leaks=0", "-np")
+RUN = {"format": "millfoam-dumps", "mill": {"charge": "00c0ffee00c0ffee"}, "timestep_s": 1e-4, "interval": 100,
+       "angular_velocity_rad_s": 2, "fines_mass_kg": 1, "charge_mass_kg": 3}
 BOX = ["--box", "-1", "-1", "0", "1", "1", "1", "--shape", "9", "8", "3", "--periodic", "z"]
 
 
@@ -32,7 +34,15 @@ def write_dumps(folder):
         (folder / f"dump.{100 * record}.txt").write_text(
             f"ITEM: TIMESTEP\n{100 * record}\nITEM: NUMBER OF ATOMS\n{BALLS}\nITEM: BOX BOUNDS ff ff pp\n"
             f"-1 1\n-1 1\n0 1\nITEM: ATOMS id type x y z vx vy vz radius\n{text}\n")
-    (folder / "run.txt").write_text("timestep 1e-4\ninterval 100\nangular_velocity 2\n")
+    (folder / "run.json").write_text(json.dumps(RUN))
+
+
+def fnv1a(data):
+    """64 bits, as 16 hex digits."""
+    value = 0xcbf29ce484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001b3 % 2**64
+    return f"{value:016x}"
 
 
 class MillAverage(unittest.TestCase):
@@ -109,7 +119,7 @@ class MillAverage(unittest.TestCase):
         self.assertIn("taking up an unfinished run", last.stderr)
         self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
-                         ["solids.h5", "solids.xdmf", "whole_run.h5", "whole_run.xdmf"])
+                         [name + end for name in ("solids", "whole_run") for end in (".h5", ".json", ".xdmf")])
 
     def test_a_full_disk_is_told_and_leaves_nothing_that_looks_whole(self):
         self.average(output="whole_run.h5")
@@ -141,6 +151,76 @@ class MillAverage(unittest.TestCase):
         self.assertEqual(above.returncode, 0, above.stderr)
         self.assertIn("outside, %", above.stdout)
         self.refused(self.command("--tolerance", str(share * 0.99), grid=grid), "outside the grid")
+
+    def test_the_summary_has_the_numbers_of_the_file_and_of_the_dry_run(self):
+        version = self.run_in_folder(["millAverage", "--version"])
+        self.assertEqual(version.returncode, 0, version.stderr)
+        self.assertRegex(version.stdout, r"^millAverage \d+\.\d+\.\d+\S*\n$")
+        self.average("--start", "-0.05", window=("0.25",))
+        summary = json.loads(self.bytes("solids.json"))
+        self.assertEqual(list(summary)[:3], ["format", "program", "mill"])
+        with h5py.File(self.folder / "solids.h5") as solids:
+            for key, data_set in (("begin_s", "window/begin"), ("end_s", "window/end"), ("records", "window/records"),
+                                  ("starts_late", "window/starts_late"), ("ends_short", "window/ends_short"),
+                                  ("volume_in_m3", "ledger/volume_in"), ("deposited_m3", "ledger/deposited"),
+                                  ("outside_m3", "ledger/outside"), ("clipped_m3", "ledger/clipped"),
+                                  ("balls_per_cell", "window/balls_per_cell")):
+                self.assertEqual(summary["per_window"][key], list(solids[data_set]), key)
+            self.assertEqual(summary["largest_solidity"], solids["solidity"][:].max())
+            attributes = {key: solids.attrs[key].decode() for key in ("program", "mill_charge", "run_id")}
+            self.assertEqual((summary["fines_share"], solids.attrs["fines_share"]), (0.25, 0.25))
+        self.assertEqual(attributes["program"], version.stdout.strip())
+        self.assertEqual(summary["program"], version.stdout.strip())
+        self.assertEqual(attributes["mill_charge"], RUN["mill"]["charge"])
+        self.assertEqual(summary["mill"], RUN["mill"])
+        self.assertEqual(attributes["run_id"], fnv1a((Path(self.dumps.name) / "run.json").read_bytes()))
+        self.assertEqual(summary["run_id"], attributes["run_id"])
+        self.assertEqual((summary["time0_s"], summary["windows"], summary["records"]), (-0.05, 3, RECORDS))
+        self.assertEqual((summary["grid"], summary["shape"]), ("box", [9, 8, 3]))
+        reported = self.run_in_folder(["millAverage", "--report", "solids.h5", "--json", "reported.json"])
+        self.assertEqual(reported.returncode, 0, reported.stderr)
+        self.assertEqual(self.bytes("reported.json"), self.bytes("solids.json"))
+        for sentence in summary["advice"]:
+            self.assertIn(f"advice: {sentence}\n", reported.stdout)
+
+    def test_only_solids_files_are_overwritten(self):
+        mill = "geometry: {diameter: 2}\n"
+        (self.folder / "mill.yaml").write_text(mill)
+        self.refused(self.command(output="mill.yaml"), "mill.yaml", "exists and is no millfoam-solids file")
+        self.refused([*MPIRUN, "2", *self.command(output="mill.yaml")], "exists and is no millfoam-solids file")
+        self.average()
+        self.refused(["millAverage", "--report", "solids.h5", "--json", "mill.yaml"], "mill.yaml",
+                     "exists and is no millfoam-averages file")
+        self.assertEqual((self.folder / "mill.yaml").read_text(), mill)
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["mill.yaml", "solids.h5", "solids.json", "solids.xdmf"])
+        self.average()
+
+    def test_a_second_run_into_the_same_file_is_refused(self):
+        process = subprocess.Popen(self.command("--checkpoint", "0", "--threads", "1"), cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        while process.poll() is None and not (self.folder / "solids.h5.resume").exists():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGSTOP)
+        self.assertFalse((self.folder / "solids.h5").exists(), "the first run ended before the second began")
+        self.refused(self.command(), "solids.h5: another millAverage is writing this file")
+        self.average(output="other.h5")
+        process.send_signal(signal.SIGCONT)
+        self.assertEqual(process.wait(), 0)
+        self.assertEqual(self.bytes("solids.h5"), self.bytes("other.h5"))
+
+    def test_a_grid_that_is_not_where_the_balls_are_is_refused(self):
+        millimetres = ["--box", "-1000", "-1000", "0", "1000", "1000", "1000", "--shape", "9", "8", "3"]
+        self.refused(self.command(grid=millimetres), "far too large", "x -1000 to 1000", "metres expected")
+        beside = ["--box", "2", "-1", "0", "3", "1", "1", "--shape", "9", "8", "3"]
+        self.refused(self.command(grid=beside), "100 % of the balls' volume lies outside", "x 2 to 3",
+                     "metres expected")
+        self.assertEqual(list(self.folder.iterdir()), [])
+        part = ["--box", "0.3", "-1", "0", "1", "1", "1", "--shape", "9", "8", "3"]
+        self.refused(self.command(grid=part), "outside", "--tolerance")
+        self.average("--tolerance", "0.9", grid=part)
 
     def test_windows_that_the_dumps_do_not_fill_are_marked(self):
         self.average("--start", "-0.05", window=("0.25",))
@@ -174,11 +254,12 @@ class MillAverage(unittest.TestCase):
         self.refused(self.command(window=("soon",)), "--window is 'soon'", "whole")
         self.refused(self.command("--cap", "1.5"), "--cap is 1.5", "between 0 and 1")
         self.refused(self.command("--smooth", "0.1"), "--smooth", "--mesh")
+        self.refused(self.command("--json", "solids.json"), "--json", "--report")
         self.refused(self.command("--tolerance", "nan"), "--tolerance is nan", "between 0 and 1")
         self.refused(self.command("--template", "1", "--method", "sample"), "--template is 1", "2 to 200")
         (self.folder / "folder").mkdir()
         self.refused(self.command(output="folder"), "'folder' is a folder")
-        self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.txt", "2 rad/s")
+        self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.json", "2 rad/s")
         self.refused(self.command("--inside", "no*.stl"), "--inside 'no*.stl' matches no file")
         self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape", "a mesh has its own")
         self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")

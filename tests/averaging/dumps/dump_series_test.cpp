@@ -35,57 +35,5 @@ TEST(DumpSeries, TwoDumpsOfOneTimeAreRefusedByTheirNames) {
   expect_named(message_of<DumpError>(doubled), {"a2.txt", "b2.txt", "600"});
 }
 
-TEST(RunNotes, GiveTheTimestepAndTheInterval) {
-  const TemporaryFolder folder;
-  folder.write("run.txt", "timestep 2e-06\r\nangular_velocity -6.395\ninterval 1000\n");
-  const auto notes = read_run_notes(folder / "");
-  ASSERT_TRUE(notes);
-  EXPECT_EQ(notes->timestep, 2e-6);
-  EXPECT_EQ(notes->interval, 1000);
-  EXPECT_EQ(agreed_timestep({}, notes), 2e-6);
-  EXPECT_EQ(agreed_timestep(2e-6, notes), 2e-6);
-}
-
-TEST(RunNotes, ATimestepThatContradictsThemIsRefusedWithBothValues) {
-  const TemporaryFolder folder;
-  folder.write("run.txt", "timestep 2e-06\n");
-  const auto other = [&] { agreed_timestep(1e-5, read_run_notes(folder / "")); };
-  expect_named(message_of<DumpError>(other), {"1e-05", "2e-06", "run.txt"});
-}
-
-TEST(RunNotes, WithoutThemTheTimestepMustBeGiven) {
-  const TemporaryFolder folder;
-  EXPECT_FALSE(read_run_notes(folder / ""));
-  EXPECT_EQ(agreed_timestep(1e-6, std::nullopt), 1e-6);
-  expect_named(message_of<DumpError>([] { agreed_timestep(std::nullopt, std::nullopt); }),
-               {"--dt", "run.txt"});
-  expect_named(message_of<DumpError>([] { agreed_timestep(-1e-6, std::nullopt); }), {"-1e-06", "positive"});
-}
-
-TEST(RunNotes, AValueThatCannotBeIsRefusedWithItsLine) {
-  const TemporaryFolder folder;
-  folder.write("run.txt", "interval 1000\ntimestep zero\n");
-  expect_named(message_of<DumpError>([&] { read_run_notes(folder / ""); }),
-               {"run.txt:2", "timestep", "'zero'"});
-}
-
-TEST(RunNotes, MayLackTheLastLineEnd) {
-  const TemporaryFolder folder;
-  const auto notes =
-      read_run_notes(folder.write("run.txt", "timestep 1e-3\nangular_velocity -6.4").parent_path());
-  ASSERT_TRUE(notes.has_value());
-  EXPECT_EQ(notes->angular_velocity, -6.4);
-}
-
-TEST(RunNotes, AnAngularVelocityThatContradictsTheOptionIsRefused) {
-  const TemporaryFolder folder;
-  const auto notes = read_run_notes(folder.write("run.txt", "angular_velocity -6.4\n").parent_path());
-  EXPECT_EQ(agreed_angular_velocity(std::nullopt, notes), -6.4);
-  EXPECT_EQ(agreed_angular_velocity(-6.4, notes), -6.4);
-  EXPECT_EQ(agreed_angular_velocity(3.0, std::nullopt), 3.0);
-  EXPECT_EQ(agreed_angular_velocity(std::nullopt, std::nullopt), std::nullopt);
-  expect_named(message_of<DumpError>([&] { agreed_angular_velocity(3.0, notes); }), {"--speed", "3", "-6.4"});
-}
-
 }  // namespace
 }  // namespace millfoam::averaging

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "averaging/dumps/run_notes.hpp"
+#include "averaging/files/output_lock.hpp"
+#include "averaging/run/program.hpp"
+#include "averaging/run/summary_file.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "tests/averaging/test_support.hpp"
 
@@ -164,7 +168,8 @@ TEST_F(AverageRun, StoppedAnywhereIsTakenUpAndGivesTheSameFile) {
     expect_named(notes.back(), {"taking up"});
     EXPECT_EQ(bytes(folder / "solids.h5"), windows) << dumps;
     EXPECT_EQ(bytes(folder / "whole.h5"), whole) << dumps;
-    for (const char* left : {"solids.h5.journal", "whole.h5.journal", "solids.h5.resume", "solids.h5.part"}) {
+    for (const char* left :
+         {"solids.h5.journal", "whole.h5.journal", "solids.h5.resume", "solids.h5.part", "solids.h5.lock"}) {
       EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;
     }
   }
@@ -219,13 +224,63 @@ TEST_F(AverageRun, ADamagedNoteOfHowFarItWasStartsAfresh) {
 }
 
 TEST_F(AverageRun, TakesTheTimestepFromTheNotesBesideTheDumps) {
-  folder.write("run.txt", "timestep 1e-4\ninterval 100\nangular_velocity -6.4\n");
+  folder.write("run.json", R"({"timestep_s": 1e-4, "interval": 100, "angular_velocity_rad_s": -6.4})");
   request.timestep.reset();
   run();
   EXPECT_EQ(SolidsReader(output()).timestep(), 1e-4);
   EXPECT_EQ(SolidsReader(output()).header().angular_velocity, -6.4);
   request.timestep = 2e-4;
-  expect_named(message_of<DumpError>([&] { run(); }), {"0.0002", "0.0001", "run.txt"});
+  expect_named(message_of<DumpError>([&] { run(); }), {"0.0002", "0.0001", "run.json"});
+}
+
+TEST_F(AverageRun, NamesTheMillAndTheDryRunOfTheNotes) {
+  folder.write("run.json", R"({"mill": {"charge": "0a1b"}, "fines_mass_kg": 1, "charge_mass_kg": 1})");
+  request.mill_averages = "2c3d";
+  run();
+  const SolidsHeader header = SolidsReader(output()).header();
+  EXPECT_EQ(header.program, program());
+  EXPECT_EQ(header.mill_charge, "0a1b");
+  EXPECT_EQ(header.mill_averages, "2c3d");
+  EXPECT_EQ(header.run_id, read_run_notes(folder / "")->run_id);
+  EXPECT_EQ(header.fines_share, 0.5);
+}
+
+TEST_F(AverageRun, LeavesTheSummaryThatReportsOfTheFileGive) {
+  folder.write("run.json", R"({"mill": {"charge": "0a1b"}})");
+  const SolidsSummary summary = run();
+  EXPECT_EQ(bytes(folder / "solids.json"), as_json(summary));
+  EXPECT_EQ(as_json(summarise(output())), as_json(summary));
+}
+
+TEST_F(AverageRun, OverwritesNoFileOfAnotherKind) {
+  const std::filesystem::path mill = folder.write("mill.yaml", "speed: 1\n");
+  request.windows[0].output = mill;
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.yaml", "is no millfoam-solids file"});
+  EXPECT_EQ(bytes(mill), "speed: 1\n");
+  request.windows[0].output = folder / "mill.h5";
+  folder.write("mill.json", "{}");
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.json", "is no millfoam-averages file"});
+  EXPECT_EQ(bytes(folder / "mill.json"), "{}");
+  for (const char* left : {"mill.h5", "mill.h5.journal", "mill.h5.lock", "mill.yaml.lock"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;
+  }
+}
+
+TEST_F(AverageRun, AnOutputThatAnotherRunIsWritingIsRefused) {
+  const OutputLock other(output());
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"solids.h5: another millAverage is writing"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.journal"));
+}
+
+TEST_F(AverageRun, AGridThatMissesTheBallsIsRefusedUnlessTheyComeToIt) {
+  request.grid = BoxGrid({0, 10, 0}, {2, 11, 1}, {2, 1, 1});
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"dump0.txt", "100 %", "metres expected"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.journal"));
+  request.largest_outside = 1;
+  run();
+  request.largest_outside = 0.5;
+  request.grid = BoxGrid({1, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  EXPECT_LT(run().windows[0].ledger.deposited, 1e-10) << "the ball is not there yet";
 }
 
 TEST_F(AverageRun, ABrokenDumpLeavesNoSolidsFile) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "averaging/run/cell_setup.hpp"
+
+namespace millfoam::averaging {
+
+/// A grid that holds less than this share of its volume in balls was given in another unit of length.
+inline constexpr double smallest_fill = 1e-6;
+
+/// Why a grid cannot be meant for the balls of a record: more than `largest_outside` of their volume lies
+/// outside, or they fill less than `smallest_fill` of it. Empty when neither, and for a record without balls.
+/// The sentence has the extents of both.
+/// @param time  of the record, s
+/// @param name  of the record, for the sentence
+std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
+                   double largest_outside);
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "averaging/run/solids_summary.hpp"
+
+namespace millfoam::averaging {
+
+/// The name of the summary beside a solids file: NAME.json for NAME.h5. Throws SolidsFileError when the
+/// solids file itself is called so.
+std::filesystem::path summary_path(const std::filesystem::path& solids_file);
+
+/// Throws SolidsFileError when there is something at `path` that is no summary of a solids file.
+void require_summary_or_nothing(const std::filesystem::path& path);
+
+/// The summary as JSON, see averaging/README.md: what `report` prints, as numbers with units in their keys.
+/// What is not known is null.
+std::string as_json(const SolidsSummary& summary);
+
+/// Writes that into a file, replacing an older one only when it is whole. Throws SolidsFileError.
+void write_summary(const std::filesystem::path& path, const SolidsSummary& summary);
+
+}  // namespace millfoam::averaging

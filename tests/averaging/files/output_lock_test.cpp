@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/files/output_lock.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "averaging/files/hdf5_file.hpp"
+#include "averaging/files/hdf5_io.hpp"
+#include "averaging/files/solids_layout.hpp"
+#include "tests/averaging/test_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+void write_hdf5(const std::filesystem::path& path, const std::string& format) {
+  const hdf5::Handle file = hdf5::create_file(path);
+  hdf5::write_attribute(file.get(), "format", format);
+}
+
+TEST(Output, MayReplaceASolidsFileAndNothingElse) {
+  const TemporaryFolder folder;
+  require_solids_or_nothing(folder / "new.h5");
+  write_hdf5(folder / "solids.h5", layout::format);
+  require_solids_or_nothing(folder / "solids.h5");
+  write_hdf5(folder / "mesh.h5", "millfoam-mesh");
+  folder.write("mill.yaml", "geometry: {diameter: 1}\n");
+  folder.write("empty", "");
+  for (const char* name : {"mesh.h5", "mill.yaml", "empty"}) {
+    const auto replace = [&] { require_solids_or_nothing(folder / name); };
+    expect_named(message_of<SolidsFileError>(replace), {name, "exists and is no millfoam-solids file"});
+  }
+}
+
+TEST(Output, IsWrittenByOneRunAtATime) {
+  const TemporaryFolder folder;
+  const std::filesystem::path output = folder / "solids.h5";
+  std::optional<OutputLock> first(output);
+  const OutputLock other(folder / "other.h5");
+  expect_named(message_of<SolidsFileError>([&] { OutputLock second(output); }),
+               {"solids.h5: another millAverage is writing this file", "solids.h5.lock"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "solids.h5.lock"))
+      << "a run that is refused takes no lock away";
+  first.reset();
+  EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.lock"));
+  const OutputLock third(output);
+}
+
+TEST(Output, IsNotBlockedByTheLockFileOfARunThatWasKilled) {
+  const TemporaryFolder folder;
+  folder.write("solids.h5.lock", "");
+  const OutputLock lock(folder / "solids.h5");
+}
+
+TEST(Output, InAFolderThatIsNotThereIsRefusedByName) {
+  const TemporaryFolder folder;
+  expect_named(message_of<SolidsFileError>([&] { OutputLock lock(folder / "none/solids.h5"); }),
+               {"none/solids.h5.lock", "is the folder there"});
+}
+
+}  // namespace
+}  // namespace millfoam::averaging
