@@ -9,6 +9,7 @@
 #include <new>
 
 #include "averaging/run/summary_file.hpp"
+#include "averaging/tools/mill_averages.hpp"
 #include "averaging/tools/mpi_team.hpp"
 #include "averaging/tools/options.hpp"
 
@@ -34,13 +35,17 @@ int verdict(const SolidsSummary& summary, double tolerance) {
   return failures.empty() ? 0 : 1;
 }
 
-int run(const Options& options, Team& team) {
+int run(Options& options, Team& team) {
   const auto note = [&](const std::string& sentence) {
     if (team.rank() == 0) std::cerr << "millAverage: " << sentence << '\n';
   };
+  std::string fingerprint;
+  if (!options.mill.file.empty()) fingerprint = take_from_mill(options.mill.read(), options);
   const double allowed = tolerance(options, 1);
+  AverageRequest request = as_request(options);
+  request.mill_averages = fingerprint;
   int code = 0;
-  for (const SolidsSummary& summary : average_run(as_request(options), {show_progress, note}, team)) {
+  for (const SolidsSummary& summary : average_run(request, {show_progress, note}, team)) {
     std::cout << report(summary);
     code = std::max(code, verdict(summary, allowed));
   }
@@ -66,6 +71,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (!options.report.empty()) return report_file(options);
+    if (!options.mill.file.empty() && !options.mill.resolved.empty()) {
+      millfoam::meshing::write_resolved_mill(options.mill.read(), "millAverage", options.mill.resolved);
+      return 0;
+    }
     team = MpiTeam::launched() ? std::make_unique<MpiTeam>() : std::make_unique<Team>();
     return run(options, *team);
   } catch (const CLI::Success& help_or_version) {

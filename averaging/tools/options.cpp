@@ -137,6 +137,11 @@ std::vector<std::filesystem::path> matching_files(const std::vector<std::string>
 
 void declare(CLI::App& app, Options& options) {
   app.set_version_flag("--version", program());
+  meshing::add_mill_options(app, options.mill);
+  app.add_option("--case", options.case_folder,
+                 "folder with dumps/ and walls/ of the mill, which receives solids.h5; what the mill says is "
+                 "averaged unless options below say otherwise")
+      ->capture_default_str();
   app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
   app.add_option("--dt", options.timestep,
                  "DEM time-step, s; unless given, out of run.json beside the dumps");

@@ -8,11 +8,14 @@
 #include <vector>
 
 #include "averaging/run/average_run.hpp"
+#include "meshing/tools/mill_options.hpp"
 
 namespace millfoam::averaging {
 
 /// The options of millAverage as they are typed.
 struct Options {
+  meshing::MillOptions mill;      ///< no file: without a mill
+  std::string case_folder = ".";  ///< of the mill
   std::string dumps;
   std::optional<double> timestep;
   std::optional<double> speed;

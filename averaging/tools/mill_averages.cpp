@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/tools/mill_averages.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "meshing/resolved_mill.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A JSON object of the dry run's folder.
+nlohmann::json read_object(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw std::invalid_argument(file.string() +
+                                ": cannot be read: expected what millDem writes at the end of a run");
+  nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object())
+    throw std::invalid_argument(file.string() + ": is no JSON object; run millDem again");
+  return json;
+}
+
+void require_charge_of(const nlohmann::json& run, const fs::path& file, const std::string& fingerprint) {
+  const std::string found = run.value(nlohmann::json::json_pointer("/mill/charge"), std::string());
+  if (found.empty() || found == fingerprint) return;
+  throw std::invalid_argument(file.string() + ": the dumps are of another mill (charge " + found +
+                              ", this mill's is " + fingerprint + "): run millDem again");
+}
+
+double steady_start(const fs::path& file) {
+  const nlohmann::json results = read_object(file);
+  if (!results.contains("steady_from_s") || !results["steady_from_s"].is_number())
+    throw std::invalid_argument(file.string() +
+                                ": no number steady_from_s, which 'averages.start: steady' needs; "
+                                "give averages.start a time, or run millDem again");
+  return results["steady_from_s"].get<double>();
+}
+
+std::string exact(double value) {
+  std::ostringstream text;
+  text.precision(17);
+  text << value;
+  return text.str();
+}
+
+void take_grid(const meshing::Mill& mill, Options& options) {
+  const meshing::Voxels& voxels = mill.averages.voxels;
+  options.box.assign(voxels.lower.begin(), voxels.lower.end());
+  options.box.insert(options.box.end(), voxels.upper.begin(), voxels.upper.end());
+  options.shape.assign(voxels.shape.begin(), voxels.shape.end());
+  if (mill.geometry.ends == meshing::Ends::periodic) options.periodic = {"z"};
+  if (options.walls.empty()) options.walls = {(fs::path(options.case_folder) / "walls" / "*.stl").string()};
+  options.method = mill.averages.method;
+  options.template_points = mill.averages.template_points;
+}
+
+/// Start, window and end: whole windows up to the end of the dry run.
+void take_windows(const meshing::Mill& mill, const fs::path& dumps, double duration, Options& options) {
+  const double window = mill.averages.window;
+  const double start = mill.averages.start ? *mill.averages.start : steady_start(dumps / "results.json");
+  const double count = std::floor((duration - start) / window * (1 + 1e-9));
+  if (count < 1)
+    throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
+                                exact(duration) + " s has " + exact(duration - start) + " s left from " +
+                                exact(start) + " s on: raise dem.duration, or lower averages.window");
+  options.windows = {exact(window)};
+  options.start = start;
+  options.end = start + count * window;
+}
+
+}  // namespace
+
+std::string take_from_mill(const meshing::MillDescription& description, Options& options) {
+  const meshing::Mill& mill = description.mill;
+  const meshing::MillFingerprints of = meshing::fingerprints(description);
+  const fs::path dumps = fs::path(options.case_folder) / "dumps";
+  const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
+  const bool own_windows = !options.windows.empty() || options.start || options.end;
+  if (options.dumps.empty()) {
+    const nlohmann::json run = read_object(dumps / "run.json");
+    require_charge_of(run, dumps / "run.json", of.charge);
+    options.dumps = (dumps / "dump.*.txt").string();
+    if (!own_windows) take_windows(mill, dumps, run.value("duration_s", mill.dem.duration), options);
+  } else if (!own_windows) {
+    throw std::invalid_argument("--dumps: with dumps of another folder give --window and --start too");
+  }
+  if (!own_grid) take_grid(mill, options);
+  if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();
+  return own_grid || own_windows || options.solidity_cap ? "" : of.averages;
+}
+
+}  // namespace millfoam::averaging

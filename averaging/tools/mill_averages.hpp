@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "averaging/tools/options.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::averaging {
+
+/// Fills what the options leave open from the section `averages` of a mill and the layout of its case's
+/// folder: dumps, walls, grid, method, windows, start and output. A start `steady` is `steady_from_s` of
+/// `dumps/results.json`; windows that the dumps do not fill are left out. Returns the fingerprint of the
+/// mill's averages, or an empty text where the options ask for others. With the mill's grid the method is its
+/// own too.
+///
+/// Throws MillError, and std::invalid_argument for dumps of another mill, or where no window is left.
+std::string take_from_mill(const meshing::MillDescription& description, Options& options);
+
+}  // namespace millfoam::averaging
