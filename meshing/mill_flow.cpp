@@ -222,9 +222,9 @@ Flow read_flow(const Section& root, const Section& slurry, const Mill& mill) {
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
   flow.start = read_start(in, slurry, mill);
   check_room(in, flow, mill);
-  if (in.has("feed") && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
-    in.refuse("feed", "it with geometry.inlet only");
   const double feed = in.number("feed", not_negative("a feed rate in m^3/s"), 0);
+  if (feed > 0 && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
+    in.refuse("feed", "it with geometry.inlet only");
   flow.feed = mill.geometry.inlet ? feed : 0;
   read_steps(in, mill, flow);
   flow.slices = in.integer("slices", whole_number("slices"), mill.resolution.layers);
