@@ -56,7 +56,7 @@ TEST(ReadMill, gives_every_number_of_the_file_in_its_place) {
   EXPECT_EQ(mill.slurry.density, 1239);
   EXPECT_EQ(mill.slurry.plastic_viscosity, 0.0014);
   EXPECT_EQ(mill.slurry.yield_stress, 0.16);
-  EXPECT_EQ(mill.slurry.level, -0.012);
+  EXPECT_EQ(mill.flow.start.level, -0.012);
   EXPECT_EQ(mill.resolution.cell_size, 0.003);
   EXPECT_EQ(mill.resolution.layers, 8);
 }

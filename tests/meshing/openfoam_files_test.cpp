@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "meshing/mill_mesh.hpp"
+#include "meshing/mill_properties.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"
 
@@ -94,13 +95,13 @@ TEST(PolyMesh, says_where_it_cannot_be_written) {
 
 TEST(MillProperties, hold_one_plain_line_per_number) {
   const TemporaryFolder folder;
-  const Mill mill = read_mill(folder.write("mill.yaml", example_mill));
+  const MillDescription mill = describe_mill(folder.write("mill.yaml", example_mill));
   write_mill_properties(mill, {}, 0.25, folder.path());
   const std::string text = text_of(folder.path() / "constant" / "millProperties");
   for (const char* line :
        {"\nradius 0.06;\n", "\nlength 0.024;\n", "\nlifterHeight 0.008;\n", "\nendsType plain;\n",
         "\ntime0 0.25;\n", "\nballDensity 2700;\n", "\nslurryDensity 1239;\n", "\nslurryViscosity 0.0014;\n",
-        "\nyieldStress 0.16;\n", "\nsurfaceTension 0.07;\n", "\nslurryLevel -0.012;\n", "\nairDensity 1.2;\n",
+        "\nyieldStress 0.16;\n", "\nsurfaceTension 0.07;\n", "\n    level -0.012;\n", "\nairDensity 1.2;\n",
         "\nairViscosity 1.8e-05;\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
@@ -114,14 +115,15 @@ TEST(MillProperties, hold_one_plain_line_per_number) {
 
 TEST(MillProperties, hold_the_openings_of_a_mill_that_has_them) {
   const TemporaryFolder folder;
-  Mill mill = read_mill(folder.write("mill.yaml", example_mill));
+  MillDescription mill = describe_mill(folder.write("mill.yaml", example_mill));
   const auto properties = [&](const Openings& openings) {
     write_mill_properties(mill, openings, 0, folder.path());
     return text_of(folder.path() / "constant" / "millProperties");
   };
   EXPECT_EQ(properties({}).find("inlet"), std::string::npos);
-  EXPECT_EQ(properties({}).find("grate"), std::string::npos);
-  mill.geometry = mill_with_pulp_lifters();
+  EXPECT_EQ(properties({}).find("grateArea"), std::string::npos);
+  EXPECT_NE(properties({}).find("\ngrates no;\n"), std::string::npos);
+  mill.mill.geometry = mill_with_pulp_lifters();
   Openings openings;
   openings.inlet_area = 0.0129;
   openings.grate_area = 0.022;
