@@ -65,6 +65,9 @@ struct SolidsHeader {
   double smoothing = 0;                    ///< width of the diffusion on the mesh, m; 0: none
   std::optional<double> solidity_cap;      ///< above which solids were moved to neighbours
   bool inside_fractions = false;           ///< whether windows have inside fractions
+  std::string program;                     ///< that wrote the file, with its version; empty: not known
+  std::string mill_charge;    ///< fingerprint of the mill whose charge was averaged; empty: not known
+  std::string mill_averages;  ///< fingerprint of the mill and its averages; empty: not known
 };
 
 /// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the

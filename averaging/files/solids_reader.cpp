@@ -131,7 +131,15 @@ struct SolidsReader::Open {
     found.smoothing = hdf5::read_double_attribute(file.get(), "smoothing", 1)[0];
     found.angular_velocity = read_optional("angular_velocity");
     found.solidity_cap = read_optional("solidity_cap");
+    found.program = read_known("program");
+    found.mill_charge = read_known("mill_charge");
+    found.mill_averages = read_known("mill_averages");
     return found;
+  }
+
+  std::string read_known(const char* name) const {
+    return hdf5::has_attribute(file.get(), name) ? hdf5::read_text_attribute(file.get(), name)
+                                                 : std::string();
   }
 
   std::optional<double> read_optional(const char* name) const {

@@ -21,6 +21,10 @@ hdf5::Handle create_field(hid_t parent, const Grid& grid, const layout::Field& f
                            field.units);
 }
 
+void write_known(hid_t root, const char* name, const std::string& text) {
+  if (!text.empty()) hdf5::write_attribute(root, name, text);
+}
+
 }  // namespace
 
 struct SolidsWriter::Open {
@@ -63,6 +67,9 @@ struct SolidsWriter::Open {
       hdf5::write_attribute(root, "angular_velocity", *header.angular_velocity);
     }
     if (header.solidity_cap) hdf5::write_attribute(root, "solidity_cap", *header.solidity_cap);
+    write_known(root, "program", header.program);
+    write_known(root, "mill_charge", header.mill_charge);
+    write_known(root, "mill_averages", header.mill_averages);
   }
 
   void create_windows() {

@@ -41,7 +41,9 @@ struct SolidsFile : ::testing::Test {
   SolidsFile() { write(window_number(1)); }
 
   void write(const WindowAverage& second) const {
-    SolidsWriter writer(path, grid, {0.5, 1e-5, false, "exact", -6.4, 0, 0.6, true});
+    SolidsHeader header{0.5, 1e-5, false, "exact", -6.4, 0, 0.6, true, "millAverage 1.2", "0123456789abcdef",
+                        {}};
+    SolidsWriter writer(path, grid, header);
     writer.append(window_number(0));
     writer.append(second);
     writer.append(window_number(2));
@@ -80,6 +82,9 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(reader.header().method, "exact");
   EXPECT_EQ(reader.header().angular_velocity, -6.4);
   EXPECT_EQ(reader.header().solidity_cap, 0.6);
+  EXPECT_EQ(reader.header().program, "millAverage 1.2");
+  EXPECT_EQ(reader.header().mill_charge, "0123456789abcdef");
+  EXPECT_EQ(reader.header().mill_averages, "");
   const auto& box = std::get<BoxGrid>(reader.grid());
   EXPECT_EQ(box.lower(), grid.lower());
   EXPECT_EQ(box.upper(), grid.upper());
