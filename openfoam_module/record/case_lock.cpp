@@ -7,6 +7,7 @@
 
 #include <array>
 #include <stdexcept>
+#include <system_error>
 
 namespace millfoam::record {
 
@@ -30,7 +31,9 @@ void sign(int file, const std::string& program) {
 }  // namespace
 
 CaseLock::CaseLock(const std::filesystem::path& folder, const std::string& program) {
-  const std::filesystem::path path = folder / ".flow.lock";
+  const std::filesystem::path path = folder / "postProcessing" / "flow" / ".lock";
+  std::error_code failed;  // told by what follows
+  if (std::filesystem::is_directory(folder)) std::filesystem::create_directories(path.parent_path(), failed);
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written");
   for (int tenth = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++tenth) {

@@ -10,7 +10,7 @@ namespace millfoam::record {
 /// the file's existence: what a killed program leaves blocks nobody.
 class CaseLock {
  public:
-  /// @param folder  of the case; holds the file .flow.lock
+  /// @param folder  of the case; its file postProcessing/flow/.lock is locked
   /// @param program  that asks, for the message of another that finds the case locked
   /// Throws std::runtime_error when another program has the lock, after waiting for a second, or when the
   /// file cannot be written.

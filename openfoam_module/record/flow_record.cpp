@@ -202,7 +202,9 @@ std::string FlowRecord::summary(bool complete) const {
   result["steps"] = steps_;
   result["wall_s"] = wall_time();
   result["ranks"] = setup_.ranks;
-  result["openfoam"] = {{"version", setup_.openfoam_version}, {"build", setup_.openfoam_build}};
+  result["openfoam"] = {{"version", text(setup_.openfoam_version)},
+                        {"patch", text(setup_.openfoam_patch)},
+                        {"build", text(setup_.openfoam_build)}};
   result["rotation"] = {{"angular_velocity_rad_s", setup_.angular_velocity},
                         {"sense", sense_of_rotation(setup_.angular_velocity)},
                         {"words", described_rotation(setup_.angular_velocity)}};

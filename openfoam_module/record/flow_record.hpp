@@ -51,9 +51,10 @@ struct StepLimits {
 
 /// What is known of a flow from its start on.
 struct FlowSetup {
-  std::string solver;  ///< name of the program
-  std::string openfoam_version;
-  std::string openfoam_build;
+  std::string solver;            ///< name of the program
+  std::string openfoam_version;  ///< 1912
+  std::string openfoam_patch;    ///< of that version; empty: none
+  std::string openfoam_build;    ///< of a source tree; empty: a package
   int ranks = 1;
   double begin = 0;                 ///< flow time from which this run goes on, s
   std::optional<double> asked_end;  ///< endTime, s

@@ -53,13 +53,15 @@ TEST(CaseLock, OfAKilledProcessBlocksNobody) {
   EXPECT_THAT(refusal(folder.path), ::testing::HasSubstr("slurryFoam (process " + std::to_string(child)));
   kill(child, SIGKILL);
   waitpid(child, nullptr, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder.path / ".flow.lock"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "postProcessing/flow/.lock"));
   EXPECT_EQ(refusal(folder.path), "");
 }
 
 TEST(CaseLock, NamesAFolderThatIsNotThere) {
   const TemporaryFolder folder;
-  EXPECT_THAT(refusal(folder.path / "gone"), ::testing::HasSubstr("gone/.flow.lock: cannot be written"));
+  EXPECT_THAT(refusal(folder.path / "gone"),
+              ::testing::HasSubstr("gone/postProcessing/flow/.lock: cannot be written"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "gone"));
 }
 
 }  // namespace

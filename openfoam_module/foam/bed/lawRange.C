@@ -96,6 +96,14 @@ void Foam::lawRange::end(const scalar deltaT)
 }
 
 
+Foam::lawRange::shares Foam::lawRange::present() const
+{
+    return {
+        share(outside), share(phiLow), share(phiHigh), share(reLow),
+        share(reHigh)};
+}
+
+
 Foam::string Foam::lawRange::description() const
 {
     OStringStream text;

@@ -182,6 +182,18 @@ void Foam::solidsClock::checkSpan(const Time& time) const
 }
 
 
+millfoam::record::Solids Foam::solidsClock::told() const
+{
+    millfoam::record::Solids result;
+    result.begin = time0_;
+    result.end = windows_.back().end;
+    result.windows = static_cast<long long>(windows_.size());
+    result.in_time = courseNames_[inTime_];
+    result.out_of_range = rangeNames_[outOfRange_];
+    return result;
+}
+
+
 Foam::string Foam::solidsClock::description() const
 {
     OStringStream text;
