@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "movingBed.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "uncoveredCells.H"
 
@@ -45,7 +45,7 @@ void Foam::movingBed::checkCover()
         return;
 
     told_ = true;
-    OStringStream text;
+    readableText text;
     text << n << " of " << returnReduce(mesh_.nCells(), sumOp<label>())
          << " cells lie outside the grid of the solids: "
          << firstCells(mesh_, source_->uncovered()).c_str();

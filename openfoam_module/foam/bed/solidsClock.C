@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsClock.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "Time.H"
 
 #include <cmath>
@@ -196,7 +196,7 @@ millfoam::record::Solids Foam::solidsClock::told() const
 
 Foam::string Foam::solidsClock::description() const
 {
-    OStringStream text;
+    readableText text;
     text << label(windows_.size()) << " windows of " << file_ << ", DEM times "
          << time0_ << " to " << windows_.back().end << " s, "
          << (inTime_ == course::linear ? "linear in time, " : "")

@@ -17,6 +17,7 @@ Description
 #include "caseKeeper.H"
 #include "flowRecorder.H"
 #include "functionObjectList.H"
+#include "readableLog.H"
 #include "slurryFlow.H"
 #include "timeStep.H"
 #include "openfoam_module/record/tool_help.hpp"
@@ -64,6 +65,7 @@ int main(int argc, char* argv[])
 #include "addCheckCaseOptions.H"
 #include "setRootCaseLists.H"
 #include "createTime.H"
+    readableLog();
     const caseKeeper keeper(runTime, help.name);
 #include "createDynamicFvMesh.H"
 

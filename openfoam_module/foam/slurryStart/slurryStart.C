@@ -14,6 +14,8 @@ Description
     - above: a volume of slurry as a layer that rests upon the highest balls
     - feed: none; it comes with the feed
 
+    A case in which a flow has begun, with times after the first, is refused.
+
     The level is a height against gravity from the origin of the mesh; the
     balls of constant/bedProperties, if there are any, take their room.
 
@@ -37,6 +39,7 @@ Usage
 #include "movingBed.H"
 #include "optionalDictionary.H"
 #include "planeCut.H"
+#include "readableLog.H"
 #include "surfaceFields.H"
 #include "Time.H"
 #include "uniformDimensionedFields.H"
@@ -288,6 +291,7 @@ int main(int argc, char* argv[])
 
 #include "setRootCase.H"
 #include "createTime.H"
+    readableLog();
     const caseKeeper keeper(runTime, help.name);
     refuseBegunFlow(runTime);
 
