@@ -144,7 +144,7 @@ class Summary(SlurryTest):
         self.assertEqual(record["openfoam"]["version"], "1912")
         self.assertEqual([record[key] for key in ("begin_s", "end_s", "asked_end_s", "steps")], [0, 0.004, 0.004, 2])
         self.assertTrue(record["complete"])
-        self.assertEqual(record["rotation"], {"angular_velocity_rad_s": 0, "sense": "at rest", "words": "at rest"})
+        self.assertEqual(record["rotation"], {"angular_velocity_rad_s": 0, "sense": "none", "words": "does not turn"})
         for key in ("limits", "solids", "drag"):
             self.assertIsNone(record[key], key)
         self.assertIsNone(record["beyond_law"]["mean"])

@@ -46,7 +46,8 @@ TEST(ToolHelp, LeavesEverythingElseToOpenFoam) {
 TEST(Rotation, PositiveIsAnticlockwiseWithXToTheRightAndYUp) {
   EXPECT_EQ(sense_of_rotation(2.0), "anticlockwise");
   EXPECT_EQ(described_rotation(-6.1), "clockwise, seen with x to the right and y up");
-  EXPECT_EQ(described_rotation(0), "at rest");
+  EXPECT_EQ(described_rotation(0), "does not turn");
+  EXPECT_EQ(sense_of_rotation(0), "none");
 }
 
 }  // namespace
