@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same after a
 restart and on two ranks, and what cannot be is refused."""
+import re
 import shutil
 import tempfile
 import unittest
@@ -242,6 +243,43 @@ class InABox(SlurryTest):
         # A pool that sloshes: its weight's moment is no more than near
         weight = SLURRY * told["holdUp"] * 9.81 * told["x"]
         self.assertGreater(np.abs(told["torque_all"][late] / weight[late] - 1).max(), 0.01)
+
+    def voxels(self, lower, upper):
+        """A case with voxels in a box, and its run; the pool lies below 6 cm in 14 x 10 x 2 cm."""
+        case = self.slurry_case(end_time=0.004)
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text() + f"""
+            functions {{ voxelAverages {{ type voxelAverages; libs ("libmillFoam.so"); lower ({lower}); upper ({upper});
+                shape (7 5 1); window 0.002; }} }}""")
+        return case, case.run("slurryFoam")
+
+    def test_voxels_that_cover_the_mesh_are_not_warned_of(self):
+        _, result = self.voxels("0 0 0", "0.14 0.1 0.02")
+        self.assertEqual(result.code, 0, result.tail())
+        self.assertNotIn("lies beyond", result.log)
+
+    def test_voxels_that_miss_a_part_of_the_slurry_are_warned_of_with_its_share(self):
+        case, result = self.voxels("0 0 0", "0.07 0.1 0.02")
+        self.assertEqual(result.code, 0, result.tail())
+        log = " ".join(result.log.split())
+        share = {when: float(found) for found, when in re.findall(
+            r"voxelAverages: (\S+) % of the slurry lies beyond the box of the voxels, from \(0 0 0\) to"
+            r" \(0.07 0.1 0.02\) m (at the first sample|in the mean of this run); the mesh reaches from \(0 0 0\) to"
+            r" \(0.14 0.1 0.02\) m", log)}
+        self.assertEqual(set(share), {"at the first sample", "in the mean of this run"})
+        with h5py.File(case.path / "slurry.h5") as file:
+            mean = file["ledger/outside"][:].sum() / file["ledger/volume_in"][:].sum()
+        # The surface is tilted: more than half of the slurry is on the right
+        self.assertGreater(mean, 0.5)
+        self.assertAlmostEqual(share["in the mean of this run"], 100 * mean, delta=0.01)
+
+    def test_voxels_in_another_place_than_the_mesh_are_refused(self):
+        _, result = self.voxels("0.2 0.2 0", "0.3 0.3 0.02")
+        self.assertNotEqual(result.code, 0)
+        log = " ".join(result.log.split())
+        for words in ("voxelAverages: nothing of the mesh", "(0.14 0.1 0.02)", "(0.2 0.2 0) to (0.3 0.3 0.02) m"):
+            self.assertIn(words, log)
+        self.assertNotIn("\nTime = ", result.log)
 
     def test_slip_is_that_of_the_written_fields(self):
         case = self.slurry_case(end_time=0.01)

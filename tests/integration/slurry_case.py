@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small cases of slurryFoam: a pool with a bed of balls in a box."""
 import copy
-import re
+import json
 import shutil
 import tempfile
 from pathlib import Path
@@ -80,6 +80,15 @@ class SlurryCase(BoxCase):
         other.path = Path(folder)
         return other
 
+    def steps(self, start="0"):
+        """Rows of steps.csv [steps], by columns, of the run that began at the time of this name."""
+        path = self.path / "postProcessing" / "flow" / start / "steps.csv"
+        return np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True))
+
+    def record(self, start="0"):
+        """flow.json of the run that began at the time of this name."""
+        return json.loads((self.path / "postProcessing" / "flow" / start / "flow.json").read_text())
+
     def written(self, time):
         """Names of the fields at a time (s)."""
         return sorted(entry.name for entry in self.folder(time).iterdir() if entry.is_file())
@@ -113,12 +122,11 @@ class SlurryTest(OpenFoamTest):
     def copy_of(self, case):
         return case.copied(Path(tempfile.mkdtemp(prefix="copy", dir=self.folder)) / "case")
 
-    def assert_kept(self, result, *, slurry=1e-8, alpha=1e-6):
-        """Slurry and fluid of every step's report are the first ones' to a share, and alpha is in [0, 1]."""
-        found = np.array(re.findall(r"^Slurry (\S+) m3, fluid (\S+) m3, alpha from (\S+) to 1 \+ (\S+),", result.log,
-                                    re.M), dtype=float)
+    def assert_kept(self, case, *, slurry=1e-8, alpha=1e-6):
+        """Slurry and fluid of every step are the first one's to a share, and alpha is in [0, 1]."""
+        found = case.steps()
         self.assertGreater(len(found), 1)
-        np.testing.assert_allclose(found[:, :2], np.broadcast_to(found[0, :2], found[:, :2].shape), rtol=slurry)
-        self.assertGreaterEqual(found[:, 2].min(), -alpha)
-        self.assertLessEqual(found[:, 3].max(), alpha)
-        return found
+        for column in ("slurry_m3", "fluid_m3"):
+            np.testing.assert_allclose(found[column], found[column][0], rtol=slurry, err_msg=column)
+        self.assertGreaterEqual(found["alpha_min"].min(), -alpha)
+        self.assertLessEqual(found["alpha_max_minus_1"].max(), alpha)

@@ -111,9 +111,10 @@ class Bed(RefusedTest):
 class Record(RefusedTest):
     """solids.h5, as bedProperties names it"""
 
-    def record(self, change=None, upper=(0.04, 0.04, 0.01), entries="", **options):
+    def record(self, change=None, upper=(0.04, 0.04, 0.01), entries="", attributes=None, **options):
         case = self.small(**options)
-        solids.write(case.path / "solids.h5", (0, 0, 0), upper, solids.uniform(0.1, 0.2, shape=(2, 2, 2)))
+        solids.write(case.path / "solids.h5", (0, 0, 0), upper, solids.uniform(0.1, 0.2, shape=(2, 2, 2)),
+                     **(attributes or {}))
         if change:
             with h5py.File(case.path / "solids.h5", "r+") as file:
                 change(file)
@@ -149,6 +150,27 @@ class Record(RefusedTest):
         result = self.assert_says(self.record(end_time=0.03), "solids.h5", "records DEM times 0 to 0.02", "endTime",
                                   "outOfRange")
         self.assertNotIn("Time = ", result.log)
+
+
+    def test_another_speed_of_the_mill(self):
+        case = self.record(entries="omega -6.4;", attributes={"angular_velocity": -6.1})
+        self.assert_says(case, "bedProperties", "omega is -6.4 rad/s", "solids.h5", "-6.1 rad/s", "millAverage again")
+
+    def test_the_other_sense_of_rotation(self):
+        case = self.record(entries="omega 6.4;", attributes={"angular_velocity": -6.4})
+        self.assert_says(case, "omega is 6.4 rad/s", "-6.4 rad/s")
+
+    def test_another_mill(self):
+        case = self.record(entries='fingerprint "0123456789abcdef";', attributes={"mill_averages": "fedcba9876543210"})
+        self.assert_says(case, "bedProperties", "0123456789abcdef", "solids.h5", "fedcba9876543210",
+                         "Run millAverage again")
+
+    def test_the_same_mill_and_speed_are_accepted(self):
+        self.assert_runs(self.record(entries='omega -6.4; fingerprint "0123456789abcdef";', attributes={
+            "angular_velocity": -6.4 * (1 + 1e-8), "mill_averages": "0123456789abcdef"}), "slurryFoam")
+
+    def test_solids_that_do_not_know_their_mill_are_accepted(self):
+        self.assert_runs(self.record(entries='omega -6.4; fingerprint "0123456789abcdef";'), "slurryFoam")
 
 
 class Slurry(RefusedTest):
@@ -227,6 +249,34 @@ class Start(RefusedTest):
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
         case.write("system/slurryStartDict", "start pool; level 0.02;")
         self.assert_says(case, "constant/g", "gravity", program="slurryStart")
+
+
+    def begun(self, *times):
+        case = self.small()
+        case.write("system/slurryStartDict", "start pool; level 0.01;")
+        for name in times:
+            shutil.copytree(case.path / "0", case.path / name)
+        return case
+
+    def test_a_case_in_which_a_flow_has_begun_keeps_its_slurry(self):
+        for start in ("startTime", "latestTime"):
+            case = self.begun("0.001", "0.002")
+            control = case.path / "system/controlDict"
+            control.write_text(control.read_text().replace("startFrom startTime", f"startFrom {start}"))
+            before = {name: (case.path / name / "alpha.slurry").read_text() for name in ("0", "0.002")}
+            self.assert_says(case, "a flow has begun", "2 written times", "0.001", "0.002 s", "Allclean",
+                             program="slurryStart")
+            for name, text in before.items():
+                self.assertEqual((case.path / name / "alpha.slurry").read_text(), text)
+
+    def test_so_does_one_that_has_begun_on_several_ranks(self):
+        case = self.begun("processor0/0", "processor0/0.002")
+        self.assert_says(case, "a flow has begun", "0.002", program="slurryStart")
+
+    def test_the_first_time_alone_is_set(self):
+        case = self.begun("processor0/0")
+        self.assert_runs(case, "slurryStart")
+        self.assertAlmostEqual(case.field("alpha.slurry", 0).mean(), 0.25, delta=1e-9)
 
 
 class Grates(RefusedTest):

@@ -40,15 +40,16 @@ def write_cells(path, volumes, solidity, *, mesh_time=0.0, motion="rotation spee
 
 
 def _write(path, grid, solidity, volumes, *, velocity=(0, 0, 0), diameter=DIAMETER, time0=0.0, window=0.01,
-           timestep=1e-5, whole_run=False, deposited=None):
+           timestep=1e-5, whole_run=False, deposited=None, **attributes):
     """One window of `window` seconds after another from `time0` on, without gaps.
 
     velocity and diameter are the same everywhere, or full arrays like solidity; deposited: what the ledger says, m^3 per
-    window, unless it is the solids' volume."""
+    window, unless it is the solids' volume; attributes: of the root, such as angular_velocity (rad/s), mill_averages."""
     windows = len(solidity)
     with h5py.File(path, "w") as file:
         file.attrs.update(format="millfoam-solids", version=np.int32(2), complete=np.int32(1), time0=time0,
-                          timestep=timestep, whole_run=np.int32(whole_run), method="written by a test", smoothing=0.0)
+                          timestep=timestep, whole_run=np.int32(whole_run), method="written by a test", smoothing=0.0,
+                          **attributes)
         file.create_group("grid").attrs.update(grid)
         begin = time0 + window * np.arange(windows)
         none = np.zeros(windows, dtype=np.int64)

@@ -205,6 +205,24 @@ class RefusedFile(SolidsTest):
         self.assert_refused(self.changed(spoil), "solids.h5", "no solids between DEM times 1.01 s and 1.013 s")
 
 
+class OfAnotherMill(SolidsTest):
+    """particleDrag compares its entries with what solids.h5 says of its mill."""
+
+    def test_another_speed(self):
+        case = self.solids_case(solids.uniform(0.1), entries="interpolation cell; omega 2;", angular_velocity=2.1)
+        self.assert_refused(case, "omega is 2 rad/s", "2.1 rad/s", "millAverage again")
+
+    def test_another_fingerprint(self):
+        case = self.solids_case(solids.uniform(0.1), entries='interpolation cell; fingerprint "aa";',
+                                mill_averages="bb")
+        self.assert_refused(case, "fingerprint is aa", "solids.h5", "bb", "millAverage again")
+
+    def test_the_same_are_accepted(self):
+        case = self.solids_case(solids.uniform(0.1), entries='interpolation cell; omega 2; fingerprint "aa";',
+                                angular_velocity=2.0, mill_averages="aa")
+        self.assert_runs(case, "millInterFoam")
+
+
 class RefusedDictionary(OpenFoamTest):
     BLOCK = "block { box (-9 -9 -9) (9 9 9); solidity 0.5; velocity (0.1 0 0); diameter 0.005; }"
 

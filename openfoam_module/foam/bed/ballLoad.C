@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "ballLoad.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "weightedSpread.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -68,7 +68,7 @@ void Foam::ballLoad::update(
 
 Foam::string Foam::ballLoad::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "force of the fluid on the balls over their weight: mean " << mean_
          << ", 95 % below " << high_;
     return text.str();
@@ -77,7 +77,7 @@ Foam::string Foam::ballLoad::description() const
 
 Foam::string Foam::ballLoad::summary() const
 {
-    OStringStream text;
+    readableText text;
     text << "force of the fluid on the balls over their weight, in the mean of "
          << updates_ << " written times: mean "
          << (updates_ > 0 ? meanSum_ / updates_ : 0) << ", 95 % below "

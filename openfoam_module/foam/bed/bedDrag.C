@@ -100,7 +100,9 @@ Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
   viscosity_(
       viscosityNames_.getOrDefault("viscosity", dict, viscosity::plastic)),
   polydispersity_(dict.lookupOrDefault<bool>("polydispersity", false)),
-  multiplier_(dict.lookupOrDefault<scalar>("multiplier", 1))
+  multiplier_(dict.lookupOrDefault<scalar>("multiplier", 1)),
+  solids_(0),
+  largestRe_(0)
 {
     if (!(multiplier_ >= 0))
     {
@@ -184,7 +186,7 @@ void Foam::bedDrag::report(
     const movingBed& bed, const volScalarField& alpha, const volVectorField& U,
     const string& who)
 {
-    scalar largestRe = 0;
+    largestRe_ = 0;
     range_.begin();
     const scalarField& V = U.mesh().V();
     forAll(V, celli)
@@ -197,15 +199,15 @@ void Foam::bedDrag::report(
         const scalar d = bed.diameter()[celli];
         const scalar re =
             millfoam::drag::reynolds(phi, v, d, slurryAt(phi, v, d));
-        largestRe = max(largestRe, re);
+        largestRe_ = max(largestRe_, re);
         range_.count(phi, re, (1 - phi) * V[celli]);
     }
-    reduce(largestRe, maxOp<scalar>());
+    reduce(largestRe_, maxOp<scalar>());
     range_.end(U.time().deltaTValue());
 
-    const scalar solids = gSum(bed.solidity().primitiveField() * V);
-    Info << who.c_str() << ": solids " << solids
-         << " m3, largest particle Re in slurry " << largestRe << ", "
+    solids_ = gSum(bed.solidity().primitiveField() * V);
+    Info << who.c_str() << ": solids " << solids_
+         << " m3, largest particle Re in slurry " << largestRe_ << ", "
          << range_.description().c_str() << endl;
 }
 
@@ -220,6 +222,35 @@ Foam::string Foam::bedDrag::description() const
 {
     return "drag law " + std::string(law_->name) + " (" +
            std::string(law_->reference) + ")";
+}
+
+
+millfoam::record::Drag Foam::bedDrag::told() const
+{
+    millfoam::record::Drag result;
+    result.law = law_->name;
+    result.reference = law_->reference;
+    result.multiplier = multiplier_;
+    result.viscosity = viscosityNames_[viscosity_];
+    result.polydispersity = polydispersity_;
+    result.solidity_min = law_->range.phi_min;
+    result.solidity_max = law_->range.phi_max;
+    result.reynolds_min = law_->range.re_min;
+    result.reynolds_max = law_->range.re_max;
+    return result;
+}
+
+
+void Foam::bedDrag::tell(millfoam::record::StepRow& row) const
+{
+    const lawRange::shares shares = range_.present();
+    row.solids = solids_;
+    row.largest_reynolds = largestRe_;
+    row.beyond_law = shares.outside;
+    row.solidity_below = shares.phiLow;
+    row.solidity_above = shares.phiHigh;
+    row.reynolds_below = shares.reLow;
+    row.reynolds_above = shares.reHigh;
 }
 
 

@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "blockShape.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "Tuple2.H"
 #include "knownEntries.H"
 #include "mathematicalConstants.H"
@@ -176,7 +176,7 @@ Foam::scalar Foam::boxShape::over(const boundBox& space) const
 
 Foam::string Foam::boxShape::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "in " << box_;
     if (cmptMax(edge_) > 0)
     {
@@ -205,7 +205,7 @@ Foam::scalar Foam::cylinderShape::over(const boundBox& space) const
 
 Foam::string Foam::cylinderShape::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "in a cylinder about " << centre_ << " along " << axis_
          << " of radius " << radius_ << " m from " << begin_ << " to " << end_
          << " m";

@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "lawRange.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "PstreamReduceOps.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -18,7 +18,7 @@ Foam::scalar Foam::lawRange::share(const sum volume) const
 Foam::string Foam::lawRange::bounds() const
 {
     const millfoam::drag::Range& range = law_.range;
-    OStringStream text;
+    readableText text;
     const auto tell =
         [&](const sum volume, const char* name, const scalar bound)
     {
@@ -96,9 +96,17 @@ void Foam::lawRange::end(const scalar deltaT)
 }
 
 
+Foam::lawRange::shares Foam::lawRange::present() const
+{
+    return {
+        share(outside), share(phiLow), share(phiHigh), share(reLow),
+        share(reHigh)};
+}
+
+
 Foam::string Foam::lawRange::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "beyond " << name_.c_str() << "'s range " << label(sums_[cells])
          << " cells, " << 100 * share(outside) << " % of the slurry in the bed";
     return text.str();
@@ -107,7 +115,7 @@ Foam::string Foam::lawRange::description() const
 
 Foam::string Foam::lawRange::summary() const
 {
-    OStringStream text;
+    readableText text;
     text << "beyond " << name_.c_str() << "'s range: at most " << 100 * largest_
          << " % of the slurry in the bed, in the mean over " << time_ << " s "
          << (time_ > 0 ? 100 * integral_ / time_ : 0) << " %";

@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "movingBed.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "uncoveredCells.H"
 
@@ -45,7 +45,7 @@ void Foam::movingBed::checkCover()
         return;
 
     told_ = true;
-    OStringStream text;
+    readableText text;
     text << n << " of " << returnReduce(mesh_.nCells(), sumOp<label>())
          << " cells lie outside the grid of the solids: "
          << firstCells(mesh_, source_->uncovered()).c_str();
@@ -167,10 +167,9 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
 
 Foam::wordList Foam::movingBed::entries()
 {
-    return {"solids",         "interpolation", "inTime",
-            "outOfRange",     "time0",         "block",
-            "blocks",         "uncovered",     "ledgerCorrection",
-            "largestSolidity"};
+    return {"solids", "interpolation", "inTime",           "outOfRange",
+            "time0",  "omega",         "fingerprint",      "block",
+            "blocks", "uncovered",     "ledgerCorrection", "largestSolidity"};
 }
 
 
@@ -182,6 +181,16 @@ void Foam::movingBed::requireSolids() const
             << "neither of the entries 'solids' (the name of a solids.h5) and"
             << " 'block' (a uniform bed) is there; expected one of them"
             << exit(FatalIOError);
+    }
+}
+
+
+void Foam::movingBed::tell(millfoam::record::StepRow& row) const
+{
+    if (!empty() && conservation_.valid() && source_->knowsVolume())
+    {
+        row.volume_correction = conservation_->present();
+        row.solids_moved = conservation_->moved();
     }
 }
 

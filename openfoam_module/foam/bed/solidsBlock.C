@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsBlock.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "knownEntries.H"
 #include "Tuple2.H"
 #include "volFields.H"
@@ -150,7 +150,7 @@ void Foam::solidsBlock::add(
 
 Foam::string Foam::solidsBlock::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "uniform bed of solidity " << solidity_ << ", velocity "
          << velocity_ << " m/s";
     if (mag(omega_) > 0)

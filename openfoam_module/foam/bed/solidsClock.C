@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsClock.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "Time.H"
 
 #include <cmath>
@@ -182,9 +182,21 @@ void Foam::solidsClock::checkSpan(const Time& time) const
 }
 
 
+millfoam::record::Solids Foam::solidsClock::told() const
+{
+    millfoam::record::Solids result;
+    result.begin = time0_;
+    result.end = windows_.back().end;
+    result.windows = static_cast<long long>(windows_.size());
+    result.in_time = courseNames_[inTime_];
+    result.out_of_range = rangeNames_[outOfRange_];
+    return result;
+}
+
+
 Foam::string Foam::solidsClock::description() const
 {
-    OStringStream text;
+    readableText text;
     text << label(windows_.size()) << " windows of " << file_ << ", DEM times "
          << time0_ << " to " << windows_.back().end << " s, "
          << (inTime_ == course::linear ? "linear in time, " : "")

@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsConservation.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "PstreamReduceOps.H"
 #include "vector2D.H"
 
@@ -131,7 +131,7 @@ void Foam::solidsConservation::correct(
 
 Foam::string Foam::solidsConservation::description() const
 {
-    OStringStream text;
+    readableText text;
     text << "volume corrected by " << 100 * present_ << " %, at most "
          << 100 * largest_ << " %, to " << solids_ << " m3";
     if (moved_ > 1e-9 * solids_)

@@ -71,6 +71,40 @@ void Foam::solidsRecord::open(const Time& time)
 }
 
 
+void Foam::solidsRecord::checkMill() const
+{
+    const millfoam::averaging::SolidsHeader& header = reader_->header();
+
+    scalar omega = 0;
+    if (dict_.readIfPresent("omega", omega) && header.angular_velocity)
+    {
+        const scalar recorded = *header.angular_velocity;
+        if (mag(omega - recorded) > 1e-6 * max(mag(omega), mag(recorded)))
+        {
+            FatalIOErrorInFunction(dict_)
+                << "omega is " << omega << " rad/s but the mill of " << file_
+                << " turned with " << recorded << " rad/s; expected the solids"
+                << " of this speed. Run millDem and millAverage again, or make"
+                << " the flow's mesh with the speed of the solids"
+                << exit(FatalIOError);
+        }
+    }
+
+    string fingerprint;
+    if (dict_.readIfPresent("fingerprint", fingerprint) &&
+        !fingerprint.empty() && !header.mill_averages.empty() &&
+        fingerprint != header.mill_averages)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "fingerprint is " << fingerprint.c_str() << " but " << file_
+            << " was averaged for the mill with the fingerprint "
+            << header.mill_averages.c_str() << "; expected the solids of this"
+            << " mill. Run millAverage again, and before it millDem if its"
+            << " dumps are of another mill too" << exit(FatalIOError);
+    }
+}
+
+
 void Foam::solidsRecord::checkMeshTime(const MeshCells& cells) const
 {
     if (!cells.motion.empty() &&
@@ -197,6 +231,7 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
   moment_({-1, -1, 0})
 {
     open(mesh.time());
+    checkMill();
     clock_.reset(new solidsClock(dict, file_, *reader_));
     clock_->checkSpan(mesh.time());
     readLedger();
@@ -252,6 +287,21 @@ Foam::scalar Foam::solidsRecord::volume() const
 {
     return (1 - moment_.weight) * deposited_[moment_.lower] +
            moment_.weight * deposited_[moment_.upper];
+}
+
+
+millfoam::record::Solids Foam::solidsRecord::told() const
+{
+    millfoam::record::Solids result = clock_->told();
+    result.source = description();
+    result.file = file_;
+    const millfoam::averaging::SolidsHeader& header = reader_->header();
+    result.whole_run = header.whole_run;
+    result.angular_velocity = header.angular_velocity;
+    result.program = header.program;
+    result.mill_charge = header.mill_charge;
+    result.mill_averages = header.mill_averages;
+    return result;
 }
 
 

@@ -43,4 +43,12 @@ const Foam::labelList& Foam::solidsSource::uncovered() const
 }
 
 
+millfoam::record::Solids Foam::solidsSource::told() const
+{
+    millfoam::record::Solids result;
+    result.source = description();
+    return result;
+}
+
+
 // ************************************************************************* //

@@ -4,7 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "uncoveredCells.H"
-#include "OStringStream.H"
+#include "readableLog.H"
 #include "volFields.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
@@ -13,7 +13,7 @@ Foam::string Foam::firstCells(const fvMesh& mesh, const labelUList& cells)
 {
     const label few = 3;
 
-    OStringStream own;
+    readableText own;
     for (label i = 0; i < min(few, cells.size()); ++i)
     {
         own << (i ? ", " : "") << "cell " << cells[i];

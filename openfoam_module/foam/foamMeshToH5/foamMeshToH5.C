@@ -39,14 +39,28 @@ Usage
 #include "timeSelector.H"
 #include "untrapped.H"
 #include "averaging/mesh/mesh_file.hpp"
+#include "openfoam_module/record/tool_help.hpp"
+
+#include <iostream>
 
 using namespace Foam;
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
+static const millfoam::record::ToolHelp help{
+    "foamMeshToH5",
+    "Write the mesh of a case to a mesh.h5 for millAverage",
+    {"[-case DIR] [-o FILE] [-times all|RANGES] [-time0 T] [-decomposed]"},
+    {"constant/polyMesh          the mesh, in any format, or "
+     "processor*/constant/polyMesh",
+     "TIME/polyMesh/points       its points at other times, with -times",
+     "constant/millProperties    DEM time at flow time 0; optional"},
+    {"mesh.h5                    or the FILE of -o"}};
+
+
 static void addOptions()
 {
-    argList::addNote("Write the mesh of a case to a mesh.h5 for millAverage");
+    argList::addNote(help.purpose.c_str());
     argList::noParallel();
     argList::noFunctionObjects();
     argList::addOption("o", "file", "The file to write (default: mesh.h5)");
@@ -144,6 +158,10 @@ static instantList chooseTimes(const argList& args, const meshAssembly& mesh)
 
 int main(int argc, char* argv[])
 {
+    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    {
+        return 0;
+    }
     addOptions();
     argList args(argc, argv);
     const autoPtr<Time> time(openTime(args));

@@ -7,6 +7,7 @@
 #include "optionalDictionary.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
+#include "readableLog.H"
 #include "Pstream.H"
 #include "Switch.H"
 #include "untrapped.H"
@@ -224,6 +225,16 @@ void Foam::averageSegments::add(
         begin = end;
     }
     covered_ = to;
+}
+
+
+Foam::string Foam::averageSegments::boxDescription() const
+{
+    const auto at = [](const Vector3& p) { return vector(p[0], p[1], p[2]); };
+    readableText text;
+    text << "the box of the voxels, from " << at(grid_.lower()) << " to "
+         << at(grid_.upper()) << " m";
+    return text.str();
 }
 
 

@@ -8,6 +8,7 @@
 #include "clock.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
+#include "openfoam_module/record/rotation.hpp"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -44,6 +45,10 @@ void Foam::functionObjects::slurryBalance::begin()
 {
     writeHeader(file(), "Slurry: balance, centre, torque about +z, slip");
     writeHeaderValue(file(), "Begun", label(clock::getTime()));
+    writeHeaderValue(file(), "Speed_rad/s", torque_.speed());
+    writeHeaderValue(
+        file(), "Mill",
+        millfoam::record::described_rotation(torque_.speed()).c_str());
     writeCommented(file(), "Time_s");
     for (const char* column :
          {"holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3",

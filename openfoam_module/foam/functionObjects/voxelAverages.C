@@ -8,6 +8,8 @@
 #include "averagingMesh.H"
 #include "untrapped.H"
 
+#include <numeric>
+
 using namespace millfoam::averaging;
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -93,14 +95,64 @@ VoxelSums Foam::functionObjects::voxelAverages::sample()
 }
 
 
+void Foam::functionObjects::voxelAverages::checkBox()
+{
+    const VoxelSums sums(sample());
+    const scalar inside = returnReduce(
+        std::accumulate(sums.volume.begin(), sums.volume.end(), scalar(0)),
+        sumOp<scalar>());
+    if (!(inside > 0))
+    {
+        FatalErrorInFunction
+            << name() << ": nothing of the mesh, which reaches from "
+            << mesh_.bounds().min() << " to " << mesh_.bounds().max()
+            << " m, lies in " << segments_.boxDescription().c_str()
+            << "; expected a box (lower, upper) that covers the mesh, in m"
+            << exit(FatalError);
+    }
+}
+
+
+void Foam::functionObjects::voxelAverages::warnOutside(
+    const scalar slurry, const scalar outside, const string& when) const
+{
+    if (outside > 0.01 * slurry)
+    {
+        WarningInFunction << name() << ": " << 100 * outside / slurry
+                          << " % of the slurry lies beyond "
+                          << segments_.boxDescription().c_str() << " "
+                          << when.c_str() << "; the mesh reaches from "
+                          << mesh_.bounds().min() << " to "
+                          << mesh_.bounds().max() << " m" << endl;
+    }
+}
+
+
 void Foam::functionObjects::voxelAverages::sampleUpToNow()
 {
     const scalar now = mesh_.time().value();
-    if (now > last_)
+    if (!(now > last_))
     {
-        segments_.add(sample(), sum(fields_.volumes()()), last_, now);
-        last_ = now;
+        return;
     }
+    const VoxelSums sums(sample());
+    const scalar slurry = sum(fields_.volumes()());
+    scalar inside = 0;
+    for (std::size_t n = 0; n < sums.values.size(); n += slurry_components)
+    {
+        inside += sums.values[n];
+    }
+    const scalar all = returnReduce(slurry, sumOp<scalar>());
+    const scalar beyond = all - returnReduce(inside, sumOp<scalar>());
+    if (slurry_ <= 0)
+    {
+        warnOutside(all, beyond, "at the first sample");
+    }
+    slurry_ += all * (now - last_);
+    outside_ += beyond * (now - last_);
+
+    segments_.add(sums, slurry, last_, now);
+    last_ = now;
 }
 
 
@@ -113,7 +165,9 @@ Foam::functionObjects::voxelAverages::voxelAverages(
   segments_(name, runTime, dict),
   interval_(dict.lookupOrDefault<scalar>("interval", 0)),
   divisions_(dict.lookupOrDefault<label>("divisions", 1)),
-  last_(runTime.value())
+  last_(runTime.value()),
+  slurry_(0),
+  outside_(0)
 {
     slurryFields::refuseOthers(
         dict, {"lower", "upper", "shape", "periodic", "window", "start",
@@ -131,6 +185,7 @@ Foam::functionObjects::voxelAverages::voxelAverages(
             << "divisions is " << divisions_ << "; expected 1 to 10"
             << exit(FatalIOError);
     }
+    checkBox();
     strict_.relax();
 }
 
@@ -165,6 +220,7 @@ bool Foam::functionObjects::voxelAverages::write()
 bool Foam::functionObjects::voxelAverages::end()
 {
     sampleUpToNow();
+    warnOutside(slurry_, outside_, "in the mean of this run");
     segments_.keep();
     segments_.assemble();
     return true;

@@ -159,6 +159,8 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   misfit_(0),
   allMisfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
+  pressureIterations_(0),
+  pressureResidual_(0),
   fresh_(!IOobject(
               forces_.name(), mesh.time().timeName(), mesh,
               IOobject::READ_IF_PRESENT)
@@ -184,6 +186,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 void Foam::slurryFlow::enter()
 {
     detailBefore_ = fluxDetail_;
+    pressureIterations_ = 0;
     if (mesh_.changing())
     {
         surface_.locate();
@@ -256,16 +259,28 @@ Foam::FixedList<Foam::scalar, 3> Foam::slurryFlow::courantNumbers() const
 }
 
 
-void Foam::slurryFlow::report()
+millfoam::record::StepRow Foam::slurryFlow::report()
 {
+    millfoam::record::StepRow row;
     const scalarField fluid(mesh_.V() * voidage_.primitiveField());
-    Info << "Slurry " << gSum(fluid * alpha_.primitiveField()) << " m3, fluid "
-         << gSum(fluid) << " m3, alpha from " << gMin(alpha_.primitiveField())
-         << " to " << 1 << " + " << gMax(alpha_.primitiveField()) - 1
-         << ", fluid without room " << allMisfit_ << " m3" << endl;
+    row.time = mesh_.time().value();
+    row.delta_t = mesh_.time().deltaTValue();
+    row.pressure_iterations = pressureIterations_;
+    row.pressure_residual = pressureResidual_;
+    row.slurry = gSum(fluid * alpha_.primitiveField());
+    row.fluid = gSum(fluid);
+    row.alpha_min = gMin(alpha_.primitiveField());
+    row.alpha_above = gMax(alpha_.primitiveField()) - 1;
+    row.without_room = allMisfit_;
+    Info << "Slurry " << row.slurry << " m3, fluid " << row.fluid
+         << " m3, alpha from " << row.alpha_min << " to " << 1 << " + "
+         << row.alpha_above << ", fluid without room " << row.without_room
+         << " m3" << endl;
+    bed_.tell(row);
     if (drag_.valid())
     {
         drag_->report(bed_, alpha_, U_);
+        drag_->tell(row);
     }
     if (load_.valid() && mesh_.time().writeTime())
     {
@@ -273,6 +288,22 @@ void Foam::slurryFlow::report()
             drag_->exchange(bed_, alpha_, U_), U_, forces_,
             pressure_.inertia());
         Info << "bed: " << load_->description().c_str() << endl;
+        row.force_mean = load_->mean();
+        row.force_95 = load_->high();
+    }
+    return row;
+}
+
+
+void Foam::slurryFlow::tell(millfoam::record::FlowSetup& setup) const
+{
+    if (!bed_.empty())
+    {
+        setup.solids = bed_.told();
+    }
+    if (drag_.valid())
+    {
+        setup.drag = drag_->told();
     }
 }
 

@@ -134,8 +134,9 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
     // solution without the faces' skewness
     if (fresh_)
     {
-        pressureEquation(conductance, free, rate)
-            ->solve(mesh_.solver(p_rgh_.name()));
+        pressureIterations_ += pressureEquation(conductance, free, rate)
+                                   ->solve(mesh_.solver(p_rgh_.name()))
+                                   .nIterations();
         fresh_ = false;
     }
     tmp<surfaceScalarField> tflux;
@@ -145,8 +146,10 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
             free - conductance * pressure_.skewSlope());
         tmp<fvScalarMatrix> tequation(
             pressureEquation(conductance, given, rate));
-        tequation.ref().solve(
-            mesh_.solver(p_rgh_.select(pimple.finalInnerIter())));
+        const solverPerformance solved(tequation.ref().solve(
+            mesh_.solver(p_rgh_.select(pimple.finalInnerIter()))));
+        pressureIterations_ += solved.nIterations();
+        pressureResidual_ = solved.finalResidual();
         if (pimple.finalNonOrthogonalIter())
         {
             tflux = given - tequation().flux();

@@ -14,33 +14,74 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
+#include "caseKeeper.H"
+#include "flowRecorder.H"
 #include "functionObjectList.H"
+#include "readableLog.H"
 #include "slurryFlow.H"
 #include "timeStep.H"
+#include "openfoam_module/record/tool_help.hpp"
+
+#include <iostream>
 
 // * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
 
 using namespace Foam;
 
+static const millfoam::record::ToolHelp help{
+    "slurryFoam",
+    "Slurry and air through the moving balls of a tumbling mill",
+    {"[-case DIR]",
+     "-parallel [-case DIR]    (under mpirun, after decomposePar)"},
+    {"0/                              fields at the start: U, p_rgh, "
+     "alpha.slurry",
+     "constant/polyMesh               mesh, of millMesh",
+     "constant/dynamicMeshDict        how the mesh moves",
+     "constant/transportProperties    slurry and air",
+     "constant/g                      gravity",
+     "constant/bedProperties          balls and their drag; without it there "
+     "are none",
+     "constant/grateProperties        grates; without it there are none",
+     "constant/millProperties         fingerprints of the mill, of millMesh; "
+     "optional",
+     "solids.h5                       the balls, of millAverage, where "
+     "bedProperties names it",
+     "system/                         controlDict, fvSchemes, fvSolution"},
+    {"TIME/                           fields at the written times",
+     "postProcessing/flow/TIME/       steps.csv: a row per time-step; "
+     "flow.json: the summary",
+     "postProcessing/, slurry.h5      what the function objects of controlDict "
+     "measure"}};
+
+
 int main(int argc, char* argv[])
 {
-    argList::addNote(
-        "Slurry and air through the moving balls of a tumbling mill");
+    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    {
+        return 0;
+    }
+    argList::addNote(help.purpose.c_str());
 
 #include "addCheckCaseOptions.H"
 #include "setRootCaseLists.H"
 #include "createTime.H"
+    readableLog();
+    const caseKeeper keeper(runTime, help.name);
 #include "createDynamicFvMesh.H"
 
     pimpleControl pimple(mesh);
     slurryFlow flow(mesh);
     timeStep step(runTime);
+    millfoam::record::FlowSetup setup;
+    flow.tell(setup);
+    flowRecorder recorder(runTime, setup);
+    FixedList<scalar, 3> courant(flow.courantNumbers());
 
     Info << "Starting time loop\n" << endl;
 
     while (runTime.run())
     {
-        step.adjust(flow.courantNumbers());
+        step.adjust(courant);
         ++runTime;
         Info << "Time = " << runTime.timeName() << nl << endl;
 
@@ -55,9 +96,11 @@ int main(int argc, char* argv[])
             }
         }
         flow.transport();
-        flow.report();
+        const millfoam::record::StepRow row(flow.report());
+        courant = flow.courantNumbers();
 
         runTime.write();
+        recorder.add(row, courant);
         runTime.printExecutionTime(Info);
     }
 
@@ -70,6 +113,7 @@ int main(int argc, char* argv[])
     }
 
     flow.summary();
+    recorder.end();
     Info << "End\n" << endl;
     return 0;
 }

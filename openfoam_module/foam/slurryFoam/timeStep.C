@@ -53,13 +53,34 @@ Foam::timeStep::timeStep(Time& time)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+std::optional<millfoam::record::StepLimits>
+Foam::timeStep::limits(const dictionary& control)
+{
+    if (!control.lookupOrDefault("adjustTimeStep", false))
+    {
+        return std::nullopt;
+    }
+    millfoam::record::StepLimits result;
+    result.courant = control.get<scalar>("maxCo");
+    result.surface_courant = control.get<scalar>("maxAlphaCo");
+    result.voidage_change =
+        control.lookupOrDefault<scalar>("maxVoidageChange", 0.1);
+    scalar deltaT;
+    if (control.readIfPresent("maxDeltaT", deltaT))
+    {
+        result.delta_t = deltaT;
+    }
+    return result;
+}
+
+
 void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
 {
     Info << "Courant number " << courant[0] << ", at the surface " << courant[1]
          << ", change of voidage " << courant[2] << endl;
 
-    const dictionary& control = time_.controlDict();
-    if (!control.lookupOrDefault("adjustTimeStep", false))
+    const auto asked = limits(time_.controlDict());
+    if (!asked)
     {
         return;
     }
@@ -67,8 +88,7 @@ void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
     const FixedList<word, 3> causes{
         "flow", "flow at the surface", "change of voidage"};
     const FixedList<scalar, 3> bounds{
-        control.get<scalar>("maxCo"), control.get<scalar>("maxAlphaCo"),
-        control.lookupOrDefault<scalar>("maxVoidageChange", 0.1)};
+        asked->courant, asked->surface_courant, asked->voidage_change};
 
     scalar factor = 1.2;
     word cause("growth from a short step");
@@ -82,8 +102,7 @@ void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
         }
     }
     const scalar deltaT =
-        min(factor * time_.deltaTValue(),
-            control.lookupOrDefault<scalar>("maxDeltaT", GREAT));
+        min(factor * time_.deltaTValue(), asked->delta_t.value_or(GREAT));
     time_.setDeltaT(deltaT);
     Info << "deltaT = " << time_.deltaTValue() << endl;
     watch(deltaT, cause);

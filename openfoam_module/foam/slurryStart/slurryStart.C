@@ -14,6 +14,8 @@ Description
     - above: a volume of slurry as a layer that rests upon the highest balls
     - feed: none; it comes with the feed
 
+    A case in which a flow has begun, with times after the first, is refused.
+
     The level is a height against gravity from the origin of the mesh; the
     balls of constant/bedProperties, if there are any, take their room.
 
@@ -30,15 +32,20 @@ Usage
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
+#include "caseKeeper.H"
 #include "Enum.H"
 #include "fvMesh.H"
 #include "knownEntries.H"
 #include "movingBed.H"
 #include "optionalDictionary.H"
 #include "planeCut.H"
+#include "readableLog.H"
 #include "surfaceFields.H"
 #include "Time.H"
 #include "uniformDimensionedFields.H"
+#include "openfoam_module/record/tool_help.hpp"
+
+#include <iostream>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -208,6 +215,52 @@ Pair<scalar> levels(
     return {cut.bottom(), level};
 }
 
+
+//- Times after the first, of a case or of its first part where it is decomposed
+wordList laterTimes(const Time& time)
+{
+    const fileName part(time.path() / "processor0");
+    wordList names;
+    for (const fileName& folder : {fileName(time.path()), part})
+    {
+        const instantList found(
+            isDir(folder) ? Time::findTimes(folder, time.constant())
+                          : instantList());
+        scalar first = GREAT;
+        for (const instant& one : found)
+        {
+            if (one.name() != time.constant())
+            {
+                first = min(first, one.value());
+            }
+        }
+        for (const instant& one : found)
+        {
+            if (one.name() != time.constant() && one.value() > first)
+            {
+                names.append(one.name());
+            }
+        }
+    }
+    return names;
+}
+
+
+//- Refuse a case in which a flow has begun: its slurry would be overwritten
+void refuseBegunFlow(const Time& time)
+{
+    const wordList later(laterTimes(time));
+    if (!later.empty())
+    {
+        FatalErrorInFunction
+            << time.path() << ": a flow has begun, there are " << later.size()
+            << " written times, from " << later.first() << " to "
+            << later.last() << " s, whose slurry would be overwritten or no"
+            << " longer fit its start; expected the first time alone. Remove"
+            << " the times or run Allclean" << exit(FatalError);
+    }
+}
+
 } // End anonymous namespace
 } // End namespace Foam
 
@@ -216,12 +269,31 @@ Pair<scalar> levels(
 
 using namespace Foam;
 
+static const millfoam::record::ToolHelp help{
+    "slurryStart",
+    "Slurry at the start of a flow: pool, layer or none",
+    {"[-case DIR]"},
+    {"system/slurryStartDict     what to start with",
+     "constant/bedProperties     balls, which take their room; without it "
+     "there are none",
+     "constant/polyMesh, constant/g, system/controlDict",
+     "0/alpha.slurry             its boundary conditions"},
+    {"0/alpha.slurry             share of slurry in the fluid"}};
+
+
 int main(int argc, char* argv[])
 {
-    argList::addNote("Slurry at the start of a flow: pool, layer or none");
+    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    {
+        return 0;
+    }
+    argList::addNote(help.purpose.c_str());
 
 #include "setRootCase.H"
 #include "createTime.H"
+    readableLog();
+    const caseKeeper keeper(runTime, help.name);
+    refuseBegunFlow(runTime);
 
     const fvMesh mesh(IOobject(
         fvMesh::defaultRegion, runTime.timeName(), runTime,

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+
+#include "openfoam_module/record/step_table.hpp"
+
+/// What a flow leaves behind to be read by programs: its folder postProcessing/flow/<start time>/ with
+/// steps.csv, a row per time-step, and flow.json, the summary.
+namespace millfoam::record {
+
+/// Where the balls of a flow came from and what was done beyond the recorded time.
+struct Solids {
+  std::string source;                      ///< in words
+  std::string file;                        ///< solids.h5 as a path; empty: uniform blocks
+  double begin = 0;                        ///< recorded DEM time, s
+  double end = 0;                          ///< s
+  long long windows = 0;                   ///< number of windows
+  bool whole_run = false;                  ///< one window, which holds all the time
+  std::string out_of_range;                ///< error, hold or repeat
+  std::string in_time;                     ///< window or linear
+  std::optional<double> angular_velocity;  ///< of the mill in the dry run, rad/s
+  std::string program;                     ///< that wrote the file; empty: not known
+  std::string mill_charge;                 ///< fingerprints of the file's mill; empty: not known
+  std::string mill_averages;
+};
+
+/// The drag that the balls give.
+struct Drag {
+  std::string law;
+  std::string reference;
+  double multiplier = 1;
+  std::string viscosity;  ///< that the drag feels: plastic or pore
+  bool polydispersity = false;
+  double solidity_min = 0, solidity_max = 1;  ///< range of the law
+  double reynolds_min = 0, reynolds_max = std::numeric_limits<double>::infinity();
+};
+
+/// Bounds of the time-step that controlDict asks for.
+struct StepLimits {
+  double courant = 0;
+  double surface_courant = 0;
+  double voidage_change = 0;
+  std::optional<double> delta_t;  ///< s
+};
+
+/// What is known of a flow from its start on.
+struct FlowSetup {
+  std::string solver;            ///< name of the program
+  std::string openfoam_version;  ///< 1912
+  std::string openfoam_patch;    ///< of that version; empty: none
+  std::string openfoam_build;    ///< of a source tree; empty: a package
+  int ranks = 1;
+  double begin = 0;                 ///< flow time from which this run goes on, s
+  std::optional<double> asked_end;  ///< endTime, s
+  double angular_velocity = 0;      ///< of the mesh about z, right-handed, rad/s; 0: at rest
+  std::string mill_charge;          ///< fingerprints of constant/millProperties; empty: not known
+  std::string mill_averages;
+  std::string mill_flow;
+  std::optional<StepLimits> limits;  ///< none: the time-step is fixed
+  std::optional<Solids> solids;      ///< none: a flow without balls
+  std::optional<Drag> drag;
+};
+
+/// Keeps the record of a running flow.
+class FlowRecord {
+ public:
+  /// Begins the record of a run in `case_folder`/postProcessing/flow/`start`, anew, and removes the records
+  /// of runs that began later: their steps are computed again.
+  /// @param start  name of the time from which the run goes on
+  /// Throws std::runtime_error when a file cannot be written.
+  FlowRecord(const std::filesystem::path& case_folder, const std::string& start, const FlowSetup& setup);
+
+  /// Appends a step to steps.csv; `wall` is taken here. Throws std::runtime_error when it cannot be written.
+  void add(StepRow row);
+
+  /// Writes flow.json by all steps so far. Throws std::runtime_error when it cannot be written.
+  /// @param complete  whether the run has come to its end
+  void write(bool complete) const;
+
+ private:
+  /// A quantity of the steps: largest size, with its sign, and mean over the time in which it was known.
+  struct Course {
+    double largest = 0;
+    double integral = 0;
+    double time = 0;
+    void add(const std::optional<double>& value, double duration);
+    nlohmann::ordered_json largest_value() const;
+    nlohmann::ordered_json mean_value() const;
+  };
+
+  std::string summary(bool complete) const;
+  void add_steps(nlohmann::ordered_json& result) const;
+  void add_balls(nlohmann::ordered_json& result) const;
+  double end_time() const;
+  double wall_time() const;
+
+  std::filesystem::path folder_;
+  FlowSetup setup_;
+  StepTable table_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  long long steps_ = 0;
+  StepRow first_;
+  StepRow last_;
+  double alpha_min_ = 0;
+  double alpha_above_ = 0;
+  double pressure_iterations_ = 0;
+  Course courant_, surface_courant_, voidage_change_, volume_correction_;
+  Course beyond_law_, solidity_below_, solidity_above_, reynolds_below_, reynolds_above_;
+  double force_mean_ = 0;  ///< sums over the written times
+  double force_95_ = 0;
+  long long forces_ = 0;
+};
+
+}  // namespace millfoam::record
