@@ -8,12 +8,13 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_check.hpp"
+#include "dem_driver/wall_fit.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -26,14 +27,29 @@ constexpr int longest_wait = 100;  // tenths of a second
 }  // namespace
 
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill) {
-  std::vector<std::string> parts{"shell"};
-  if (mill.geometry.lifters.count > 0) parts.push_back("lifters");
-  if (mill.geometry.ends == meshing::Ends::plain) parts.insert(parts.end(), {"feedEnd", "dischargeEnd"});
-  for (const auto& part : parts) {
+  std::vector<std::string> parts;
+  std::vector<Wall> walls;
+  const auto take = [&](const std::string& part) {
     const fs::path file = folder.walls() / (part + ".stl");
-    if (!fs::exists(file)) throw std::runtime_error(file.string() + ": no such wall, run millMesh first");
-    check_wall(file);
+    if (!fs::exists(file)) return false;
+    walls.push_back({file, read_wall(file)});
+    parts.push_back(part);
+    return true;
+  };
+  const auto refuse = [&](const std::string& part, const std::string& and_more) {
+    throw std::runtime_error((folder.walls() / (part + ".stl")).string() + ": no such wall" + and_more +
+                             ", run millMesh first");
+  };
+  if (!take("shell")) refuse("shell", "");
+  if (mill.geometry.lifters.count > 0 && !take("lifters")) refuse("lifters", "");
+  if (mill.geometry.ends == meshing::Ends::plain) {
+    const bool has_feed = take("feedEnd"), has_discharge = take("dischargeEnd");
+    const EndCover cover = cover_of_ends(walls, mill.geometry);
+    const std::string open = ", and the others leave this end open";
+    if (!has_feed && cover.feed < least_cover) refuse("feedEnd", open);
+    if (!has_discharge && cover.discharge < least_cover) refuse("dischargeEnd", open);
   }
+  require_fit(walls, mill.geometry);
   return parts;
 }
 
@@ -108,11 +124,14 @@ void write_whole_file(const fs::path& file, const std::function<void(std::ostrea
 }
 
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
-  write_whole_file(folder.run_file(), [&](std::ostream& out) {
-    out.precision(std::numeric_limits<double>::max_digits10);
-    out << "timestep " << plan.step.value << "\ninterval " << plan.step.steps_per_record
-        << "\nangular_velocity " << mill.angular_velocity << '\n';
-  });
+  Json run = begin_result("dumps", mill);
+  run["timestep_s"] = plan.step.value;
+  run["interval"] = plan.step.steps_per_record;
+  run["angular_velocity_rad_s"] = mill.angular_velocity;
+  run["duration_s"] = plan.duration();
+  run["charge_mass_kg"] = plan.charge.mass();
+  run["fines_mass_kg"] = plan.charge.fines_mass();
+  write_json(folder.run_file(), run);
 }
 
 }  // namespace millfoam::dem_driver

@@ -23,17 +23,19 @@ struct CaseFolder {
   std::filesystem::path deck() const { return dem() / "in.mill"; }
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
+  std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   std::filesystem::path lock() const { return dem() / "lock"; }
-  std::filesystem::path run_file() const { return dumps() / "run.txt"; }
-  std::filesystem::path results() const { return dumps() / "results.txt"; }
+  std::filesystem::path run_file() const { return dumps() / "run.json"; }
+  std::filesystem::path results() const { return dumps() / "results.json"; }
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
   std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
-/// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd. Each
-/// file is read. Throws std::runtime_error naming the first `walls/<part>.stl` that does not exist or that
-/// check_wall refuses.
+/// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd, each of
+/// which may be missing where the others close that end. Each file is read. Throws std::runtime_error naming
+/// the first `walls/<part>.stl` that is missing, that read_wall refuses, or with which the walls are not
+/// those of this mill (require_fit).
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill);
 
 /// Every `dump.*.txt` in the dumps folder.
@@ -67,8 +69,8 @@ std::string wall_checksums(const CaseFolder& folder, const std::vector<std::stri
 /// Writes a text file that appears whole or not at all. Throws std::runtime_error naming it.
 void write_whole_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// Writes `dumps/run.txt`, lines `key value`: timestep (s), interval (steps between dumps), angular_velocity
-/// (rad/s). The file appears whole or not at all.
+/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, duration and mass of the charge. The
+/// file appears whole or not at all.
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

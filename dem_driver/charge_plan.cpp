@@ -19,6 +19,8 @@ namespace {
 
 using meshing::shown;
 
+constexpr double most_balls = 1e8;  // of a class: LIGGGHTS counts balls by int
+
 double ball_volume(double diameter) {
   return pi / 6 * std::pow(diameter, 3);
 }
@@ -27,12 +29,16 @@ double start_length(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic ? mill.geometry.length : mill.charge.start_length;
 }
 
+/// A charge of one class may be given by `fill`, without a list of classes.
+std::string key_of_class(const meshing::Mill& mill, std::size_t number) {
+  return mill.charge.classes.size() == 1 ? "charge" : "charge.classes[" + std::to_string(number) + "]";
+}
+
 /// A class without a ball would still set the time-step and the softness of the balls that there are.
 [[noreturn]] void refuse_empty_class(const meshing::Mill& mill, std::size_t number) {
   const auto& size = mill.charge.classes[number];
-  // A charge of one class may be given by `fill`, without a list of classes.
   const bool is_whole_charge = mill.charge.classes.size() == 1;
-  throw KeyError(is_whole_charge ? "charge" : "charge.classes[" + std::to_string(number) + "]",
+  throw KeyError(key_of_class(mill, number),
                  shown(size.mass) + " kg of balls of " + shown(size.diameter) +
                      " m in this mill, which rounds to 0 balls",
                  "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) +
@@ -45,6 +51,11 @@ std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
   for (std::size_t i = 0; i < mill.charge.classes.size(); ++i) {
     const auto& size = mill.charge.classes[i];
     const double one = ball_mass(mill, size.diameter);
+    if (!(size.mass / one <= most_balls))
+      throw KeyError(key_of_class(mill, i),
+                     shown(size.mass) + " kg of balls of " + shown(size.diameter) + " m, which are " +
+                         shown(size.mass / one) + " balls",
+                     "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
     const long count = std::lround(size.mass / one);
     if (count == 0 && size.diameter >= mill.charge.fines_below) refuse_empty_class(mill, i);
     classes.push_back({size.diameter, size.mass, static_cast<double>(count) * one, count});
@@ -113,6 +124,18 @@ long ChargePlan::balls() const {
 double ChargePlan::mass() const {
   double sum = 0;
   for (const auto& size : classes) sum += size.mass_realised;
+  return sum;
+}
+
+double ChargePlan::fines_mass() const {
+  double sum = 0;
+  for (const auto& size : fines) sum += size.mass_asked;
+  return sum;
+}
+
+double ChargePlan::asked_mass() const {
+  double sum = fines_mass();
+  for (const auto& size : classes) sum += size.mass_asked;
   return sum;
 }
 

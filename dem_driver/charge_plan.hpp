@@ -33,7 +33,9 @@ struct ChargePlan {
   std::vector<Round> rounds;        ///< largest first; every ball of `classes` is in exactly one insertion
   double round_settle_time = 0;     ///< s, that the balls of a round fall before the next round comes
   long balls() const;
-  double mass() const;  ///< kg realised
+  double mass() const;        ///< kg realised
+  double fines_mass() const;  ///< kg that `mill.yaml` asks of the classes that are left out
+  double asked_mass() const;  ///< kg that `mill.yaml` asks of all classes, fines too
 };
 
 /// Random insertion without overlap jams near a solidity of 0.38; a round fills the free part of the start

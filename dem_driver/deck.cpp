@@ -10,16 +10,12 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pi.hpp"
-#include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
 
-constexpr long restarts = 50;  // of a run, unless it is short
-constexpr long fewest_records_per_restart = 10;
 // Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
 // to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
@@ -45,25 +41,6 @@ class Primes {
   static constexpr int stretch = 10007;
   int last_;
 };
-
-/// About a fiftieth of all records, so that the run is a whole number of such parts wherever it can be: the
-/// histograms of the overlaps are written one for each part.
-long records_per_restart(long records) {
-  const long wished = std::min(records, std::max(fewest_records_per_restart, records / restarts));
-  for (long part = wished; part <= std::min(records, 4 * wished); ++part)
-    if (records % part == 0) return part;
-  return wished;
-}
-
-/// Time-steps between two dumps of the contacts, 0 where there are none.
-long steps_between_contacts(const meshing::Mill& mill, double time_step) {
-  const double interval = mill.dem.contact_interval;
-  if (interval == 0) return 0;
-  if (interval < time_step * (1 - 1e-9))
-    throw KeyError("dem.contact_interval", meshing::shown(interval),
-                   "0 or at least the time-step, " + meshing::shown(time_step) + " s");
-  return std::lround(interval / time_step);
-}
 
 bool is_periodic(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic;
@@ -301,34 +278,6 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
 }
 
 }  // namespace
-
-long DemPlan::insertions() const {
-  long sum = 0;
-  for (const auto& round : charge.rounds) sum += static_cast<long>(round.size());
-  return sum;
-}
-
-long DemPlan::total_steps() const {
-  return insertions() + static_cast<long>(charge.rounds.size() - 1) * round_steps + settle_steps +
-         turning_steps;
-}
-
-DemPlan plan_dem(const meshing::Mill& mill) {
-  DemPlan plan;
-  plan.step = choose_time_step(mill);
-  plan.charge = plan_charge(mill);
-  const auto whole = [](double ratio) { return std::lround(std::ceil(ratio * (1 - 1e-9))); };
-  plan.round_steps = whole(plan.charge.round_settle_time / plan.step.value);
-  plan.settle_steps = whole(mill.dem.settle_time / plan.step.value);
-  const long records = std::max(1L, whole(mill.dem.duration / mill.dem.record_interval));
-  plan.dumps = records + 1;
-  plan.turning_steps = records * plan.step.steps_per_record;
-  plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
-  plan.restart_steps = records_per_restart(records) * plan.step.steps_per_record;
-  plan.contact_steps = steps_between_contacts(mill, plan.step.value);
-  if (plan.contact_steps > 0) plan.contact_dumps = plan.turning_steps / plan.contact_steps + 1;
-  return plan;
-}
 
 int read_ranks(const std::string& word) {
   int ranks = 0;

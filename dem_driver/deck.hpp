@@ -26,12 +26,17 @@ struct DemPlan {
   long restart_steps = 0;   ///< between two restart files of the turning mill, a whole number of records
   long insertions() const;  ///< single insertions of all rounds; each takes one step
   long total_steps() const;
+  double duration() const;  ///< s of turning mill
 };
+
+/// A run of more steps or dumps is refused: it would never end, or fill any disk.
+inline constexpr double most_steps = 1e9;
+inline constexpr double most_dumps = 1e6;
 
 /// Chooses the time-step and cuts charge and duration into whole balls and steps. The duration is rounded up
 /// to a whole number of record intervals, and the interval of the contacts to the nearest whole number of
-/// steps. Throws KeyError as `choose_time_step` and `plan_charge` do, and for an interval of the contacts
-/// below the time-step.
+/// steps. Throws KeyError as `choose_time_step` and `plan_charge` do, for an interval of the contacts
+/// below the time-step, and for more than `most_steps` or `most_dumps`.
 DemPlan plan_dem(const meshing::Mill& mill);
 
 /// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is no whole

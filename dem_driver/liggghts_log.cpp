@@ -24,6 +24,15 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
+/// "LIGGGHTS-PUBLIC 3.8.0" of the line "LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled …)".
+std::string version_in(const std::string& line) {
+  const std::string before = "(Version ";
+  const auto begin = line.find(before);
+  if (begin == std::string::npos) return {};
+  const auto end = line.find_first_of(",)", begin);
+  return line.substr(begin + before.size(), end == std::string::npos ? end : end - begin - before.size());
+}
+
 /// A line of dashes, between which Open MPI puts its messages.
 bool is_rule(const std::string& line) {
   return line.find_first_not_of('-') == std::string::npos;
@@ -57,6 +66,7 @@ void LiggghtsLog::read(const std::string& line) {
   const auto words = split(line);
   if (starts_with(line, "LIGGGHTS (")) {
     begun_ = true;
+    version_ = version_in(line);
   } else if (starts_with(line, "ERROR")) {
     if (error_.empty()) error_ = line;
   } else if (starts_with(line, inserted_mark)) {
@@ -66,6 +76,7 @@ void LiggghtsLog::read(const std::string& line) {
     last_step_ = 0;
   } else if (starts_with(line, restart_mark)) {
     restart_step_ = std::atol(line.c_str() + std::string(restart_mark).size());
+    dumped_until_ = restart_step_;
   } else if (starts_with(line, finished_mark)) {
     finished_ = true;
   } else if (words.size() >= 3 && words[0] == "Step" && words[1] == "Atoms") {
@@ -86,6 +97,7 @@ void LiggghtsLog::read_thermo(const std::vector<std::string>& words) {
       throw RunError("the kinetic energy is not finite at step " + words[0] +
                      ": shorten dem.rayleigh_fraction");
   last_step_ = step;
+  if (turning_) dumped_until_ = step;  // LIGGGHTS prints a line after the dumps of its step
   steps_done_ = turning_ ? plan_.total_steps() - plan_.turning_steps + step : step;
 }
 

@@ -34,6 +34,9 @@ class LiggghtsLog {
   bool finished() const { return finished_; }          ///< the deck came to its end
   const std::string& error() const { return error_; }  ///< first line that begins with ERROR, or empty
   std::optional<long> restart_step() const { return restart_step_; }  ///< of the last whole restart file
+  /// Step of the turning mill up to which all dumps are written; nothing before the first.
+  std::optional<long> dumped_until() const { return dumped_until_; }
+  const std::string& version() const { return version_; }  ///< of LIGGGHTS, by its first line
   bool begun() const { return begun_; }  ///< LIGGGHTS itself has printed, not only what was to start it
   std::string first_lines() const;       ///< for a message, each on its own line, without rules
   std::string last_lines() const;        ///< for a message, each on its own line
@@ -56,6 +59,8 @@ class LiggghtsLog {
   bool turning_ = false;
   bool finished_ = false;
   std::optional<long> restart_step_;
+  std::optional<long> dumped_until_;
+  std::string version_;
 };
 
 }  // namespace millfoam::dem_driver

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dem_driver/child_process.hpp"
+#include "dem_driver/output_check.hpp"
 #include "dem_driver/progress.hpp"
 #include "dem_driver/segments.hpp"
 
@@ -58,7 +59,7 @@ std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
 
 /// Reads the child's output to its end. Throws RunError without the log's name: the caller adds it.
 void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const CaseFolder& folder,
-            const DemPlan& plan, int ranks, ProgressOutput output) {
+            const DemPlan& plan, int ranks, OutputCheck& check, ProgressOutput output) {
   Progress progress(output.out, output.terminal, plan.total_steps());
   std::optional<long> last_restart;
   try {
@@ -66,8 +67,10 @@ void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const Ca
       file << *line << '\n' << std::flush;
       log.read(*line);
       progress.show(log.steps_done(), phase(log, plan));
+      if (log.dumped_until()) check.dumps_until(*log.dumped_until());
       if (log.restart_step() != last_restart) {
         last_restart = log.restart_step();
+        check.restart(*last_restart);
         remove_restarts_before(folder, *last_restart);
       }
     }
@@ -110,10 +113,11 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   std::ofstream file(folder.log(), resumed_at ? std::ios::app : std::ios::trunc);
   if (!file) throw RunError(folder.log().string() + ": cannot be written");
   LiggghtsLog log(plan, resumed_at.has_value());
+  OutputCheck check(folder, plan, resumed_at.value_or(0));
   const auto start = std::chrono::steady_clock::now();
   try {
     ChildProcess child(words, folder.dem(), environment());
-    follow(child, log, file, folder, plan, ranks, progress);
+    follow(child, log, file, folder, plan, ranks, check, progress);
   } catch (const RunError& error) {
     // Open MPI gives its reason first, and then much advice.
     const bool of_mpirun = ranks > 1 && !log.begun();
@@ -123,12 +127,14 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   }
   result.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.balls = log.balls();
+  result.liggghts = log.version();
   result.dumps = find_dumps(folder).size();
   if (static_cast<long>(result.dumps) != plan.dumps)
     throw RunError(folder.dumps().string() + ": " + std::to_string(result.dumps) + " dumps, expected " +
                    std::to_string(plan.dumps));
   const std::string complaint = contacts_complaint(folder, plan, plan.turning_steps);
   if (!complaint.empty()) throw RunError(complaint);
+  check.dumps_until(plan.turning_steps);
   return result;
 }
 

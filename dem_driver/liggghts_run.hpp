@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iosfwd>
 #include <optional>
+#include <string>
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/deck.hpp"
@@ -17,6 +18,7 @@ struct RunResult {
   int ranks = 1;
   long balls = 0;  ///< that LIGGGHTS counted at the end
   std::size_t dumps = 0;
+  std::string liggghts;  ///< its version
 };
 
 /// How progress is shown.
@@ -30,11 +32,12 @@ void require_programs(int ranks);
 
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
 /// `in.resume` where the run goes on from step `resumed_at`; everything it prints goes to
-/// DIR/dem/log.liggghts, after what an earlier part has left there. Shows progress, stops at the first sign
-/// of a useless run, and keeps only the last restart file. Throws RunError when `liggghts` (or `mpirun`) is
-/// not on PATH, when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number
-/// than asked, or when the number of dumps is not the plan's; the message has the log's name and last lines,
-/// or mpirun's first ones.
+/// DIR/dem/log.liggghts, after what an earlier part has left there. Shows progress and stops at the first
+/// sign of a useless run. Every dump and restart file is checked when it is written (OutputCheck), and the
+/// last restart file that is whole is kept. Throws RunError when `liggghts` (or `mpirun`) is not on PATH,
+/// when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number than asked,
+/// or when the number of dumps is not the plan's; the message has the log's name and last lines, or mpirun's
+/// first ones.
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
                        std::optional<long> resumed_at = std::nullopt);
 

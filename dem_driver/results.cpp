@@ -9,6 +9,7 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
 
 namespace millfoam::dem_driver {
@@ -39,8 +40,31 @@ double resting_speed(const CaseFolder& folder, double mass) {
   return 0;
 }
 
-const char* yes_or_no(bool value) {
-  return value ? "yes" : "no";
+Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& results) {
+  Json json = begin_result("charge", mill);
+  json["liggghts"] = results.run.liggghts;
+  add_rotation(json, mill);
+  add_charge(json, mill, plan.charge);
+  json.update({{"lost_balls", results.balls - results.run.balls},
+               {"steps", plan.total_steps()},
+               {"timestep_s", plan.step.value},
+               {"duration_s", plan.duration()},
+               {"dumps", plan.dumps},
+               {"modulus_Pa", plan.step.stiffness.modulus},
+               {"ranks", results.run.ranks},
+               {"wall_time_s", results.run.wall_time},
+               {"steady", results.steady()},
+               {"steady_from_s", results.steady_from()},
+               {"power_W", results.power_steadiness.mean},
+               {"power_error_W", results.power_steadiness.standard_error},
+               {"kinetic_energy_J", results.kinetic_steadiness.mean},
+               {"potential_energy_J", results.potential_steadiness.mean},
+               {"ball_overlap_largest_m", results.ball_overlaps.largest},
+               {"ball_overlap_99_m", results.ball_overlaps.percentile(0.99)},
+               {"wall_overlap_largest_m", results.wall_overlaps.largest},
+               {"wall_overlap_99_m", results.wall_overlaps.percentile(0.99)},
+               {"resting_speed_m_s", results.resting_speed}});
+  return json;
 }
 
 }  // namespace
@@ -112,6 +136,9 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   results.balls = plan.charge.balls();
   results.resting_speed = resting_speed(folder, plan.charge.mass());
   results.history = read_history(folder);
+  if (static_cast<long>(results.history.size()) + 1 != plan.dumps)
+    throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
+                   " records of torque and energy, expected " + std::to_string(plan.dumps - 1));
   results.time = column(results.history, [&](const HistoryRow& row) {
     return static_cast<double>(row.step) * plan.step.value;
   });
@@ -130,7 +157,8 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   return results;
 }
 
-void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Results& results) {
+void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                         const Results& results) {
   write_whole_file(folder.energy(), [&](std::ostream& out) {
     out << "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n" << std::setprecision(8);
     for (std::size_t i = 0; i < results.history.size(); ++i) {
@@ -146,19 +174,7 @@ void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Re
           << results.ball_overlaps.counts[bin] << ',' << results.wall_overlaps.counts[bin] << '\n';
   });
   write_whole_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
-  write_whole_file(folder.results(), [&](std::ostream& out) {
-    out << std::setprecision(8) << "balls " << results.balls << "\nlost_balls "
-        << results.balls - results.run.balls << "\nsteps " << plan.total_steps() << "\ntimestep "
-        << plan.step.value << "\nsmallest_diameter " << plan.charge.classes.back().diameter << "\nwall_time "
-        << results.run.wall_time << "\nranks " << results.run.ranks << "\nmodulus "
-        << plan.step.stiffness.modulus << "\nsteady " << yes_or_no(results.steady()) << "\nsteady_from "
-        << results.steady_from() << "\npower " << results.power_steadiness.mean << "\npower_error "
-        << results.power_steadiness.standard_error << "\nkinetic_energy " << results.kinetic_steadiness.mean
-        << "\npotential_energy " << results.potential_steadiness.mean << "\nball_overlap_largest "
-        << results.ball_overlaps.largest << "\nball_overlap_99 " << results.ball_overlaps.percentile(0.99)
-        << "\nwall_overlap_largest " << results.wall_overlaps.largest << "\nwall_overlap_99 "
-        << results.wall_overlaps.percentile(0.99) << "\nresting_speed " << results.resting_speed << '\n';
-  });
+  write_json(folder.results(), result_of(mill, plan, results));
 }
 
 void print_results(std::ostream& out, const DemPlan& plan, const Results& results) {

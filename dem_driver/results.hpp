@@ -53,12 +53,15 @@ struct Results {
   bool steady() const;
   double steady_from() const;  ///< s, the latest of the three
 };
+
+/// Throws RunError when LIGGGHTS has not written a record of torque and energy for every dump.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.txt` (lines `key value`), `dumps/energy.csv`, `dumps/overlaps.csv` and
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and
 /// `dumps/charge.csv`; see dem_driver/README.md.
-void write_results_files(const CaseFolder& folder, const DemPlan& plan, const Results& results);
+void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                         const Results& results);
 
 /// Prints the same in words.
 void print_results(std::ostream& out, const DemPlan& plan, const Results& results);

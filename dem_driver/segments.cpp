@@ -112,17 +112,26 @@ std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::stri
   return all;
 }
 
+std::vector<NumberedFile> find_numbered_dumps(const CaseFolder& folder) {
+  return find_numbered(folder.dumps(), "dump.", ".txt");
+}
+
 long count_dumps_until(const CaseFolder& folder, long step) {
-  const auto dumps = find_numbered(folder.dumps(), "dump.", ".txt");
+  const auto dumps = find_numbered_dumps(folder);
   return std::count_if(dumps.begin(), dumps.end(), [&](const auto& dump) { return dump.step <= step; });
 }
 
 void remove_dumps_after(const CaseFolder& folder, long step) {
-  for (const auto& dump : find_numbered(folder.dumps(), "dump.", ".txt"))
+  for (const auto& dump : find_numbered_dumps(folder))
     if (dump.step > step) fs::remove(dump.file);
   for (const char* kind : contact_kinds)
     for (const auto& contacts : find_contacts(folder, kind))
       if (contacts.step > step) fs::remove(contacts.file);
+}
+
+void remove_restarts_after(const CaseFolder& folder, long step) {
+  for (const auto& restart : find_restarts(folder))
+    if (restart.step > step) fs::remove(restart.file);
 }
 
 void remove_restarts_before(const CaseFolder& folder, long step) {

@@ -48,6 +48,9 @@ struct SegmentLine {
 /// one that is not all numbers.
 std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::string& kind, long continued = 0);
 
+/// Every `dumps/dump.<step>.txt`, by step.
+std::vector<NumberedFile> find_numbered_dumps(const CaseFolder& folder);
+
 /// Number of dumps of steps up to `step`.
 long count_dumps_until(const CaseFolder& folder, long step);
 
@@ -55,7 +58,8 @@ long count_dumps_until(const CaseFolder& folder, long step);
 /// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps before `step`.
+/// Removes the restart files of steps before or after `step`.
 void remove_restarts_before(const CaseFolder& folder, long step);
+void remove_restarts_after(const CaseFolder& folder, long step);
 
 }  // namespace millfoam::dem_driver

@@ -17,6 +17,8 @@ namespace millfoam::dem_driver {
 
 namespace {
 
+constexpr double most_steps_per_record = 1e15;  // which a long holds, for the hardest balls too
+
 TimeStepLimit rayleigh_limit(const meshing::Mill& mill, const Stiffness& stiffness) {
   double shortest = std::numeric_limits<double>::infinity();
   double diameter = 0;
@@ -30,7 +32,7 @@ TimeStepLimit rayleigh_limit(const meshing::Mill& mill, const Stiffness& stiffne
   }
   std::ostringstream reason;
   reason << mill.dem.rayleigh_fraction << " of the Rayleigh time of " << millimetres(diameter);
-  return {reason.str(), mill.dem.rayleigh_fraction * shortest};
+  return {"rayleigh", reason.str(), mill.dem.rayleigh_fraction * shortest};
 }
 
 TimeStepLimit contact_limit(const std::vector<NamedPair>& pairs, double speed) {
@@ -39,7 +41,7 @@ TimeStepLimit contact_limit(const std::vector<NamedPair>& pairs, double speed) {
   });
   std::ostringstream reason;
   reason << "1/" << steps_per_contact << " of the shortest Hertz contact, " << shortest->name;
-  return {reason.str(), hertz_contact_time(shortest->pair, speed) / steps_per_contact};
+  return {"contact", reason.str(), hertz_contact_time(shortest->pair, speed) / steps_per_contact};
 }
 
 }  // namespace
@@ -54,12 +56,13 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   step.limits.push_back(contact_limit(all_pairs(mill, step.stiffness), step.impact_speed));
   std::ostringstream crossing;
   crossing << "1/" << steps_per_allowed_overlap << " of the allowed overlap at the impact speed";
-  step.limits.push_back({crossing.str(), allowed_overlap_ratio * smallest_simulated(mill) /
-                                             steps_per_allowed_overlap / step.impact_speed});
+  step.limits.push_back(
+      {"overlap", crossing.str(),
+       allowed_overlap_ratio * smallest_simulated(mill) / steps_per_allowed_overlap / step.impact_speed});
 
   double longest = std::numeric_limits<double>::infinity();
   for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
-  if (!(longest > 0) || !std::isfinite(mill.dem.record_interval / longest))
+  if (!(longest > 0) || !(mill.dem.record_interval / longest < most_steps_per_record))
     throw KeyError(
         "dem.rayleigh_fraction", meshing::shown(mill.dem.rayleigh_fraction),
         "a fraction from which, with the balls' modulus and the smallest ball, a time-step follows");
@@ -71,21 +74,28 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   return step;
 }
 
-void print_advice(std::ostream& out, const meshing::Mill& mill) {
+std::vector<Softness> softness_table(const meshing::Mill& mill) {
   const double chosen = choose_time_step(mill).value;
-  out << "softness: modulus Pa   largest overlap %   time-step us   cost\n";
   std::vector<double> moduli{smallest_modulus, 1e7, 3e7, 1e8, 1e9, 1e10};
   while (moduli.size() > 1 && moduli.back() >= mill.ball.youngs_modulus) moduli.pop_back();
   if (mill.ball.youngs_modulus > moduli.back()) moduli.push_back(mill.ball.youngs_modulus);
+  std::vector<Softness> table;
   for (const double modulus : moduli) {
     meshing::Mill other = mill;
     other.dem.youngs_modulus = modulus;
     other.dem.largest_overlap = 0;
     other.dem.soften_below = 0;
     const TimeStep step = choose_time_step(other);
-    out << std::setprecision(3) << std::setw(21) << modulus << std::setw(20) << 100 * step.overlap.ratio
-        << std::setw(15) << 1e6 * step.value << std::setw(7) << chosen / step.value << '\n';
+    table.push_back({modulus, step.overlap.ratio, step.value, chosen / step.value});
   }
+  return table;
+}
+
+void print_advice(std::ostream& out, const meshing::Mill& mill) {
+  out << "softness: modulus Pa   largest overlap %   time-step us   cost\n";
+  for (const Softness& row : softness_table(mill))
+    out << std::setprecision(3) << std::setw(21) << row.modulus << std::setw(20) << 100 * row.overlap
+        << std::setw(15) << 1e6 * row.time_step << std::setw(7) << row.cost << '\n';
 }
 
 void print_time_step(std::ostream& out, const TimeStep& step) {

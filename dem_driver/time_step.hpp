@@ -12,8 +12,9 @@ namespace millfoam::dem_driver {
 
 /// One upper bound of the time-step and why it is there.
 struct TimeStepLimit {
-  std::string reason;
-  double value = 0;  ///< s
+  std::string name;    ///< rayleigh, contact or overlap
+  std::string reason;  ///< in words, with the balls that set it
+  double value = 0;    ///< s
 };
 
 /// The chosen time-step with its reasons.
@@ -40,8 +41,16 @@ inline constexpr double allowed_overlap_ratio = 0.15;
 /// values that give no finite step.
 TimeStep choose_time_step(const meshing::Mill& mill);
 
-/// Prints what softer and harder balls would mean for this mill: modulus, largest expected overlap, time-step
-/// and relative cost.
+/// What softer and harder balls would mean for a mill.
+struct Softness {
+  double modulus = 0;    ///< Pa
+  double overlap = 0;    ///< largest expected, over the smaller diameter
+  double time_step = 0;  ///< s
+  double cost = 0;       ///< steps, over those of the modulus chosen
+};
+std::vector<Softness> softness_table(const meshing::Mill& mill);
+
+/// Prints that table.
 void print_advice(std::ostream& out, const meshing::Mill& mill);
 
 /// Prints the moduli, the limits, the choice and the expected overlap as a small table; warns where the

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshing/polygon_set.hpp"
 #include "meshing/stl_file.hpp"
 
 namespace millfoam::dem_driver {
@@ -83,7 +82,7 @@ TextEnd check_text(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-void check_wall(const std::filesystem::path& file) {
+meshing::PolygonSet read_wall(const std::filesystem::path& file) {
   const std::string bytes = read_bytes(file), name = file.string();
   // No text holds a zero; the number of triangles in a binary header does, below 16 millions.
   const bool binary = bytes.find('\0') < binary_header;
@@ -98,6 +97,7 @@ void check_wall(const std::filesystem::path& file) {
         name,
         std::to_string(triangles) + " triangles and " + std::to_string(end.endfacets) + " lines 'endfacet'",
         "one such line, in small letters, for each triangle");
+  return wall;
 }
 
 }  // namespace millfoam::dem_driver

@@ -17,13 +17,16 @@
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/charge_plan.hpp"
 #include "dem_driver/deck.hpp"
+#include "dem_driver/disk_room.hpp"
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/mill_key.hpp"
+#include "dem_driver/output_check.hpp"
+#include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
-#include "dem_driver/time_step.hpp"
 #include "meshing/mill.hpp"
+#include "millfoam_version.hpp"
 
 namespace {
 
@@ -37,6 +40,7 @@ struct Options {
   int ranks = 1;
   bool deck_only = false;
   bool resume = false;
+  std::string plan_file;
 };
 
 /// What identifies a run, whatever its ranks and its length: its deck without the lines that depend on these.
@@ -63,13 +67,10 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Throws std::runtime_error when the run in the folder cannot be gone on with.
-void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
-                       const std::string& deck, long step) {
-  const std::string otherwise = ", so it cannot be resumed; without --resume it is replaced";
-  if (identity(read_text(folder.deck())) != identity(deck))
-    throw std::runtime_error(folder.deck().string() +
-                             ": the run there is of another mill.yaml or other walls than these" + otherwise);
+constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
+
+/// Throws std::runtime_error when the run in the folder cannot be gone on with at that step.
+void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
   if (step > plan.turning_steps) {
     const auto seconds = [&](long steps) { return in_words(static_cast<double>(steps) * plan.step.value); };
     throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
@@ -91,15 +92,14 @@ std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_dr
                               const std::string& deck) {
   const auto restarts = dem_driver::find_restarts(folder);
   if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
-  const long step = restarts.back().step;
-  require_resumable(folder, plan, deck, step);
+  if (identity(read_text(folder.deck())) != identity(deck))
+    throw std::runtime_error(folder.deck().string() +
+                             ": the run there is of another mill.yaml or other walls than these" + otherwise);
+  const auto step = dem_driver::last_good_restart(folder, plan);
+  if (!step || *step != restarts.back().step)
+    std::cout << restarts.back().file.string() << ": it, or a dump before it, is not whole and is not used\n";
+  if (step) require_resumable(folder, plan, *step);
   return step;
-}
-
-void print_plan(const meshing::Mill& mill, const dem_driver::DemPlan& plan) {
-  dem_driver::print_advice(std::cout, mill);
-  dem_driver::print_time_step(std::cout, plan.step);
-  dem_driver::print_charge(std::cout, plan.charge);
 }
 
 /// Makes the folder ready for LIGGGHTS: from `step` on, or anew.
@@ -107,6 +107,7 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (step) {
     dem_driver::remove_results(folder);
     dem_driver::remove_dumps_after(folder, *step);
+    dem_driver::remove_restarts_after(folder, *step);
     return;
   }
   const auto removed = dem_driver::prepare_folders(folder);
@@ -129,12 +130,14 @@ void run(const Options& options) {
     std::cout << folder.run_file().string() << ": the run is whole, nothing to do\n";
     return;
   }
-  print_plan(mill, plan);
+  dem_driver::print_plan(std::cout, mill, plan);
   if (!options.deck_only) {
     dem_driver::require_programs(options.ranks);
+    dem_driver::require_room(folder, plan, step.value_or(0));
     prepare(folder, step);
   }
   dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
+  dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;
   if (step) {
@@ -147,18 +150,35 @@ void run(const Options& options) {
   const auto result =
       dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0}, step);
   const auto results = dem_driver::gather_results(folder, mill, plan, result);
-  dem_driver::write_results_files(folder, plan, results);
+  dem_driver::write_results_files(folder, mill, plan, results);
   // Only now, so that the dumps of a broken run are not taken for a whole one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
 }
 
+/// Before the trial, which takes half a minute.
+void check_plan_file(const Options& options) {
+  const fs::path file = options.plan_file;
+  const fs::path place = fs::absolute(file).parent_path();
+  std::error_code none;
+  if (fs::equivalent(file, options.mill_file, none))
+    throw std::runtime_error("--json " + file.string() +
+                             ": is the description of the mill, expected another file");
+  if (!fs::is_directory(place))
+    throw std::runtime_error("--json " + file.string() + ": no such folder, expected one that exists");
+}
+
 void plan(const Options& options) {
+  if (!options.plan_file.empty()) check_plan_file(options);
   const auto mill = meshing::read_mill(options.mill_file);
   const auto plan = dem_driver::plan_dem(mill);
-  print_plan(mill, plan);
+  dem_driver::print_plan(std::cout, mill, plan);
   const auto cost = dem_driver::measure_cost(mill, options.ranks);
-  dem_driver::print_forecast(std::cout, dem_driver::forecast(plan, cost, options.ranks), cost, options.ranks);
+  const auto forecast = dem_driver::forecast(plan, cost, options.ranks);
+  dem_driver::print_forecast(std::cout, forecast, cost, options.ranks);
+  if (!options.plan_file.empty())
+    dem_driver::write_plan_file(options.plan_file, mill, plan,
+                                dem_driver::MeasuredForecast{forecast, cost, options.ranks});
 }
 
 /// CLI11 knows no long option with one dash, but `-np` is what every user of MPI types.
@@ -172,6 +192,7 @@ std::vector<std::string> arguments(int argc, char** argv) {
 using Action = void (*)(const Options&);
 
 void add_common(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", std::string("millDem ") + version());
   app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
   app.add_option_function<std::string>(
          "--np", [&](const std::string& word) { options.ranks = dem_driver::read_ranks(word); },
@@ -186,6 +207,7 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
     app.description(
         "Predicts steps, wall time, disk and memory of a dry run, from a trial of half a minute.");
     add_common(app, options);
+    app.add_option("--json", options.plan_file, "write the plan to this file, too");
     app.parse(words);
     return plan;
   }

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <map>
 
 #include "dem_driver/segments.hpp"
+#include "millfoam_version.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -24,11 +24,12 @@ void touch(const std::filesystem::path& file) {
 TEST(CaseFolder, OnlyDumpsAndRunFileOfAnEarlierRunAreRemoved) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};
-  for (const char* name : {"dump.0.txt", "dump.50.txt", "run.txt", "dump.0.gz", "notes.txt"})
+  for (const char* name : {"dump.0.txt", "dump.50.txt", "run.json", "results.json", "dump.0.gz", "notes.txt"})
     touch(folder.dumps() / name);
   EXPECT_EQ(prepare_folders(folder), 2u);
   EXPECT_TRUE(find_dumps(folder).empty());
   EXPECT_FALSE(std::filesystem::exists(folder.run_file()));
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
   EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "dump.0.gz"));
   EXPECT_TRUE(std::filesystem::exists(folder.dumps() / "notes.txt"));
 }
@@ -107,21 +108,48 @@ TEST(CaseFolder, AWallThatIsCutIsNamed) {
   EXPECT_NE(message.find("is cut short"), std::string::npos) << message;
 }
 
-TEST(CaseFolder, TheRunFileGivesTimestepIntervalAndSpeedToFullPrecision) {
+TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};
-  const auto mill = small_mill();
+  auto mill = small_mill();
+  mill.charge.fines_below = 0.0025;
   const DemPlan plan = plan_dem(mill);
   prepare_folders(folder);
   write_run_file(folder, mill, plan);
-  std::ifstream in(folder.run_file());
-  std::map<std::string, double> entries;
-  std::string key;
-  for (double value = 0; in >> key >> value;) entries[key] = value;
-  EXPECT_EQ(entries,
-            (std::map<std::string, double>{{"timestep", plan.step.value},
-                                           {"interval", static_cast<double>(plan.step.steps_per_record)},
-                                           {"angular_velocity", -12}}));
+  EXPECT_EQ(tests::read_json(folder.run_file()),
+            (nlohmann::json{{"format", "millfoam-dumps"},
+                            {"program", std::string("millDem ") + version()},
+                            {"mill", nlohmann::json::object()},
+                            {"timestep_s", plan.step.value},
+                            {"interval", plan.step.steps_per_record},
+                            {"angular_velocity_rad_s", -12.0},
+                            {"duration_s", plan.duration()},
+                            {"charge_mass_kg", plan.charge.mass()},
+                            {"fines_mass_kg", mill.charge.classes.at(0).mass}}));
+}
+
+/// A drum with plain ends, whose shell is closed at both or only at its feed end.
+void write_body(const CaseFolder& folder, const meshing::Geometry& geometry, bool closed_at_discharge) {
+  std::filesystem::create_directories(folder.walls());
+  std::ofstream out(folder.walls() / "shell.stl");
+  out << "solid shell\n";
+  tests::write_shell(out, geometry);
+  tests::write_disc(out, geometry, 0);
+  if (closed_at_discharge) tests::write_disc(out, geometry, geometry.length);
+  out << "endsolid shell\n";
+}
+
+TEST(CaseFolder, AnEndMayBeMissingOnlyWhereTheShellClosesIt) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  write_body(folder, mill.geometry, true);
+  EXPECT_EQ(find_walls(folder, mill), std::vector<std::string>{"shell"});
+  write_body(folder, mill.geometry, false);
+  EXPECT_EQ(message_of([&] { find_walls(folder, mill); }),
+            (folder.walls() / "dischargeEnd.stl").string() +
+                ": no such wall, and the others leave this end open, run millMesh first");
 }
 
 }  // namespace

@@ -93,6 +93,13 @@ TEST(ChargePlan, AClassLighterThanHalfABallIsRefusedAsItWouldStillSetTheTimeStep
   EXPECT_EQ(plan_charge(mill).classes.back().count, 1);
 }
 
+TEST(ChargePlan, MoreBallsThanCanBeCountedAreRefused) {
+  auto mill = small_mill();
+  mill.charge.classes.push_back({1e-9, 1});
+  EXPECT_EQ(message_of([&] { plan_charge(mill); }).find("key 'charge.classes[2]' = 1 kg of balls of 1e-09 m"),
+            0u);
+}
+
 TEST(ChargePlan, FinesMayBeLighterThanHalfABall) {
   auto mill = small_mill();
   mill.charge.classes.push_back({0.001, 1e-9});

@@ -305,6 +305,38 @@ TEST(Deck, ContactsMoreOftenThanEveryStepAreRefused) {
   EXPECT_EQ(plan_dem(mill_with_contacts(step)).contact_steps, 1);
 }
 
+/// What plan_dem says of the small mill after a change.
+template <typename Change>
+std::string refusal(Change change) {
+  auto mill = small_mill();
+  change(mill.dem);
+  return message_of([&] { plan_dem(mill); });
+}
+
+TEST(Deck, ARunOfMoreStepsOrDumpsThanCanBeIsRefusedWithTheirNumber) {
+  EXPECT_EQ(refusal([](auto& dem) { dem.duration = 1e12; }),
+            "key 'dem.duration' = 1e+12: expected at most 1e+09 steps of less than 1 s, these are 1e+12");
+  const std::string hours = refusal([](auto& dem) {
+    dem.duration = 1e6;
+    dem.record_interval = 10;
+  });
+  EXPECT_EQ(hours.find("key 'dem.duration' = 1e+06: expected at most 1e+09 steps of "), 0u) << hours;
+  EXPECT_EQ(refusal([](auto& dem) {
+              dem.duration = dem.record_interval = 1e300;
+            }).find("key 'dem.duration' = 1e+300: expected at most 1e+09 steps"),
+            0u);
+  EXPECT_EQ(refusal([](auto& dem) { dem.settle_time = 1e12; }).find("key 'dem.settle_time' = 1e+12"), 0u);
+  EXPECT_EQ(refusal([](auto& dem) { dem.record_interval = 1e-7; }),
+            "key 'dem.record_interval' = 1e-07: expected at most 1e+06 dumps in 0.3 s, these are 3e+06");
+  const std::string contacts = refusal([](auto& dem) {
+    dem.duration = 200;
+    dem.contact_interval = 1e-4;
+  });
+  EXPECT_EQ(
+      contacts,
+      "key 'dem.contact_interval' = 0.0001: expected at most 1e+06 dumps of the contacts, these are 2e+06");
+}
+
 TEST(Deck, AResumedRunDumpsContactsAtTheSameSteps) {
   const auto mill = mill_with_contacts(0.01);
   std::ostringstream out;

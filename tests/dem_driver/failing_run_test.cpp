@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/output_check.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -36,6 +37,7 @@ class FailingRun : public ::testing::Test {
     return names_log && message.find(words) != std::string::npos;
   }
 
+  DemPlan plan_ = plan_dem(small_mill());
   TemporaryFolder temporary_;
   CaseFolder folder_{temporary_.path() / "case"};
 };
@@ -78,6 +80,42 @@ TEST_F(FailingRun, AnEnergyThatIsNotFiniteStopsTheRun) {
 
 TEST_F(FailingRun, AnEarlyEndIsNoSuccess) {
   EXPECT_TRUE(complains(inserted, "before the deck's last line"));
+}
+
+/// Commands that write the dump of a step with as many lines of balls as there is room for.
+std::string dump(long step) {
+  const std::string name = "../dumps/dump." + std::to_string(step) + ".txt";
+  return "{ printf 'ITEM: TIMESTEP\\n" + std::to_string(step) +
+         "\\nITEM: NUMBER OF ATOMS\\n250\\nBOX\\n0 1\\n0 1\\n0 1\\nITEM: ATOMS id\\n'; seq 250; } > " + name +
+         '\n';
+}
+
+const std::string turning = inserted + "echo millFoam turning\necho '  Step  Atoms  KinEng  overlap'\n";
+
+TEST_F(FailingRun, ADumpThatHadNoRoomStopsTheRunAtOnce) {
+  // A file of more than one block of 512 bytes is cut there, as a full disk would.
+  const std::string message =
+      complaint(turning + dump(0) + "echo '0 250 1e-3 0'\ntrap '' XFSZ\nulimit -f 1\n" +
+                dump(plan_.step.steps_per_record) + "echo '" + std::to_string(plan_.step.steps_per_record) +
+                " 250 1e-3 0'\nsleep 60");
+  const auto file = folder_.dumps() / ("dump." + std::to_string(plan_.step.steps_per_record) + ".txt");
+  EXPECT_EQ(message.find(file.string() + ": 512 bytes with "), 0u) << message;
+  EXPECT_NE(message.find("whole lines, expected 259; "), std::string::npos) << message;
+  EXPECT_NE(message.find(" free"), std::string::npos) << message;
+  EXPECT_NE(message.find("--resume begins anew: there is no whole restart file yet"), std::string::npos)
+      << message;
+}
+
+TEST_F(FailingRun, TheLastGoodRestartFileIsKeptWhenTheNextHadNoRoom) {
+  tests::write_restart(temporary_.path() / "good", {250});
+  const std::string good = "cp ../../good restart.100\necho 'millFoam restart 100'\n";
+  const std::string message =
+      complaint(turning + good + ": > restart.200\necho 'millFoam restart 200'\nsleep 60");
+  EXPECT_EQ(message.find((folder_.dem() / "restart.200").string() + ": 0 bytes, expected a restart file"), 0u)
+      << message;
+  EXPECT_NE(message.find("--resume continues from step 100"), std::string::npos) << message;
+  EXPECT_TRUE(std::filesystem::exists(folder_.dem() / "restart.100"));
+  EXPECT_EQ(last_good_restart(folder_, plan_), 100);
 }
 
 TEST_F(FailingRun, MissingDumpsAreCounted) {

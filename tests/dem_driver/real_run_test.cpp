@@ -9,7 +9,10 @@
 #include <sstream>
 
 #include "dem_driver/liggghts_run.hpp"
+#include "dem_driver/output_check.hpp"
 #include "dem_driver/results.hpp"
+#include "dem_driver/segments.hpp"
+#include "millfoam_version.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -61,7 +64,7 @@ class RealRun : public ::testing::Test {
     std::ostringstream progress;
     const RunResult run = run_liggghts(folder, *plan_, 1, {progress, false});
     result_ = new Results(gather_results(folder, mill, *plan_, run));
-    write_results_files(folder, *plan_, *result_);
+    write_results_files(folder, mill, *plan_, *result_);
     progress_ = new std::string(progress.str());
     snapshots_ = new std::vector<Snapshot>;
     for (const auto& file : find_dumps(folder)) snapshots_->push_back(read_dump(file));
@@ -208,6 +211,46 @@ TEST_F(RealRun, TheBooksStandBesideTheDumps) {
   EXPECT_EQ(first.substr(0, 10), "0.003,150,");
   for (const auto& file : {folder.results(), folder.energy(), folder.overlaps()})
     EXPECT_TRUE(std::filesystem::exists(file)) << file;
+}
+
+TEST_F(RealRun, TheResultsAreDataWithUnits) {
+  const auto results = tests::read_json(CaseFolder{temporary_->path()}.results());
+  EXPECT_EQ(results["format"], "millfoam-charge");
+  EXPECT_EQ(results["program"], std::string("millDem ") + version());
+  EXPECT_EQ(results["liggghts"].get<std::string>().find("LIGGGHTS"), 0u) << results["liggghts"];
+  EXPECT_EQ(results["sense"], "clockwise");
+  EXPECT_EQ(results["balls"], 250);
+  EXPECT_EQ(results["lost_balls"], 0);
+  EXPECT_EQ(results["steps"], plan_->total_steps());
+  EXPECT_EQ(results["smallest_diameter_m"], 0.002);
+  EXPECT_EQ(results["largest_diameter_m"], 0.003);
+  EXPECT_EQ(results["power_W"], result_->power_steadiness.mean);
+  EXPECT_EQ(results["power_error_W"], result_->power_steadiness.standard_error);
+  EXPECT_EQ(results["steady"], result_->steady());
+  EXPECT_EQ(results["ball_overlap_99_m"], result_->ball_overlaps.percentile(0.99));
+  EXPECT_NEAR(results["duration_s"], 0.3, 1e-9);
+  for (const char* key :
+       {"timestep_s", "modulus_Pa", "wall_time_s", "wall_overlap_largest_m", "resting_speed_m_s"})
+    EXPECT_GT(results[key], 0) << key;
+}
+
+TEST_F(RealRun, AllThatLiggghtsWroteIsWhole) {
+  const CaseFolder folder{temporary_->path()};
+  for (const auto& dump : find_dumps(folder)) EXPECT_EQ(dump_complaint(dump, 250), "") << dump;
+  const auto restarts = find_restarts(folder);
+  ASSERT_EQ(restarts.size(), 1u);
+  EXPECT_EQ(restart_complaint(restarts[0].file, 250), "");
+  EXPECT_NE(restart_complaint(restarts[0].file, 249), "");
+  EXPECT_EQ(last_good_restart(folder, *plan_), plan_->turning_steps);
+}
+
+TEST_F(RealRun, ARestartFileOfLiggghtsThatIsCutIsToldWhereverItIsCut) {
+  const auto file = temporary_->path() / "cut";
+  std::filesystem::copy_file(find_restarts({temporary_->path()}).at(0).file, file);
+  for (auto size = std::filesystem::file_size(file); size > 0; size -= std::min<std::uintmax_t>(size, 4096)) {
+    std::filesystem::resize_file(file, size - 1);
+    EXPECT_NE(restart_complaint(file, 250), "") << size - 1;
+  }
 }
 
 TEST_F(RealRun, ProgressIsALineEveryTenPercentUpToTheEnd) {

@@ -74,6 +74,13 @@ TEST_F(ResultsTest, ALineWithANumberTooManyIsRefusedWithFileAndLine) {
   EXPECT_NE(message.find("torque.0.txt:1: 3 numbers, expected 2"), std::string::npos) << message;
 }
 
+TEST_F(ResultsTest, RecordsThatAreMissingAreCounted) {
+  write("dem/torque.0.txt", "10 1\n20 2\n");
+  const auto mill = tests::small_mill();
+  const std::string message = message_of([&] { gather_results(folder_, mill, plan_dem(mill), {}); });
+  EXPECT_NE(message.find("dem: 2 records of torque and energy, expected 30"), std::string::npos) << message;
+}
+
 TEST_F(ResultsTest, OverlapsOfAllHistogramsAreAddedUp) {
   write("dem/ballOverlaps.0.txt", histogram(10, {60, 30}, 0, 3e-6) + histogram(20, {1000}, 0, 1));
   write("dem/ballOverlaps.10.txt", histogram(20, {0, 5, 4}, 1, 9e-4));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <utility>
@@ -19,6 +20,13 @@ using Point = std::array<double, 3>;
 
 double ball_mass(double diameter) {
   return 2500 * pi / 6 * std::pow(diameter, 3);
+}
+
+constexpr int sides = 60;
+
+Point rim(const meshing::Geometry& geometry, int side, double z) {
+  const double angle = 2 * pi * (side % sides) / sides;
+  return {geometry.radius() * std::cos(angle), geometry.radius() * std::sin(angle), z};
 }
 
 void write_facet(std::ostream& out, const std::array<Point, 3>& corners) {
@@ -64,22 +72,49 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
+void write_shell(std::ostream& out, const meshing::Geometry& geometry) {
+  for (int i = 0; i < sides; ++i) {
+    const Point a = rim(geometry, i, 0), b = rim(geometry, i + 1, 0);
+    const Point c = rim(geometry, i, geometry.length), d = rim(geometry, i + 1, geometry.length);
+    write_facet(out, {a, b, d});
+    write_facet(out, {a, d, c});
+  }
+}
+
+void write_disc(std::ostream& out, const meshing::Geometry& geometry, double z) {
+  for (int i = 0; i < sides; ++i)
+    write_facet(out, {Point{0, 0, z}, rim(geometry, i, z), rim(geometry, i + 1, z)});
+}
+
 void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry) {
   fs::create_directories(folder.walls());
   std::ofstream out(folder.walls() / "shell.stl");
   out.precision(12);
   out << "solid shell\n";
-  const int sides = 60;
-  for (int i = 0; i < sides; ++i) {
-    const double a = 2 * pi * i / sides;
-    const double b = 2 * pi * ((i + 1) % sides) / sides;
-    const auto corner = [&](double angle, double z) {
-      return Point{geometry.radius() * std::cos(angle), geometry.radius() * std::sin(angle), z};
-    };
-    write_facet(out, {corner(a, 0), corner(b, 0), corner(b, geometry.length)});
-    write_facet(out, {corner(a, 0), corner(b, geometry.length), corner(a, geometry.length)});
-  }
+  write_shell(out, geometry);
   out << "endsolid shell\n";
+}
+
+void write_restart(const fs::path& file, const std::vector<int>& balls_of_ranks) {
+  std::ofstream out(file, std::ios::binary);
+  const auto put = [&](const auto& number) {
+    out.write(reinterpret_cast<const char*>(&number), sizeof number);
+  };
+  out << "LIGGGHTS and what it writes before the balls\n";
+  for (const int balls : balls_of_ranks) {
+    // Balls with and without contacts have records of 20 and 28 numbers.
+    put(std::int32_t{20 * ((balls + 1) / 2) + 28 * (balls / 2)});
+    for (int ball = 0; ball < balls; ++ball) {
+      const int length = ball % 2 == 0 ? 20 : 28;
+      put(double(length));
+      for (int number = 1; number < length; ++number) put(0.001 * number - 0.01 * ball);
+    }
+  }
+}
+
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in);
 }
 
 void write_script(const fs::path& file, const std::string& commands) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,8 +29,18 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// Writes a file whose end is that of LIGGGHTS' restart files, one block of so many balls for each rank.
+void write_restart(const std::filesystem::path& file, const std::vector<int>& balls_of_ranks);
+
 /// Writes `walls/shell.stl` of a smooth drum, 60 flat sides.
 void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry);
+
+/// The facets of such a drum alone, and those of the disc that closes it at `z`, m.
+void write_shell(std::ostream& out, const meshing::Geometry& geometry);
+void write_disc(std::ostream& out, const meshing::Geometry& geometry, double z);
+
+/// The content of a JSON file.
+nlohmann::json read_json(const std::filesystem::path& file);
 
 /// Writes a shell script that can be run.
 void write_script(const std::filesystem::path& file, const std::string& commands);

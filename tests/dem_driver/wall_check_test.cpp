@@ -42,7 +42,7 @@ class WallCheck : public ::testing::Test {
   /// What is wrong with a file of these bytes, from its name on; empty when nothing is.
   std::string complaint(const std::string& bytes) {
     std::ofstream(file_, std::ios::binary) << bytes;
-    const std::string message = message_of([&] { check_wall(file_); });
+    const std::string message = message_of([&] { read_wall(file_); });
     return message.empty() ? message : message.substr(message.find("shell.stl"));
   }
 
@@ -117,7 +117,7 @@ TEST_F(WallCheck, WhatLiggghtsWouldTakeForAnotherFormIsRefused) {
 
 TEST_F(WallCheck, AFolderInThePlaceOfTheFileIsRefused) {
   std::filesystem::create_directory(file_);
-  EXPECT_NE(message_of([&] { check_wall(file_); }).find("shell.stl: cannot be read"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_wall(file_); }).find("shell.stl: cannot be read"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "dem_driver/deck.hpp"
+#include "dem_driver/mill_key.hpp"
+#include "meshing/yaml_section.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace {
+
+constexpr double longest_time_step = 1;  // s, above that of any ball
+constexpr long restarts = 50;            // of a run, unless it is short
+constexpr long fewest_records_per_restart = 10;
+
+/// About a fiftieth of all records, so that the run is a whole number of such parts wherever it can be: the
+/// histograms of the overlaps are written one for each part.
+long records_per_restart(long records) {
+  const long wished = std::min(records, std::max(fewest_records_per_restart, records / restarts));
+  for (long part = wished; part <= std::min(records, 4 * wished); ++part)
+    if (records % part == 0) return part;
+  return wished;
+}
+
+/// Before any such number is made a whole one: it may be larger than a `long` holds.
+void refuse_more(const char* key, double value, double count, double most, const std::string& what) {
+  if (count <= most) return;
+  throw KeyError(key, meshing::shown(value),
+                 "at most " + meshing::shown(most) + ' ' + what + ", these are " + meshing::shown(count));
+}
+
+void check_times(const meshing::Dem& dem) {
+  const std::string steps = "steps of less than " + meshing::shown(longest_time_step) + " s";
+  refuse_more("dem.duration", dem.duration, dem.duration / longest_time_step, most_steps, steps);
+  refuse_more("dem.record_interval", dem.record_interval, dem.duration / dem.record_interval, most_dumps,
+              "dumps in " + meshing::shown(dem.duration) + " s");
+}
+
+void check_steps(const meshing::Dem& dem, double time_step) {
+  const std::string steps = "steps of " + meshing::shown(time_step) + " s";
+  refuse_more("dem.settle_time", dem.settle_time, dem.settle_time / time_step, most_steps, steps);
+  refuse_more("dem.duration", dem.duration, dem.duration / time_step, most_steps, steps);
+}
+
+/// Time-steps between two dumps of the contacts, 0 where there are none.
+long steps_between_contacts(const meshing::Mill& mill, double time_step) {
+  const double interval = mill.dem.contact_interval;
+  if (interval == 0) return 0;
+  if (interval < time_step * (1 - 1e-9))
+    throw KeyError("dem.contact_interval", meshing::shown(interval),
+                   "0 or at least the time-step, " + meshing::shown(time_step) + " s");
+  refuse_more("dem.contact_interval", interval, mill.dem.duration / interval, most_dumps,
+              "dumps of the contacts");
+  return std::lround(interval / time_step);
+}
+
+}  // namespace
+
+long DemPlan::insertions() const {
+  long sum = 0;
+  for (const auto& round : charge.rounds) sum += static_cast<long>(round.size());
+  return sum;
+}
+
+long DemPlan::total_steps() const {
+  return insertions() + static_cast<long>(charge.rounds.size() - 1) * round_steps + settle_steps +
+         turning_steps;
+}
+
+double DemPlan::duration() const {
+  return static_cast<double>(turning_steps) * step.value;
+}
+
+DemPlan plan_dem(const meshing::Mill& mill) {
+  DemPlan plan;
+  check_times(mill.dem);
+  plan.step = choose_time_step(mill);
+  check_steps(mill.dem, plan.step.value);
+  plan.charge = plan_charge(mill);
+  const auto whole = [](double ratio) { return std::lround(std::ceil(ratio * (1 - 1e-9))); };
+  plan.round_steps = whole(plan.charge.round_settle_time / plan.step.value);
+  plan.settle_steps = whole(mill.dem.settle_time / plan.step.value);
+  const long records = std::max(1L, whole(mill.dem.duration / mill.dem.record_interval));
+  plan.dumps = records + 1;
+  plan.turning_steps = records * plan.step.steps_per_record;
+  plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
+  plan.restart_steps = records_per_restart(records) * plan.step.steps_per_record;
+  plan.contact_steps = steps_between_contacts(mill, plan.step.value);
+  if (plan.contact_steps > 0) plan.contact_dumps = plan.turning_steps / plan.contact_steps + 1;
+  return plan;
+}
+
+}  // namespace millfoam::dem_driver

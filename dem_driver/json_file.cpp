@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/json_file.hpp"
+
+#include <ostream>
+
+#include "dem_driver/case_folder.hpp"
+#include "dem_driver/plan_report.hpp"
+#include "meshing/mill_shape.hpp"
+#include "millfoam_version.hpp"
+
+namespace millfoam::dem_driver {
+
+Json fingerprints(const meshing::Mill& /*mill*/) {
+  return Json::object();
+}
+
+Json begin_result(const std::string& what, const meshing::Mill& mill) {
+  return {{"format", "millfoam-" + what},
+          {"program", std::string("millDem ") + version()},
+          {"mill", fingerprints(mill)}};
+}
+
+void add_rotation(Json& result, const meshing::Mill& mill) {
+  result["angular_velocity_rad_s"] = mill.angular_velocity;
+  result["sense"] = sense_of_rotation(mill.angular_velocity);
+}
+
+void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charge) {
+  const double bulk = heap_solidity * mill.ball.density * meshing::analytic_volume(mill.geometry);
+  result["balls"] = charge.balls();
+  result["smallest_diameter_m"] = charge.classes.back().diameter;
+  result["largest_diameter_m"] = charge.classes.front().diameter;
+  result["simulated_mass_kg"] = charge.mass();
+  result["asked_mass_kg"] = charge.asked_mass();
+  result["fines_mass_kg"] = charge.fines_mass();
+  result["fines_share"] = charge.fines_mass() / charge.asked_mass();
+  result["load"] = charge.mass() / bulk;
+  result["asked_load"] = charge.asked_mass() / bulk;
+}
+
+void write_json(const std::filesystem::path& file, const Json& result) {
+  write_whole_file(file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+}
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+
+#include "dem_driver/deck.hpp"
+#include "dem_driver/forecast.hpp"
+#include "meshing/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// "clockwise", "anticlockwise" or "at rest", seen with x to the right and y up; rad/s.
+const char* sense_of_rotation(double angular_velocity);
+
+/// Prints the mill's sense of rotation and speed, the choice of softness and time-step, and the charge.
+void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan);
+
+/// A forecast with what it was made from.
+struct MeasuredForecast {
+  Forecast forecast;
+  Cost cost;
+  int ranks = 1;
+};
+
+/// Writes the same as JSON, format "millfoam-dem-plan" (dem_driver/README.md), with the forecast where there
+/// is one. Throws std::runtime_error naming the file when it cannot be written.
+void write_plan_file(const std::filesystem::path& file, const meshing::Mill& mill, const DemPlan& plan,
+                     const std::optional<MeasuredForecast>& forecast = std::nullopt);
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "meshing/mill.hpp"
+#include "meshing/polygon_set.hpp"
+
+namespace millfoam::dem_driver {
+
+/// The triangles of one part of the walls, which may come from CAD.
+struct Wall {
+  std::filesystem::path file;
+  meshing::PolygonSet surface;  ///< m
+};
+
+/// Share of the mill's radius or length by which walls may be off.
+inline constexpr double allowed_misfit = 0.02;
+
+/// Throws std::runtime_error where the walls are not those of a mill of this geometry: the circle around all
+/// of them seen along the axis must have its radius and lie on the axis x = y = 0, and they must reach from
+/// z = 0 to its length, each to `allowed_misfit`. The message names the file that reaches too far or not far
+/// enough, the box of all walls, and what was expected.
+void require_fit(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
+
+/// How far the triangles of each half of the mill, all walls together, cover its section (a circle) when they
+/// are seen along the axis.
+struct EndCover {
+  double feed = 0;
+  double discharge = 0;
+};
+EndCover cover_of_ends(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
+
+/// An end that has no file of its own is closed from here on: a shell with both ends covers about 1, one that
+/// is open next to nothing.
+inline constexpr double least_cover = 0.5;
+
+}  // namespace millfoam::dem_driver
