@@ -1,66 +1,57 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of studies: a folder per run with mill.yaml, walls, dumps and averages, each made once, gone on with after a kill."""
-import re
+"""Dry runs of studies: a folder per run with mill.json, walls, dumps and averages, made once and resumed after a kill."""
 from dataclasses import dataclass
 from pathlib import Path
 
-from .mill_runs import changed, is_whole, fingerprint
+from .data_files import number, read_json
+from .mill import read_mill
+from .mill_runs import is_of, make_charge
 from .run import RunError, run
 from .solids import read_map
 
 
 @dataclass
 class DryRun:
-    """A run's results (dumps/results.txt: name -> number or word) and its map averaged over axis and time."""
+    """A run's results (dumps/results.json) and its map averaged over axis and time."""
     name: str
     results: dict
     charge: object
 
     def number(self, key):
-        return float(self.results[key])
+        """A number of the results, NaN for null; DataError where there is none."""
+        return number(self.results, self.name, key)
+
+    @property
+    def steady(self):
+        """`yes` or `no`, as tables have it."""
+        return "yes" if self.results["steady"] else "no"
 
 
-def read_results(path):
-    """Lines `key value` of a results.txt as a dictionary; numbers as text."""
-    return dict(line.split(maxsplit=1) for line in Path(path).read_text().splitlines())
+def is_whole(folder, mill):
+    """Whether a folder holds the averages of a Mill's dry run."""
+    return is_of(Path(folder) / "solids.json", "averages", "averages", mill)
 
 
-def make_dry_run(folder, mill, averaging, *, ranks=2, keep_dumps=False):
-    """Runs millMesh, millDem and millAverage in a folder, unless that was done with the same mill and options before.
+def make_dry_run(folder, mill, *, ranks=2, keep_dumps=False):
+    """DryRun of a Mill in a folder, whose name is the run's; it is made unless it is whole.
 
-    folder: its name is the run's; mill: text of mill.yaml; averaging: millAverage's options but for dumps, walls and file.
-    A run that was broken off is gone on with, also with another duration; one of another mill is left alone: RunError. Dumps
+    A run that was broken off is resumed, also with another duration; one of another mill is left alone: RunError. Dumps
     are large: they are removed once they are averaged, unless `keep_dumps`."""
     folder = Path(folder)
-    files = run_files(mill, averaging)
-    if not is_whole(folder, files):
-        begun = folder / "mill.yaml"
-        if begun.is_file() and (without_duration(begun.read_text()) != without_duration(mill) or (folder / "whole").is_file()):
-            raise RunError(f"{folder}: holds a run of another mill.yaml or other averages; remove it, or keep it elsewhere")
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in files.items():
-            (folder / name).write_text(text)
-        run(folder, "millMesh", "mill.yaml", "--case", ".")
-        run(folder, "millDem", "mill.yaml", "--case", ".", "-np", ranks, "--resume")
-        run(folder, "millAverage", "--dumps", "dumps/dump.*.txt", "--inside", "walls/*.stl", *averaging, "-o", "solids.h5")
-        (folder / "whole").write_text(fingerprint(files))
+    if not is_whole(folder, mill):
+        refuse_another(folder, mill)
+        make_charge(folder, mill, ranks)
+        run(folder, "millAverage", "mill.json", "--case", ".")
     if not keep_dumps:
-        # The restart files first: without them nobody goes on with a run that lacks dumps
+        # The restart files first: without them nobody resumes a run that lacks dumps
         for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
             large.unlink()
-    return DryRun(folder.name, read_results(folder / "dumps" / "results.txt"), read_map(folder / "solids.h5"))
+    return DryRun(folder.name, read_json(folder / "dumps" / "results.json", "charge"), read_map(folder / "solids.h5"))
 
 
-def run_files(mill, averaging):
-    """What a run is made from: name of a file in its folder -> text."""
-    return {"mill.yaml": mill, "averaging": " ".join(map(str, averaging)) + "\n"}
-
-
-def without_duration(mill):
-    """A mill.yaml's text but for the dry run's length."""
-    return re.sub(r"duration: +[^\s,}]+", "duration", mill)
-
-
-def with_entries(mill, **entries):
-    """A mill.yaml's text with the entries `key: value` given new values; each key must be there once."""
-    return changed(mill, "mill.yaml", entries)
+def refuse_another(folder, mill):
+    """RunError if a folder holds a run of another charge, or one with other averages, whose dumps may be gone."""
+    if not (folder / "mill.json").is_file():
+        return
+    if (folder / "solids.json").is_file() or read_mill(folder).fingerprint["charge"] != mill.fingerprint["charge"]:
+        raise RunError(f"{folder}: holds a run of another mill or with other averages; remove it, or keep it elsewhere")

@@ -1,138 +1,142 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs of the 12 cm mill's slice with changes: charge, averages and flows, each made once and kept.
+"""Mills with changes, and runs of the 12 cm mill's slice with them, each made once and kept.
 
-    charge/             the dry run, of the mill case's own mill.yaml
-    averages/NAME/      solids.h5 of a window and a voxel size
-    flows/NAME/         a case of slurryFoam
+What a run changes is a list of settings `path=value`, as every tool takes them behind --set. The mill that comes of them,
+mill.json, lies in the run's folder, and its fingerprints tell what was made from the same inputs:
 
-Every folder holds the files that it was made from and, once it is whole, the file `whole` with their fingerprint."""
-import hashlib
-import re
+    charge_FINGERPRINT/      a dry run
+    averages_FINGERPRINT/    solids.h5 of a charge, a window and a voxel size
+    flows/NAME/              a case of slurryFoam"""
+import json
+import os
 import shutil
+import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from .data_files import DataError, read_json
+from .flow_record import read_flow_record
+from .mill import Mill
 from .run import RunError, run
 
-MILL = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_12cm"
-MADE = ("polyMesh", "millProperties")  # in constant/: by millMesh
-START = 1.0  # DEM time at flow time 0, s
-HALF_BOX = 0.066  # half of the averages' square about the axis, m
-AXIAL_VOXEL = 12 / 11  # of the slice's voxels, over their width
+ROOT = Path(__file__).resolve().parents[2]
+MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
+TEMPLATE = ROOT / "scripts" / "mill_case"
+DICTIONARIES = ("0.orig", "constant", "system")  # of the template: a case of slurryFoam with balls
+FINE = ("resolution.cell_size=0.003", "resolution.layers=20")  # of the whole mill, as mill.yaml has them
+COARSE = ("resolution.cell_size=0.0045", "resolution.layers=10")  # a quarter of the cells
+# What the studies' published numbers were made with: a finer mesh and a shorter flow than the mill's own
+BASE = (*FINE, "dem.duration=1.6", "flow.duration=0.6", "flow.max_courant=0.5", "flow.max_time_step=0.001",
+        "flow.write_interval=0.02", "flow.out_of_range=error")
+LIMITS = ("max_courant", "max_surface_courant", "max_voidage_change", "max_time_step")
+OTHER_MESH = "\n// Balls of another mesh's walls, so that runs differ in the mesh alone\n#remove fingerprint\n"
 
 
 @dataclass(frozen=True)
 class Setting:
-    """What a run of the slice is made with; what is not given is as in the mill case.
-
-    window: s, or `whole`; voxel: width of the averages' voxels, m; steps: share of the mill case's limits on the time-step;
-    cell_size (m) and layers: None for the mill case's; law, multiplier: of the drag."""
+    """What a run of the slice changes of BASE: settings of the balls' averages, and settings of the mesh and the flow,
+    which leave the balls as they are."""
     name: str
-    window: str = "0.05"
-    voxel: float = 0.011
-    steps: float = 1.0
-    cell_size: float = None
-    layers: int = None
-    law: str = "Beetstra"
-    multiplier: float = 1.0
-
-    @property
-    def averages(self):
-        """Name of the averages that the run takes its balls from."""
-        return f"window_{self.window}_voxel_{1e3 * self.voxel:g}mm"
+    averages: tuple = ()
+    flow: tuple = ()
 
 
-def changed(text, name, entries):
-    """The text of file `name` with entries `key value` or `key: value` given new values; each key must be there once."""
-    for key, value in entries.items():
-        text, count = re.subn(rf"^(\s*{key}\b:?\s+)[^\s;]+", rf"\g<1>{value}", text, flags=re.M)
-        if count != 1:
-            raise RunError(f"{name}: '{key}' was found {count} times; expected once")
-    return text
+def set_options(changes):
+    """Settings `path=value` as a tool's options."""
+    return [word for change in changes for word in ("--set", change)]
 
 
-def case_files(setting):
-    """Files of the mill case with the setting's changes: path in the case -> text."""
-    folders = [MILL / name for name in ("system", "constant", "0.orig")]
-    paths = [path for folder in folders for path in sorted(folder.iterdir()) if path.name not in MADE and path.is_file()]
-    files = {str(path.relative_to(MILL)): path.read_text() for path in [MILL / "mill.yaml", *paths]}
-    control = files["system/controlDict"]
-    limits = {key: float(re.search(rf"^{key}\s+([^;]+);", control, flags=re.M).group(1)) * setting.steps
-              for key in ("maxCo", "maxAlphaCo", "maxVoidageChange", "maxDeltaT")}
-    mesh = {key: value for key, value in (("cell_size", setting.cell_size), ("layers", setting.layers)) if value}
-    edits = {"mill.yaml": mesh, "system/controlDict": {key: f"{value:g}" for key, value in limits.items()},
-             "constant/bedProperties": {"law": setting.law, "multiplier": f"{setting.multiplier:g}"}}
-    for name, entries in edits.items():
-        files[name] = changed(files[name], name, entries)
+def resolved(mill, changes=()):
+    """The Mill of a mill.yaml with settings `path=value`. RunError with millMesh's words where it refuses one."""
+    done = subprocess.run(["millMesh", str(mill), *set_options(changes), "--resolved", "-"], capture_output=True,
+                          text=True)
+    if done.returncode:
+        raise RunError(done.stderr.strip())
+    return Mill(mill, json.loads(done.stdout))
+
+
+def write_mill(mill, folder):
+    """Makes a folder with a Mill's mill.json, from which the tools are run in it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "mill.json").write_text(json.dumps(mill.content, indent=2) + "\n")
+
+
+def is_of(path, kind, part, mill):
+    """Whether a JSON file millfoam-`kind` is there and was made from a Mill's part: charge, averages or flow."""
+    try:
+        return path.is_file() and read_json(path, kind)["mill"].get(part) == mill.fingerprint[part]
+    except DataError:
+        return False
+
+
+def make_charge(folder, mill, ranks=2):
+    """The dry run of a Mill in a folder: walls/ and dumps/. A whole one is kept, one that was broken off is resumed."""
+    write_mill(mill, folder)
+    run(folder, "millMesh", "mill.json", "--case", ".", "--walls")
+    run(folder, "millDem", "mill.json", "--case", ".", "-np", ranks, "--resume")
+
+
+def make_averages(mill, runs):
+    """Folder, in `runs`, of a Mill's solids.h5."""
+    folder = runs / f"averages_{mill.fingerprint['averages']}"
+    if not is_of(folder / "solids.json", "averages", "averages", mill):
+        charge = runs / f"charge_{mill.fingerprint['charge']}"
+        make_charge(charge, mill)
+        write_mill(mill, folder)
+        run(folder, "millAverage", "mill.json", "--case", Path("..") / charge.name, "-o", "solids.h5")
+    return folder
+
+
+def case_files(own_balls):
+    """Dictionaries of a case: path in it -> text. With `own_balls` they refuse the averages of another mill."""
+    paths = [path for name in DICTIONARIES for path in sorted((TEMPLATE / name).iterdir())]
+    files = {path.relative_to(TEMPLATE): path.read_text() for path in paths}
+    if not own_balls:
+        files[Path("constant/bedProperties")] += OTHER_MESH
     return files
 
 
-def fingerprint(files):
-    """Hash of named texts."""
-    digest = hashlib.sha256()
-    for name in sorted(files):
-        digest.update(f"{name}\0{files[name]}\0".encode())
-    return digest.hexdigest()
+def is_whole(case, mill, averages, files):
+    """Whether a case is a flow that came to its end, of this Mill, with the balls in the folder `averages` and with
+    these dictionaries."""
+    record = read_flow_record(case)
+    return bool(record.complete and record.last["mill"].get("flow") == mill.fingerprint["flow"]
+                and (case / "solids.h5").resolve().parent == averages.resolve()
+                and all((case / name).is_file() and (case / name).read_text() == text for name, text in files.items()))
 
 
-def is_whole(folder, files):
-    """Whether a folder was made, to its end, from these files."""
-    stamp = Path(folder) / "whole"
-    return stamp.is_file() and stamp.read_text() == fingerprint(files)
-
-
-def make_once(folder, files, make):
-    """Fills a folder by make(folder) from these files (path -> text), unless it is whole; what was interrupted, or made from
-    other files, is made anew."""
-    folder = Path(folder)
-    if is_whole(folder, files):
-        return
-    shutil.rmtree(folder, ignore_errors=True)
+def make_flow(case, mill, averages, files):
+    """A case of these dictionaries and its slurryFoam run; what was in the folder goes."""
+    shutil.rmtree(case, ignore_errors=True)
+    write_mill(mill, case)
     for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-    make(folder)
-    (folder / "whole").write_text(fingerprint(files))
-
-
-def dry_run(folder):
-    """millDem's run of the slice; walls/ and dumps/."""
-    run(folder, "millMesh", "mill.yaml", "--case", ".", "--at-time", START)
-    run(folder, "millDem", "mill.yaml", "--case", ".", "-np", 2)
-
-
-def averaging_options(setting, length):
-    """millAverage's options for a slice of this length (m), the charge's folder being ../../charge."""
-    across = round(2 * HALF_BOX / setting.voxel)
-    along = max(1, round(length / (AXIAL_VOXEL * setting.voxel)))
-    return ["--dumps", "../../charge/dumps/dump.*.txt", "--box", -HALF_BOX, -HALF_BOX, 0, HALF_BOX, HALF_BOX, length,
-            "--shape", across, across, along, "--periodic", "z", "--inside", "../../charge/walls/*.stl", "--start", START,
-            "--window", setting.window, "-o", "solids.h5"]
-
-
-def compute_flow(folder, solids):
-    """slurryFoam's run of a case whose balls are in `solids`."""
-    (folder / "solids.h5").symlink_to(solids)
-    run(folder, "millMesh", "mill.yaml", "--case", ".", "--at-time", START)
-    shutil.copytree(folder / "0.orig", folder / "0")
-    run(folder, "slurryStart")
-    run(folder, "slurryFoam")
+        (case / name).parent.mkdir(exist_ok=True)
+        (case / name).write_text(text)
+    for name in ("solids.h5", "solids.json"):
+        (case / name).symlink_to(Path(os.path.relpath(averages, case)) / name)
+    run(case, "millMesh", "mill.json", "--case", ".")
+    shutil.copytree(case / "0.orig", case / "0")
+    run(case, "slurryStart")
+    run(case, "slurryFoam")
 
 
 def make_run(setting, runs):
-    """A setting's flow in the folder `runs`, with what it needs; returns the case's folder."""
+    """A setting's flow in the folder `runs`, with what it needs, unless it is whole; returns the case's folder."""
     runs = Path(runs)
-    mill = {"mill.yaml": (MILL / "mill.yaml").read_text()}
-    make_once(runs / "charge", mill, dry_run)
-    length = float(re.search(r"^ +length:\s+(\S+)", mill["mill.yaml"], flags=re.M).group(1))
-    options = [str(word) for word in averaging_options(setting, length)]
-    source = {"charge": fingerprint(mill), "options": " ".join(options) + "\n"}
-    averages = runs / "averages" / setting.averages
-    make_once(averages, source, lambda folder: run(folder, "millAverage", *options))
-    files = {**case_files(setting), "averages": fingerprint(source)}
+    balls = resolved(MILL, (*BASE, *setting.averages))
+    mill = resolved(MILL, (*BASE, *setting.averages, *setting.flow))
+    averages = make_averages(balls, runs)
+    files = case_files(mill.fingerprint["averages"] == balls.fingerprint["averages"])
     case = runs / "flows" / setting.name
-    make_once(case, files, lambda folder: compute_flow(folder, Path("../..") / averages.relative_to(runs) / "solids.h5"))
+    if not is_whole(case, mill, averages, files):
+        make_flow(case, mill, averages, files)
     return case
+
+
+def time_step_limits(share):
+    """Settings that take a share of all limits on the time-step."""
+    usual = resolved(MILL, BASE)
+    return tuple(f"flow.{key}={share * usual.asked('flow', key):.12g}" for key in LIMITS)
 
 
 def make_runs(settings, runs):

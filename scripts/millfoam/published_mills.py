@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of the published matrix, as studies make them: settings, their mill.yaml, their averages.
+"""Dry runs of the published matrix, as studies make them: settings, their mills, their averages.
 
 M. Malahe, MSc thesis, University of Cape Town, 2012: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds."""
 import csv
-import re
 from dataclasses import dataclass
-from pathlib import Path
 
-from .dry_runs import with_entries
-from .run import RunError
+from .mill_runs import ROOT, resolved
 
-CASES = Path(__file__).resolve().parents[2] / "cases"
-LOADS = CASES / "studies" / "dem_matrix" / "loads.csv"
+MILLS = {name: ROOT / "cases" / "mills" / f"mill_{name}" / "mill.yaml" for name in ("12cm", "30cm")}
+LOADS = ROOT / "cases" / "studies" / "dem_matrix" / "loads.csv"
 SPEEDS = tuple(range(40, 120, 10))  # % of critical
 LEFT_OUT, WINDOW, VOXELS = 1.0, 0.1, 65  # of the averages: s, s, across the mill
 DURATIONS = {("30cm", 60): 6.25, ("30cm", 75): 5.0}  # s; of the 12 cm mill:
@@ -36,10 +33,10 @@ class Setting:
 
 
 def published_loads():
-    """Load (%) of the 12 cm mill as text -> lines of charge.classes."""
+    """Load (%) of the 12 cm mill as text -> [(diameter in m, mass in kg), …]."""
     with open(LOADS, newline="") as file:
         table = list(csv.DictReader(file))
-    return {load: [f"    - {{diameter: {line['diameter_m']}, mass: {line[load]}}}" for line in table]
+    return {load: [(float(line["diameter_m"]), float(line[load])) for line in table]
             for load in table[0] if load != "diameter_m"}
 
 
@@ -50,41 +47,23 @@ def matrix():
     return {setting.name: setting for setting in small + large}
 
 
-def mill_text(setting, duration, slice_length):
-    """mill.yaml of a run: of the case's own mill, with this charge, speed and duration (s); a periodic slice of that length (m)
-    unless it is 0."""
-    source = CASES / "mills" / ("mill_12cm/mill_full.yaml" if setting.mill == "12cm" else "mill_30cm/mill.yaml")
-    text = with_entries(source.read_text(), fraction_of_critical=f"{setting.speed / 100:g}", duration=f"{duration:g}")
+def averages(voxels, start, window):
+    """The setting of averages over the axis: voxels across the mill, in windows (s) from `start` (s) on."""
+    return f"averages={{counts: {{across: {voxels}, along: 1}}, start: {start:g}, window: {window:g}}}"
+
+
+def mill(setting, duration, slice_length, left_out=LEFT_OUT, window=WINDOW, changes=()):
+    """The Mill of a run: the case's own, with this charge, speed and duration (s), and averaged on the published voxels
+    over its length; a periodic slice of that length (m) unless it is 0; with further settings `path=value`."""
+    name = setting.mill.replace("cm", " cm")
+    own = [f"title={name} mill, {setting.load} % load, {setting.speed} % of critical speed",
+           f"speed.fraction_of_critical={setting.speed / 100:g}", f"dem.duration={duration:g}",
+           averages(VOXELS, left_out, window), f"geometry.slice={f'{slice_length:g}' if slice_length else '~'}"]
     if setting.mill == "12cm":
-        lines = "\n".join(published_loads()[setting.load])
-        text = replaced(text, r"(?m)^  classes:\n(    - .*\n)+", f"  classes:\n{lines}\n")
-    if slice_length:
-        text = replaced(text, r"(?m)^geometry:\n", f"geometry:\n  slice: {slice_length:g}\n")
-    return text
-
-
-def replaced(text, pattern, new):
-    """The text with what the pattern finds, which must be there once, replaced."""
-    text, count = re.subn(pattern, new, text)
-    if count != 1:
-        raise RunError(f"mill.yaml: '{pattern}' was found {count} times; expected once")
-    return text
-
-
-def radius_and_length(text):
-    """Of a mill.yaml, m; the length of what is computed, a slice's if it is one."""
-    value = {key: float(re.search(rf"^  {key}: +(\S+)", text, re.M).group(1)) for key in ("diameter", "length")}
-    sliced = re.search(r"^  slice: (\S+)", text, re.M)
-    return value["diameter"] / 2, float(sliced.group(1)) if sliced else value["length"]
-
-
-def averaging(text, left_out=LEFT_OUT, window=WINDOW):
-    """millAverage's options for a mill.yaml: the published voxels over the mill's length, in windows (s) from
-    `left_out` (s) on."""
-    radius, length = radius_and_length(text)
-    options = ["--box", -radius, -radius, 0, radius, radius, length, "--shape", VOXELS, VOXELS, 1, "--start", left_out,
-               "--window", window]
-    return options + (["--periodic", "z"] if re.search(r"^  slice:", text, re.M) else [])
+        load = published_loads()[setting.load]
+        classes = ", ".join(f"{{diameter: {diameter:g}, mass: {mass:g}}}" for diameter, mass in load)
+        own.append(f"charge.classes=[{classes}]")
+    return resolved(MILLS[setting.mill], (*own, *changes))
 
 
 def run_name(name, slice_length):

@@ -4,7 +4,7 @@
 from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a difference comes from.
 
 Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept, what was
-broken off is gone on with; dumps are removed once they are averaged."""
+broken off is resumed; dumps are removed once they are averaged."""
 import argparse
 import csv
 import sys
@@ -22,31 +22,29 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from millfoam import other_readings, published_mills
 from millfoam.charge import Charge, charge_with_errors, read_charge
 from millfoam.charge_plots import draw_charge
-from millfoam.dry_runs import make_dry_run, run_files
-from millfoam.mill_runs import is_whole
-from millfoam.published_mills import Setting, averaging, mill_text, replaced, run_name
+from millfoam.dry_runs import is_whole, make_dry_run
+from millfoam.published_mills import Setting, run_name
 from millfoam.run import RunError, run
 from millfoam.solids import read_windows, with_error
 
 HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"
 RADIUS = 0.06  # m
-QUICK = {"slice": 0.012, "duration": 0.2, "left_out": 0.1, "window": 0.01}  # m, s
+QUICK = 0.2, 0.012, 0.1, 0.01  # duration, s; slice, m; of the averages: left out, window, s
 COLUMNS = ("run", "balls", "steady", "steady_from_s", "power_W", "power_error_W", "cubic_rmsd_m_s", "cubic_error_m_s",
            "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm", "centre_y_mm",
            "centre_error_mm", "toe_deg", "toe_error_deg", "shoulder_deg", "shoulder_error_deg", "wall_time_s")
-# What a variant changes: (pattern in mill.yaml, what stands there instead), each to be found once
+# What a variant changes of the mill
 VARIANTS = {
-    "stiff": [(r"(?m)^(dem:\n  youngs_modulus:) \S+", r"\g<1> 1.0e8")],
-    "lifters3mm": [(r"(?m)^(    width:) \S+", r"\g<1> 0.003")],
-    "lifters9mm": [(r"(?m)^(    width:) \S+", r"\g<1> 0.009")],
-    "lifters_trapezoid": [(r"(?m)^(    width:) \S+", r"\g<1> 0.009\n    top_width: 0.003")],
-    "friction0.5": [(r"(?m)^(  ball_ball: .*, friction:) [^,]+", r"\g<1> 0.5")],
-    "rolling0.05": [(rf"(?m)^(  {contact}: .*rolling_friction:) [^}}]+", r"\g<1> 0.05")
-                    for contact in ("ball_ball", "ball_wall")],
-    "wall_aluminium": [(r"(?m)^(  ball_wall:) .*", r"\g<1> glass-aluminium")],
-    "wall_nylon": [(r"(?m)^(  ball_wall:) .*", r"\g<1> glass-nylon")],
-    "other_seed": [(r"(?m)^(  seed:) \S+", r"\g<1> 20122")],
+    "stiff": ["dem.youngs_modulus=1.0e8"],
+    "lifters3mm": ["geometry.lifters.width=0.003"],
+    "lifters9mm": ["geometry.lifters.width=0.009"],
+    "lifters_trapezoid": ["geometry.lifters.width=0.009", "geometry.lifters.top_width=0.003"],
+    "friction0.5": ["materials.ball_ball.friction=0.5"],
+    "rolling0.05": [f"materials.{contact}.rolling_friction=0.05" for contact in ("ball_ball", "ball_wall")],
+    "wall_aluminium": ["materials.ball_wall=glass-aluminium"],
+    "wall_nylon": ["materials.ball_wall=glass-nylon"],
+    "other_seed": ["dem.seed=20122"],
 }
 
 
@@ -60,12 +58,9 @@ class Case:
     def name(self):
         return self.setting.name + (f"_{self.variant}" if self.variant else "")
 
-    def mill(self, duration, slice_length):
-        """Its mill.yaml."""
-        text = mill_text(self.setting, duration, slice_length)
-        for pattern, new in VARIANTS.get(self.variant, ()):
-            text = replaced(text, pattern, new)
-        return text
+    def mill(self, *extent):
+        """Its Mill; extent: duration, slice's length, and more as published_mills.mill takes it."""
+        return published_mills.mill(self.setting, *extent, changes=VARIANTS.get(self.variant, ()))
 
 
 def published():
@@ -83,14 +78,13 @@ def cases():
 
 
 def asked(case, options):
-    """Folder of a run, text of its mill.yaml and options of its averages; dem_matrix's folder where it has that very run."""
+    """Folder of a run and its Mill; dem_matrix's folder where it has that very run."""
     if options.quick:
-        text = case.mill(QUICK["duration"], QUICK["slice"])
-        return HERE / "runs_quick" / case.name, text, averaging(text, QUICK["left_out"], QUICK["window"])
-    text = case.mill(options.duration or case.setting.duration, options.slice)
-    name, averages = run_name(case.name, options.slice), averaging(text)
+        return HERE / "runs_quick" / case.name, case.mill(*QUICK)
+    mill = case.mill(options.duration or case.setting.duration, options.slice)
+    name = run_name(case.name, options.slice)
     theirs = HERE.parent / "dem_matrix" / "runs" / name
-    return (theirs if is_whole(theirs, run_files(text, averages)) else HERE / "runs" / name), text, averages
+    return (theirs if is_whole(theirs, mill) else HERE / "runs" / name), mill
 
 
 @dataclass
@@ -107,9 +101,9 @@ class Result:
 
 def make(case, options):
     """Result of a run that is made, or found whole."""
-    folder, text, averages = asked(case, options)
+    folder, mill = asked(case, options)
     print(f"{folder.name} …", flush=True)
-    dry = make_dry_run(folder, text, averages, ranks=options.ranks, keep_dumps=options.keep_dumps)
+    dry = make_dry_run(folder, mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
     result = Result(case, folder, dry, read_windows(folder / "solids.h5"))
     try:
         result.charge, result.errors = read_charge(dry.charge, RADIUS), charge_with_errors(result.maps, RADIUS)
@@ -129,9 +123,10 @@ def row(result):
     (velocity, velocity_error), (surface, surface_error) = read("tangential_rmsd"), read("surface_rmsd", 1e3)
     (centre, centre_error), (ends, ends_error) = read("centre", 1e3), read("ends")
     return dict(zip(COLUMNS, (
-        dry.name, int(dry.number("balls")), dry.results["steady"], dry.number("steady_from"), dry.number("power"),
-        dry.number("power_error"), velocity[0], velocity_error[0], cubic, surface[0], surface_error[0], logistic, *centre,
-        float(np.hypot(*centre_error)), ends[0], ends_error[0], ends[1], ends_error[1], dry.number("wall_time"))))
+        dry.name, dry.number("balls"), dry.steady, dry.number("steady_from_s"), dry.number("power_W"),
+        dry.number("power_error_W"), velocity[0], velocity_error[0], cubic, surface[0], surface_error[0], logistic,
+        *centre, float(np.hypot(*centre_error)), ends[0], ends_error[0], ends[1], ends_error[1],
+        dry.number("wall_time_s"))))
 
 
 def write_csv(path, columns, rows):
@@ -257,8 +252,7 @@ def main():
     known = cases()
     if options.list or not (options.runs or options.quick):
         for case in known.values():
-            folder, text, averages = asked(case, options)
-            print(case.name, "whole" if is_whole(folder, run_files(text, averages)) else "")
+            print(case.name, "whole" if is_whole(*asked(case, options)) else "")
         return 0
     names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
     results, failures = [], []

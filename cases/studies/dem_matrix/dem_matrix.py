@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dry runs of the published matrix: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds.
 
-Every run has a folder runs/NAME with its mill.yaml, walls, dumps/results.txt, dumps/energy.csv and solids.h5 (its averages on
-65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is kept, what was broken
-off is gone on with; dumps are removed once they are averaged."""
+Every run has a folder runs/NAME with its mill.json, walls, dumps/results.json, dumps/energy.csv and solids.h5 (its
+averages on 65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is kept,
+what was broken off is resumed; dumps are removed once they are averaged."""
 import argparse
 import csv
 import sys
@@ -16,32 +16,34 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from millfoam.dry_runs import make_dry_run
-from millfoam.published_mills import averaging, matrix, mill_text, run_name
+from millfoam.dry_runs import is_whole, make_dry_run
+from millfoam.published_mills import matrix, mill, run_name
 
 HERE = Path(__file__).parent.resolve()
 COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",
            "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm", "centroid_y_mm", "wall_time_s")
 
 
-def folder_of(setting, slice_length):
-    return HERE / "runs" / run_name(setting.name, slice_length)
+def asked(setting, options):
+    """Folder of a run and its Mill."""
+    folder = HERE / "runs" / run_name(setting.name, options.slice)
+    return folder, mill(setting, options.duration or setting.duration, options.slice)
 
 
 def make(setting, options):
     """Runs one setting, or finds it whole."""
-    text = mill_text(setting, options.duration or setting.duration, options.slice)
-    folder = folder_of(setting, options.slice)
+    folder, chosen_mill = asked(setting, options)
     print(f"{folder.name} …", flush=True)
-    return make_dry_run(folder, text, averaging(text), ranks=options.ranks, keep_dumps=options.keep_dumps)
+    return make_dry_run(folder, chosen_mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
 
 
 def row(setting, dry):
     x, y = dry.charge.centroid()
-    return dict(zip(COLUMNS, (dry.name, setting.mill, setting.load, setting.speed, int(dry.number("balls")), dry.number("power"),
-                              dry.number("power_error"), dry.results["steady"], dry.number("steady_from"),
-                              dry.number("kinetic_energy"), dry.number("potential_energy"), 1e6 * dry.number("ball_overlap_99"),
-                              1e6 * dry.number("ball_overlap_largest"), 1e3 * x, 1e3 * y, dry.number("wall_time"))))
+    return dict(zip(COLUMNS, (
+        dry.name, setting.mill, setting.load, setting.speed, dry.number("balls"), dry.number("power_W"),
+        dry.number("power_error_W"), dry.steady, dry.number("steady_from_s"), dry.number("kinetic_energy_J"),
+        dry.number("potential_energy_J"), 1e6 * dry.number("ball_overlap_99_m"), 1e6 * dry.number("ball_overlap_largest_m"),
+        1e3 * x, 1e3 * y, dry.number("wall_time_s"))))
 
 
 def write_table(rows):
@@ -96,7 +98,7 @@ def main():
     settings = matrix()
     if options.list or not options.runs:
         for name, setting in settings.items():
-            print(name, "whole" if (folder_of(setting, options.slice) / "whole").is_file() else "")
+            print(name, "whole" if is_whole(*asked(setting, options)) else "")
         return 0
     rows, failures = [], []
     for setting in chosen(options.runs, settings, parser):

@@ -7,7 +7,6 @@ Runs are kept in the folder runs/ (scripts/millfoam/mill_runs.py): a run that is
 failed; the table and the figure then show the others."""
 import argparse
 import csv
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -18,15 +17,15 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.flow_record import read_flow_record
 from millfoam.mill_flow import MillFlow
 from millfoam.mill_plots import draw_mill
-from millfoam.mill_runs import MILL, Setting, make_runs
+from millfoam.mill_runs import COARSE, MILL, Setting, make_runs
 from millfoam.slurry_shape import LEVEL, read_shape
 
 HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law
 NO_DRAG, WHOLE_RUN = "no_drag", "whole_run"
-COARSE = {"cell_size": 0.0045, "layers": 2}
 PERCENTS = (5, 50, 95)
 # Column of the table: (number of Shape, unit, factor to it)
 COLUMNS = {"centre x, mm": ("centre_x", 1e3), "centre y, mm": ("centre_y", 1e3), "toe, deg": ("toe", 1),
@@ -40,10 +39,12 @@ def laws():
 
 
 def settings(mesh, prefix):
-    """All runs; the mill case's own, and what differs most from it, first. Their names begin with `prefix`."""
-    changes = {REFERENCE: {}, NO_DRAG: {"multiplier": 0}, WHOLE_RUN: {"window": "whole"},
-               **{law: {"law": law} for law in laws() if law != REFERENCE}}
-    return [Setting(prefix + name, **change, **mesh) for name, change in changes.items()]
+    """All runs; the mill case's law, and what differs most from it, first. Names begin with `prefix`; mesh: its settings."""
+    changes = {REFERENCE: (), NO_DRAG: ("flow.multiplier=0",),
+               **{law: (f"flow.law={law}",) for law in laws() if law != REFERENCE}}
+    found = [Setting(prefix + name, flow=(*mesh, *change)) for name, change in changes.items()]
+    # One window, from averages.start to the end of the dry run
+    return [*found[:2], Setting(prefix + WHOLE_RUN, averages=("averages.window=0.6",), flow=mesh), *found[2:]]
 
 
 def late(flow):
@@ -52,8 +53,8 @@ def late(flow):
 
 
 def cost(case):
-    """Time that a run's flow took, by its log: s."""
-    return float(re.findall(r"^ExecutionTime = (\S+) s", (case / "log.slurryFoam").read_text(), flags=re.M)[-1])
+    """Time that a run's flow took, s."""
+    return read_flow_record(case).last["wall_s"]
 
 
 def row_of(name, shape, case):
@@ -145,7 +146,7 @@ def plot(rows, shapes, flow, title):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--coarse", action="store_true", help="a quarter of the cells: 4.5 mm and two layers")
-    mesh, prefix = (COARSE, "coarse_") if parser.parse_args().coarse else ({}, "")
+    mesh, prefix = (COARSE, "coarse_") if parser.parse_args().coarse else ((), "")
     cases, failures = make_runs(settings(mesh, prefix), HERE / "runs")
     if not cases:
         sys.exit("mill_drag_comparison.py: no run succeeded")
@@ -154,7 +155,8 @@ def main():
         flow = MillFlow(case)
         shapes[name.removeprefix(prefix)] = read_shape(flow, late(flow))
     rows = [row_of(name, shape, cases[prefix + name]) for name, shape in shapes.items()]
-    title = (f"{MILL.name}, slice, {flow.mesh.cells} cells; averages over flow time {late(flow):g} to {flow.frames[-1][0]:g} s")
+    title = (f"{MILL.parent.name}, slice, {flow.mesh.cells} cells; averages over flow time {late(flow):g} to "
+             f"{flow.frames[-1][0]:g} s")
     write_tables(rows, failures, title)
     plot(rows, shapes, flow, title)
     print(HERE / "mill_drag_comparison.png")

@@ -19,17 +19,16 @@ import numpy as np
 
 from millfoam.convergence import judge
 from millfoam.mill_flow import MillFlow
-from millfoam.mill_runs import MILL, Setting, make_runs
+from millfoam.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
 from millfoam.slurry_shape import read_shape
 
 HERE = Path(__file__).parent.resolve()
 RUNS = HERE.parent / "mill_drag_comparison" / "runs"
-BASE = "Beetstra"  # the mill case as it is; its name in mill_drag_comparison
+BASE = "Beetstra"  # nothing changed; its name in mill_drag_comparison
 # By cells per layer (3840, 2028, 1005 and 513) these are refined by 1.38, 1.42 and 1.40 each.
 CELL_SIZES, COARSE_CELL_SIZES = (0.0023, 0.003, 0.0045), (0.003, 0.0045, 0.00675)
-COARSE_LAYERS = 2
 STEPS = (0.5, 1.0)
-WINDOWS = ("0.025", "0.05", "0.1")
+WINDOWS = (0.025, 0.05, 0.1)
 VOXELS = (0.132 / 18, 0.132 / 12, 0.132 / 8)
 # Name: (number of Shape, unit, factor to it)
 NUMBERS = {"height": ("centre_y", "mm", 1e3), "toe": ("toe", "deg", 1), "shoulder": ("shoulder", "deg", 1)}
@@ -49,22 +48,22 @@ class Family:
 def study(coarse):
     """(settings of all runs by name, families)."""
     prefix, sizes, base = ("coarse_", COARSE_CELL_SIZES, COARSE_CELL_SIZES[1]) if coarse else ("", CELL_SIZES, 0.003)
-    mesh = {"cell_size": base, "layers": COARSE_LAYERS} if coarse else {}
-    settings = {prefix + BASE: Setting(prefix + BASE, **mesh)}
+    mesh = COARSE if coarse else ()
+    settings = {prefix + BASE: Setting(prefix + BASE, flow=mesh)}
 
-    def family(name, unit, factor, values, base, label, change):
-        runs = {}
-        for value in values:
-            runs[float(value)] = prefix + (BASE if value == base else f"{name}_{label(value)}")
-            settings.setdefault(runs[float(value)], Setting(runs[float(value)], **{**mesh, **change(value)}))
-        return Family(name, runs, float(base), unit, factor)
+    def family(name, unit, factor, values, base, label, averages=lambda value: (), flow=lambda value: ()):
+        runs = {value: prefix + (BASE if value == base else f"{name}_{label(value)}") for value in values}
+        for value, run in runs.items():
+            settings.setdefault(run, Setting(run, averages(value), (*mesh, *flow(value))))
+        return Family(name, runs, base, unit, factor)
 
     millimetres = lambda value: f"{1e3 * value:.3g}mm"  # noqa: E731
     families = [
-        family("cells", "mm", 1e3, sizes, base, millimetres, lambda value: {"cell_size": value}),
-        family("steps", "of the limits", 1, STEPS, 1.0, str, lambda value: {"steps": value}),
-        family("window", "s", 1, WINDOWS, "0.05", str, lambda value: {"window": value}),
-        family("voxel", "mm", 1e3, VOXELS, VOXELS[1], millimetres, lambda value: {"voxel": value})]
+        family("cells", "mm", 1e3, sizes, base, millimetres, flow=lambda value: (f"resolution.cell_size={value:g}",)),
+        family("steps", "of the limits", 1, STEPS, 1.0, str, flow=time_step_limits),
+        family("window", "s", 1, WINDOWS, 0.05, str, averages=lambda value: (f"averages.window={value:g}",)),
+        family("voxel", "mm", 1e3, VOXELS, VOXELS[1], millimetres,
+               averages=lambda value: (f"averages.voxel_size={value:.12g}",))]
     return settings, families
 
 
@@ -185,7 +184,8 @@ def main():
     end = flows[base].frames[-1][0]
     shapes = {name: read_shape(flow, end / 2) for name, flow in flows.items()}
     found = judgements(families, shapes)
-    title = f"{MILL.name}, slice, around {flows[base].mesh.cells} cells; averages over flow time {end / 2:g} to {end:g} s"
+    title = (f"{MILL.parent.name}, slice, around {flows[base].mesh.cells} cells; averages over flow time {end / 2:g} to "
+             f"{end:g} s")
     write_tables(families, shapes, found, base, title)
     plot(families, shapes, found, title)
     print(HERE / "mill_resolution.png")

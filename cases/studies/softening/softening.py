@@ -13,14 +13,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.compare import difference
-from millfoam.dry_runs import make_dry_run, with_entries
-from millfoam.mill_runs import MILL
+from millfoam.dry_runs import make_dry_run
+from millfoam.mill_runs import MILL, resolved
+from millfoam.published_mills import averages
 
 HERE = Path(__file__).parent.resolve()
 MODULI = (1e7, 1e8, 1e9)
 SEEDS = (20121, 20122)  # the other seed: of all but the stiffest
 DENSE = 0.05  # solidity from which on a voxel's speed is shown
-START, LENGTH, VOXELS = 0.6, 0.024, 24  # averages begin, s; the slice's length, m; across the mill
+VOXELS = 24  # across the mill
+WHOLE, QUICK = (1.6, 0.6), (0.2, 0.1)  # duration, begin of the averages, s
 COLUMNS = ("run", "modulus_Pa", "time_step_us", "wall_time_s", "power_W", "power_error_W", "overlap_largest_percent",
            "overlap_99_percent", "solidity_difference", "velocity_x_difference", "velocity_y_difference", "centroid_x_mm",
            "centroid_y_mm")
@@ -36,22 +38,21 @@ def settings(quick):
 
 
 def make(name, modulus, seed, quick):
-    head, dem = (MILL / "mill.yaml").read_text().split("\ndem:\n")
-    dem = with_entries(dem, youngs_modulus=f"{modulus:g}", seed=seed, duration=0.2 if quick else 1.6)
-    averaging = ["--box", -0.06, -0.06, 0, 0.06, 0.06, LENGTH, "--shape", VOXELS, VOXELS, 1, "--periodic", "z",
-                 "--start", 0.1 if quick else START, "--window", "whole"]
+    duration, start = QUICK if quick else WHOLE
+    mill = resolved(MILL, (f"dem.youngs_modulus={modulus:g}", f"dem.seed={seed}", f"dem.duration={duration:g}",
+                           averages(VOXELS, start, duration - start)))
     print(f"{name} …", flush=True)
-    return make_dry_run(HERE / ("runs_quick" if quick else "runs") / name, f"{head}\ndem:\n{dem}", averaging)
+    return make_dry_run(HERE / ("runs_quick" if quick else "runs") / name, mill)
 
 
 def row(dry, modulus, stiffest):
     """One line of the table; differences are to the stiffest run's map."""
-    smallest = dry.number("smallest_diameter")
+    smallest = dry.number("smallest_diameter_m")
     apart = difference(dry.charge, stiffest.charge)
     x, y = dry.charge.centroid()
-    return dict(zip(COLUMNS, (dry.name, modulus, 1e6 * dry.number("timestep"), dry.number("wall_time"), dry.number("power"),
-                              dry.number("power_error"), 100 * dry.number("ball_overlap_largest") / smallest,
-                              100 * dry.number("ball_overlap_99") / smallest, apart.solidity, apart.velocity_x,
+    return dict(zip(COLUMNS, (dry.name, modulus, 1e6 * dry.number("timestep_s"), dry.number("wall_time_s"),
+                              dry.number("power_W"), dry.number("power_error_W"), 100 * dry.number("ball_overlap_largest_m") / smallest,
+                              100 * dry.number("ball_overlap_99_m") / smallest, apart.solidity, apart.velocity_x,
                               apart.velocity_y, 1e3 * x, 1e3 * y)))
 
 

@@ -4,11 +4,11 @@
 screen, statements.csv and statements.md."""
 import argparse
 import csv
-import re
 import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
+from millfoam.flow_record import read_flow_record
 from millfoam.report.sources import MillCase
 from millfoam.statements import Verdict, read, verdicts
 
@@ -25,7 +25,8 @@ def is_run(folder):
 
 def slices_there(runs=LAWS):
     """The 12 cm slices of mill_drag_comparison that are whole: of the mill case's mesh, or else all coarse ones."""
-    whole = sorted(folder.parent for folder in runs.glob("*/whole") if not folder.parent.name.endswith(OTHERS))
+    whole = sorted(folder for folder in runs.glob("*")
+                   if not folder.name.endswith(OTHERS) and read_flow_record(folder).complete)
     fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
     return fine or whole
 
@@ -39,18 +40,11 @@ def folders_there():
     return [folder for folder in [*begun, *slices_there(), MILLS / "mill_12cm"] if is_run(folder)]
 
 
-def take_law(case):
-    """Gives a MillCase with balls the drag law of its bedProperties: mill_drag_comparison's have no log.flow to tell it.
-    RuntimeError if its drag is multiplied."""
-    path = case.folder / "constant" / "bedProperties"
-    if not path.is_file() or not case.solids:
-        return
-    text = path.read_text()
-    law, multiplier = (re.search(rf"^\s*{key}\s+([\w.+-]+)\s*;", text, re.M) for key in ("law", "multiplier"))
-    if multiplier and float(multiplier.group(1)) != 1:
-        raise RuntimeError(f"{path}: multiplier {multiplier.group(1)}; expected 1, the law's own drag")
-    if law:
-        case.law = law.group(1)
+def refuse_multiplied(case):
+    """RuntimeError if a MillCase's drag is not that of its law."""
+    factor = case.mill.flow("multiplier", 1)
+    if case.law and factor != 1:
+        raise RuntimeError(f"{case.mill.path}: flow.multiplier {factor:g}; expected 1, the law's own drag")
 
 
 def read_cases(folders):
@@ -61,7 +55,7 @@ def read_cases(folders):
             case = MillCase(folder)
             if not case.flow:
                 raise RuntimeError(f"{folder}: no flow; expected reconstructed times with alpha.slurry in it")
-            take_law(case)
+            refuse_multiplied(case)
             print(f"{folder} …", flush=True)
             runs.append(read(case))
             messages += runs[-1].failures

@@ -70,9 +70,7 @@ def perform(frame, extent, case, here):
     # millMesh wants the case's dictionaries whole; the times follow once it has said how fast the drum turns
     common = dict(meshMotion=motion, wallVelocity=wall, largestStep=extent.step)
     write_parameters(case, **common, endTime=1, writeInterval=1)
-    drum = (here / "drum.yaml").read_text().replace(f"cell_size: {WHOLE.cell}", f"cell_size: {extent.cell}")
-    (case / "drum.yaml").write_text(drum)
-    run_program(case, "millMesh", "drum.yaml", "--case", ".")
+    run_program(case, "millMesh", here / "drum.yaml", "--case", ".", "--set", f"resolution.cell_size={extent.cell}")
     mill = foam.read_dictionary(case / "constant" / "millProperties")
     quarter = np.pi / 2 / abs(float(mill["omega"]))
     write_parameters(case, **common, endTime=repr(extent.quarters * quarter), writeInterval=repr(quarter))

@@ -20,6 +20,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam import foam
+from millfoam.mill_runs import FINE, MILL, set_options
 from millfoam.run import run as run_program
 from millfoam.run import write_parameters
 
@@ -30,11 +31,12 @@ FLUID_STEPS, POOL_END = 50, 0.2
 MOST_AIR, MOST_SLURRY = 3.0, 0.12  # m/s
 STILL_FLUID = dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no",
                    writeInterval=FLUID_STEPS * 1e-3)
-# By name: mill (beside this file), the DEM time it is turned to, parameters of the flow
+# By name: mill (beside this file, or elsewhere) and its settings, the DEM time it is turned to, parameters of the flow
 RUNS = {
-    "pool": ("mill.yaml", 0, dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes", writeInterval=0.01)),
-    "fluid": ("mill.yaml", 0, STILL_FLUID),
-    "slice": ("../../mills/mill_12cm/mill.yaml", 1.0, STILL_FLUID),
+    "pool": ("mill.yaml", (), 0, dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes",
+                                      writeInterval=0.01)),
+    "fluid": ("mill.yaml", (), 0, STILL_FLUID),
+    "slice": (MILL, FINE, 1.0, STILL_FLUID),
 }
 
 
@@ -56,9 +58,9 @@ def run(name, work, here):
     """Runs one of RUNS in its own folder under `work`; a program that fails ends this one."""
     case = work / name
     shutil.copytree(here / "template", case)
-    mill, time, parameters = RUNS[name]
+    mill, changes, time, parameters = RUNS[name]
     write_parameters(case, **parameters)
-    run_program(case, "millMesh", here / mill, "--case", ".", "--at-time", time)
+    run_program(case, "millMesh", here / mill, "--case", ".", "--at-time", time, *set_options(changes))
     if name == "pool":
         run_program(case, "setAlphaField")
     run_program(case, "millInterFoam")

@@ -15,6 +15,7 @@ import numpy as np
 
 import pool_pictures
 import pool_table
+from millfoam.mill_runs import FINE, MILL, set_options
 from millfoam.run import RunError, write_parameters
 from millfoam.run import run as run_program
 from pool_history import Run, measure, read_history, write_history
@@ -23,12 +24,12 @@ SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "sl
 SLURRY = dict(slurryDensity=1239, slurryViscosity=1.4e-3, slurryKinematicViscosity=1.4e-3 / 1239)
 AIR = dict(airDensity=1.2, airViscosity=1.8e-5, airKinematicViscosity=1.8e-5 / 1.2)
 TENSION = 0.07  # N/m
-# By name: what makes the mesh (None: blockMesh), the pool's level, the mesh's radius and length, m. Levels run through
-# cells, not along their faces.
+# By name: the mill whose mesh it is (None: blockMesh), the pool's level, the mesh's radius and length, m. Levels run
+# through cells, not along their faces.
 MESHES = {
     "ogrid": (None, -0.031, 0.15, 0.006),
     "mill": ("mill.yaml", -0.012, 0.06, 0.12),
-    "slice": ("../../mills/mill_12cm/mill.yaml", -0.002, 0.06, 0.024),
+    "slice": (MILL, -0.002, 0.06, 0.024),
     "drum": ("drum.yaml", -0.012, 0.06, 0.12),
 }
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
@@ -80,7 +81,7 @@ def build(run, case, here, end):
         **bed_parameters(level, radius, length), endTime=end, writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
     if mill:
-        run_program(case, "millMesh", here / mill, "--case", ".")
+        run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
     else:
         shutil.copytree(here / "pool" / run.mesh, case, dirs_exist_ok=True)
         run_program(case, "blockMesh")
