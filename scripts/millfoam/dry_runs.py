@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of studies: a folder per run with mill.json, walls, dumps and averages, made once and resumed after a kill."""
+"""Dry runs of studies: a folder per run with mill.json, walls, dumps and averages, made once, resumed if killed."""
 from dataclasses import dataclass
 from pathlib import Path
 

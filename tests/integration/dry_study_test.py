@@ -3,7 +3,7 @@
 """What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose answers
 are known."""
 import importlib.util
-import re
+import json
 import shutil
 import subprocess
 import sys
@@ -18,9 +18,10 @@ import numpy as np
 from dem_run_test import MILL
 from millfoam import axial
 from millfoam.compare import difference
-from millfoam.dry_runs import make_dry_run, run_files, with_entries
-from millfoam.mill_runs import fingerprint
-from millfoam.published_mills import published_loads
+from millfoam.dry_runs import is_whole, make_dry_run
+from millfoam.mill import read_mill
+from millfoam.mill_runs import resolved, write_mill
+from millfoam.published_mills import averages, published_loads
 from millfoam.run import RunError, run
 from millfoam.solids import SolidsMap
 
@@ -44,30 +45,48 @@ class FolderTest(unittest.TestCase):
 
 
 class Runs(FolderTest):
-    averaging = ["--box", -0.03, -0.03, 0, 0.03, 0.03, 0.03, "--shape", 6, 6, 1, "--periodic", "z", "--start", 0.1, "--window", "whole"]
+    def drum(self, duration, *changes):
+        """The drum's Mill, averaged over its second part."""
+        (self.folder / "drum.yaml").write_text(MILL)
+        return resolved(self.folder / "drum.yaml", (f"dem.duration={duration}", averages(6, duration / 2, duration / 2), *changes))
 
     def test_a_run_is_made_once_and_its_dumps_go(self):
-        mill = MILL.replace("duration: 1.0", "duration: 0.3")
-        first = make_dry_run(self.folder / "drum", mill, self.averaging, ranks=1)
-        self.assertEqual(first.results["lost_balls"], "0")
+        mill = self.drum(0.2)
+        first = make_dry_run(self.folder / "drum", mill, ranks=1)
+        self.assertEqual(first.number("lost_balls"), 0)
         self.assertLess(first.charge.centroid()[1], -0.002)
         self.assertEqual(list((self.folder / "drum" / "dumps").glob("dump.*")), [])
         log = self.folder / "drum" / "log.millDem"
         log.unlink()
-        again = make_dry_run(self.folder / "drum", mill, self.averaging, ranks=1)
+        again = make_dry_run(self.folder / "drum", mill, ranks=1)
         self.assertEqual(again.results, first.results)
         self.assertFalse(log.exists())
 
-    def test_a_run_of_another_mill_is_not_replaced(self):
-        mill = MILL.replace("duration: 1.0", "duration: 0.1")
-        make_dry_run(self.folder / "drum", mill, [*self.averaging[:-3], 0.05, "--window", "whole"], ranks=1)
-        with self.assertRaisesRegex(RunError, "of another mill.yaml"):
-            make_dry_run(self.folder / "drum", mill.replace("seed: 3", "seed: 4"), self.averaging, ranks=1)
-        self.assertTrue((self.folder / "drum" / "solids.h5").is_file())
+    def test_a_run_of_another_mill_or_with_other_averages_is_not_replaced(self):
+        make_dry_run(self.folder / "drum", self.drum(0.1), ranks=1)
+        solids = (self.folder / "drum" / "solids.h5").read_bytes()
+        for change in ("dem.seed=4", "averages.window=0.02", "dem.duration=0.11"):
+            with self.subTest(change), self.assertRaisesRegex(RunError, "of another mill or with other averages"):
+                make_dry_run(self.folder / "drum", self.drum(0.1, change), ranks=1)
+        self.assertEqual((self.folder / "drum" / "solids.h5").read_bytes(), solids)
 
-    def test_an_entry_that_is_not_there_once_is_refused(self):
-        with self.assertRaisesRegex(RunError, "'seed' was found 0 times"):
-            with_entries("geometry: 1\n", seed=2)
+    def test_a_run_that_was_broken_off_is_resumed_with_another_duration_but_not_as_another_mill(self):
+        made = []
+        write_mill(self.drum(0.1), self.folder / "drum")
+        with mock.patch("millfoam.mill_runs.run", lambda folder, *command: made.append(command)), \
+                mock.patch("millfoam.dry_runs.run", side_effect=RunError("stopped")):
+            with self.assertRaisesRegex(RunError, "of another mill"):
+                make_dry_run(self.folder / "drum", self.drum(0.1, "dem.seed=4"), ranks=1)
+            self.assertEqual(made, [])
+            with self.assertRaisesRegex(RunError, "stopped"):
+                make_dry_run(self.folder / "drum", self.drum(0.2), ranks=1)
+        self.assertEqual([command[0] for command in made], ["millMesh", "millDem"])
+        self.assertIn("--resume", made[1])
+        self.assertEqual(read_mill(self.folder / "drum").asked("dem", "duration"), 0.2)
+
+    def test_a_key_that_is_not_there_is_refused_by_its_name(self):
+        with self.assertRaisesRegex(RunError, "key 'dem.sed' is unknown"):
+            self.drum(0.1, "dem.sed=4")
 
 
 class Matrix(FolderTest):
@@ -79,21 +98,25 @@ class Matrix(FolderTest):
         names = list(self.study.matrix())
         self.assertEqual(len(names), 34)
         self.assertEqual(len(set(names)), 34)
-        total = sum(float(line.split("mass: ")[1].rstrip("}")) for line in published_loads()["37.5"])
-        self.assertAlmostEqual(total, 0.824, delta=0.002)
+        self.assertAlmostEqual(sum(mass for _, mass in published_loads()["37.5"]), 0.824, delta=0.002)
 
     def test_every_mill_of_it_is_accepted(self):
         for name, setting in self.study.matrix().items():
-            text = self.study.mill_text(setting, 4.0, 0.024 if setting.mill == "12cm" and setting.speed == 40 else 0)
-            (self.folder / "mill.yaml").write_text(text)
+            slice_length = 0.024 if setting.mill == "12cm" and setting.speed == 40 else 0
             with self.subTest(name):
-                self.assertIn(f"fraction_of_critical: {setting.speed / 100:g}", text)
-                self.assertIn("duration: 4\n", text)
-                masses = [float(mass) for mass in re.findall(r"mass: ([0-9.]+)", text)]
+                mill = self.study.mill(setting, 4.0, slice_length)
+                self.assertAlmostEqual(mill.critical_share, setting.speed / 100)
+                self.assertEqual(mill.asked("dem", "duration"), 4)
+                whole = {"12cm": 0.12, "30cm": 0.305}[setting.mill]
+                self.assertEqual((mill.length, mill.is_slice), (slice_length or whole, bool(slice_length)))
                 total = {"12.5": 0.275, "25": 0.549, "37.5": 0.824, "50": 1.098, "31.25": 9.662}[setting.load]
-                self.assertAlmostEqual(sum(masses), total, delta=0.002)
-                run(self.folder, "millMesh", "mill.yaml", "--case", ".")
-                run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+                asked = sum(one["mass_asked_kg"] for one in mill.content["derived"]["charge"]["classes"])
+                self.assertAlmostEqual(asked * whole / mill.length, total, delta=0.002)
+                self.assertEqual(mill.content["derived"]["averages"]["shape"], [65, 65, 1])
+                self.assertEqual([mill.asked("averages", key) for key in ("start", "window")], [1, 0.1])
+                write_mill(mill, self.folder)
+                run(self.folder, "millMesh", "mill.json", "--case", ".", "--walls")
+                run(self.folder, "millDem", "mill.json", "--case", ".", "--deck-only")
 
 
 class Readings12cm(FolderTest):
@@ -118,11 +141,11 @@ class Readings12cm(FolderTest):
         decks = set()
         for name in ("", *self.study.VARIANTS):
             with self.subTest(name):
-                text = self.cases[base.name + (f"_{name}" if name else "")].mill(0.2, 0.012)
-                (self.folder / "mill.yaml").write_text(text)
+                mill = self.cases[base.name + (f"_{name}" if name else "")].mill(*self.study.QUICK)
+                write_mill(mill, self.folder)
                 shutil.rmtree(self.folder / "walls", ignore_errors=True)
-                run(self.folder, "millMesh", "mill.yaml", "--case", ".")
-                run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+                run(self.folder, "millMesh", "mill.json", "--case", ".", "--walls")
+                run(self.folder, "millDem", "mill.json", "--case", ".", "--deck-only")
                 walls = (self.folder / "walls" / "lifters.stl").read_bytes()
                 decks.add((self.folder / "dem" / "in.mill").read_bytes() + walls)
         self.assertEqual(len(decks), 1 + len(self.study.VARIANTS))
@@ -130,16 +153,19 @@ class Readings12cm(FolderTest):
     def test_a_whole_run_of_the_matrix_is_taken_as_it_is(self):
         case = self.cases["12cm_load25_speed50"]
         self.study.HERE = self.folder / "dem_12cm"
-        own, text, averages = self.study.asked(case, self.options())
+        own, mill = self.study.asked(case, self.options())
         self.assertEqual(own, self.folder / "dem_12cm" / "runs" / case.name)
         matrix = load(ROOT / "cases" / "studies" / "dem_matrix" / "dem_matrix.py")
         made = []
         matrix.HERE = self.folder / "dem_matrix"
-        matrix.make_dry_run = lambda folder, mill, averaging, **_: made.append((folder, run_files(mill, averaging)))
+        matrix.make_dry_run = lambda folder, mill, **_: made.append((folder, mill))
         matrix.make(matrix.matrix()[case.name], SimpleNamespace(duration=None, slice=0.0, ranks=2, keep_dumps=False))
-        folder, files = made[0]
+        folder, theirs = made[0]
+        self.assertEqual(theirs.fingerprint, mill.fingerprint)
         folder.mkdir(parents=True)
-        (folder / "whole").write_text(fingerprint(files))
+        summary = {"format": "millfoam-averages", "mill": {"averages": theirs.fingerprint["averages"]}}
+        (folder / "solids.json").write_text(json.dumps(summary))
+        self.assertTrue(is_whole(folder, mill))
         self.assertEqual(self.study.asked(case, self.options())[0], folder)
         self.assertEqual(self.study.asked(case, self.options(duration=2.0))[0], own)
         self.assertNotEqual(self.study.asked(case, self.options(slice=0.024))[0], folder)
@@ -157,14 +183,15 @@ class Softening(FolderTest):
     def test_its_mills_differ_in_modulus_and_seed_and_are_accepted(self):
         study = load(ROOT / "cases" / "studies" / "softening" / "softening.py")
         made = []
-        study.make_dry_run = lambda folder, mill, averaging: made.append((folder.name, mill))
+        study.make_dry_run = lambda folder, mill: made.append((folder.name, mill))
         for setting in study.settings(quick=False):
             study.make(*setting, quick=False)
         self.assertEqual([name for name, _ in made], ["1e7", "1e7_other_seed", "1e8", "1e8_other_seed", "1e9"])
         for name, mill in made:
-            (self.folder / "mill.yaml").write_text(mill)
-            run(self.folder, "millMesh", "mill.yaml", "--case", ".")
-            deck = run(self.folder, "millDem", "mill.yaml", "--case", ".", "--deck-only")
+            self.assertEqual(mill.asked("dem", "seed"), 20122 if name.endswith("other_seed") else 20121)
+            write_mill(mill, self.folder)
+            run(self.folder, "millMesh", "mill.json", "--case", ".", "--walls")
+            deck = run(self.folder, "millDem", "mill.json", "--case", ".", "--deck-only")
             self.assertIn(f"softened modulus of balls and walls: {float(name.split('_')[0]):.4g} Pa", deck)
 
 
@@ -203,13 +230,20 @@ class Axial(unittest.TestCase):
         self.assertAlmostEqual(humps.distances[0], 0.13, delta=3e-3)
         self.assertLess(humps.rmsd, 2e-5)
 
+    def write_steps(self, case, start, rows):
+        folder = case / "postProcessing" / "flow" / start
+        folder.mkdir(parents=True)
+        (folder / "steps.csv").write_text("time_s,slurry_m3\n" + "".join(f"{t},{v}\n" for t, v in rows))
+
     def test_discharge_is_the_feed_less_what_is_kept(self):
-        log = "".join(f"Time = {t}\nSlurry {2e-3 + 1e-5 * t} m3, fluid 4e-3 m3\n" for t in (0.5, 1.0, 1.5, 2.0))
-        times, volumes = axial.slurry_volumes(log)
-        self.assertEqual(len(times), 4)
-        self.assertAlmostEqual(axial.discharge(times, volumes, 6e-5, 1.0), 5e-5, delta=1e-12)
-        again = "Time = 1.2\nSlurry 3e-3 m3, fluid 4e-3 m3\n"
-        np.testing.assert_allclose(axial.slurry_volumes(log + again)[0], (0.5, 1.0, 1.2))
+        with tempfile.TemporaryDirectory(prefix="discharge-") as name:
+            case = Path(name)
+            self.write_steps(case, "0", [(t, 2e-3 + 1e-5 * t) for t in (0.5, 1.0, 1.5, 2.0)])
+            times, volumes = axial.slurry_volumes(case)
+            self.assertEqual(len(times), 4)
+            self.assertAlmostEqual(axial.discharge(times, volumes, 6e-5, 1.0), 5e-5, delta=1e-12)
+            self.write_steps(case, "1", [(1.2, 3e-3)])
+            np.testing.assert_allclose(axial.slurry_volumes(case)[0], (0.5, 1.0, 1.2))
         with self.assertRaisesRegex(RuntimeError, "no two steps"):
             axial.discharge(times, volumes, 6e-5, 1.9)
 
@@ -224,11 +258,8 @@ class HalfWritten(FolderTest):
             (folder / name).write_text("FoamFile\n{\n}\n" + (end if name == "U" else STARS))
 
     def drop(self):
-        (self.folder / "system").mkdir()
-        for processor in (0, 1):
-            (self.folder / f"processor{processor}" / "system").mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / f"processor{processor}" / "system")
-        shutil.copy(ROOT / "cases/mills/mill_12cm/system/controlDict", self.folder / "system")
+        run(self.folder, "millMesh", ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml", "--case", ".")
+        shutil.copytree(ROOT / "scripts" / "mill_case" / "system", self.folder / "system")
         functions = (ROOT / "scripts" / "case_functions").read_text()
         begin = functions.index("written() {")
         script = "set -eu -o pipefail\n" + functions[begin:functions.index("\nparallel() {")] + "drop_half_written\n"

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the mill studies read off a flow, on slurries whose answers are known; and that runs are made once."""
+import json
 import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
+from dry_study_test import load
 from millfoam import mill_runs, slurry_shape
 from millfoam.convergence import judge
+from millfoam.mill import read_mill
 from millfoam.mill_flow import MillFlow
+from millfoam.mill_runs import Setting
 from millfoam.run import RunError, run
 
 TILT = 25.0  # of a pool's surface, degrees: it stands higher on the rising side
@@ -21,6 +26,14 @@ def write_field(path, values):
     rows = values if values.ndim == 1 else [f"({' '.join(map(str, row))})" for row in values]
     kind, item = ("Scalar", "scalar") if values.ndim == 1 else ("Vector", "vector")
     path.write_text(FIELD.format(kind=kind, item=item, count=len(values), rows="\n".join(map(str, rows))))
+
+
+def keys_of(mill, path=""):
+    """A resolved mill's keys by their dotted path -> value."""
+    found = {}
+    for key, value in mill.items():
+        found.update(keys_of(value, f"{path}{key}.") if isinstance(value, dict) else {path + key: value})
+    return found
 
 
 class ToeAndShoulder(unittest.TestCase):
@@ -61,13 +74,11 @@ class TiltedPool(unittest.TestCase):
         case = Path(tempfile.mkdtemp(prefix="tilted-pool-"))
         cls.addClassCleanup(shutil.rmtree, case)
         (case / "constant").mkdir()
-        for name in ("mill.yaml", "constant/bedProperties"):
-            shutil.copy(mill_runs.MILL / name, case / name)
-        run(case, "millMesh", "mill.yaml", "--case", ".", "--at-time", 1)
+        shutil.copy(mill_runs.TEMPLATE / "constant" / "bedProperties", case / "constant")
+        run(case, "millMesh", mill_runs.MILL, "--case", ".", *mill_runs.set_options(mill_runs.FINE))
         for time in (0.0, *TIMES):
             (case / f"{time:g}").mkdir()
             (case / f"{time:g}" / "alpha.slurry").write_text("")
-        (case / "log.slurryFoam").write_text("Time = 0.1\nTime = 0.2\n")
         cls.flow = MillFlow(case)
         for time, path in cls.flow.frames:
             cls.write_frame(time, path)
@@ -121,41 +132,124 @@ class TiltedPool(unittest.TestCase):
 
 
 class MadeOnce(unittest.TestCase):
+    """Runs whose programs, but millMesh, only leave the files that say they came to their end."""
+
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="made-once-")) / "run"
-        self.addCleanup(shutil.rmtree, self.folder.parent)
-        self.made = 0
+        self.runs = Path(tempfile.mkdtemp(prefix="made-once-"))
+        self.addCleanup(shutil.rmtree, self.runs)
+        self.commands, self.failing = [], None
+        patched = mock.patch.object(mill_runs, "run", self.run_program)
+        patched.start()
+        self.addCleanup(patched.stop)
 
-    def make(self, folder):
-        self.made += 1
-        self.assertEqual(sorted(path.name for path in folder.iterdir()), ["constant", "mill.yaml"])
-        (folder / "result").write_text("")
+    def run_program(self, folder, name, *words):
+        self.commands.append(name)
+        if name == self.failing:
+            raise RunError("stopped")
+        if name == "millMesh":
+            run(folder, name, *words)
+        mill = read_mill(folder).fingerprint
+        if name == "millAverage":
+            self.assertTrue((folder / words[words.index("--case") + 1] / "mill.json").is_file())
+            self.write(folder / "solids.json", {"format": "millfoam-averages", "mill": {"averages": mill["averages"]}})
+            (folder / "solids.h5").write_text("")
+        if name == "slurryFoam":
+            self.assertTrue((folder / "solids.h5").is_file() and (folder / "0" / "U").is_file())
+            self.write(folder / "postProcessing" / "flow" / "0" / "flow.json",
+                       {"format": "millfoam-flow", "mill": {"flow": mill["flow"]}, "complete": True})
 
-    def interrupted(self, folder):
-        (folder / "half").write_text("")
-        raise RunError("stopped")
+    def write(self, path, content):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(content))
+
+    def made(self, setting):
+        """Programs that a setting's run takes."""
+        self.commands.clear()
+        self.case = mill_runs.make_run(setting, self.runs)
+        return self.commands
+
+    ALL = ["millMesh", "millDem", "millAverage", "millMesh", "slurryStart", "slurryFoam"]
 
     def test_a_whole_run_is_kept_and_a_changed_or_interrupted_one_is_made_anew(self):
-        files = {"mill.yaml": "a: 1\n", "constant/g": "9.81"}
-        with self.assertRaises(RunError):
-            mill_runs.make_once(self.folder, files, self.interrupted)
-        for _ in range(2):
-            mill_runs.make_once(self.folder, files, self.make)
-        self.assertEqual(self.made, 1)
-        mill_runs.make_once(self.folder, {**files, "constant/g": "1.62"}, self.make)
-        self.assertEqual(self.made, 2)
+        plain = Setting("one")
+        for self.failing in ("millDem", "millAverage", "slurryFoam"):
+            with self.assertRaises(RunError):
+                self.made(plain)
+        self.failing = None
+        (self.case_of("one") / "half").write_text("")
+        self.assertEqual(self.made(plain), self.ALL[3:])
+        self.assertFalse((self.case / "half").exists())
+        self.assertEqual(self.made(plain), [])
+        (self.case / "constant" / "g").write_text("value (0 -1.62 0);")
+        self.assertEqual(self.made(plain), self.ALL[3:])
+        self.assertEqual(self.made(Setting("one", flow=("flow.law=Ergun",))), self.ALL[3:])
+        self.assertEqual(self.made(Setting("one", averages=("averages.window=0.1",))), self.ALL)
+        self.assertEqual(self.made(plain), self.ALL[3:])
+        summary = self.case / "postProcessing" / "flow" / "0" / "flow.json"
+        self.write(summary, {**json.loads(summary.read_text()), "complete": False})
+        self.assertEqual(self.made(plain), self.ALL[3:])
 
-    def test_a_setting_changes_the_mill_case_and_nothing_else(self):
-        plain = mill_runs.case_files(mill_runs.Setting("plain"))
-        other = mill_runs.case_files(mill_runs.Setting("other", steps=0.5, cell_size=0.0045, layers=2, law="Ergun", multiplier=0))
-        changed = {name for name in plain if plain[name] != other[name]}
-        self.assertEqual(changed, {"mill.yaml", "system/controlDict", "constant/bedProperties"})
-        lines = [pair for name in changed for pair in zip(plain[name].splitlines(), other[name].splitlines()) if len(set(pair)) > 1]
-        self.assertEqual(len(lines), 8)  # cell size, layers; four limits on the time-step; law, multiplier
+    def case_of(self, name):
+        return self.runs / "flows" / name
 
-    def test_a_case_without_the_entry_is_refused(self):
-        with self.assertRaisesRegex(RunError, "controlDict: 'maxCo' was found 0 times"):
-            mill_runs.changed("maxAlphaCo 1;\n", "controlDict", {"maxCo": 1})
+    def test_flows_share_their_balls_and_averages_their_charge(self):
+        self.made(Setting("one"))
+        self.assertEqual(self.made(Setting("other", flow=("flow.law=Ergun",))), self.ALL[3:])
+        self.made(Setting("window", averages=("averages.window=0.1",)))
+        self.assertEqual(len(list(self.runs.glob("charge_*"))), 1)
+        self.assertEqual(len(list(self.runs.glob("averages_*"))), 2)
+        balls = {name: (self.case_of(name) / "solids.h5").resolve() for name in ("one", "other", "window")}
+        self.assertEqual(balls["one"], balls["other"])
+        self.assertNotEqual(balls["one"], balls["window"])
+
+    def test_a_flow_on_another_mesh_takes_the_same_balls_and_only_it_says_so(self):
+        beds = []
+        for setting in (Setting("one"), Setting("coarse", flow=mill_runs.COARSE)):
+            self.made(setting)
+            beds.append(run(self.case, "foamDictionary", "constant/bedProperties", "-keywords").split())
+        self.assertEqual((self.case_of("one") / "solids.h5").resolve(), (self.case_of("coarse") / "solids.h5").resolve())
+        self.assertIn("fingerprint", beds[0])
+        self.assertEqual([line for line in beds[0] if line not in beds[1]], ["fingerprint"])
+
+    def test_a_setting_changes_what_it_says_and_nothing_else(self):
+        plain = keys_of(mill_runs.resolved(mill_runs.MILL, mill_runs.BASE).content["mill"])
+        steps = mill_runs.time_step_limits(0.5)
+        other = keys_of(mill_runs.resolved(mill_runs.MILL, (
+            *mill_runs.BASE, *mill_runs.COARSE, *steps, "flow.law=Ergun", "flow.multiplier=0")).content["mill"])
+        limits = {f"flow.{key}" for key in mill_runs.LIMITS}
+        changed = {key for key in plain if plain[key] != other.get(key)}
+        # The mesh's cells and layers set the usual voxels and slices of the flow's averages
+        self.assertEqual(changed, {"resolution.cell_size", "resolution.layers", "flow.law", "flow.multiplier", "flow.slices",
+                                   "flow.averages.voxel_size", *limits})
+        self.assertEqual(plain.keys(), other.keys())
+        for key in limits:
+            self.assertAlmostEqual(other[key], plain[key] / 2)
+
+    def test_every_run_of_the_studies_is_accepted_and_asks_for_what_it_names(self):
+        folder = mill_runs.ROOT / "cases" / "studies"
+        drag, resolution = (load(folder / name / f"{name}.py") for name in ("mill_drag_comparison", "mill_resolution"))
+        for mesh, prefix, cells in (((), "", 0.003), (mill_runs.COARSE, "coarse_", 0.0045)):
+            settings = {one.name: one for one in [*drag.settings(mesh, prefix), *resolution.study(bool(prefix))[0].values()]}
+            mills = {name: mill_runs.resolved(mill_runs.MILL, (*mill_runs.BASE, *one.averages, *one.flow))
+                     for name, one in settings.items()}
+            self.assertEqual(len({mill.fingerprint["flow"] for mill in mills.values()}), len(mills))
+            for law in drag.laws():
+                self.assertEqual(mills[prefix + law].flow("law"), law)
+                self.assertEqual(mills[prefix + law].asked("resolution", "cell_size"), cells)
+            self.assertEqual(mills[prefix + "no_drag"].flow("multiplier"), 0)
+            whole = mills[prefix + "whole_run"].content["derived"]["averages"]
+            self.assertEqual((whole["start_s"], whole["window_s"]), (1.0, 0.6))
+            self.assertEqual(mills[prefix + "window_0.025"].asked("averages", "window"), 0.025)
+            shapes = [mills[prefix + name].content["derived"]["averages"]["shape"]
+                      for name in ("voxel_7.33mm", resolution.BASE, "voxel_16.5mm")]
+            self.assertEqual(shapes, [[18, 18, 3], [12, 12, 2], [8, 8, 1]])
+            for mill in mills.values():
+                self.assertEqual((mill.length, mill.derived("charge", "balls")), (0.024, 3521))
+                self.assertEqual(mill.flow("duration_s"), 0.6)
+
+    def test_a_setting_of_an_unknown_key_is_refused(self):
+        with self.assertRaisesRegex(RunError, "flow.maxCo' is unknown"):
+            mill_runs.resolved(mill_runs.MILL, ["flow.maxCo=1"])
 
 
 class ErrorBars(unittest.TestCase):

@@ -3,8 +3,8 @@
 """Dry runs of the published matrix: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds.
 
 Every run has a folder runs/NAME with its mill.json, walls, dumps/results.json, dumps/energy.csv and solids.h5 (its
-averages on 65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is kept,
-what was broken off is resumed; dumps are removed once they are averaged."""
+averages on 65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is
+kept, what was broken off is resumed; dumps are removed once they are averaged."""
 import argparse
 import csv
 import sys
@@ -42,8 +42,8 @@ def row(setting, dry):
     return dict(zip(COLUMNS, (
         dry.name, setting.mill, setting.load, setting.speed, dry.number("balls"), dry.number("power_W"),
         dry.number("power_error_W"), dry.steady, dry.number("steady_from_s"), dry.number("kinetic_energy_J"),
-        dry.number("potential_energy_J"), 1e6 * dry.number("ball_overlap_99_m"), 1e6 * dry.number("ball_overlap_largest_m"),
-        1e3 * x, 1e3 * y, dry.number("wall_time_s"))))
+        dry.number("potential_energy_J"), 1e6 * dry.number("ball_overlap_99_m"),
+        1e6 * dry.number("ball_overlap_largest_m"), 1e3 * x, 1e3 * y, dry.number("wall_time_s"))))
 
 
 def write_table(rows):

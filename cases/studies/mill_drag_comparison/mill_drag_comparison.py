@@ -39,7 +39,7 @@ def laws():
 
 
 def settings(mesh, prefix):
-    """All runs; the mill case's law, and what differs most from it, first. Names begin with `prefix`; mesh: its settings."""
+    """All runs, the mill case's law and what differs most from it first: names begin with `prefix`; mesh: its settings."""
     changes = {REFERENCE: (), NO_DRAG: ("flow.multiplier=0",),
                **{law: (f"flow.law={law}",) for law in laws() if law != REFERENCE}}
     found = [Setting(prefix + name, flow=(*mesh, *change)) for name, change in changes.items()]

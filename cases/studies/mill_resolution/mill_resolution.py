@@ -184,8 +184,8 @@ def main():
     end = flows[base].frames[-1][0]
     shapes = {name: read_shape(flow, end / 2) for name, flow in flows.items()}
     found = judgements(families, shapes)
-    title = (f"{MILL.parent.name}, slice, around {flows[base].mesh.cells} cells; averages over flow time {end / 2:g} to "
-             f"{end:g} s")
+    title = (f"{MILL.parent.name}, slice, around {flows[base].mesh.cells} cells; averages over flow time {end / 2:g} "
+             f"to {end:g} s")
     write_tables(families, shapes, found, base, title)
     plot(families, shapes, found, title)
     print(HERE / "mill_resolution.png")

@@ -51,7 +51,8 @@ def row(dry, modulus, stiffest):
     apart = difference(dry.charge, stiffest.charge)
     x, y = dry.charge.centroid()
     return dict(zip(COLUMNS, (dry.name, modulus, 1e6 * dry.number("timestep_s"), dry.number("wall_time_s"),
-                              dry.number("power_W"), dry.number("power_error_W"), 100 * dry.number("ball_overlap_largest_m") / smallest,
+                              dry.number("power_W"), dry.number("power_error_W"),
+                              100 * dry.number("ball_overlap_largest_m") / smallest,
                               100 * dry.number("ball_overlap_99_m") / smallest, apart.solidity, apart.velocity_x,
                               apart.velocity_y, 1e3 * x, 1e3 * y)))
 
