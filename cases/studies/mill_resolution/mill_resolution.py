@@ -3,7 +3,7 @@
 """The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed order
 and error bar of the slurry's height, toe and shoulder.
 
-Runs are kept beside those of mill_drag_comparison, whose dry run and mill case they share (scripts/millfoam/mill_runs.py): a
+Runs are kept beside those of mill_drag_comparison, whose dry run they share (scripts/millfoam/mill_runs.py): a
 run that is whole is not repeated. Exit code 1 when one failed; then there is no judgement of what it belongs to."""
 import argparse
 import csv
@@ -36,7 +36,7 @@ NUMBERS = {"height": ("centre_y", "mm", 1e3), "toe": ("toe", "deg", 1), "shoulde
 
 @dataclass
 class Family:
-    """Runs that differ in one size alone: size -> the run's name; `base`: the mill case's size; `unit` of sizes times
+    """Runs that differ in one size alone: size -> the run's name; `base`: that of the base; `unit` of sizes times
     `factor`."""
     name: str
     runs: dict
@@ -76,7 +76,7 @@ def measured_sizes(family, shapes):
 
 
 def judgements(families, shapes):
-    """(family's name, number's name) -> Convergence of the mill case's own number, of families that are complete."""
+    """(family's name, number's name) -> Convergence of the base's own number, of families that are complete."""
     found = {}
     for family in families:
         if any(name not in shapes for name in family.runs.values()):
@@ -164,9 +164,9 @@ def plot(families, shapes, found, title):
 
 
 def draw_judgement(axis, result, at, value):
-    """The bar of the mill case's own value, and the limit at size 0."""
+    """The bar of the base's own value, and the limit at size 0."""
     axis.errorbar([at], [value], yerr=[result.bar], fmt="s", ms=8, mfc="none", color="tab:red", capsize=7, lw=1.6,
-                  label="error bar of the mill case's value")
+                  label="error bar of the base's value")
     if not np.isnan(result.limit):
         axis.plot([0], [result.limit], "*", ms=11, color="tab:red", clip_on=False, label="extrapolated")
 
