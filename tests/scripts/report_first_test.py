@@ -12,6 +12,7 @@ from millfoam.report.checks import all_checks
 from millfoam.report.headline import first_lines
 from millfoam.report.readings import Readings, key_numbers
 from millfoam.report.sources import MillCase
+from millfoam.report.stages import programs
 from report_cases import DURATION, OMEGA, change_json, write_dry, write_flow
 from report_test import Case
 
@@ -149,6 +150,13 @@ class TheMill(Case):
         words = re.sub(r"\s+", " ", self.assert_whole(report_case(dry)).text)
         self.assertIn("mill.yaml was changed after this run; the report shows the run's mill", words)
         self.assertIn("300 × 60 mm", words)
+
+    def test_programs_are_those_of_the_files(self):
+        flow = write_flow(self.folder / "flow")
+        rows = dict(programs(MillCase(flow)))
+        self.assertEqual(rows["postProcessing/flow/0/flow.json"], "flowTool 1.2.3")
+        self.assertEqual(rows["OpenFOAM of the flow"], "version v1912, build abc-1")
+        self.assertEqual(rows["LIGGGHTS of the dry run"], "Version 3.8")
 
     def test_that_turns_the_other_way_has_the_numbers_of_its_mirror_image(self):
         here, there = (MillCase(make(write_flow(self.folder / name))) for name,

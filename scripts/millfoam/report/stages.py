@@ -80,9 +80,9 @@ def programs(case):
         if program:
             by_program.setdefault(program, []).append(name)
     rows = [(", ".join(names), program) for program, names in by_program.items()]
-    build = case.record.last.get("openfoam") or {}
-    rows += [("OpenFOAM of the flow", f"{build.get('version') or 'version not known'}, build "
-                                      f"{build.get('build') or 'not known'}")
-             ] if build else []
+    told = case.record.last.get("openfoam") or {}
+    words = [f"{name} {told[key]}" for key, name in (("version", "version"), ("patch", "patch"), ("build", "build"))
+             if told.get(key)]
+    rows += [("OpenFOAM of the flow", ", ".join(words))] if words else []
     liggghts = (case.results or {}).get("liggghts")
     return rows + ([("LIGGGHTS of the dry run", liggghts)] if liggghts else [])
