@@ -26,8 +26,8 @@ DICTIONARIES = ("0.orig", "constant", "system")  # of the template: a case of sl
 FINE = ("resolution.cell_size=0.003", "resolution.layers=20")  # of the whole mill, as mill.yaml has them
 COARSE = ("resolution.cell_size=0.0045", "resolution.layers=10")  # a quarter of the cells
 # What the studies' published numbers were made with: a finer mesh and a shorter flow than the mill's own
-BASE = (*FINE, "dem.duration=1.6", "flow.duration=0.6", "flow.max_courant=0.5", "flow.max_time_step=0.001",
-        "flow.write_interval=0.02", "flow.out_of_range=error")
+BASE = (*FINE, "dem.duration=1.6", "flow.turns=~", "flow.duration=0.6", "flow.max_courant=0.5",
+        "flow.max_time_step=0.001", "flow.write_interval=0.02", "flow.out_of_range=error")
 LIMITS = ("max_courant", "max_surface_courant", "max_voidage_change", "max_time_step")
 OTHER_MESH = "\n// Balls of another mesh's walls, so that runs differ in the mesh alone\n#remove fingerprint\n"
 
@@ -96,11 +96,20 @@ def case_files(own_balls):
     return files
 
 
+def summary_of_whole(case):
+    """slurryFoam's summary of a case whose flow came to its end, or None."""
+    try:
+        record = read_flow_record(case)
+    except DataError:
+        return None
+    return record.last if record.complete else None
+
+
 def is_whole(case, mill, averages, files):
     """Whether a case is a flow that came to its end, of this Mill, with the balls in the folder `averages` and with
     these dictionaries."""
-    record = read_flow_record(case)
-    return bool(record.complete and record.last["mill"].get("flow") == mill.fingerprint["flow"]
+    summary = summary_of_whole(case)
+    return bool(summary and summary["mill"].get("flow") == mill.fingerprint["flow"]
                 and (case / "solids.h5").resolve().parent == averages.resolve()
                 and all((case / name).is_file() and (case / name).read_text() == text for name, text in files.items()))
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up flows."""
 import importlib.util
+import json
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 from millfoam import flow_readings, statements
 from millfoam.axial import AxialSeries, gaussians
 from millfoam.flow_readings import Mean, RunReadings, Surface
+from millfoam.mill import Mill
 from millfoam.statements import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
 from slurry_maps_test import RADIUS, WALL, slurry_map
 
@@ -241,12 +243,11 @@ class Study(unittest.TestCase):
         specification.loader.exec_module(self.study)
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
 
-    def make(self, name, whole=True, bed="    law    Beetstra;\n    multiplier  1;   // as it is\n"):
+    def make(self, name, whole=True):
         folder = self.folder / name
-        (folder / "constant").mkdir(parents=True)
-        (folder / "constant" / "bedProperties").write_text(bed)
-        if whole:
-            (folder / "whole").write_text("")
+        summary = folder / "postProcessing" / "flow" / "0" / "flow.json"
+        summary.parent.mkdir(parents=True)
+        summary.write_text(json.dumps({"format": "millfoam-flow", "mill": {}, "complete": whole}))
         return folder
 
     def test_whole_slices_of_the_mills_mesh_with_their_own_drag_are_taken_or_else_coarse_ones(self):
@@ -258,15 +259,21 @@ class Study(unittest.TestCase):
         for name in ("no_drag", "whole_run"):
             self.make(name)
         self.make("Hill", whole=False)
+        cut_short = self.make("Tang") / "postProcessing" / "flow" / "0" / "flow.json"
+        cut_short.write_text(cut_short.read_text()[:30])
         self.assertEqual(self.study.slices_there(self.folder), fine)
 
-    def test_the_law_is_that_of_the_case(self):
-        case = SimpleNamespace(folder=self.make("Tang", bed="law  Tang;\nmultiplier 1;\n"), solids="solids.h5", law=None)
-        self.study.take_law(case)
-        self.assertEqual(case.law, "Tang")
-        case.folder = self.make("less", bed="law  Tang;\nmultiplier 0;\n")
-        with self.assertRaisesRegex(RuntimeError, "multiplier 0; expected 1"):
-            self.study.take_law(case)
+    def case_of(self, law, multiplier):
+        """A case whose mill asks for a law with a factor on its drag."""
+        sections = {key: {} for key in ("geometry", "charge", "speed")}
+        derived = {**sections, "flow": {"law": law, "multiplier": multiplier}}
+        return SimpleNamespace(mill=Mill(Path("a/mill.json"), {"mill": sections, "derived": derived}), law=law)
+
+    def test_a_multiplied_drag_is_refused_and_a_laws_own_is_not(self):
+        self.study.refuse_multiplied(self.case_of("Tang", 1))
+        self.study.refuse_multiplied(self.case_of(None, 0))
+        with self.assertRaisesRegex(RuntimeError, r"a/mill.json: flow.multiplier 0; expected 1"):
+            self.study.refuse_multiplied(self.case_of("Tang", 0))
 
 
 class Reading(unittest.TestCase):

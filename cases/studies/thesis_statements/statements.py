@@ -8,7 +8,7 @@ import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from millfoam.flow_record import read_flow_record
+from millfoam.mill_runs import summary_of_whole
 from millfoam.report.sources import MillCase
 from millfoam.statements import Verdict, read, verdicts
 
@@ -26,7 +26,7 @@ def is_run(folder):
 def slices_there(runs=LAWS):
     """The 12 cm slices of mill_drag_comparison that are whole: of the finer mesh, or else all coarse ones."""
     whole = sorted(folder for folder in runs.glob("*")
-                   if not folder.name.endswith(OTHERS) and read_flow_record(folder).complete)
+                   if not folder.name.endswith(OTHERS) and summary_of_whole(folder))
     fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
     return fine or whole
 
