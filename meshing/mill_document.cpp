@@ -193,7 +193,9 @@ std::string MillDocument::place(const std::string& path) const {
     if (change != changed_.end()) return "--set " + change->second;
     const auto line = lines_.find(at);
     if (line != lines_.end()) return file_ + ":" + std::to_string(line->second);
-    // A value inside of what was set, and a section that only --set has made
+    // A section that only a change of one of its keys has made
+    const auto inside = changed_.lower_bound(at + '.');
+    if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
     const std::size_t cut = at.find_last_of(".[");
     at = cut == std::string::npos ? "" : at.substr(0, cut);
   }

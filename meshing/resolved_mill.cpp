@@ -164,8 +164,7 @@ Json derived_numbers(const Mill& mill) {
 
 }  // namespace
 
-MillFingerprints fingerprints(const MillDescription& description) {
-  const Json& keys = description.document->keys();
+MillFingerprints fingerprints(const Json& keys) {
   Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
   of["resolution"].erase("layers");
   MillFingerprints result;
@@ -201,7 +200,7 @@ Json resolved_mill(const MillDescription& description, const std::string& progra
           {"file", document.file()},
           {"file_fingerprint", document.file_fingerprint()},
           {"set", document.changes()},
-          {"fingerprint", to_json(fingerprints(description))},
+          {"fingerprint", to_json(description.mill.fingerprint)},
           {"mill", document.keys()},
           {"derived", derived_numbers(description.mill)}};
 }
