@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Along the axis of a mill: height of the slurry's centre of mass, hold-up and head by slices; humps; discharge."""
-import re
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from scipy.optimize import curve_fit
+
+from .flow_record import read_flow_record
 
 
 @dataclass
@@ -124,26 +125,19 @@ def fit_gaussians(z, height, count):
     return Humps(places, heights, widths, float(best[1][0]), best[0])
 
 
-def slurry_volumes(log):
-    """Times (s) and volumes of slurry (m3) [steps] that a log of slurryFoam tells. Where the time goes back, a flow that was
-    broken off went on from there: what it had computed beyond is left out."""
-    times, volumes, now = [], [], None
-    for line in log.splitlines():
-        if found := re.match(r"Time = (\S+)", line):
-            now = float(found.group(1))
-        elif now is not None and (found := re.match(r"Slurry (\S+) m3", line)):
-            while times and times[-1] >= now:
-                times.pop()
-                volumes.pop()
-            times.append(now)
-            volumes.append(float(found.group(1)))
-    return np.array(times), np.array(volumes)
+def slurry_volumes(case):
+    """Times (s) and volumes of slurry (m3) at the ends of the steps [steps] of a case's flow, its restarts joined. RuntimeError if
+    slurryFoam left no steps."""
+    steps = read_flow_record(case).steps
+    if steps is None:
+        raise RuntimeError(f"{case}: no postProcessing/flow/START/steps.csv; expected a flow by slurryFoam")
+    return steps["time_s"], steps["slurry_m3"]
 
 
 def discharge(times, volumes, feed, begin):
     """Mean discharge (m3/s) from `begin` (s) to the last time: what was fed (m3/s) less what was kept."""
     chosen = times >= begin
     if chosen.sum() < 2:
-        raise RuntimeError(f"the log has no two steps from {begin} s on")
+        raise RuntimeError(f"the flow has no two steps from {begin} s on")
     t, v = times[chosen], volumes[chosen]
     return float(feed - (v[-1] - v[0]) / (t[-1] - t[0]))

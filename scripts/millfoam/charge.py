@@ -5,13 +5,15 @@
 x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense.
 
 Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
-positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError where the map does not have it."""
+positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError where the map does not have
+it."""
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.fft import dstn, idstn
 
-from .free_surface import EDGE, SMOOTHING, WALL, FreeSurface, at_points, free_surface, smoothed, toe_and_shoulder
+from .free_surface import (EDGE, SMOOTHING, WALL, FreeSurface, along_the_shell, at_points, free_surface, smoothed,
+                           toe_and_shoulder)
 from .slurry_shape import shell_angle
 from .solids import with_error
 
@@ -20,12 +22,13 @@ POINTS = 100  # along the line through the centre of circulation
 
 
 def stream_function(charge):
-    """Of the charge's volume flux F = phi u: psi [ny, nx] (m2/s), least where the charge turns clockwise round a point.
+    """Of the charge's volume flux F = phi u: psi [ny, nx] (m2/s), least where the charge turns clockwise round a
+    point.
 
-    F = (d psi/dy, -d psi/dx) in the sense of least squares, psi = 0 beyond the map: of a charge that is steady and uniform
-    along the axis div F = 0 and psi is exact; noise and what the windows leave of unsteadiness are averaged out, as psi
-    solves Laplace psi = dFx/dy - dFy/dx (by sine transforms). Source: the Helmholtz decomposition, H. Bhatia et al., The
-    Helmholtz-Hodge decomposition: a survey, IEEE Trans. Vis. Comput. Graph. 19 (2013) 1386."""
+    F = (d psi/dy, -d psi/dx) in the sense of least squares, psi = 0 beyond the map: of a charge that is steady and
+    uniform along the axis div F = 0 and psi is exact; noise and what the windows leave of unsteadiness are averaged
+    out, as psi solves Laplace psi = dFx/dy - dFy/dx (by sine transforms). Source: the Helmholtz decomposition, H.
+    Bhatia et al., The Helmholtz-Hodge decomposition: a survey, IEEE Trans. Vis. Comput. Graph. 19 (2013) 1386."""
     dy, dx = (np.diff(edges).mean() for edges in (charge.y, charge.x))
     flux = np.pad(charge.flux()[..., :2], ((1, 1), (1, 1), (0, 0)))
     curl = np.gradient(flux[..., 0], dy, axis=0) - np.gradient(flux[..., 1], dx, axis=1)
@@ -40,8 +43,8 @@ def _moving(charge):
 
 
 def _stagnation_point(charge, guess, width):
-    """Where the velocity vanishes near a guess [2]: of u = u0 + G (x - guess) fitted with the balls' volume and a Gaussian of
-    `width` (m) as weights, again and again round the point found, until that stays."""
+    """Where the velocity vanishes near a guess [2]: of u = u0 + G (x - guess) fitted with the balls' volume and a
+    Gaussian of `width` (m) as weights, again and again round the point found, until that stays."""
     xx, yy = np.meshgrid(*charge.centres())
     velocity, point = np.nan_to_num(charge.velocity[..., :2]).reshape(-1, 2), np.asarray(guess, dtype=float)
     for _ in range(50):
@@ -58,18 +61,20 @@ def _stagnation_point(charge, guess, width):
         point = point + step * min(1, 2 * width / max(np.linalg.norm(step), 1e-300))
         if np.linalg.norm(step) < 1e-5 * width:
             return point
-    raise RuntimeError(f"no centre of circulation: the velocity does not turn round a point near x = {1e3 * guess[0]:.1f} mm, "
+    raise RuntimeError(f"no centre of circulation: the velocity does not turn round a point near x = "
+                       f"{1e3 * guess[0]:.1f} mm, "
                        f"y = {1e3 * guess[1]:.1f} mm")
 
 
 def circulation_centre(charge, radius):
-    """Centre of circulation (x, y) of a SolidsMap's charge (m): where its mean velocity vanishes, between the rising and the
-    falling stream.
+    """Centre of circulation (x, y) of a SolidsMap's charge (m): where its mean velocity vanishes, between the rising
+    and the falling stream.
 
-    The stream function's least value (in a clockwise mill; its largest in another) finds it, as that sums the whole map's flux
-    and has one deepest place however noisy single voxels are; the place within the voxel is the zero of a linear fit to the velocities around (Gaussian weight, a
-    standard deviation of one voxel or 0.05 radii, whichever is more). RuntimeError if the charge does not turn as
-    the mill does round a point inside the charge: at rest, the other way round, centrifuging."""
+    The stream function's least value (in a clockwise mill; its largest in another) finds it, as that sums the whole
+    map's flux and has one deepest place however noisy single voxels are; the place within the voxel is the zero of a
+    linear fit to the velocities around (Gaussian weight, a standard deviation of one voxel or 0.05 radii, whichever
+    is more). RuntimeError if the charge does not turn as the mill does round a point inside the charge: at rest, the
+    other way round, thin, centrifuging."""
     solidity, psi = smoothed(charge, radius), stream_function(charge)
     x, y = charge.centres()
     row, column = np.unravel_index(np.argmax(charge.sense * psi), psi.shape)
@@ -79,34 +84,39 @@ def circulation_centre(charge, radius):
     moment = charge.sense * (arms[..., 0] * flux[..., 1] - arms[..., 1] * flux[..., 0]).sum()
     total = (np.linalg.norm(arms, axis=-1) * np.linalg.norm(flux, axis=-1)).sum()
     if not moment > TURNING * total:
-        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's moving turns with the "
+        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's moving turns "
+                           f"with the "
                            f"mill, less than {TURNING:.0%}")
-    _stay_inside(charge, solidity, guess)
+    _stay_inside(charge, radius, solidity, guess)
     centre = _stagnation_point(charge, guess, max(SMOOTHING * radius, x[1] - x[0], y[1] - y[0]))
-    _stay_inside(charge, solidity, centre)
+    _stay_inside(charge, radius, solidity, centre)
     return float(centre[0]), float(centre[1])
 
 
-def _stay_inside(charge, solidity, place):
-    """RuntimeError if the smoothed solidity [ny, nx] at a place (x, y) (m) is not that of the charge's inside."""
+def _stay_inside(charge, radius, solidity, place):
+    """RuntimeError if the smoothed solidity [ny, nx] at a place (x, y) (m) in a mill of `radius` (m) is not that of
+    the charge's inside."""
     phi, edge = at_points(charge, solidity, place[None])[0], EDGE * solidity.max()
     if phi < edge:
-        raise RuntimeError(f"no centre of circulation inside the charge: it turns round x = {1e3 * place[0]:.1f} mm, y = "
-                           f"{1e3 * place[1]:.1f} mm, where its solidity is {phi:.3g} (its edge: {edge:.3g}); centrifuging?")
+        raise RuntimeError(f"no centre of circulation inside the charge: it turns round x = {1e3 * place[0]:.1f} mm, y "
+                           f"= "
+                           f"{1e3 * place[1]:.1f} mm, where its solidity is {phi:.3g} (its edge: {edge:.3g}); "
+                           f"{along_the_shell(charge, radius, solidity)}")
 
 
 @dataclass
 class TangentialProfile:
     """Tangential velocity along the line from the mill's centre through the centre of circulation.
 
-    angle: the line's, degrees from straight down, positive where the shell rises; distance [POINTS] from the mill's centre
-    (m), from the free surface to `wall` from the shell; velocity [POINTS] across the line, positive as the mill turns (m/s);
-    coefficients [4] of the cubic in the distance, highest power first (m/s, m); rmsd of the velocity from it (m/s); shear_rate
-    [POINTS] (1/s).
+    angle: the line's, degrees from straight down, positive where the shell rises; distance [POINTS] from the mill's
+    centre (m), from the free surface to `wall` from the shell; velocity [POINTS] across the line, positive as the
+    mill turns (m/s); coefficients [4] of the cubic in the distance, highest power first (m/s, m); rmsd of the
+    velocity from it (m/s); shear_rate [POINTS] (1/s).
 
-    shear_rate is the cubic's derivative du/dr. It is the rate of shear of the flowing layer, whose streamlines are straight
-    where they cross the line; r d(u/r)/dr = du/dr - u/r would hold for circles round the mill's axis, and has no limit where
-    the surface comes near that axis. Where the charge turns rigidly with the shell, du/dr is the mill's angular speed."""
+    shear_rate is the cubic's derivative du/dr. It is the rate of shear of the flowing layer, whose streamlines are
+    straight where they cross the line; r d(u/r)/dr = du/dr - u/r would hold for circles round the mill's axis, and
+    has no limit where the surface comes near that axis. Where the charge turns rigidly with the shell, du/dr is the
+    mill's angular speed."""
     angle: float
     distance: np.ndarray
     velocity: np.ndarray
@@ -120,12 +130,13 @@ class TangentialProfile:
 
 
 def tangential_profile(charge, radius, wall=WALL):
-    """TangentialProfile of a SolidsMap's charge in a mill of `radius` (m). Where the charge covers the mill's centre, the line
-    begins there. Velocities between voxels are flux over solidity, each taken bilinearly."""
+    """TangentialProfile of a SolidsMap's charge in a mill of `radius` (m). Where the charge covers the mill's centre,
+    the line begins there. Velocities between voxels are flux over solidity, each taken bilinearly."""
     centre = np.array(circulation_centre(charge, radius))
     away = np.linalg.norm(centre)
     if away < 0.01 * radius:
-        raise RuntimeError(f"no line through the centre of circulation: that is {1e3 * away:.2g} mm from the mill's centre")
+        raise RuntimeError(f"no line through the centre of circulation: that is {1e3 * away:.2g} mm from the mill's "
+                           f"centre")
     outwards = centre / away
     solidity = smoothed(charge, radius)
     inwards = np.linspace(away, 0, 500)
@@ -138,7 +149,8 @@ def tangential_profile(charge, radius, wall=WALL):
     flux = [at_points(charge, charge.flux()[..., axis], points) for axis in (0, 1)]
     balls = at_points(charge, _moving(charge), points)
     if balls.min() <= 0:
-        raise RuntimeError(f"no velocity {1e3 * distance[np.argmin(balls)]:.1f} mm from the mill's centre: there are no balls")
+        raise RuntimeError(f"no velocity {1e3 * distance[np.argmin(balls)]:.1f} mm from the mill's centre: there are "
+                           f"no balls")
     velocity = charge.sense * (flux[1] * outwards[0] - flux[0] * outwards[1]) / balls
     coefficients = np.polyfit(distance, velocity, 3)
     rmsd = float(np.sqrt(np.mean((np.polyval(coefficients, distance) - velocity) ** 2)))
@@ -148,7 +160,8 @@ def tangential_profile(charge, radius, wall=WALL):
 
 @dataclass
 class Charge:
-    """All that is read off a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface, profile."""
+    """All that is read off a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface,
+    profile."""
     centre: tuple
     toe: float
     shoulder: float

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from .contacts import contact_interval, contact_steps, read_contacts, read_materials
-from .dem_tracks import read_notes
+from .dem_tracks import read_timestep
 
 HERTZ_DURATION = 2.943  # of a contact, over its largest overlap / its speed at first touch
 PARTS = ("damping", "friction", "rolling", "spring")
@@ -56,7 +56,7 @@ def read_spectra(folder, begin=0.0, end=np.inf, edges=None):
     RuntimeError for fewer than three dumps in that time."""
     edges = energy_edges() if edges is None else np.asarray(edges, dtype=float)
     materials, interval = read_materials(Path(folder) / "dem" / "in.mill"), contact_interval(folder)
-    timestep = read_notes(Path(folder) / "dumps")["timestep"]
+    timestep = read_timestep(Path(folder) / "dumps")
     steps = [step for step in contact_steps(folder) if begin - timestep / 2 <= step * timestep <= end + timestep / 2]
     if len(steps) < 3:
         raise RuntimeError(f"{folder}/contacts: {len(steps)} dumps from {begin} to {end} s, expected 3 or more")

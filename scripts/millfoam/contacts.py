@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .dem_tracks import numbered_dumps, read_notes
+from .dem_tracks import numbered_dumps, read_timestep
 
 # Columns that are used of each table: numbers of those of a compute, or names
 PAIR_COLUMNS = {"ball": 1, "other": 2, "force": (4, 5, 6), "torque": (7, 8, 9), "overlap": 10}
@@ -132,7 +132,7 @@ def contact_interval(folder):
     steps = contact_steps(folder)
     if len(steps) < 2 or len(set(np.diff(steps))) != 1:
         raise RuntimeError(f"{folder}/contacts: {len(steps)} dumps, expected 2 or more at equal intervals")
-    return (steps[1] - steps[0]) * read_notes(Path(folder) / "dumps")["timestep"]
+    return (steps[1] - steps[0]) * read_timestep(Path(folder) / "dumps")
 
 
 def read_contacts(folder, step, materials):

@@ -4,15 +4,21 @@ from pathlib import Path
 
 import numpy as np
 
+from .data_files import number, read_json
 from .tracer import Trajectory
 
 POSITION = ("x", "y", "z")
 
 
 def read_notes(dumps):
-    """DIR/dumps/run.txt as a dictionary of numbers: timestep (s), interval (steps), angular_velocity (rad/s)."""
-    lines = (Path(dumps) / "run.txt").read_text().splitlines()
-    return {key: float(value) for key, value in (line.split() for line in lines)}
+    """DIR/dumps/run.json: timestep_s, interval (steps between dumps), angular_velocity_rad_s, …; RuntimeError naming
+    what is wrong with it."""
+    return read_json(Path(dumps) / "run.json", "dumps")
+
+
+def read_timestep(dumps):
+    """The dry run's time-step by DIR/dumps/run.json, s."""
+    return number(read_notes(dumps), Path(dumps) / "run.json", "timestep_s")
 
 
 def numbered_dumps(folder, kind="dump"):
@@ -26,11 +32,11 @@ def numbered_dumps(folder, kind="dump"):
 def read_tracks(dumps, ids, begin=0.0, end=np.inf):
     """Tracks of the balls with these ids in the dumps from `begin` to `end` (DEM time, s): {id: Trajectory}.
 
-    dumps: the folder DIR/dumps of a run that is whole. Every dump is read once; only the lines of the balls asked for are taken
-    apart, so that a few hundred tracks cost little more than the reading. Along a periodic axis the tracks go on beyond the box.
-    RuntimeError for a dump that lacks one of the balls, naming it."""
+    dumps: the folder DIR/dumps of a run that is whole. Every dump is read once; only the lines of the balls asked for
+    are taken apart, so that a few hundred tracks cost little more than the reading. Along a periodic axis the tracks
+    go on beyond the box. RuntimeError for a dump that lacks one of the balls, naming it."""
     wanted = np.unique(np.asarray(ids, dtype=int))
-    timestep = read_notes(dumps)["timestep"]
+    timestep = read_timestep(dumps)
     # Times that should agree may differ by rounding
     chosen = [(step, path) for step, path in numbered_dumps(dumps)
               if begin - timestep / 2 <= step * timestep <= end + timestep / 2]
@@ -48,8 +54,8 @@ def read_tracks(dumps, ids, begin=0.0, end=np.inf):
 
 
 def balls_of_dump(path, wanted):
-    """Positions [len(wanted), 3] (m) of the balls `wanted` (ids, ascending) in one dump, and the box's periods [3], inf where it
-    has walls."""
+    """Positions [len(wanted), 3] (m) of the balls `wanted` (ids, ascending) in one dump, and the box's periods [3],
+    inf where it has walls."""
     data = Path(path).read_bytes()
     names, periods, start = _header(path, data)
     text = np.frombuffer(data, dtype=np.uint8)
@@ -61,7 +67,8 @@ def balls_of_dump(path, wanted):
     if not np.array_equal(ids[lines], wanted):
         missing = np.setdiff1d(wanted, ids[lines])
         raise RuntimeError(f"{path}: " + (f"no ball {missing[0]}" if len(missing) else "a ball that is there twice"))
-    table = np.array(b" ".join(data[starts[line]:ends[line]] for line in lines).split(), dtype=float).reshape(len(lines), -1)
+    table = np.array(b" ".join(data[starts[line]:ends[line]] for line in lines).split(),
+                     dtype=float).reshape(len(lines), -1)
     return table[:, [names.index(name) for name in POSITION]], periods
 
 
@@ -72,7 +79,8 @@ def _header(path, data):
     lines = data[:max(start, 0)].decode().splitlines()
     names = lines[-1].split()[2:] if mark >= 0 and start > 0 else []
     if names[:1] != ["id"] or not set(POSITION) <= set(names):
-        raise RuntimeError(f"{path}: columns {' '.join(names) or 'missing'}, expected id first, and {' '.join(POSITION)}")
+        raise RuntimeError(f"{path}: columns {' '.join(names) or 'missing'}, expected id first, and "
+                           f"{' '.join(POSITION)}")
     box = next(number for number, line in enumerate(lines) if line.startswith("ITEM: BOX BOUNDS"))
     bounds = np.array([line.split() for line in lines[box + 1:box + 4]], dtype=float)
     periodic = np.array([kind == "pp" for kind in lines[box].split()[3:6]])

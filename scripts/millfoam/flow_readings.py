@@ -192,9 +192,11 @@ def read_series(case):
     tables = [case.axial(name) for name in ("height", "holdUp", "p_rgh")]
     if any(table is None for table in tables):
         return axial_series(case.flow, case.begin)
-    z, times, holdup = tables[1]
+    # A flow that was killed may have written one table farther than another
+    rows = min(len(table[1]) for table in tables)
+    z, times, holdup = tables[1][0], tables[1][1][:rows], tables[1][2][:rows]
     late = times >= case.begin
-    height, pressure = (np.where(holdup[late] > 0, table[2][late], np.nan) for table in (tables[0], tables[2]))
+    height, pressure = (np.where(holdup[late] > 0, table[2][:rows][late], np.nan) for table in (tables[0], tables[2]))
     return AxialSeries(z, times[late], height, holdup[late], pressure)
 
 
@@ -213,19 +215,17 @@ def read_maps(case, found):
 
 def read_reynolds(case):
     """Particle Reynolds numbers of all cells at the averaged written times, and the slurry's volume at each (m3)."""
-    slurry = case.mill["slurry"]
-    pairs = [reynolds(read_frame(case.flow, *frame), slurry["density"], slurry["plastic_viscosity"])
+    fluid = case.mill.slurry("density_kg_m3"), case.mill.slurry("plastic_viscosity_Pa_s")
+    pairs = [reynolds(read_frame(case.flow, *frame), *fluid)
              for frame in case.flow.frames if frame[0] >= case.begin - 1e-9]
     return tuple(np.concatenate(part) for part in zip(*pairs))
 
 
 def read_run(case):
     """RunReadings of a report.sources.MillCase with a flow; what cannot be read stands in `failures`."""
-    critical = np.sqrt(9.81 / case.radius)
     name = f"{case.folder.resolve().parent.name}/{case.name}"
-    found = RunReadings(name, 2 * case.radius, round(100 * abs(case.omega) / critical), case.law,
-                        CONCENTRATIONS.get(round(case.mill["slurry"]["density"])), case.last,
-                        case.mill["geometry"]["ends"] == "plain" and "slice" not in case.mill["geometry"])
+    found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
+                        CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)
 
     def attempt(what, read):
         try:

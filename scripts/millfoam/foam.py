@@ -12,7 +12,10 @@ class FoamError(RuntimeError):
 
 
 def times(case):
-    """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out."""
+    """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out. FoamError
+    where the case is no folder."""
+    if not Path(case).is_dir():
+        raise FoamError(f"{case}: no folder; expected an OpenFOAM case")
     found = []
     for entry in Path(case).iterdir():
         if entry.is_dir() and re.fullmatch(r"\d+(\.\d+)?(e-?\d+)?", entry.name):
@@ -24,14 +27,20 @@ def _body(path):
     path = Path(path)
     if not path.is_file():
         raise FoamError(f"{path}: no such file")
-    text = path.read_text()
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise FoamError(f"{path}: no UTF-8 text (byte {error.start})") from None
     if re.search(r"format\s+binary", text[:2000]):
         raise FoamError(f"{path}: binary; expected writeFormat ascii")
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
 
 
-def _numbers(text):
-    return np.array(text.replace("(", " ").replace(")", " ").split(), dtype=float)
+def _numbers(text, path):
+    try:
+        return np.array(text.replace("(", " ").replace(")", " ").split(), dtype=float)
+    except ValueError as error:
+        raise FoamError(f"{path}: {error}") from None
 
 
 def read_field(path, cells=None):
@@ -41,7 +50,7 @@ def read_field(path, cells=None):
     text = _body(path)
     uniform = re.search(r"internalField\s+uniform\s+([^;]+);", text)
     if uniform:
-        value = _numbers(uniform.group(1))
+        value = _numbers(uniform.group(1), path)
         if cells is None:
             raise FoamError(f"{path}: uniform; the number of cells is needed")
         field = np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
@@ -50,9 +59,9 @@ def read_field(path, cells=None):
         if not head:
             raise FoamError(f"{path}: no internalField was found")
         count = int(head.group(2))
-        end = text.index(";", head.end())
-        values = _numbers(text[head.end():end])
-        if count == 0 or len(values) % count:
+        end = text.find(";", head.end())
+        values = _numbers(text[head.end():end], path)
+        if end < 0 or count == 0 or len(values) == 0 or len(values) % count:
             raise FoamError(f"{path}: {len(values)} numbers for {count} cells; the file is cut short")
         field = values if len(values) == count else values.reshape(count, -1)
     if not np.all(np.isfinite(field)):
@@ -62,12 +71,11 @@ def read_field(path, cells=None):
 
 def _list(path):
     """Text between the outer brackets of a mesh file, and the count before it."""
-    text = _body(path)
-    text = text[text.index("}") + 1:]
-    head = re.search(r"(\d+)\s*\(", text)
-    if not head:
-        raise FoamError(f"{path}: no list was found")
-    return int(head.group(1)), text[head.end():text.rindex(")")]
+    text = _body(path).partition("}")[2]
+    head, end = re.search(r"(\d+)\s*\(", text), text.rfind(")")
+    if not head or end < head.end():
+        raise FoamError(f"{path}: no list was found, or it is cut short")
+    return int(head.group(1)), text[head.end():end]
 
 
 @dataclass
@@ -109,7 +117,8 @@ class Mesh:
         return moment / volume[:, None], volume
 
     def _face_geometry(self):
-        """Centres [faces, 3] (m) and area vectors [faces, 3] (m^2): faces with equally many corners are taken together."""
+        """Centres [faces, 3] (m) and area vectors [faces, 3] (m^2): faces with equally many corners are taken
+        together."""
         centre, area = np.empty((len(self.faces), 3)), np.empty((len(self.faces), 3))
         counts = np.array([len(face) for face in self.faces])
         for count in np.unique(counts):
@@ -129,25 +138,34 @@ def read_mesh(case, time=None):
     """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
     folder = Path(case) / "constant" / "polyMesh"
     moved = Path(time) / "polyMesh" / "points" if time else None
-    count, text = _list(moved if moved and moved.is_file() else folder / "points")
-    points = _numbers(text).reshape(count, 3)
+    points = _numbers_of(moved if moved and moved.is_file() else folder / "points", 3).reshape(-1, 3)
     count, text = _list(folder / "faces")
     faces = [np.array(found.split(), dtype=int) for found in re.findall(r"\d+\(([\d\s]*)\)", text)]
     if len(faces) != count:
         raise FoamError(f"{folder / 'faces'}: {len(faces)} faces for a count of {count}")
-    owner = _numbers(_list(folder / "owner")[1]).astype(int)
-    neighbour = _numbers(_list(folder / "neighbour")[1]).astype(int)
+    owner, neighbour = (_numbers_of(folder / name).astype(int) for name in ("owner", "neighbour"))
     return Mesh(points, faces, owner, neighbour, read_patches(folder / "boundary"))
 
 
+def _numbers_of(path, each=1):
+    """The numbers of a mesh file's list with so many of them in an entry; FoamError where some are missing."""
+    count, text = _list(path)
+    values = _numbers(text, path)
+    if len(values) != each * count:
+        raise FoamError(f"{path}: {len(values)} numbers for {count} entries; the file is cut short")
+    return values
+
+
 def read_patches(path):
-    """Patches of a polyMesh/boundary file: name -> Patch."""
-    text = _body(path)
+    """Patches of a polyMesh/boundary file: name -> Patch; FoamError where some are missing."""
+    count, text = _list(path)
     patches = {}
     for name, entries in re.findall(r"(\w+)\s*\{([^{}]*startFace[^{}]*)\}", text):
         start = int(re.search(r"startFace\s+(\d+)", entries).group(1))
         size = int(re.search(r"nFaces\s+(\d+)", entries).group(1))
         patches[name] = Patch(start, size)
+    if len(patches) != count:
+        raise FoamError(f"{path}: {len(patches)} patches for a count of {count}; the file is cut short")
     return patches
 
 

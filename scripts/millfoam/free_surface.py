@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free surface of the charge, its logistic, and where it meets the shell: toe and shoulder, read off a map of the charge.
+"""Free surface of the charge, its logistic, and where it meets the shell: toe and shoulder, read off a map of the
+charge.
 
-x to the right, y up, the mill's axis at x = y = 0. Angles are counted from straight down, in degrees, positive on the side
-where the shell rises (by the map's sense; the left of a clockwise mill): the shoulder's is positive, the toe's usually
-negative. Each reading raises RuntimeError where the map does not have it."""
+x to the right, y up, the mill's axis at x = y = 0. Angles are counted from straight down, in degrees, positive on the
+side where the shell rises (by the map's sense; the left of a clockwise mill): the shoulder's is positive, the toe's
+usually negative. Each reading raises RuntimeError where the map does not have it."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,12 +19,14 @@ EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
 WALL = 0.008  # what is nearer to the shell is between or at lifters, m
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
 POINTS = 100  # along the free surface
+ALL_ROUND = 0.95  # share of the shell that a centrifuging charge covers
 KNOWN = 0.5  # length of the free surface that must be known where a map misses voxels, of the mill's radius
 
 
 def smoothed(charge, radius, smoothing=SMOOTHING):
-    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and room are smoothed apart, so that
-    the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is no charge."""
+    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and room are smoothed
+    apart, so that the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is
+    no charge."""
     widths = [smoothing * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
     balls, room = (gaussian_filter(values, widths, mode="constant") for values in (
         charge.balls(), np.where(np.isfinite(charge.solidity), charge.inside, 0.0)))
@@ -40,6 +43,22 @@ def at_points(charge, values, points):
     return map_coordinates(values, place, order=1, mode="nearest")
 
 
+def along_the_shell(charge, radius, solidity, wall=WALL):
+    """In words, how much of the shell of a mill of `radius` (m) the charge covers: only one that lies along all of it
+    centrifuges.
+
+    solidity [ny, nx], smoothed; covered: where it is that of the charge's inside somewhere within `wall` (m) of the
+    shell."""
+    angle = np.radians(np.arange(0, 360, 2))
+    depths = np.linspace(0, wall, 5)[:, None]
+    points = np.stack([(radius - depths) * np.cos(angle), (radius - depths) * np.sin(angle)], axis=-1)
+    phi = at_points(charge, solidity, points.reshape(-1, 2)).reshape(points.shape[:2])
+    covered = np.mean(phi.max(axis=0) >= EDGE * solidity.max())
+    if covered >= ALL_ROUND:
+        return f"the charge covers {100 * covered:.0f} % of the shell: it centrifuges"
+    return f"the charge covers {100 * covered:.0f} % of the shell: it is too thin, or too loose, for this reading"
+
+
 def logistic(x, a, b, c, d):
     """The generalised logistic a/(1 + b exp(-c x)) + d."""
     return a / (1 + b * np.exp(-c * x)) + d
@@ -49,9 +68,9 @@ def logistic(x, a, b, c, d):
 class FreeSurface:
     """Free surface of the bulk of the charge, from the shoulder to the toe.
 
-    points [POINTS, 2]: x, y (m), equally far from each other along it, NaN where a measured map does not know it; parameters:
-    a (m), b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean square of what the points'
-    y differ from it by; NaN where what is known of the surface has no logistic."""
+    points [POINTS, 2]: x, y (m), equally far from each other along it, NaN where a measured map does not know it;
+    parameters: a (m), b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean
+    square of what the points' y differ from it by; NaN where what is known of the surface has no logistic."""
     points: np.ndarray
     parameters: tuple
     rmsd: float
@@ -61,8 +80,8 @@ class FreeSurface:
         return logistic(np.asarray(x, dtype=float), *self.parameters)
 
     def height(self, x):
-        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN beside it and
-        where it is not known."""
+        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN
+        beside it and where it is not known."""
         x = np.atleast_1d(np.asarray(x, dtype=float))
         (x0, y0), (x1, y1) = self.points[:-1].T[..., None], self.points[1:].T[..., None]
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -101,7 +120,8 @@ def _evenly(line, count):
 
 
 def is_known(charge, points, margin):
-    """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill whose solidity the map misses [n]."""
+    """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill whose solidity the map
+    misses [n]."""
     rows, columns = np.nonzero(~np.isfinite(charge.solidity) & (charge.inside > 0))
     beside = [np.maximum(np.maximum(edges[index] - place[:, None], place[:, None] - edges[index + 1]), 0.0)
               for edges, index, place in ((charge.x, columns, points[:, 0]), (charge.y, rows, points[:, 1]))]
@@ -120,7 +140,8 @@ def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
     pieces = [piece for line in lines for piece in pieces_within(line, radius - wall)]
     if not pieces:
         missing = np.sum(~np.isfinite(charge.solidity) & (charge.inside > 0))
-        what, why = ("free surface not known", f"{missing} voxels are missing") if missing else ("no free surface", "centrifuging?")
+        what, why = (("free surface not known", f"{missing} voxels are missing") if missing else
+                     ("no free surface", along_the_shell(charge, radius, solidity, wall)))
         raise RuntimeError(f"{what}: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
                            f"{1e3 * wall:g} mm from the shell; {why}")
     # Beside what a map misses, the contour is the edge of what it knows
@@ -142,12 +163,13 @@ def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
 def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
     """FreeSurface of a SolidsMap's charge in a mill of `radius` (m).
 
-    The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity left, where
-    it is farther than `wall` (m) from the shell. Of several pieces from shell to shell the longest counts: that bounds the bulk.
-    Balls in flight are thinner than EDGE and outside of it; a cataract that is not belongs to it.
+    The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity
+    left, where it is farther than `wall` (m) from the shell. Of several pieces from shell to shell the longest
+    counts: that bounds the bulk. Balls in flight are thinner than EDGE and outside of it; a cataract that is not
+    belongs to it.
 
-    Of a map that misses voxels in the mill it is read only where it is farther from these than a voxel's width and the
-    smoothing's; RuntimeError "free surface not known" where that leaves less than KNOWN radii of it."""
+    Of a map that misses voxels in the mill it is read only where it is farther from these than a voxel's width and
+    the smoothing's; RuntimeError "free surface not known" where that leaves less than KNOWN radii of it."""
     points = surface_points(charge, radius, wall, smoothing)
     known = np.isfinite(points[:, 0])
     try:
@@ -160,11 +182,12 @@ def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
 
 
 def fit_logistic(x, y, scale):
-    """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best of three least-squares
-    fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up to ten of them.
+    """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best of three
+    least-squares fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up
+    to ten of them.
 
-    They begin at the best three of a table of places and widths of the step, to each of which belong an a and a d that are
-    linear least squares. RuntimeError if none comes to an end."""
+    They begin at the best three of a table of places and widths of the step, to each of which belong an a and a d
+    that are linear least squares. RuntimeError if none comes to an end."""
     x, y = x / scale, y / scale
 
     def step(x, a, place, c, d):
@@ -190,8 +213,8 @@ def fit_logistic(x, y, scale):
 
 
 def toe_and_shoulder(charge, radius, wall=WALL):
-    """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the points at
-    which the free surface meets the circle `wall` (m) from the shell."""
+    """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the
+    points at which the free surface meets the circle `wall` (m) from the shell."""
     points = surface_points(charge, radius, wall)
     for end, name in ((-1, "toe"), (0, "shoulder")):
         if np.isnan(points[end]).any():

@@ -2,8 +2,8 @@
 """Reads the slurry/air flow of a mill case: fields averaged over the axis, in the lab frame.
 
 The mesh is a cross-section extruded along the axis and turns rigidly, so that cells stand in columns and a column's
-place at any time follows from its place at the start. Means over the axis are of the mill itself, without compartments of
-pulp lifters behind its grates."""
+place at any time follows from its place at the start. Means over the axis are of the mill itself, without
+compartments of pulp lifters behind its grates."""
 from pathlib import Path
 
 import numpy as np
@@ -18,16 +18,19 @@ class MillFlow:
 
     def __init__(self, case):
         self.case = Path(case)
-        properties = foam.read_dictionary(self.case / "constant" / "millProperties")
-        self.omega = float(properties["omega"])
-        self.radius = float(properties["radius"])
-        self.time0 = float(properties["time0"])
-        self.length = float(properties["length"])
+        path = self.case / "constant" / "millProperties"
+        properties = foam.read_dictionary(path)
+        try:
+            self.omega, self.radius, self.time0, self.length = (float(properties[key])
+                                                                for key in ("omega", "radius", "time0", "length"))
+        except (KeyError, ValueError) as error:
+            expected = "expected omega, radius, time0 and length, as millMesh writes them"
+            raise RuntimeError(f"{path}: {error}; {expected}") from None
         # Balls of constant/bedProperties displace slurry; those of an fvOption do not
         self.displaced = (self.case / "constant" / "bedProperties").is_file()
         self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
         if len(self.frames) < 2:
-            raise RuntimeError(f"{self.case}: no flow was written; is log.flow complete?")
+            raise RuntimeError(f"{self.case}: no flow was written; expected two times or more with alpha.slurry")
         self.mesh = foam.read_mesh(self.case)
         self.centres, self.volumes = self.mesh.centres_and_volumes()
         _, first, self.column = np.unique(np.round(self.centres[:, :2] / self.radius, 6), axis=0, return_index=True,
@@ -53,7 +56,8 @@ class MillFlow:
         weight = self.volumes * self.chamber * weights
         total = np.bincount(self.column, weight)
         with np.errstate(invalid="ignore", divide="ignore"):
-            return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total, np.nan)
+            return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total,
+                            np.nan)
 
     def _end_faces(self):
         """Numbers of the feed end's faces, those of an inlet in it too."""
@@ -94,7 +98,8 @@ class MillFlow:
         return np.append(column_values, np.nan)[self._pixels[key]].reshape(len(y), len(x))
 
     def _columns_of(self, points, time):
-        """Column in which each point [n, 2] (m, lab frame) is at `time`; one beyond the last where it is outside the mill."""
+        """Column in which each point [n, 2] (m, lab frame) is at `time`; one beyond the last where it is outside the
+        mill."""
         back = self.turned(points, -time)
         inside = Outline(self.outline()).contains_points(back)
         columns = np.full(len(points), len(self.column_centres), dtype=np.int32)

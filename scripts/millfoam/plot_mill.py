@@ -15,14 +15,20 @@ def main():
     parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [half of the run]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
-    begin = flow.frames[-1][0] / 2 if options.begin is None else options.begin
-    charge = solids.read_map(options.case / "solids.h5", flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+    last = flow.frames[-1][0]
+    begin = last / 2 if options.begin is None else options.begin
+    if not 0 <= begin < last:
+        raise RuntimeError(f"--begin {begin:g}: expected 0 or more and less than the flow's last written time, "
+                           f"{last:g} s")
+    charge = read_charge(options.case / "solids.h5", flow, begin)
     folder = options.case / "pictures"
     folder.mkdir(exist_ok=True)
-    mill_plots.plot_maps(flow, charge, begin, folder / "maps.png")
+    names = ["slurry_frames.png", "slurry.gif"]
+    if charge:
+        mill_plots.plot_maps(flow, charge, begin, folder / "maps.png")
+        names.insert(0, "maps.png")
     mill_plots.plot_strip(flow, folder / "slurry_frames.png")
     mill_plots.animate(flow, folder / "slurry.gif")
-    names = ["maps.png", "slurry_frames.png", "slurry.gif"]
     load = flow.load(begin)
     if load:
         mill_plots.save(mill_plots.load_figure(flow, begin), folder / "force_on_balls.png")
@@ -34,10 +40,21 @@ def main():
         print(folder / name)
 
 
+def read_charge(path, flow, begin):
+    """SolidsMap of the charge while the flow is averaged, or None, told, where there is no solids.h5."""
+    if not path.is_file():
+        print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
+        return None
+    return solids.read_map(path, flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+
+
 def summary(flow, charge, begin):
-    """Centroids (of a clockwise mill the rising side is x < 0) and the slurry's volume at begin and end."""
-    x, y = charge.centroid()
-    print(f"charge centroid, averaged:  x {1e3 * x:7.2f} mm, y {1e3 * y:7.2f} mm")
+    """Sense of rotation, centroids, and the slurry's volume at begin and end."""
+    print("the mill turns " + ("clockwise: its rising side is x < 0" if flow.omega < 0 else
+                               "anticlockwise: its rising side is x > 0"))
+    if charge:
+        x, y = charge.centroid()
+        print(f"charge centroid, averaged:  x {1e3 * x:7.2f} mm, y {1e3 * y:7.2f} mm")
     late = [flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= begin - 1e-9]
     print(f"slurry centroid, averaged:  x {1e3 * sum(c[0] for c in late) / len(late):7.2f} mm, "
           f"y {1e3 * sum(c[1] for c in late) / len(late):7.2f} mm")
@@ -48,5 +65,5 @@ def summary(flow, charge, begin):
 if __name__ == "__main__":
     try:
         main()
-    except RuntimeError as error:
+    except (RuntimeError, OSError) as error:
         sys.exit(f"plot_mill: error: {error}")

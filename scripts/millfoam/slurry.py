@@ -2,11 +2,10 @@
 """Reads slurry.h5, a flow's slurry on voxels (layout: averaging/README.md)."""
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 
 from .slurry_maps import SlurryMap
-from .solids import CLOCKWISE
+from .solids import CLOCKWISE, open_hdf5
 
 
 @dataclass
@@ -32,7 +31,7 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
     """VoxelMap of a slurry.h5: mean over the axis, by the layers of voxels with their middle before z = length (m), and over the
     windows that lie in [begin, end) of DEM time; of all that the file's own mean over the run takes where no times are given.
     sense: the mill's. RuntimeError for a file that is not whole or times without a window."""
-    with h5py.File(path, "r") as file:
+    with open_hdf5(path) as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; let the flow run to its end")
         grid = file["grid"]

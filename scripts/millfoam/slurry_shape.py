@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off a flow.
 
-Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is positive,
-the toe's usually negative."""
+Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
+positive, the toe's usually negative."""
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import foam
+from .flow_record import read_flow_record
 
 BIN = 3.0  # of the ring along the lifters' tips, degrees
 LEVEL = 0.5  # slurry's share of the fluid at its surface
@@ -16,7 +17,8 @@ BED = 0.2  # solidity from which on a place belongs to the bed
 
 
 def shell_angle(x, y, omega):
-    """Angle from straight down, degrees in [-180, 180), positive on the rising side of a mill of speed omega (rad/s)."""
+    """Angle from straight down, degrees in [-180, 180), positive on the rising side of a mill of speed omega
+    (rad/s)."""
     return (np.degrees(np.arctan2(np.sign(omega) * x, -y)) + 180) % 360 - 180
 
 
@@ -33,10 +35,11 @@ def crossing(angles, share, inside, outside):
 
 
 def toe_and_shoulder(share):
-    """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins [bins].
+    """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins
+    [bins].
 
-    Of the arcs with a share of at least LEVEL the one that holds most slurry counts. NaN where there is no end: nowhere
-    that much slurry, or everywhere."""
+    Of the arcs with a share of at least LEVEL the one that holds most slurry counts. NaN where there is no end:
+    nowhere that much slurry, or everywhere."""
     angles, wet = bin_centres(), share >= LEVEL
     starts = np.flatnonzero(wet & ~np.roll(wet, 1))
     if len(starts) == 0:
@@ -49,7 +52,8 @@ def toe_and_shoulder(share):
 
 
 def samples(flow):
-    """Points (m, at flow time 0) spread evenly over every column's section, [SAMPLES^2 columns, 2], and their columns."""
+    """Points (m, at flow time 0) spread evenly over every column's section, [SAMPLES^2 columns, 2], and their
+    columns."""
     quads, column = flow.end_wall()
     at = (np.arange(SAMPLES) + 0.5) / SAMPLES
     u, v = (grid.ravel() for grid in np.meshgrid(at, at))
@@ -60,8 +64,8 @@ def samples(flow):
 
 @dataclass
 class Frame:
-    """The flow at a written time (s), cell by cell: slurry and fluid (m3), solidity, velocities (m/s) of fluid and balls,
-    and the balls' diameter (m)."""
+    """The flow at a written time (s), cell by cell: slurry and fluid (m3), solidity, velocities (m/s) of fluid and
+    balls, and the balls' diameter (m)."""
     time: float
     slurry: np.ndarray
     fluid: np.ndarray
@@ -96,15 +100,16 @@ def angular_momentum(flow, frame, density):
 
 
 def over_bins(flow, frame, points, column, keys, bins):
-    """Volumes of slurry and fluid (m3) [2, bins] of a frame, shared between bins by its sample points; key -1: in none."""
+    """Volumes of slurry and fluid (m3) [2, bins] of a frame, shared between bins by its sample points; key -1: in
+    none."""
     kept = keys >= 0
     per_point = [np.bincount(flow.column, volume)[column] / SAMPLES**2 for volume in (frame.slurry, frame.fluid)]
     return np.stack([np.bincount(keys[kept], volume[kept], minlength=bins) for volume in per_point])
 
 
 def ring(flow, frame, points, column, height):
-    """Volumes of slurry and fluid [2, bins] of a ring along the lifters' tips, inside of them and as wide as the lifters'
-    `height` (m): between lifters, pockets of air and slurry carried over the top would blur both ends."""
+    """Volumes of slurry and fluid [2, bins] of a ring along the lifters' tips, inside of them and as wide as the
+    lifters' `height` (m): between lifters, pockets of air and slurry carried over the top would blur both ends."""
     x, y = flow.turned(points, frame.time).T
     bins = round(360 / BIN)
     keys = np.floor((shell_angle(x, y, flow.omega) + 180) / BIN).astype(int) % bins
@@ -120,7 +125,8 @@ def section(flow, frame, points, column, pixels):
 
 
 def reynolds(frame, density, viscosity):
-    """Particle Reynolds numbers rho e |u_s - u| d/mu in the bed's cells with slurry, and the slurry's volume there (m3)."""
+    """Particle Reynolds numbers rho e |u_s - u| d/mu in the bed's cells with slurry, and the slurry's volume there
+    (m3)."""
     bed = (frame.solidity >= BED) & (frame.slurry > 0)
     slip = np.linalg.norm(frame.balls[bed] - frame.velocity[bed], axis=1)
     number = density * (1 - frame.solidity[bed]) * slip * frame.diameter[bed] / viscosity
@@ -136,8 +142,9 @@ def weighted_percentile(values, weights, percents):
 
 @dataclass
 class Shape:
-    """What is read off the later part of a flow. Each of `numbers` is name -> (mean, half of the difference between the
-    means over the two halves of that time): centre_x, centre_y (m), toe, shoulder (degrees), torque (N m), power (W/m)."""
+    """What is read off the later part of a flow. Each of `numbers` is name -> (mean, half of the difference between
+    the means over the two halves of that time): centre_x, centre_y (m), toe, shoulder (degrees), torque (N m), power
+    (W/m)."""
     numbers: dict
     share: np.ndarray  # slurry's of the fluid [pixels, pixels] over the mill's square, NaN outside
     reynolds: np.ndarray
@@ -186,12 +193,14 @@ def read_shape(flow, begin, pixels=60):
     half = len(frames) // 2 + 1  # both halves share the middle frame
     halves = [numbers_of(flow, frames[part], rings[part], properties) for part in (slice(half), slice(half - 1, None))]
     spread = {name: abs(halves[1][name] - halves[0][name]) / 2 for name in whole}
-    pairs = [reynolds(frame, float(properties["slurryDensity"]), float(properties["slurryViscosity"])) for frame in frames]
+    pairs = [reynolds(frame, float(properties["slurryDensity"]), float(properties["slurryViscosity"]))
+             for frame in frames]
     share = ratio(sum(section(flow, frame, points, column, pixels) for frame in frames))
     return Shape({name: (whole[name], spread[name]) for name in whole}, share,
                  *(np.concatenate(part) for part in zip(*pairs)), count_steps(flow.case), len(flow.column_centres))
 
 
 def count_steps(case):
-    """Time-steps in a case's log.slurryFoam."""
-    return sum(line.startswith("Time = ") for line in (case / "log.slurryFoam").read_text().splitlines())
+    """Time-steps of a case's flow, its restarts joined; 0 if slurryFoam left none."""
+    steps = read_flow_record(case).steps
+    return 0 if steps is None else len(steps["time_s"])

@@ -2,12 +2,22 @@
 """Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window, and estimates how far a mean
 over time is uncertain."""
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0  # sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: some ball once grazed the voxel
+
+
+def open_hdf5(path):
+    """An HDF5 file to read; RuntimeError naming it where it is missing, cut short or none."""
+    try:
+        return h5py.File(path, "r")
+    except OSError:
+        what = "cut short, or no HDF5 file" if Path(path).is_file() else "no such file"
+        raise RuntimeError(f"{path}: {what}") from None
 
 
 @dataclass
@@ -57,7 +67,7 @@ def read_windows(path, begin=-np.inf, end=np.inf):
     """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of time;
     velocity is weighted by solidity; clockwise unless the file tells another angular velocity. RuntimeError if the file is not
     complete or there is no such window."""
-    with h5py.File(path, "r") as file:
+    with open_hdf5(path) as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; average the dumps again")
         lower, upper, shape = (np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "shape"))

@@ -14,7 +14,8 @@ RADIUS, WALL, PHI = 0.15, 0.008, 0.55
 
 
 def charge_map(solidity, velocity, voxels=65, part=8):
-    """Map of a mill, of functions of x and y (m): solidity and inside are means over part x part points of each voxel."""
+    """Map of a mill, of functions of x and y (m): solidity and inside are means over part x part points of each
+    voxel."""
     edges = np.linspace(-RADIUS, RADIUS, voxels + 1)
     fine = np.linspace(-RADIUS, RADIUS, 2 * voxels * part + 1)[1::2]
     x, y = np.meshgrid(fine, fine)
@@ -26,7 +27,8 @@ def charge_map(solidity, velocity, voxels=65, part=8):
     room, balls = mean(inside), mean(inside * solidity(x, y))
     flux = np.stack([mean(inside * solidity(x, y) * component) for component in (*velocity(x, y), 0 * x)], axis=-1)
     with np.errstate(invalid="ignore"):
-        return SolidsMap(edges, edges, room, np.where(room > 0, balls / room, 0.0), np.where(balls[..., None] > 1e-6, flux /
+        return SolidsMap(edges, edges, room, np.where(room > 0, balls / room, 0.0),
+                         np.where(balls[..., None] > 1e-6, flux /
                          balls[..., None], np.nan), 0.0, 1.0)
 
 
@@ -41,8 +43,8 @@ def turning(speed, centre):
 
 
 def cell(x, y):
-    """Flow of a charge of solidity PHI in the lower half of the mill that passes neither shell nor surface: of the stream
-    function y (R^2 - r^2), whose centre is R/sqrt(3) below the axis."""
+    """Flow of a charge of solidity PHI in the lower half of the mill that passes neither shell nor surface: of the
+    stream function y (R^2 - r^2), whose centre is R/sqrt(3) below the axis."""
     return (RADIUS**2 - x**2 - 3 * y**2) * 300, 2 * x * y * 300
 
 
@@ -98,7 +100,7 @@ class Centre(unittest.TestCase):
 
     def test_there_is_none_in_a_centrifuging_ring_or_an_empty_mill(self):
         ring = charge_map(lambda x, y: np.where(np.hypot(x, y) > 0.1, PHI, 0), turning(8, (0, 0)))
-        with self.assertRaisesRegex(RuntimeError, "solidity is .*centrifuging"):
+        with self.assertRaisesRegex(RuntimeError, "solidity is .*covers 100 % of the shell: it centrifuges"):
             circulation_centre(ring, RADIUS)
         with self.assertRaisesRegex(RuntimeError, "no charge: .*0.05"):
             circulation_centre(charge_map(lambda x, y: 0 * x, turning(8, (0, 0))), RADIUS)
@@ -162,15 +164,27 @@ class Surface(unittest.TestCase):
 
     def test_a_ring_has_none(self):
         ring = charge_map(lambda x, y: np.where(np.hypot(x, y) > 0.1, PHI, 0), turning(8, (0, 0)))
-        with self.assertRaisesRegex(RuntimeError, "no free surface.*centrifuging"):
+        with self.assertRaisesRegex(RuntimeError, "no free surface.*covers 100 % of the shell: it centrifuges"):
             free_surface(ring, RADIUS, WALL)
+
+    def test_a_thin_charge_has_none_and_does_not_centrifuge(self):
+        thin = charge_map(lambda x, y: np.where((np.hypot(x, y) > 0.144) & (y < -0.1), PHI, 0), turning(5, (0, 0)))
+        with self.assertRaisesRegex(RuntimeError, "no free surface.*the charge covers 2[5-9] % of the shell: it is too "
+                                                  "thin") as told:
+            free_surface(thin, RADIUS, WALL)
+        self.assertNotIn("centrifug", str(told.exception))
+        with self.assertRaisesRegex(RuntimeError,
+                                    "no centre of circulation.*the charge covers 2[5-9] % of the shell") as told:
+            circulation_centre(thin, RADIUS)
+        self.assertNotIn("centrifug", str(told.exception))
 
 
 class Tangential(unittest.TestCase):
     def setUp(self):
         # Straight layers, along x, with a cubic in the depth; the centre is straight below the mill's
         self.cubic = np.array([-800.0, -60.0, 20.0, 0.1])
-        self.charge = charge_map(below(lambda x: -0.02 + 0 * x), lambda x, y: (-np.polyval(self.cubic, -y - 0.09), -4.0 * x))
+        self.charge = charge_map(below(lambda x: -0.02 + 0 * x), lambda x,
+                                 y: (-np.polyval(self.cubic, -y - 0.09), -4.0 * x))
         self.profile = tangential_profile(self.charge, RADIUS, WALL)
 
     def test_it_is_from_the_surface_to_the_wall_straight_down(self):
@@ -180,7 +194,8 @@ class Tangential(unittest.TestCase):
 
     def test_a_cubic_is_found_with_its_shear_rate(self):
         depth = self.profile.distance - 0.09
-        np.testing.assert_allclose(self.profile.fitted(self.profile.distance), np.polyval(self.cubic, depth), atol=0.015)
+        np.testing.assert_allclose(self.profile.fitted(self.profile.distance), np.polyval(self.cubic, depth),
+                                   atol=0.015)
         np.testing.assert_allclose(self.profile.shear_rate, np.polyval(np.polyder(self.cubic), depth), atol=1.0)
         self.assertLess(self.profile.rmsd, 6e-3)
 

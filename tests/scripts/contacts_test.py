@@ -9,6 +9,7 @@ import numpy as np
 
 from millfoam.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
 from millfoam.contacts import Contacts, read_contacts, read_materials
+from report_cases import write_json
 
 RADIUS, DENSITY, OVERLAP = 0.01, 2500.0, 1e-4
 MASS = DENSITY * 4 / 3 * np.pi * RADIUS ** 3
@@ -42,7 +43,7 @@ class Case(unittest.TestCase):
         for folder in ("dem", "dumps", "contacts"):
             (self.case / folder).mkdir()
         (self.case / "dem" / "in.mill").write_text(DECK)
-        (self.case / "dumps" / "run.txt").write_text("timestep 1e-5\ninterval 100\nangular_velocity -6\n")
+        write_json(self.case / "dumps" / "run.json", "dumps", timestep_s=1e-5, interval=100, angular_velocity_rad_s=-6)
 
     def write(self, kind, head, rows, step=100):
         lines = ["ITEM: TIMESTEP", step, "ITEM: NUMBER OF ENTRIES", len(rows), "ITEM: BOX BOUNDS ff ff pp", "-1 1", "-1 1", "0 1",

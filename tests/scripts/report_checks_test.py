@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every check of the report's verdict list holds, looks or fails on the right side of its limit, and says what to do."""
+"""Every check of the report's verdict list holds, looks or fails on the right side of its limit, and says what to
+do."""
 import tempfile
 import unittest
 from pathlib import Path
@@ -9,16 +10,27 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 
+from millfoam.flow_record import FlowRecord
 from millfoam.report import checks
+from millfoam.report.sources import MillCase
+from millfoam.report.steadiness import batches_of, halves
+from millfoam.report.verdict import judged
+from report_cases import PRINTS, change_json, write_dry, write_flow
 
-CLASSES = {"charge": {"classes": [{"diameter": 0.004, "mass": 1}]}}
+LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxVoidageChange": 0.1}
 
 
 def case(**parts):
-    """What checks read of a MillCase; logs: name -> text."""
-    logs = parts.pop("logs", {})
-    return SimpleNamespace(**{"begin": 2.0, "radius": 0.15, "mill": CLASSES, "unusable": [], "results": None, "solids": None,
-                              "flow": None, "law": None, "balance": None, "log": lambda name: logs.get(name, ""), **parts})
+    """What checks read of a MillCase; steps: column -> values; limits: of the last start; files: name -> content."""
+    steps, limits, files = (parts.pop(key, None) for key in ("steps", "limits", "files"))
+    record = FlowRecord(steps, [(Path("flow.json"), {"limits": limits})] if limits else [])
+    results = parts.get("results") or {}
+    mill = SimpleNamespace(fingerprint={})
+    return SimpleNamespace(**{"begin": 2.0, "radius": 0.15, "turn": 9.0, "mill": mill, "unusable": [], "results": None,
+                              "solids": None, "slurry": None, "flow": None, "law": None, "balance": None,
+                              "folder": Path(),
+                              "charge_folders": [], "record": record, "result": results.get,
+                              "json": lambda path, _: (files or {}).get(path.name), **parts})
 
 
 class Verdicts(unittest.TestCase):
@@ -39,13 +51,14 @@ class Numbers(Verdicts):
     def test_a_value_holds_up_to_its_limit_is_doubtful_up_to_the_next_and_fails_beyond(self):
         for value, state in ((1.0, "holds"), (1.001, "look"), (2.0, "look"), (2.001, "fails"),
                              (np.nan, "fails"), (np.inf, "fails")):
-            self.check(checks.judged("name", value, 1, "found", "do", doubtful=2), state)
-        self.check(checks.judged("name", 1.001, 1, "found", "do"), "fails")
+            self.check(judged("name", value, 1, "found", "do", doubtful=2), state)
+        self.check(judged("name", 1.001, 1, "found", "do"), "fails")
 
 
 class Flow(Verdicts):
     def test_slurry_that_is_missing(self):
-        for missing, state in ((0.9e-9, "holds"), (-0.9e-9, "holds"), (1.1e-9, "fails"), (-1.1e-9, "fails"), (np.nan, "fails")):
+        for missing, state in ((0.9e-9, "holds"), (-0.9e-9, "holds"), (1.1e-9, "fails"), (-1.1e-9, "fails"),
+                               (np.nan, "fails")):
             told = {"missing": np.array([0, missing]), "holdUp": np.array([1e-3, 1e-3])}
             self.check(checks.conservation(case(balance=told)), state)
         self.check(checks.conservation(case()), "unknown")
@@ -54,11 +67,13 @@ class Flow(Verdicts):
         """Of a hold-up of 1 l that drifts by a share of itself in the whole time."""
         time = np.linspace(0, 6, 1201)
         wobble = np.random.default_rng(3).normal(0, 1, time.shape)
-        told = {"Time": time, "holdUp": 1e-3 * (1 + drift * time / 4 + noise * wobble), "x": 0 * time, "y": 0 * time, **others}
+        told = {"Time": time, "holdUp": 1e-3 * (1 + drift * time / 4 + noise * wobble), "x": 0 * time, "y": 0 * time,
+                **others}
         return checks.flow_steadiness(case(balance=told))
 
     def test_a_drift_of_the_hold_up(self):
-        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is no drift that matters
+        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is no drift that
+        # matters
         for drift, state in ((0.0, "holds"), (0.018, "holds"), (0.025, "look"), (-0.025, "look"), (0.05, "fails"),
                              (3.0, "fails")):
             self.check(self.steadiness(drift), state)
@@ -74,61 +89,96 @@ class Flow(Verdicts):
 
     def test_too_few_times_or_none_tell_nothing(self):
         time = np.linspace(0, 2.1, 30)
-        self.check(checks.flow_steadiness(case(balance={"Time": time, "holdUp": 1 + time, "x": time, "y": time})), "unknown")
+        self.check(checks.flow_steadiness(case(balance={"Time": time, "holdUp": 1 + time, "x": time, "y": time})),
+                   "unknown")
         self.check(checks.flow_steadiness(case()), "unknown")
 
-    def courant(self, steps, control="maxCo 0.5;\nmaxAlphaCo 0.4;\nmaxVoidageChange 0.1;\n"):
-        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (folder / "system").mkdir()
-        (folder / "system" / "controlDict").write_text(control)
-        log = "".join(f"Courant number {a}, at the surface {b}, change of voidage {c}\n" for a, b, c in steps)
-        return checks.courant(case(folder=folder, logs={"flow": log}))
+    def turns(self, count, part=0.0, drift=0.0, wobble=0.0, turn=1.0):
+        """flow_steadiness of a hold-up of 1 l over so many turns and a part of one, that drifts by a share of itself
+        in all of that time and comes and goes with every turn."""
+        time = np.arange(2.0, 2.0 + (count + part) * turn + 1e-9, turn / 200)
+        held = 1e-3 * (1 + drift * (time - 2) / np.ptp(time) + wobble * np.sin(2 * np.pi * time / turn))
+        held += 1e-8 * np.random.default_rng(3).normal(0, 1, time.shape)
+        return checks.flow_steadiness(case(balance={"Time": time, "holdUp": held, "x": 0 * time, "y": 0 * time},
+                                           turn=turn))
+
+    def test_what_comes_back_with_every_turn_is_no_drift(self):
+        # Halves of 1.25 turns, … would differ by what is left of the wobble
+        for count in (2, 3, 4, 12):
+            self.check(self.turns(count, 0.5, wobble=0.15), "holds")
+
+    def test_a_drift_counts_alike_however_many_turns_there_are(self):
+        for count, part in ((1, 0.5), (2, 0.0), (2, 0.9), (3, 0.2), (5, 0.5), (10, 0.0), (23, 0.3)):
+            for drift, state in ((0.018, "holds"), (0.025, "look"), (0.05, "fails"), (-0.05, "fails")):
+                self.check(self.turns(count, part, drift), state)
+
+    def test_batches_are_whole_turns_or_whole_parts_of_them(self):
+        for turns, length, count in ((1.9, 0.19, 5), (2, 0.2, 5), (3.9, 0.2, 5), (4, 1 / 3, 6), (8, 0.5, 8),
+                                     (10.5, 1, 5), (25, 2, 6)):
+            np.testing.assert_allclose(batches_of(3 * turns, 3.0), (3 * length, count), err_msg=str(turns))
+
+    def test_the_error_of_noise_is_what_the_difference_deviates_by(self):
+        time = np.arange(0, 12, 1e-2)
+        for turn in (1.0, 4.0, 5.0, 100.0):
+            found = np.array([halves(time, np.random.default_rng(seed).normal(0, 1, time.shape), 0, turn)
+                              for seed in range(200)])
+            difference, error = np.sqrt(np.mean(found**2, axis=0))
+            self.assertAlmostEqual(error / difference, 1, delta=0.15)
+
+    def courant(self, steps, limits=None):
+        columns = dict(zip(("courant", "courant_surface", "voidage_change"), np.transpose(steps)))
+        return checks.courant(case(steps={"time_s": np.arange(len(steps)), **columns}, limits=limits or LIMITS))
 
     def test_steps_beyond_their_limits(self):
         good, bad = (0.5, 0.4, 0.1), ((0.76, 0.4, 0.1), (0.5, 0.61, 0.1), (0.5, 0.4, 0.16), (0.5, np.nan, 0.1))
-        self.check(self.courant([bad[0]] + [good] * 100), "holds")  # before the first step nothing was limited
         for one in bad:
             for count, state in ((1, "holds"), (3, "look"), (10, "fails")):
                 self.check(self.courant([good] * (101 - count) + [one] * count), state)
         self.check(self.courant([(0.74, 0.59, 0.149)] * 100), "holds")
 
     def test_steps_are_judged_by_what_is_told(self):
-        found = self.courant([(0.55, 0.4, 0.1)] * 100, "maxCo 0.5;\nmaxAlphaCo 0.4;\nmaxVoidageChange $most;\n").found
-        self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times what controlDict asks for (limit 1 %); 95 % of the steps "
-                                "stay below: Courant number 0.55 for 0.5, at the surface 0.4 for 0.4, change of voidage 0.1")
+        found = self.courant([(0.55, 0.4, 0.1)] * 100,
+                             {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxVoidageChange": None}).found
+        self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times what the flow asks for (limit 1 %); 95 % of "
+                                "the steps "
+                                "stay below: Courant number 0.55 for 0.5, at the surface 0.4 for 0.4, change of "
+                                "voidage 0.1")
 
     def test_steps_or_limits_that_are_not_told_are_unknown(self):
-        self.check(self.courant([(0.1, 0.1, 0.1)]), "unknown")
-        self.check(self.courant([(9, 9, 9)] * 10, "maxCo $co;\n"), "unknown")
+        self.check(checks.courant(case(limits=LIMITS)), "unknown")
+        self.check(self.courant([(9, 9, 9)] * 10, {"maxCo": None}), "unknown")
 
     def test_a_mesh_that_checkMesh_finds_fault_with(self):
-        self.check(checks.mesh(case(logs={"check": "Mesh OK.\n", "mesh": "max skewness  0.5 (limit 1)\n"})), "holds")
-        self.check(checks.mesh(case(logs={"check": "Failed 1 mesh checks.\n"})), "fails")
-        self.check(checks.mesh(case()), "unknown")
+        mesh = {"mesh.json": {"quality": {"skewness": {"value": 0.512, "limit": 1.0}}}}
+        for ok, state in ((True, "holds"), (False, "fails"), (None, "fails")):
+            found = checks.mesh(case(files={"check.json": {"ok": ok}, **mesh}))
+            self.check(found, state)
+            self.assertIn("skewness 0.512 (limit 1)", found.found)
+        self.check(checks.mesh(case(files={"check.json": {"ok": True}})), "holds")
+        self.check(checks.mesh(case(files=mesh)), "unknown")
 
 
 class Charge(Verdicts):
     def test_a_ball_that_is_lost(self):
         for lost, state in ((0, "holds"), (1, "fails")):
-            self.check(checks.lost_balls(case(results={"lost_balls": lost, "balls": "10"})), state)
+            self.check(checks.lost_balls(case(results={"lost_balls": lost, "balls": 10})), state)
 
     def test_averages_that_begin_before_the_charge_is_steady(self):
         for since, state in ((1.0, "holds"), (2.0, "holds"), (2.4, "look"), (2.6, "fails")):
-            results = {"steady": "yes", "steady_from": str(since)}
-            self.check(checks.charge_steadiness(case(results=results, solids="solids.h5", charge_span=(2.0, 3.0))), state)
-        self.check(checks.charge_steadiness(case(results={"steady": "no"})), "fails")
-        self.check(checks.charge_steadiness(case(results={"steady": "yes", "steady_from": "1"})), "holds")
+            results = {"steady": True, "steady_from_s": since}
+            self.check(checks.charge_steadiness(case(results=results, solids="solids.h5", charge_span=(2.0, 3.0))),
+                       state)
+        self.check(checks.charge_steadiness(case(results={"steady": False})), "fails")
+        self.check(checks.charge_steadiness(case(results={"steady": True, "steady_from_s": 1})), "holds")
 
     def test_balls_that_are_too_soft(self):
         for largest, state in ((0.149 * 0.004, "holds"), (0.151 * 0.004, "fails"), (np.nan, "fails")):
-            results = {"ball_overlap_largest": str(largest), "ball_overlap_99": "1e-5"}
+            results = {"ball_overlap_largest_m": largest, "ball_overlap_99_m": 1e-5, "smallest_diameter_m": 0.004}
             self.check(checks.overlap(case(results=results)), state)
-        # The smallest ball that was made counts, where it is told
-        results = {"ball_overlap_largest": "4e-4", "ball_overlap_99": "1e-5", "smallest_diameter": "0.002"}
-        self.check(checks.overlap(case(results=results)), "fails")
 
     def test_balls_outside_or_clipped(self):
-        for outside, clipped, state in ((0, 0.009, "holds"), (0.009, 0, "holds"), (0.006, 0.006, "fails"), (0, np.nan, "fails")):
+        for outside, clipped, state in ((0, 0.009, "holds"), (0.009, 0, "holds"), (0.006, 0.006, "fails"),
+                                        (0, np.nan, "fails")):
             ledger = {"ledger/volume_in": [1, 1], "ledger/outside": [0, outside], "ledger/clipped": [0, clipped]}
             self.check(checks.ledger(self.solids(ledger)), state)
 
@@ -144,36 +194,101 @@ class Charge(Verdicts):
 
     def noise(self, solidity, deviation, records):
         shape = (3, 2, 2, 2)
-        return self.solids({"window/begin": [0, 1, 2], "window/records": [records] * 3, "solidity": np.full(shape, solidity),
+        return self.solids({"window/begin": [0, 1, 2], "window/records": [records] * 3,
+                            "solidity": np.full(shape, solidity),
                             "solidity_deviation": np.full(shape, deviation)})
 
 
 class BallsInTheFlow(Verdicts):
     def test_volume_that_the_flows_mesh_does_not_keep(self):
-        for share, state in ((-1.9, "holds"), (-2.1, "fails"), (2.1, "fails")):
-            log = "".join(f"bed: volume corrected by 0.1 %, at most {most} %, to 1 m3\n" for most in (0.5, share, 0.5))
-            self.check(checks.solids_on_mesh(case(logs={"flow": log})), state)
+        for share, state in ((-0.019, "holds"), (-0.021, "fails"), (0.021, "fails")):
+            steps = {"volume_correction": np.array([0.001, np.nan, share, 0.005])}
+            self.check(checks.solids_on_mesh(case(steps=steps)), state)
         self.check(checks.solids_on_mesh(case()), "unknown")
+        self.check(checks.solids_on_mesh(case(steps={"volume_correction": np.array([np.nan])})), "unknown")
 
-    def test_slurry_beyond_the_drag_laws_range(self):
-        for share, state in ((19, "holds"), (21, "look"), (51, "fails")):
-            log = f"bed: beyond Beetstra's range: at most 60 % of the slurry in the bed, in the mean over 5 s {share} %\n"
-            self.check(checks.drag_range(case(law="Beetstra", logs={"flow": log})), state)
+    def test_slurry_beyond_the_drag_laws_range_in_the_mean_over_time(self):
+        for share, state in ((0.19, "holds"), (0.21, "look"), (0.51, "fails")):
+            # A short step of another share, and one in which it is not known
+            steps = {"beyond_law": np.array([share, 1.0, np.nan]), "deltaT_s": np.array([1.0, 1e-9, 1.0])}
+            self.check(checks.drag_range(case(law="Beetstra", steps=steps)), state)
         self.check(checks.drag_range(case(law="Beetstra")), "unknown")
 
     def test_a_force_that_would_move_the_balls(self):
-        for load, state in (((0.19, 0.49), "holds"), ((0.21, 0.3), "look"), ((0.1, 0.51), "look"), ((0.41, 0.3), "fails"),
+        for load, state in (((0.19, 0.49), "holds"), ((0.21, 0.3), "look"), ((0.1, 0.51), "look"),
+                            ((0.41, 0.3), "fails"),
                             ((0.1, 1.1), "fails"), ((0.1, np.nan), "fails"), ((np.nan, 0.1), "fails")):
             self.check(checks.one_way(case(load=load)), state)
         self.check(checks.one_way(case(load=None)), "unknown")
 
 
+class OneMill(Verdicts):
+    """The fingerprints of the stages against those of mill.json."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def found(self):
+        return checks.same_mill(MillCase(self.folder))
+
+    def test_holds_for_stages_of_one_mill(self):
+        write_flow(self.folder)
+        self.check(self.found(), "holds")
+
+    def test_names_the_stage_both_fingerprints_and_what_to_run_again(self):
+        write_flow(self.folder)
+        other = "f" * 16
+        for name, part, again in (("dumps/run.json", "charge", "millDem"), ("dumps/results.json", "charge", "millDem"),
+                                  ("mesh.json", "flow", "millMesh"), ("postProcessing/flow/0/flow.json", "averages",
+                                                                      "the flow")):
+            path = self.folder / name
+            before = path.read_text()
+            change_json(path, "mill", part, to=other)
+            self.check(self.found(), "fails")
+            self.assertEqual(self.found().found, f"{name} is of {part} {other}, mill.json of {PRINTS[part]}: run "
+                                                 f"{again} again")
+            path.write_text(before)
+        for name, part, again in (("solids.h5", "averages", "millAverage"), ("solids.h5", "charge", "millAverage"),
+                                  ("slurry.h5", "flow", "the flow")):
+            with h5py.File(self.folder / name, "a") as file:
+                file.attrs[f"mill_{part}"] = other
+            self.assertEqual(self.found().found, f"{name} is of {part} {other}, mill.json of {PRINTS[part]}: run "
+                                                 f"{again} again")
+            with h5py.File(self.folder / name, "a") as file:
+                file.attrs[f"mill_{part}"] = PRINTS[part]
+        self.check(self.found(), "holds")
+
+    def test_is_unknown_where_no_stage_tells_it(self):
+        write_dry(self.folder)
+        for name in ("run.json", "results.json"):
+            change_json(self.folder / "dumps" / name, "mill", to={})
+        with h5py.File(self.folder / "solids.h5", "a") as file:
+            del file.attrs["mill_charge"], file.attrs["mill_averages"]
+        self.check(self.found(), "unknown")
+
+
 class List(Verdicts):
     def test_begins_with_what_fails_and_tells_files_that_cannot_be_used(self):
-        results = {"lost_balls": "0", "balls": "5", "steady": "no", "ball_overlap_largest": "1e-5", "ball_overlap_99": "1e-6"}
+        results = {"lost_balls": 0, "balls": 5, "steady": False, "ball_overlap_largest_m": 1e-5,
+                   "ball_overlap_99_m": 1e-6,
+                   "smallest_diameter_m": 0.004}
         found = checks.all_checks(case(results=results, unusable=["slurry.h5: not used, as it is half-written"]))
-        self.assertEqual([check.state for check in found], ["fails", "fails", "holds", "holds"])
+        self.assertEqual([check.state for check in found], ["fails", "fails", "unknown", "holds", "holds"])
         self.assertIn("half-written", " ".join(check.found for check in found[:2]))
+
+    def test_a_number_that_a_file_lacks_is_told(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        write_dry(folder)
+        change_json(folder / "dumps" / "results.json", "lost_balls", to="none")
+        found = checks.all_checks(MillCase(folder))[0]
+        self.check(found, "fails")
+        self.assertRegex(found.found, "results.json: lost_balls = 'none'; expected a number")
+
+    def test_only_verdicts_that_no_longer_run_can_change_are_lasting(self):
+        found = checks.one_way(case(load=(0.5, 1.1)))
+        self.assertTrue(found.lasting)
+        self.assertFalse(checks.one_way(case(load=(0.1, 0.2))).lasting)
+        self.assertFalse(checks.charge_steadiness(case(results={"steady": False})).lasting)
 
 
 if __name__ == "__main__":

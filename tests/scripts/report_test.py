@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports of small cases are whole pages that need no network, tell what is missing, and refuse what is no mill's case."""
+"""Reports of small cases are whole pages that need no network, tell what is missing, and refuse what is no mill's
+case."""
 import re
 import subprocess
 import tempfile
@@ -16,20 +17,20 @@ import numpy as np
 from millfoam.axial import Humps
 from millfoam.flow_readings import Mean, Way, angle_mean, slurry_blocks, slurry_way
 from millfoam.mill_plots import circle, mean_flow, mean_of_times
-from millfoam.report import comparison, figures, page, slurry_sections
+from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.readings import Readings, humps_told
-from millfoam.report.sections import last_turn
-from millfoam.report.sources import MillCase, NoMill, lifter_outline, usual_width
-from millfoam.report.words import decimals, millilitres, short_shares, span_of_time, typeset, uncertain
-from report_cases import OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_slurry, write_solids
+from millfoam.report.sources import MillCase, NoMill, lifter_outline
+from report_cases import (OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_mill, write_slurry,
+                          write_solids, write_steps)
 
 REPORT = Path(__file__).resolve().parents[2] / "scripts" / "report"
 VOID = {"meta", "link", "img", "input", "br"}
 
 
 class Page(HTMLParser):
-    """What stands in a page: ids, links, sources of images, text; errors: tags that are not balanced, ids given twice."""
+    """What stands in a page: ids, links, sources of images, text; errors: tags that are not balanced, ids given
+    twice."""
 
     def __init__(self, text):
         super().__init__()
@@ -91,38 +92,10 @@ class Case(unittest.TestCase):
         return subprocess.run([REPORT, *map(str, arguments)], capture_output=True, text=True)
 
 
-class Words(unittest.TestCase):
-    def test_minus_signs_and_powers_of_ten_are_typeset_but_not_names(self):
-        self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
-                         "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
-        self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
-
-    def test_units_shares_volumes_and_times_are_as_one_writes_them(self):
-        self.assertEqual(typeset("0.0232 m^3, 128.7 cm^2, m^35"), "0.0232 m³, 128.7 cm², m^35")
-        self.assertEqual(short_shares("at most 51.676534 % of 2.0000001e-05 %, 12 %, 0.123456 s"),
-                         "at most 51.7 % of 2e-05 %, 12 %, 0.123456 s")
-        self.assertEqual([millilitres(volume) for volume in (1.2345e-2, 1.04e-5, 9.651e-6, 0)],
-                         ["12345 ml", "10.4 ml", "9.65 ml", "0 ml"])
-        self.assertEqual([span_of_time(seconds) for seconds in (0, 45, 59.9, 90)], ["below 1 s", "45 s", "60 s", "1.5 min"])
-        self.assertEqual([last_turn(seconds, 1.0) for seconds in (1.05, 0.48)], ["The last turn", "The last 0.48 of a turn"])
-
-    def test_digits_are_those_that_the_error_allows(self):
-        self.assertEqual([decimals(error) for error in (0.0123, 0.03, 0.5, 1.7, 4, 25)], [3, 2, 1, 1, 0, 0])
-        self.assertEqual(uncertain(33.193095, 0.029591, "W"), "33.193 ± 0.030 W")
-        self.assertEqual(uncertain(-37.42, 1.23, "°"), "-37.4 ± 1.2°")
-        self.assertEqual(uncertain(0.0087123, float("nan"), "m/s"), "0.00871 m/s")
-
-    def test_what_is_written_into_a_page_is_escaped(self):
-        for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),
-                     page.table(["<"], [("&", 1.0)], title="<", note="&"), page.folded("<&>", "<script>&")):
-            self.assertNotRegex(made, r"&(?!amp;|lt;|gt;|quot;)|<script|<&|< ")
-
-
 class Models(Case):
     def test_moys_hold_up_stands_along_the_axis_and_adds_up_to_its_volume(self):
-        (self.folder / "constant").mkdir()
-        (self.folder / "constant" / "millProperties").write_text("outletRadius 0.05;\n")
-        mill = {"charge": {"classes": [{"diameter": 0.005, "mass": 1.0}]}, "slurry": {"plastic_viscosity": 0.01, "density": 1200.0}}
+        slurry = {"plastic_viscosity_Pa_s": 0.01, "density_kg_m3": 1200.0}
+        mill = SimpleNamespace(sauter_diameter=0.005, discharge_radius=0.05, slurry=slurry.get)
         case = SimpleNamespace(folder=self.folder, mill=mill, radius=0.15, length=0.3, feed=5e-5, begin=0.0,
                                charge=SimpleNamespace(solidity=np.full((3, 3), 0.6)),
                                balance={"Time": np.array([0.0, 1.0]), "holdUp": np.array([2e-3, 2e-3])})
@@ -152,13 +125,16 @@ class OneCase(Case):
         (dry / "constant").mkdir()
         (dry / "constant" / "millProperties").write_text("radius 0.15;\n")
         self.assertNotIn("The flow is not shown", self.assert_whole(report_case(dry)).text)
+        write_steps(dry, 0, np.array([0.01, 0.02]), complete=False)
+        self.assertRegex(self.assert_whole(report_case(dry)).text, "The flow is not shown: .*millProperties: "
+                                                                   ".*expected omega")
         (dry / "constant" / "millProperties").write_text("radius 0.15;\nomega -6;\ntime0 0;\nlength 0.3;\n")
-        (dry / "log.flow").write_text("killed\n")
         self.assertIn("The flow is not shown", self.assert_whole(report_case(dry)).text)
 
     def test_a_flow_with_everything_has_all_sections(self):
         found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
-        self.assertLessEqual({"overview", "checks", "charge", "slurry", "axis", "balance", "ledger", "run"}, set(found.ids))
+        self.assertLessEqual({"overview", "checks", "charge", "slurry", "axis", "balance", "ledger", "run"},
+                             set(found.ids))
         self.assertIn("slurry.h5", found.text)
         self.assertNotIn("✗ fails", found.text)
 
@@ -194,14 +170,19 @@ class OneCase(Case):
     def test_averages_begin_where_they_are_asked_to(self):
         case = MillCase(write_flow(self.folder / "flow"), 0.5)
         self.assertEqual((case.begin, case.charge_span[0]), (0.5, TIME0 + 0.5))
-        with self.assertRaisesRegex(RuntimeError, "from 9 s on, but the flow's last written time is 0.8 s"):
-            MillCase(self.folder / "flow", 9)
-
+        for begin in (9, 0.8, -1, float("nan")):
+            with self.assertRaisesRegex(RuntimeError, f"from {begin:g} s on; expected 0 or more and less than the "
+                                                      f"flow's last "
+                                                      "written time, 0.8 s"):
+                MillCase(self.folder / "flow", begin)
+        with self.assertRaisesRegex(RuntimeError, "from -1 s on; expected 0 or more and less than the end of "
+                                                  "solids.h5, 2 s"):
+            MillCase(write_dry(self.folder / "dry"), -1)
 
     def test_a_periodic_slice_has_no_ends(self):
         self.undrawn()
         found = self.assert_whole(report_case(make_slice(write_flow(self.folder / "flow"))))
-        self.assertNotRegex(found.text, "drop of p_rgh|feed|discharge")
+        self.assertNotRegex(found.text, r"drop of p_rgh|\bfeed\b|\bdischarge\b")
         self.assertIn("toe of the slurry", found.text)
 
     def test_a_flow_without_balls_has_no_words_on_the_charge(self):
@@ -225,15 +206,11 @@ class OneCase(Case):
 
 
 class Outline(unittest.TestCase):
-    def test_width_that_is_left_open_is_that_of_the_mesh(self):
-        # As fills_in_dimensions_that_sources_seldom_give has it of millMesh
-        self.assertEqual(usual_width(0.06, 12, 0.008, False), 0.008)
-        self.assertAlmostEqual(usual_width(0.06, 60, 0.008, False), 0.052 * np.tan(np.pi / 60), delta=1e-12)
-
     def test_is_the_shell_less_the_lifters(self):
         outline = lifter_outline(0.15, 4, 0.02, 0.01, 0.006, 0)
         np.testing.assert_array_equal(outline[0], outline[-1])
-        np.testing.assert_allclose(outline[:4], [[np.sqrt(0.15 ** 2 - 0.005 ** 2), -0.005], [0.13, -0.003], [0.13, 0.003],
+        np.testing.assert_allclose(outline[:4], [[np.sqrt(0.15 ** 2 - 0.005 ** 2), -0.005], [0.13, -0.003],
+                                                 [0.13, 0.003],
                                                  [np.sqrt(0.15 ** 2 - 0.005 ** 2), 0.005]])
         x, y = outline.T
         area = 0.5 * np.sum(x[:-1] * y[1:] - x[1:] * y[:-1])
@@ -246,8 +223,10 @@ class Outline(unittest.TestCase):
 class SlurryWay(Case):
     def test_circulates_by_two_standard_errors(self):
         angle = Mean(0.0)
-        for toe, shoulder, told in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"), ((3, 1), (-1, 1), "undecided"),
-                                    ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"), ((3, np.nan), (-3, 1), "undecided")):
+        for toe, shoulder, told in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"),
+                                    ((3, 1), (-1, 1), "undecided"),
+                                    ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"),
+                                    ((3, np.nan), (-3, 1), "undecided")):
             self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, told)
 
     def test_angles_are_averaged_across_180_degrees(self):
@@ -273,13 +252,15 @@ class SlurryWay(Case):
 
     def test_errors_of_blocks_shorter_than_a_turn_are_lower_bounds(self):
         case = MillCase(write_flow(self.folder / "flow"))
-        self.assertIn("lower bounds of errors: the charge's of 0.1 s, the slurry's of 0.1 s", Readings(case).short_blocks())
+        self.assertIn("lower bounds of errors: the charge's of 0.1 s, the slurry's of 0.1 s",
+                      Readings(case).short_blocks())
         case.turn = 0.1
         self.assertEqual(Readings(case).short_blocks(), "")
 
     def test_humps_at_the_profiles_end_are_told(self):
         z = np.linspace(0.01, 0.29, 15)
-        for places, told in (((0.01, 0.29), "2 of 2 at the profile's end"), ((0.1, 0.29), "1 of 2"), ((0.1, 0.2), None)):
+        for places, told in (((0.01, 0.29), "2 of 2 at the profile's end"), ((0.1, 0.29), "1 of 2"),
+                             ((0.1, 0.2), None)):
             words = humps_told(Humps(places, (1, 1), (0.05, 0.05), 0, 1e-3), z)
             self.assertIn(told or "100 mm apart, RMSD 1 mm", words)
             self.assertEqual("end" in words, told is not None)
@@ -309,15 +290,30 @@ class Refused(Case):
             report_case(self.folder)
 
     def test_folders_that_are_no_mills_case(self):
-        self.assert_refused("no mill.yaml; expected the folder of a mill's case")
-        (self.folder / "mill.yaml").write_text("geometry: [1, 2\nspeed: }")
-        self.assert_refused("mill.yaml, line 2: no YAML")
-        (self.folder / "mill.yaml").write_text("geometry: {diameter: 1}\n")
-        self.assert_refused("mill.yaml: no speed; expected the description of a mill")
+        self.assert_refused("no mill.json; expected the folder of a mill's case that was run: run Allrun, or millMesh "
+                            "mill.yaml")
+        file = self.folder / "mill.json"
+        write_mill(self.folder)
+        whole = file.read_bytes()
+        for content, message in ((whole[:300], "mill.json: line .* no JSON: .*cut short"),
+                                 (b"", "mill.json: line 1.* no JSON"),
+                                 ("{\"title\": \"Mühle\"}".encode("latin-1"), "mill.json: no UTF-8 text .byte 12.; "
+                                                                              "expected UTF-8"),
+                                 (whole.decode().encode("utf-16"), "mill.json: no UTF-8 text"),
+                                 (b"[" * 10**5, "mill.json: no JSON: too many brackets"),
+                                 (b"[]", "mill.json: format None; expected"),
+                                 (b'{"format": "millfoam-mesh"}', "format 'millfoam-mesh'; expected 'millfoam-mill'"),
+                                 (b'{"format": "millfoam-mill"}', "mill.json: no derived"),
+                                 (whole.replace(b'"geometry"', b'"form"'), "mill.json: no derived.geometry")):
+            file.write_bytes(content)
+            self.assert_refused(f"{message}.*; run Allrun, or millMesh mill.yaml --case DIR, to write it again")
+        ended = self.command(self.folder)
+        self.assertRegex(ended.stderr, "^report: error: .*mill.json: no derived.geometry; run Allrun.*\n$")
+        self.assertEqual(ended.returncode, 1)
 
     def test_a_case_that_was_not_run_or_whose_averages_are_not_whole(self):
-        (self.folder / "mill.yaml").write_text("geometry: {diameter: 1}\nspeed: {}\ncharge: {}\n")
-        self.assert_refused("neither a flow .* nor a whole solids.h5, nor dumps/results.txt")
+        write_mill(self.folder)
+        self.assert_refused("neither a flow .* nor a whole solids.h5, nor dumps/results.json")
         write_solids(self.folder / "solids.h5", complete=0)
         self.assert_refused("solids.h5: not used, as it is half-written; average the dumps again")
 
@@ -378,7 +374,7 @@ class Several(Case):
         self.undrawn()
         flow, dry = write_flow(self.folder / "flow"), write_dry(self.folder / "dry")
         other = write_dry(self.folder / "other")
-        (other / "mill.yaml").write_text((other / "mill.yaml").read_text().replace("diameter: 0.3\n", "diameter: 0.32\n"))
+        write_mill(other, diameter=0.32)
         words = re.sub(r"\s+", " ", self.assert_whole(compare_cases([flow, dry, other])).text)
         self.assertIn("other – – – not compared: another mill, of 320 mm instead of 300 mm", words)
         one, finer = (MillCase(path) for path in (flow, dry))

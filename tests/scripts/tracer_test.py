@@ -13,6 +13,7 @@ from millfoam.compare import difference
 from millfoam.dem_tracks import read_tracks
 from millfoam.report import held_against
 from millfoam.tracer import Trajectory, read_trajectory, residence, tracer_map, velocities
+from report_cases import write_json
 
 UNIT = [np.linspace(0, 1, 5)] * 3  # 4 x 4 x 4 voxels of 0.25
 SPEED = 2.0
@@ -213,7 +214,7 @@ class Tracks(unittest.TestCase):
     def make_dumps(self, bounds="ff ff pp", lost=None):
         """Ten balls in eleven dumps; ball 3 goes along z at 2 m/s in a slice of length 1, the others rest."""
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (folder / "run.txt").write_text("timestep 0.01\ninterval 10\nangular_velocity -2\n")
+        write_json(folder / "run.json", "dumps", timestep_s=0.01, interval=10, angular_velocity_rad_s=-2)
         for record in range(11):
             place = 0.05 + 0.2 * record
             lines = [f"{ball} 1 {ball} 0.5 {place % 1 if ball == 3 else 0.5} 0 0 0 0.1" for ball in (10, 3, 7, 1, 2)

@@ -14,6 +14,7 @@ import numpy as np
 from millfoam import foam, mill_plots
 from millfoam.axial import axial_profile, discharge, fit_gaussians, slurry_volumes
 from millfoam.flow_readings import RING, humps_at_ends, ring_depth
+from millfoam.mill import read_mill
 from millfoam.mill_flow import MillFlow
 from millfoam.slurry_maps import axial_flow, axial_velocity, slurry_ends
 
@@ -91,9 +92,8 @@ def main():
     mill_plots.plot_strip(flow, folder / "slurry_frames.png")
     mill_plots.animate(flow, folder / "slurry.gif")
 
-    feed = float(foam.read_dictionary(options.case / "constant" / "operation")["feedRate"])
-    logs = [options.case / name for name in ("log.flow.before", "log.flow")]
-    times, volumes = slurry_volumes("".join(log.read_text() for log in logs if log.is_file()))
+    feed = read_mill(options.case).flow("feed_m3_s", 0.0)
+    times, volumes = slurry_volumes(options.case)
     out = discharge(times, volumes, feed, begin)
     print(f"averages from {begin:g} to {last:g} s")
     print(f"slurry: {1e3 * volumes[0]:.3f} l at the start, {1e3 * volumes[-1]:.3f} l at the end")

@@ -13,14 +13,17 @@ from .build import compare_cases, report_case
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="report", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="report", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
     parser.add_argument("--begin", type=float,
                         help="time from which averages are taken, s [flow time 2, or half of a shorter run]")
     parser.add_argument("--measured", type=Path, metavar="CSV",
-                        help="a measured map of the charge on the run's voxels to hold it against: x_m, y_m, solidity, vx, vy")
+                        help="a measured map of the charge on the run's voxels to hold it against: x_m, y_m, solidity, "
+                             "vx, vy")
     parser.add_argument("--tracer", type=Path, action="append", default=[], metavar="FILE",
-                        help="a tracer's track, lines of t, x, y, z in s and m, to hold the charge against; may be given again")
+                        help="a tracer's track, lines of t, x, y, z in s and m, to hold the charge against; may be "
+                             "given again")
     parser.add_argument("-o", "--output", type=Path, help="the file to write")
     options = parser.parse_args()
     if len(options.cases) == 1:

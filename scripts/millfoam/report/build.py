@@ -2,27 +2,31 @@
 """Puts the report of a case, or of several beside each other, together."""
 import datetime
 
-from . import checks, comparison, held_against, page
+from . import comparison, held_against, page
+from .checks import all_checks
+from .headline import first_lines
 from .readings import Readings
 from .sections import SECTIONS
-from .sources import MillCase
+from .sources import MillCase, fines_told
 
 FOOT = "Written by millFoam's scripts/report on {:%Y-%m-%d %H:%M}."
 
 
 def report_case(folder, begin=None, measured=None, tracers=()):
-    """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks. RuntimeError where
-    the folder is none of a case that was run, or a file cannot be read."""
+    """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks.
+    RuntimeError where the folder is none of a case that was run, or a file cannot be read."""
     case = MillCase(folder, begin)
     against = [held_against.measured_section(case, measured)] if measured else []
     against += [held_against.tracer_section(case, tracers)] if tracers else []
     readings = Readings(case)
     sections = [(name, heading, section(case, readings)) for name, heading, section in SECTIONS]
-    sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(checks.all_checks(case))]))
+    found = all_checks(case)
+    sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))
     sections[3:3] = against
-    title = case.mill.get("title") or case.name
-    return page.page(f"{title} – {case.name}" if title != case.name else title, case.summary(), sections,
-                     FOOT.format(datetime.datetime.now()))
+    fines = f", {fines_told(case.mill)}" if case.mill.fines_share > 0 else ""
+    title = f"{case.title} – {case.name}" if case.title != case.name else case.title
+    return page.page(title + fines, case.summary(), sections, FOOT.format(datetime.datetime.now()),
+                     first_lines(case, found))
 
 
 def compare_cases(folders, begin=None):
@@ -30,6 +34,8 @@ def compare_cases(folders, begin=None):
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
     names = comparison.distinct(cases)
+    found = [all_checks(case) for case in cases]
+    lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
     subtitle = f"{names[0]} against " + ", ".join(names[1:])
-    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names),
-                     FOOT.format(datetime.datetime.now()))
+    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names, found),
+                     FOOT.format(datetime.datetime.now()), lines)

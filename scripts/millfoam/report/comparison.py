@@ -4,15 +4,16 @@ import numpy as np
 
 from .. import axial, charge, compare, mill_plots
 from ..slurry_maps import SlurryMap
-from . import checks, figures, maps, page
-from .readings import key_numbers
+from . import figures, maps, page
+from .readings import FRAME, key_numbers
 
 
-def sections(cases, readings, names):
-    """(id, heading, [cards]) of cases, their Readings and names, the first being what the others are held against."""
+def sections(cases, readings, names, found):
+    """(id, heading, [cards]) of cases, their Readings, names and lists of checks, the first being what the others are
+    held against."""
     numbers_card = numbers(cases, readings, names)
     return [("numbers", "Numbers", [numbers_card]),
-            ("checks", "Can they be believed?", [verdict_table(cases, names)]),
+            ("checks", "Can they be believed?", [verdict_table(found, names)]),
             ("charge", "Charge", charge_cards(cases, readings, names)),
             ("slurry", "Slurry", slurry_cards(cases, readings, names)),
             ("axis", "Along the axis", axial_cards(cases, readings, names)),
@@ -35,16 +36,21 @@ def numbers(cases, readings, names):
     keys = list(dict.fromkeys(key for column in columns for key in column))
     rows = [(key, *(column.get(key, "–") for column in columns)) for key in keys]
     rows.insert(0, ("run", *(case.summary() for case in cases)))
-    short = [f" {name}:{words}" for name, words in zip(names, [one.short_blocks(slurry=False) for one in readings]) if words]
-    return page.table(["", *names], rows, wide=True, note="±: standard errors of batch means over time. Angles are counted from "
-                                                          "straight down, positive where the shell rises." + "".join(short))
+    short = [f" {name}:{words}" for name, words in zip(names, [one.short_blocks(slurry=False) for one in readings])
+             if words]
+    return page.table(["", *names], rows, wide=True, note="±: standard errors of batch means over time. Angles are "
+                                                          "counted from "
+                                                          "straight down, positive where the shell rises. " + FRAME
+                      + "".join(short))
 
 
-def verdict_table(cases, names):
-    found = [{check.name: check for check in checks.all_checks(case)} for case in cases]
+def verdict_table(found, names):
+    """The states of lists of checks, a column per case."""
+    found = [{check.name: check for check in checks} for checks in found]
     keys = list(dict.fromkeys(key for one in found for key in one))
     rows = [(key, *(page.MARKS[one[key].state] if key in one else "–" for one in found)) for key in keys]
-    return page.table(["", *names], rows, wide=True, note="What was found, and what to do, is in each case's own report.")
+    return page.table(["", *names], rows, wide=True, note="What was found, and what to do, is in each case's own "
+                                                          "report.")
 
 
 def same_pixels(a, b):
@@ -84,14 +90,17 @@ def charge_differences(told):
                                   title=f"{name} less {first_name}"))
         found = compare.difference(case.charge, first.charge)
         try:
-            surface = compare.surface_difference(*(compare.free_surface(one.charge, one.radius) for one in (case, first)))
+            surface = compare.surface_difference(*(compare.free_surface(one.charge, one.radius)
+                                                   for one in (case, first)))
             height = f"{1e3 * surface.mean:+.2g} mm, deviating by {1e3 * surface.deviation:.2g} mm"
         except RuntimeError:
             height = "–"
-        rows.append((name, *((100 * value, ".3g") for value in (found.solidity, found.velocity_x, found.velocity_y)), height))
+        rows.append((name, *((100 * value, ".3g") for value in (found.solidity, found.velocity_x, found.velocity_y)),
+                     height))
     if rows:
         cards.append(page.table(["", "solidity, %", "velocity x, %", "velocity y, %", "free surface"], rows, wide=True,
-                                note="Mean |difference| of solidity over 0.634; of velocities, weighted by the solidity, over "
+                                note="Mean |difference| of solidity over 0.634; of velocities, weighted by the "
+                                     "solidity, over "
                                      "the mean of both largest speeds; height of the free surface less the first's.",
                                 title=f"Charge held against {first_name}"))
     return cards
@@ -110,7 +119,8 @@ def charge_curves(told):
                          "From the shoulder on the rising side to the toe.", title="Free surfaces"),
             page.picture(figures.lines_against(curves, "distance from the mill's centre, mm",
                                                "tangential velocity, m/s\n(positive as the mill turns)"),
-                         "Along the line through the centre of circulation, from the free surface to 8 mm from the shell.",
+                         "Along the line through the centre of circulation, from the free surface to 8 mm from the "
+                         "shell.",
                          title="Tangential velocity")]
 
 
@@ -119,7 +129,8 @@ def slurry_cards(cases, readings, names):
             if isinstance(reading.slurry, SlurryMap)]
     if not told:
         return []
-    cards = [page.picture(maps.map_figure(case, one.x, one.y, one.share, "share of the fluid, –", mill_plots.SLURRY, (0, 1)),
+    cards = [page.picture(maps.map_figure(case, one.x, one.y, one.share, "share of the fluid, –", mill_plots.SLURRY,
+                                          (0, 1)),
                           f"Share of the fluid that is slurry, averaged over the axis and {one.source}.", title=name)
              for case, one, name in told]
     first_case, first, first_name = told[0]
@@ -128,7 +139,8 @@ def slurry_cards(cases, readings, names):
         if reason:
             cards.append(page.paragraph(f"Slurry of {name} is not compared with that of {first_name}: {reason}."))
         else:
-            figure = maps.difference_figure(case, one.x, one.y, one.share - first.share, "difference of the share, –", 0.1)
+            figure = maps.difference_figure(case, one.x, one.y, one.share - first.share, "difference of the share, –",
+                                            0.1)
             cards.append(page.picture(figure, f"Share of slurry of {name} less that of {first_name}. Red: more slurry.",
                                       title=f"{name} less {first_name}"))
     return cards
@@ -143,12 +155,14 @@ def axial_cards(cases, readings, names):
     return [page.picture(figures.lines_against([(name, 1e3 * one.z, 1e3 * one.height) for name, one in found], z,
                                                "height of the centre, mm"), "Mean over time.",
                          title="Height of the slurry's centre"),
-            page.picture(figures.lines_against([(name, 1e3 * one.z, one.pressure) for name, one in found], z, "p_rgh, Pa"),
+            page.picture(figures.lines_against([(name, 1e3 * one.z, one.pressure) for name, one in found], z,
+                                               "p_rgh, Pa"),
                          "Pressure in the slurry without what the depth makes, mean over time.", title="p_rgh")]
 
 
 def time_cards(cases, names):
-    told = [(name, case) for name, case in zip(names, cases) if case.balance is not None and len(case.balance["Time"]) > 1]
+    told = [(name, case) for name, case in zip(names, cases) if case.balance is not None
+            and len(case.balance["Time"]) > 1]
     if not told:
         return []
     curves = {key: [(name, case.balance["Time"], scale * case.balance[key]) for name, case in told]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report about the contacts of a dry run that wrote them: spectra of collisions and of dissipated power."""
+"""Section of the report about the contacts of a dry run that wrote them: spectra of collisions and of dissipated
+power."""
 import numpy as np
 
 from ..contact_spectra import PARTS, power_to_dissipate, read_spectra
@@ -20,14 +21,18 @@ def contact_section(case, _readings):
         spectra, drive = read_spectra(folder, begin, end), power_to_dissipate(folder, begin, end)
     except (RuntimeError, OSError, ValueError) as error:
         return [page.paragraph(f"Contacts cannot be shown: {error}.")]
-    span = f"{spectra.dumps} dumps of contacts, every {1e3 * spectra.interval:.3g} ms of DEM time {begin:.3g} to {end:.3g} s"
-    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: power that "
-                         "contacts dissipate by the energy of their motion. Pairs go by their larger ball; grey: with the wall. "
+    span = (f"{spectra.dumps} dumps of contacts, every {1e3 * spectra.interval:.3g} ms of DEM time {begin:.3g} to "
+            f"{end:.3g} s")
+    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: "
+                                                  "power that "
+                         "contacts dissipate by the energy of their motion. Pairs go by their larger ball; grey: with "
+                         "the wall. "
                          f"From {span}.", title="Spectra of energy"),
             page.table(*power_table(spectra), title="Power that contacts dissipate, mW",
                        note="Between balls of two diameters, and of balls and the wall."),
             page.table(None, balance_rows(spectra, drive), title="Where the drive's power goes",
-                       note="In a steady state contacts take what the drive gives. They miss each other by what single dumps "
+                       note="In a steady state contacts take what the drive gives. They miss each other by what single "
+                            "dumps "
                             "tell of it: more dumps, at shorter intervals, bring them together.")]
 
 
@@ -75,7 +80,8 @@ def power_table(spectra):
 def balance_rows(spectra, drive):
     parts = {part: spectra.power[part] for part in PARTS}
     taken = spectra.total_power()
-    rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} mW")
+    rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} "
+                                                           f"mW")
             for part, values in parts.items()]
     return rows + [("of the friction, at contacts that slide", f"{100 * spectra.sliding:.0f} %"),
                    ("all contacts", f"{1e3 * taken:.4g} mW"),

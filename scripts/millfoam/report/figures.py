@@ -35,8 +35,8 @@ def running_mean(times, values, width):
 
 
 def quarter_turns(case, name):
-    """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without the first
-    steps' start-up on; of a shorter run over what there is, from its half on."""
+    """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without
+    the first steps' start-up on; of a shorter run over what there is, from its half on."""
     times = case.balance["Time"]
     mean = running_mean(times, case.balance[name], case.turn / 4)
     clear = times[0] + 1.05 * case.turn / 4
@@ -45,8 +45,8 @@ def quarter_turns(case, name):
 
 
 def late_limits(times, values):
-    """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half and nought
-    span, and on either side half as much again as far as there are values."""
+    """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half
+    and nought span, and on either side half as much again as far as there are values."""
     late = values[times >= times[0] / 2 + times[-1] / 2]
     low, high = min(0, late.min()), max(0, late.max())
     more = (high - low) / 2
@@ -69,17 +69,17 @@ def energy(case):
     bottom.plot(time, told["potential_J"] - told["potential_J"][0], color=GREEN, label="potential, less the first")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
     bottom.legend(loc="lower right")
-    if case.results["steady"] == "yes":
+    if case.results.get("steady"):
         for axis in (top, bottom):
-            axis.axvline(float(case.results["steady_from"]), color=GREY, ls="--", lw=1)
+            axis.axvline(case.result("steady_from_s"), color=GREY, ls="--", lw=1)
     return figure
 
 
 def overlaps(case):
     """Histogram of the contacts' overlaps."""
     figure, (axis,) = axes_of()
-    overlap, balls, walls = case.overlaps
-    diameter = min(c["diameter"] for c in case.mill["charge"]["classes"])
+    overlap, balls, walls = (case.overlaps[key] for key in ("overlap_m", "ball_contacts", "wall_contacts"))
+    diameter = case.result("smallest_diameter_m")
     for counts, colour, label in ((balls, BLUE, "ball on ball"), (walls, ORANGE, "ball on wall")):
         axis.step(100 * overlap / diameter, counts / max(counts.sum(), 1), where="mid", color=colour, label=label)
     largest = 100 * overlap[np.flatnonzero(balls + walls)[-1:]].max(initial=0) / diameter
@@ -112,7 +112,7 @@ def centre_and_power(case):
     """Centre of the slurry and the power that it takes against time."""
     told = case.balance
     figure, (top, bottom) = axes_of(2)
-    top.plot(told["Time"], 1e3 * told["x"], color=BLUE, label="x (below 0: rising side)")
+    top.plot(told["Time"], -1e3 * np.sign(case.omega) * told["x"], color=BLUE, label="x (below 0: rising side)")
     top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
     top.set_ylabel("centre of the slurry, mm")
     top.legend()
@@ -138,7 +138,8 @@ def reynolds(case):
 def holdup_along(profile, z, model):
     """Hold-up per length along the axis: of an AxialProfile, and of a model (m2) at z (m)."""
     figure, (axis,) = axes_of()
-    axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE, label="simulation")
+    axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE,
+              label="simulation")
     axis.plot(1e3 * z, 1e3 * model, color=RED, label="Moys")
     axis.set(xlabel="z from the feed end, mm", ylabel="hold-up, ml per mm", ylim=(0, None))
     axis.legend()
@@ -146,17 +147,19 @@ def holdup_along(profile, z, model):
 
 
 def axial(profile, fits, along):
-    """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves (label, z,
-    height)."""
+    """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves
+    (label, z, height)."""
     figure, (height, held, head) = axes_of(3, height=2.3)
     z = 1e3 * profile.z
-    height.fill_between(z, 1e3 * (profile.height - profile.height_spread), 1e3 * (profile.height + profile.height_spread),
+    height.fill_between(z, 1e3 * (profile.height - profile.height_spread),
+                        1e3 * (profile.height + profile.height_spread),
                         alpha=0.2, color=BLUE, label="standard deviation over time")
     height.plot(z, 1e3 * profile.height, "o", ms=4, color=BLUE, label="mean over time")
     for (label, at, curve), colour in zip(fits, (RED, GREEN)):
         height.plot(1e3 * at, 1e3 * curve, color=colour, lw=1.2, label=label)
     height.set_ylabel("height of the\ncentre, mm")
-    height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=1 if any("end)" in label for label, _, _ in fits) else 2)
+    height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=1
+                  if any("end)" in label for label, _, _ in fits) else 2)
     held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
     held.set_ylabel("hold-up, ml per mm")
     head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)
@@ -168,7 +171,8 @@ def axial_against_time(places, times, values, along):
     """Height of the centre of mass over the axis, which is called `along`, and time."""
     figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
-    image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower, vmax=upper,
+    image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower,
+                            vmax=upper,
                             rasterized=True)
     figure.colorbar(image, ax=axis, label="height of the centre, mm")
     axis.set(xlabel="flow time, s", ylabel=along)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report that hold a simulated charge against a measurement: a map out of a CSV, or tracks of tracers."""
+"""Sections of the report that hold a simulated charge against a measurement: a map out of a CSV, or tracks of
+tracers."""
 import h5py
 import numpy as np
 
@@ -7,12 +8,14 @@ from .. import compare, tracer
 from . import maps, page
 
 MOST_OUTSIDE = 0.5  # of a track's time, outside of the voxels: it is in other units then, or of another place
-ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both largest "
+ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both "
+         "largest "
          "speeds.")
 
 
 def measured_section(case, path):
-    """(id, heading, cards) of a case's charge against the measured map in a CSV; RuntimeError naming what is wrong in it."""
+    """(id, heading, cards) of a case's charge against the measured map in a CSV; RuntimeError naming what is wrong in
+    it."""
     if not case.solids:
         raise RuntimeError(f"{case.folder}: no solids.h5 to hold {path} against")
     try:
@@ -24,7 +27,8 @@ def measured_section(case, path):
 
 
 def tracer_section(case, paths):
-    """(id, heading, cards) of a case's charge against that of tracers' tracks; RuntimeError naming what is wrong in them."""
+    """(id, heading, cards) of a case's charge against that of tracers' tracks; RuntimeError naming what is wrong in
+    them."""
     if not case.solids:
         raise RuntimeError(f"{case.folder}: no solids.h5 to hold {paths[0]} against")
     tracks = [read_track(path) for path in paths]
@@ -39,7 +43,8 @@ def tracer_section(case, paths):
             ("volume of the charge", f"{1e6 * volume:.4g} ml")]
     return "tracers", "Against tracers", cards(case, found, f"Tracers: {names}", "tracers") + [
         page.table(None, rows, title="Tracks",
-                   note="Share of the time that tracers spend in a voxel, times the charge's volume by the ledger over the "
+                   note="Share of the time that tracers spend in a voxel, times the charge's volume by the ledger over "
+                        "the "
                         "voxel's room: its solidity, if the charge is steady and mixes.")]
 
 
@@ -55,13 +60,15 @@ def read_track(path):
 
 
 def refuse_outside(path, track, edges, periodic):
-    """RuntimeError naming the file, the track's extent and the voxels' if more than half of its time is outside the voxels."""
+    """RuntimeError naming the file, the track's extent and the voxels' if more than half of its time is outside the
+    voxels."""
     _, _, outside = tracer.residence(track, edges, np.zeros_like(track.position), periodic)
     share = outside / (track.time[-1] - track.time[0])
     if share > MOST_OUTSIDE:
         voxels = np.array([(planes[0], planes[-1]) for planes in edges])
         raise RuntimeError(f"{path}: {100 * share:.0f} % of its time is outside of the voxels: it reaches from "
-                           f"{extent(np.transpose([track.position.min(axis=0), track.position.max(axis=0)]))}, the voxels from "
+                           f"{extent(np.transpose([track.position.min(axis=0), track.position.max(axis=0)]))}, the "
+                           f"voxels from "
                            f"{extent(voxels)} m; expected t in s, x, y and z in m, x and y from the mill's axis")
 
 
@@ -71,14 +78,15 @@ def extent(ends):
 
 
 def charge_voxels(case):
-    """Of solids.h5: edges x, y, z (m) of its voxels, their share within the mill [nz, ny, nx] in the mean over time, whether they
-    repeat along z, and the balls' volume by the ledger (m3)."""
+    """Of solids.h5: edges x, y, z (m) of its voxels, their share within the mill [nz, ny, nx] in the mean over time,
+    whether they repeat along z, and the balls' volume by the ledger (m3)."""
     with h5py.File(case.solids) as file:
         grid = file["grid"]
         lower, upper, shape = (np.asarray(grid.attrs[name]) for name in ("lower", "upper", "shape"))
         begin, end = case.charge_span
         chosen = np.flatnonzero((file["window/end"][:] > begin) & (file["window/begin"][:] < end))
-        inside = sum(grid["insideFraction"][window] for window in chosen) / len(chosen) if "insideFraction" in grid else None
+        inside = sum(grid["insideFraction"][window]
+                     for window in chosen) / len(chosen) if "insideFraction" in grid else None
         volume = float(file["ledger/volume_in"][chosen].mean())
         periodic = bool(np.asarray(grid.attrs.get("periodic", (0, 0, 0)))[2])
     return [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in range(3)], inside, periodic, volume
@@ -87,20 +95,25 @@ def charge_voxels(case):
 def cards(case, other, title, name):
     """Maps of both, their differences, the histogram and the numbers."""
     apart = compare.difference_maps(case.charge, other)
-    return [page.picture(maps.solidity_figure(case, case.charge), "Solidity averaged over axis and time.", title="Simulated"),
-            page.picture(maps.solidity_figure(case, other), "Solidity on the simulation's voxels; white where it is not known.",
+    return [page.picture(maps.solidity_figure(case, case.charge), "Solidity averaged over axis and time.",
+                         title="Simulated"),
+            page.picture(maps.solidity_figure(case, other), "Solidity on the simulation's voxels; white where it is "
+                                                            "not known.",
                          title=title),
-            page.picture(maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –", 0.05),
+            page.picture(maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –",
+                                                0.05),
                          f"Simulation less {name}. Red: the simulation is denser.", title="Difference of solidity"),
             page.picture(maps.histogram_figure(apart.shares, apart.edges),
-                         f"How much of the mill's inside has which difference, simulation less {name}.", title="Histogram"),
+                         f"How much of the mill's inside has which difference, simulation less {name}.",
+                         title="Histogram"),
             *velocity_cards(case, apart, name),
             page.table(None, difference_rows(case, other, apart), title="Numbers", note=ABOUT)]
 
 
 def velocity_cards(case, apart, name):
     """Differences of velocity, if the other map has any."""
-    return [page.picture(maps.difference_figure(case, apart.x, apart.y, values, f"difference of the velocity's {axis}, m/s"),
+    return [page.picture(maps.difference_figure(case, apart.x, apart.y, values, f"difference of the velocity's {axis}, "
+                                                                                f"m/s"),
                          f"Simulation less {name}, where both have balls.", title=f"Difference of velocity, {axis}")
             for axis, values in (("x", apart.velocity_x), ("y", apart.velocity_y)) if np.isfinite(values).any()]
 

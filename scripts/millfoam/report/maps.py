@@ -15,12 +15,15 @@ def draw_mill(axis, case):
 
 
 def map_figure(case, x, y, values, label, colours, limits):
-    """Values [ny, nx] on pixels between x [nx + 1] and y [ny + 1] (m) in a case's mill, with a colour bar called `label`."""
+    """Values [ny, nx] on pixels between x [nx + 1] and y [ny + 1] (m) in a case's mill, with a colour bar called
+    `label`."""
     figure, axis = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
     image = axis.pcolormesh(1e3 * x, 1e3 * y, values, cmap=colours, vmin=limits[0], vmax=limits[1])
     slack = 0.005 * (limits[1] - limits[0])
-    below, above = np.nanmin(values, initial=np.inf) < limits[0] - slack, np.nanmax(values, initial=-np.inf) > limits[1] + slack
-    extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((bool(below), bool(above)), "neither")
+    below, above = np.nanmin(values, initial=np.inf) < limits[0] - slack, np.nanmax(values,
+                                                                                    initial=-np.inf) > limits[1] + slack
+    extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get((bool(below), bool(above)),
+                                                                                    "neither")
     figure.colorbar(image, ax=axis, shrink=0.9, label=label, extend=extend)
     draw_mill(axis, case)
     return figure

@@ -18,6 +18,8 @@ header { background: #10202e; color: #f2f6f9; padding: 1.6rem 1rem 1.4rem; }
 header div, main, footer { max-width: 1180px; margin: 0 auto; }
 header h1 { margin: 0 0 .3rem; font-size: 1.7rem; line-height: 1.2; }
 header p { margin: 0; color: #b9c7d3; }
+header .first { margin: 0 0 .8rem; padding: .5rem .8rem .5rem 1.9rem; border-left: 4px solid #ffb74d; background: #2a3442;
+                border-radius: 4px; }
 header, figcaption, li, .note { overflow-wrap: anywhere; }
 td, th { min-width: 4.5rem; overflow-wrap: normal; word-break: normal; hyphens: none; }
 nav { position: sticky; top: 0; z-index: 2; background: var(--card); border-bottom: 1px solid var(--line);
@@ -124,7 +126,8 @@ def verdicts(checks):
     """A card with one line per check (millfoam.report.checks.Check)."""
     lines = []
     for check in checks:
-        advice = f'<span class="do">{text(check.advice)}</span>' if check.advice else ""
+        words = check.advice + (f" A longer run does not change this: {check.meaning}." if check.lasting else "")
+        advice = f'<span class="do">{text(words)}</span>' if words else ""
         lines.append(f'<li class="{check.state}"><span class="mark">{MARKS[check.state]}</span>'
                      f"<span><b>{text(check.name)}</b>: {text(check.found)}</span>{advice}</li>")
     return '<div class="card wide"><ul class="verdicts">' + "".join(lines) + "</ul></div>"
@@ -149,14 +152,17 @@ def folded(title, content):
     return f'<details class="card wide"><summary>{text(title)}</summary><pre>{html.escape(content)}</pre></details>'
 
 
-def page(title, subtitle, sections, foot):
-    """The whole document. sections: (id, heading, [cards]); those without cards are left out."""
+def page(title, subtitle, sections, foot, first=()):
+    """The whole document. sections: (id, heading, [cards]); those without cards are left out. first: sentences that
+    stand above the title."""
     shown = [(name, heading, cards) for name, heading, cards in sections if cards]
     links = "".join(f'<li><a href="#{name}">{text(heading)}</a></li>' for name, heading, _ in shown)
     body = "".join(f'<section id="{name}"><h2>{text(heading)}</h2><div class="cards">{"".join(cards)}</div></section>'
                    for name, heading, cards in shown)
+    above = "".join(f"<li>{text(line)}</li>" for line in first)
+    above = f'<ul class="first">{above}</ul>' if first else ""
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
             '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
             f"<title>{text(title)}</title><style>{STYLE}</style></head><body>"
-            f"<header><div><h1>{text(title)}</h1><p>{text(subtitle)}</p></div></header><nav><ul>{links}</ul></nav>"
+            f"<header><div>{above}<h1>{text(title)}</h1><p>{text(subtitle)}</p></div></header><nav><ul>{links}</ul></nav>"
             f"<main>{body}</main><footer>{text(foot)}</footer><script>{SCRIPT}</script></body></html>\n")

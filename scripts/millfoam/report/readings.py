@@ -8,9 +8,19 @@ from ..slurry_maps import SlurryMap
 from ..tables import time_mean
 from .words import millilitres, uncertain
 
+FRAME = ("Distances x are positive to the side where the shell falls, on the right of a clockwise mill: they are alike "
+         "for both "
+         "senses. Maps show the mill as it turns, with x to the right.")
+
+
+def to_falling_side(case, x):
+    """A distance x (m) as it is in the frame of the rotation: positive to the side where the shell falls."""
+    return -np.sign(case.omega) * x
+
 
 class Readings:
-    """What is read off a case's maps, once for all sections and comparisons; a reading that failed is its error's text."""
+    """What is read off a case's maps, once for all sections and comparisons; a reading that failed is its error's
+    text."""
 
     def __init__(self, case):
         self.case = case
@@ -18,14 +28,16 @@ class Readings:
         self.errors = self.attempt(self._errors) if isinstance(self.charge, charge.Charge) else None
         # Blocks are read once for the mean and for its errors
         self.blocks = self.attempt(lambda: list(slurry_blocks(case))) if case.flow else None
-        self.slurry = self.attempt(lambda: mean_slurry(case, self.blocks)) if isinstance(self.blocks, list) else self.blocks
+        self.slurry = self.attempt(lambda: mean_slurry(case, self.blocks)) if isinstance(self.blocks,
+                                                                                         list) else self.blocks
         self.way = self.attempt(self._way) if isinstance(self.slurry, SlurryMap) else None
         self.profile = self.attempt(self._profile) if case.flow else None
         self.humps = {}
         if isinstance(self.profile, axial.AxialProfile):
             for count in (2, 3):
                 if len(self.profile.z) >= 3 * count + 3:
-                    self.humps[count] = self.attempt(lambda: axial.fit_gaussians(self.profile.z, self.profile.height, count))
+                    self.humps[count] = self.attempt(lambda: axial.fit_gaussians(self.profile.z, self.profile.height,
+                                                                                 count))
 
     @staticmethod
     def attempt(read):
@@ -40,15 +52,16 @@ class Readings:
         return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
 
     def short_blocks(self, slurry=True):
-        """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where their blocks of time are
-        shorter than a turn of the mill. Empty where they are not."""
+        """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where their blocks
+        of time are shorter than a turn of the mill. Empty where they are not."""
         case, lengths = self.case, {}
         if isinstance(self.errors, dict):
             lengths["the charge's"] = np.ptp(case.charge_span) / self.errors["centre"].blocks
         if slurry and isinstance(self.blocks, list):
             lengths["the slurry's"] = (case.last - case.begin) / len(self.blocks)
         short = [f"{name} of {length:.2g} s" for name, length in lengths.items() if length < 0.99 * case.turn]
-        return (f" Blocks shorter than a turn of the mill ({case.turn:.2g} s) give lower bounds of errors: {', '.join(short)}."
+        return (f" Blocks shorter than a turn of the mill ({case.turn:.2g} s) give lower bounds of errors: "
+                f"{', '.join(short)}."
                 if short else "")
 
     def _errors(self):
@@ -74,13 +87,15 @@ def key_numbers(case, readings):
     """Rows (name, text) of the numbers that are asked for first."""
     rows = []
     if case.results:
-        rows.append(("power of the dry charge", uncertain(float(case.results["power"]), float(case.results["power_error"]), "W")))
+        rows.append(("power of the dry charge", uncertain(case.result("power_W"), case.result("power_error_W"), "W")))
+    rows += load_numbers(case.mill)
     if isinstance(readings.charge, charge.Charge):
         rows += charge_numbers(readings)
     if case.balance is not None:
         rows += balance_numbers(case)
     if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2 and not case.is_slice:
-        rows.append(("drop of p_rgh in the slurry along the axis, by a straight line", f"{axial.drop(readings.profile):.3g} Pa"))
+        rows.append(("drop of p_rgh in the slurry along the axis, by a straight line",
+                     f"{axial.drop(readings.profile):.3g} Pa"))
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
             rows.append((f"axial profile, {count} Gaussians", humps_told(fit, readings.profile.z)))
@@ -91,18 +106,32 @@ def humps_told(fit, z):
     """Distances and RMSD of axial.Humps on slices z (m), and whether they end where the slices do."""
     apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
     ended = humps_at_ends(fit, z)
-    words = f"; {ended} of {len(fit.places)} at the profile's end: how far apart is only its slices' span" if ended else ""
+    at_end = f"; {ended} of {len(fit.places)} at the profile's end: how far apart is only its slices' span"
+    words = at_end if ended else ""
     return f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm{words}"
 
 
+def load_numbers(mill):
+    """Rows of what the mill is filled with: what is simulated, and what was asked for where that is more."""
+    rows = [("load of balls", f"{100 * mill.load:.3g} %")]
+    if mill.fines_share > 0:
+        rows = [("load of balls, as simulated", f"{100 * mill.load:.3g} %"),
+                ("load of balls, as asked for", f"{100 * mill.load_asked:.3g} %"),
+                (f"left out: balls of {1e3 * mill.largest_fines:.3g} mm and less", f"{100 * mill.fines_share:.3g} % of "
+                                                                                   f"the mass")]
+    return rows
+
+
 def charge_numbers(readings):
-    found, error = readings.charge, readings.error
-    return [("centre of circulation, x", uncertain(1e3 * found.centre[0], 1e3 * error("centre", 0), "mm")),
+    found, error, x = readings.charge, readings.error, to_falling_side(readings.case, readings.charge.centre[0])
+    return [("centre of circulation, x to the falling side", uncertain(1e3 * x, 1e3 * error("centre", 0), "mm")),
             ("centre of circulation, y", uncertain(1e3 * found.centre[1], 1e3 * error("centre", 1), "mm")),
             ("shoulder of the charge", uncertain(found.shoulder, error("ends", 1), "°")),
             ("toe of the charge", uncertain(found.toe, error("ends", 0), "°")),
-            ("free surface, RMSD of the logistic", uncertain(1e3 * found.surface.rmsd, 1e3 * error("surface_rmsd"), "mm")),
-            ("tangential velocity, RMSD of the cubic", uncertain(found.tangential.rmsd, error("tangential_rmsd"), "m/s"))]
+            ("free surface, RMSD of the logistic", uncertain(1e3 * found.surface.rmsd, 1e3 * error("surface_rmsd"),
+                                                             "mm")),
+            ("tangential velocity, RMSD of the cubic", uncertain(found.tangential.rmsd, error("tangential_rmsd"),
+                                                                 "m/s"))]
 
 
 def balance_numbers(case):
@@ -111,7 +140,8 @@ def balance_numbers(case):
         return []
     mean = {name: time_mean(told["Time"], values, case.begin) for name, values in told.items()}
     rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4)),
-            ("centre of the slurry, x", f"{1e3 * mean['x']:.1f} mm"), ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
+            ("centre of the slurry, x to the falling side", f"{1e3 * to_falling_side(case, mean['x']):.1f} mm"),
+            ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
             ("power for the slurry", f"{mean['power']:.3g} W")]
     if case.is_open and not case.is_slice:
         feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]

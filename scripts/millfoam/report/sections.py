@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report of one case: each function returns cards, none where the case does not have what it shows."""
-import re
-
 import h5py
 import numpy as np
 
-from .. import charge, charge_plots, mill_plots, solids
+from .. import charge_plots, mill_plots, solids
+from ..data_files import read_text
 from . import figures, maps, page
 from .contact_cards import contact_section
-from .readings import key_numbers
+from .readings import FRAME, key_numbers
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
-from .words import short_shares, span_of_time
+from .stages import programs
+from .words import quantity, span_of_time
 
 FRAMES = 40  # of the animation, at most
 
@@ -30,8 +30,9 @@ def spans(case, readings):
         words.append(f"flow from {case.begin:.3g} to {case.last:.3g} s")
     told = "Averages: " + ", ".join(words) + "."
     if case.solids or case.results:
-        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where the "
-                 "shell rises.")
+        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where "
+                 "the "
+                 f"shell rises. {FRAME}")
     return told + readings.short_blocks(slurry=False)
 
 
@@ -49,8 +50,10 @@ def animation(case):
     windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
     shown = windows[-1].end - windows[0].begin
     windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
-    return page.player((mill_plots.charge_figure(one, case.radius, case.omega, case.outline_at(one.end)) for one in windows),
-                       f"Solidity over the axis, window by window, DEM time {windows[0].begin:.2f} to {windows[-1].end:.2f} s; "
+    return page.player((mill_plots.charge_figure(one, case.radius, case.omega, case.outline_at(one.end))
+                        for one in windows),
+                       f"Solidity over the axis, window by window, DEM time {windows[0].begin:.2f} to "
+                       f"{windows[-1].end:.2f} s; "
                        "the mill's outline at the end of each.", title=last_turn(shown, case.turn))
 
 
@@ -62,10 +65,12 @@ def last_turn(seconds, turn):
 def charge_section(case, readings):
     cards = charge_maps(case, readings) if case.solids else []
     if case.energy:
-        cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's energies. Dashed: "
+        cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's "
+                                                        "energies. Dashed: "
                                   "steady from there on.", title="Dry run"))
     if case.overlaps is not None:
-        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts at all records: how soft the balls are. Few "
+        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts at all records: how soft the balls "
+                                                          "are. Few "
                                   "contacts are far to the right.", title="Overlaps"))
     return cards
 
@@ -73,13 +78,16 @@ def charge_section(case, readings):
 def charge_maps(case, readings):
     found, mean = readings.charge, case.charge
     if isinstance(found, str):
-        words = f"Solidity averaged over axis and time. Not read: {found.rstrip('?')}."
+        words = f"Solidity averaged over axis and time. Not read: {found}."
         return [page.picture(maps.solidity_figure(case, mean), words, title="Charge")]
     return [page.picture(charge_plots.charge_figure(mean, found, case.radius, case.outline),
-                         "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the shoulder on "
-                         "the rising side to the toe; the charge turns about the centre of circulation.", title="Charge"),
+                         "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the "
+                         "shoulder on "
+                         "the rising side to the toe; the charge turns about the centre of circulation.",
+                         title="Charge"),
             page.picture(charge_plots.tangential_figure(found.tangential),
-                         "Along the line from the mill's centre through the centre of circulation: the charge falls near the "
+                         "Along the line from the mill's centre through the centre of circulation: the charge falls "
+                         "near the "
                          "surface (below 0) and rises with the shell. Below: what the cubic leaves, and its slope.",
                          title="Tangential velocity"),
             page.picture(maps.speed_figure(case, mean.x, mean.y, mean.velocity, mean.solidity > 0.02),
@@ -99,69 +107,85 @@ def ledger_section(case, _readings):
                     ("of it outside, at most", f"{100 * (outside / into).max():.2g} %"),
                     ("moved to neighbours, at most", f"{100 * (clipped / into).max():.2g} %"),
                     ("balls per occupied cell", f"{file['window/balls_per_cell'][:].mean():.1f}")]
-            shape = " × ".join(str(n) for n in np.atleast_1d(file["grid"].attrs.get("shape", file["grid"].attrs.get("cells", 0))))
+            shape = " × ".join(str(n) for n in np.atleast_1d(file["grid"].attrs.get("shape",
+                                                                                    file["grid"].attrs.get("cells",
+                                                                                                           0))))
             rows.insert(0, ("voxels", shape))
         cards.append(page.table(None, rows, title="Averaging of the balls"))
     if case.slurry:
         with h5py.File(case.slurry) as file:
             into, outside = file["ledger/volume_in"][:], file["ledger/outside"][:]
-        cards.append(page.table(None, [("windows", str(len(into))), ("slurry in the mesh, mean", f"{1e6 * into.mean():.2f} ml"),
-                                       ("of it beyond the voxels, at most", f"{100 * np.abs(outside / into).max():.2g} %")],
+        cards.append(page.table(None, [("windows", str(len(into))), ("slurry in the mesh, mean",
+                                                                     f"{1e6 * into.mean():.2f} ml"),
+                                       ("of it beyond the voxels, at most", f"{100 * np.abs(outside / into).max():.2g} "
+                                                                            f"%")],
                                 title="Averaging of the slurry"))
-    values = re.findall(r"^(cells|faces|volume|volume error|max [\w-]+(?: ratio)?)\s{2,}(\S.*)", case.log("mesh"), re.M)
-    if values:
-        cards.append(page.table(None, values, title="Mesh of the flow"))
-    ranges = re.findall(r"^bed: beyond .*$", case.log("flow"), re.M)
-    if ranges:
-        cards.append(page.table(None, [(short_shares(ranges[-1].removeprefix("bed: ")),)], title="Drag law"))
+    mesh = case.json(case.folder / "mesh.json", "mesh")
+    if mesh:
+        rows = [(quantity(key, one.get("value"))[0] + ", at most", f"{quantity(key, one.get('value'))[1]} (limit "
+                                                                   f"{one.get('limit')})")
+                for key, one in (mesh.get("quality") or {}).items()]
+        cards.append(page.table(None, numbers_of(mesh) + rows, title="Mesh of the flow"))
+    drag, beyond = (case.record.last.get(key) if case.law else None for key in ("drag", "beyond_law"))
+    if drag and beyond:
+        cards.append(page.table(None, drag_rows(drag, beyond), title="Drag law"))
     return cards
 
 
+def drag_rows(drag, beyond):
+    """Rows (name, text) of the law of flow.json's last start, and of the share of the slurry in the bed that is
+    beyond its range."""
+    names = {"mean": "beyond its range, of the slurry in the bed, mean over time", "largest": "the same, at most",
+             "solidity_below": "by a solidity below", "solidity_above": "by a solidity above",
+             "reynolds_below": "by a Reynolds number below", "reynolds_above": "by a Reynolds number above"}
+    rows = [("law", drag["law"]), ("reference", drag.get("reference", "not known"))]
+    rows += [(f"its range of the {name}", "{} to {}".format(*("any" if one is None else f"{one:.3g}"
+                                                              for one in drag[key])))
+             for key, name in (("solidity_range", "solidity"), ("reynolds_range", "Reynolds number")) if key in drag]
+    return rows + [(name, f"{100 * beyond[key]:.3g} %") for key, name in names.items() if beyond.get(key) is not None]
+
+
+def numbers_of(content):
+    """Rows (name, text) of the single values of a JSON result, without its head."""
+    head = ("format", "version", "program", "mill")
+    return [quantity(key, value) for key, value in content.items()
+            if key not in head and not isinstance(value, (dict, list))]
+
+
 def run_section(case, _readings):
-    """Versions and cost, and the mill's description."""
-    rows = [(name, found) for name, found in versions(case)]
+    """Versions and cost, and the resolved mill."""
+    cards = [page.table(None, programs(case), title="Programs", note="By the files that they wrote.")]
     costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case)]
-    cards = [page.table(None, rows, title="Programs")] if rows else []
     if costs:
         cards.append(page.table(None, costs, title="Cost by stage",
-                                note="Wall time of stages that ended or failed, every time that they ran; not of those that "
+                                note="Wall time of stages that ended or failed, every time that they ran; not of those "
+                                     "that "
                                      "were killed."))
-    return cards + [page.folded("mill.yaml", case.mill_text)]
-
-
-def cost_folders(case):
-    """Folders in which stages of the case were run: the charge's, and its own."""
-    return list(dict.fromkeys(([case.solids.parent] if case.solids else []) + [case.folder.resolve()]))
-
-
-def versions(case):
-    """(program, version) by the logs."""
-    ran = dict(line.rsplit(",", 1) for path in cost_folders(case) if (path / "log.version").is_file()
-               for line in (path / "log.version").read_text().splitlines())
-    for stage in ("charge", "flow"):
-        if stage in ran:
-            yield f"millFoam, of the {stage}", ran[stage]
-    found = re.findall(r"^Build\s*:\s*(\S+)", case.log("flow"), re.M)
-    if found:
-        yield "OpenFOAM", found[-1].replace("OPENFOAM=", "")
-    found = re.findall(r"^Exec\s*:\s*(\S+)", case.log("flow"), re.M)
-    if found:
-        yield "flow solver", found[-1]
-    log = case.dry.parent / "dem" / "log.liggghts" if case.dry else None
-    if log and log.is_file():
-        with open(log, errors="replace") as file:
-            yield "LIGGGHTS", file.readline().strip().strip("()")
+    mill = case.mill
+    rows = [(f"fingerprint: {part}", found) for part, found in mill.fingerprint.items()]
+    rows += [("changed by --set", setting) for setting in mill.settings]
+    if mill.changed_since():
+        rows.append((mill.file_name, f"{mill.file_name} was changed after this run; the report shows the run's mill"))
+    if rows:
+        cards.append(page.table(None, rows, title="The mill", note="Files with another fingerprint belong to another "
+                                                                   "mill."))
+    return cards + [page.folded("The resolved mill (mill.json): every key with its default, every derived number",
+                                mill.text())]
 
 
 def stage_costs(case):
-    """(stage, wall time in s) by log.costs of the charge's and the case's folder, all times that a stage was run added up."""
+    """(stage, wall time in s) by log.costs of the charge's and the case's folder, all times that a stage was run
+    added up."""
     costs = {}
-    for path in (folder / "log.costs" for folder in cost_folders(case)):
-        for line in path.read_text().splitlines() if path.is_file() else ():
-            name, seconds = line.rsplit(",", 1)
-            costs[name] = costs.get(name, 0) + float(seconds)
-    if not costs and case.results and "wall_time" in case.results:
-        costs["dry run"] = float(case.results["wall_time"])
+    for path in (folder / "log.costs" for folder in case.charge_folders):
+        for line in read_text(path).splitlines() if path.is_file() else ():
+            name, _, seconds = line.rpartition(",")
+            try:
+                costs[name] = costs.get(name, 0) + float(seconds)
+            except ValueError:
+                continue  # what a killed step was writing
+    if not costs and case.results and "wall_time_s" in case.results:
+        costs["dry run"] = case.result("wall_time_s")
     return costs.items()
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report about the slurry: its maps, its way along the axis, its balance, mechanistic models beside it."""
+"""Sections of the report about the slurry: its maps, its way along the axis, its balance, mechanistic models beside
+it."""
 import numpy as np
 
 from .. import axial, charge, mill_plots, models, slurry_maps
 from ..flow_readings import RING, Way, humps_at_ends, ring_depth
-from ..foam import read_dictionary
 from ..free_surface import at_points
 from ..tables import time_mean
 from . import figures, maps, page
@@ -24,14 +24,17 @@ def slurry_section(case, readings):
                           "Mean velocity of the slurry across the axis: colour for its size, arrows for its direction.",
                           title="Speed of the slurry")]
     if case.length > 0.5 * case.radius and not case.is_slice:
-        cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share is over a "
+        cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share "
+                                                                        "is over a "
                                   "half. Red: to the discharge.", title="Slurry along the axis"))
     if case.load:
         cards.append(page.picture(mill_plots.load_figure(case.flow, case.begin),
-                                  "Force of the fluid on the balls over their weight: where it nears 1 (line) the coupling in "
+                                  "Force of the fluid on the balls over their weight: where it nears 1 (line) the "
+                                  "coupling in "
                                   "one direction does not hold.", title="Force on the balls"))
     note = (f"Angles from straight down, positive where the shell rises, on the circle {RING:g} lifters' heights "
-            f"({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of {len(readings.blocks)} "
+            f"({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of "
+            f"{len(readings.blocks)} "
             f"blocks of time.{readings.short_blocks()}")
     return cards + [page.table(None, slurry_rows(case, readings), title="Read off the maps", note=note)]
 
@@ -75,12 +78,15 @@ def axial_section(case, readings):
             fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm{ended}", at, fit.fitted(at)))
     at_end = any("end)" in label for label, _, _ in fits)
     ended = " Of Gaussians at the profile's end the distance is only its span." if at_end else ""
-    cards = [page.picture(figures.axial(readings.profile, fits, along(case)), "By slices along the axis, averaged over time; "
-                          f"p_rgh is the pressure without what the depth makes.{ended}", title="Profile along the axis")]
+    cards = [page.picture(figures.axial(readings.profile, fits, along(case)), "By slices along the axis, averaged over "
+                                                                              "time; "
+                          f"p_rgh is the pressure without what the depth makes.{ended}",
+                          title="Profile along the axis")]
     heights = case.axial("height")
     if heights:
         cards.append(page.picture(figures.axial_against_time(*heights, along(case)),
-                                  "Height of the slurry's centre of mass by slices against time.", title="Profile against time"))
+                                  "Height of the slurry's centre of mass by slices against time.",
+                                  title="Profile against time"))
     return cards
 
 
@@ -104,13 +110,15 @@ def balance_section(case, _readings):
     head, rows = wall_table(case)
     if rows:
         cards.append(page.table(head, rows, title="Torque and power",
-                                note=f"About +z on the slurry, means from {case.begin:.3g} s on; of walls: by pressure and "
+                                note=f"About +z on the slurry, means from {case.begin:.3g} s on; of walls: by pressure "
+                                     f"and "
                                      "friction there, of all: by the balance of angular momentum."))
     return cards
 
 
 def wall_table(case):
-    """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest slip."""
+    """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest
+    slip."""
     told = case.balance
     if not (told["Time"] >= case.begin).any():
         return None, []
@@ -135,7 +143,8 @@ def models_section(case, readings):
     # The model's wall friction is that of end walls, which a slice does not have
     if isinstance(readings.charge, charge.Charge) and not case.is_slice:
         points = readings.charge.surface.points / case.radius
-        number = models.surface_number(abs(case.omega), mean_diameter(case), case.radius, case.mill["geometry"]["length"])
+        number = models.surface_number(abs(case.omega), case.mill.sauter_diameter, case.radius,
+                                       case.mill.whole_length)
         found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
         if not isinstance(found, str):
             model, rmsd = found
@@ -144,43 +153,42 @@ def models_section(case, readings):
             poor = "" if models.describes(model, rmsd) else f" The model does not describe this surface: {why}."
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),
-                                  ("Taberlet", case.radius * np.column_stack([model.x, model.y]))], case.radius, case.omega),
-                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw {model.wall:.3f}"
+                                  ("Taberlet", case.radius * np.column_stack([model.x, model.y]))], case.radius,
+                                 case.omega),
+                f"dy/dx = μi + μw Λ √(1 − x² − y²) with Λ = {number:.3g}; fitted: μi {model.internal:.3f}, μw "
+                f"{model.wall:.3f}"
                 f"; RMSD {1e3 * case.radius * rmsd:.2g} mm; the model's filling is {100 * model.filling:.1f} %.{poor}",
                 title="Free surface by Taberlet, Richard & Hinch"))
-    pulp = case.mill["geometry"].get("pulp_lifters")
-    if case.solids and case.flow and case.law and case.feed and case.balance is not None and pulp:
+    lip = case.mill.discharge_radius
+    if case.solids and case.flow and case.law and case.feed and case.balance is not None and lip:
         cards += moys(case, readings.profile)
     return cards
 
 
 def moys(case, profile):
-    """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a mill with
-    feed, balls and a discharge over a lip."""
+    """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a
+    mill with feed, balls and a discharge over a lip."""
     dense = case.charge.solidity[case.charge.solidity > 0.3]
     porosity = float(1 - dense.mean())
-    bed = models.Charge(case.radius, case.length, porosity, mean_diameter(case))
-    slurry = case.mill["slurry"]
-    lip = case.radius - float(read_dictionary(case.folder / "constant" / "millProperties")["outletRadius"])
-    fluid = (slurry["plastic_viscosity"], slurry["density"])
+    bed = models.Charge(case.radius, case.length, porosity, case.mill.sauter_diameter)
+    lip = case.radius - case.mill.discharge_radius
+    fluid = case.mill.slurry("plastic_viscosity_Pa_s"), case.mill.slurry("density_kg_m3")
     held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
     rows = [("porosity of the dense charge (solidity over 0.3)", f"{porosity:.3f}"),
             ("depth at the discharge's lip", f"{1e3 * lip:.1f} mm"),
-            ("depth at the feed end by the model", f"{1e3 * float(models.slurry_depth(bed, 0, case.feed, lip, *fluid)):.1f} mm"),
+            ("depth at the feed end by the model",
+             f"{1e3 * float(models.slurry_depth(bed, 0, case.feed, lip, *fluid)):.1f} mm"),
             ("hold-up by the model", f"{1e6 * models.slurry_hold_up(bed, case.feed, lip, *fluid):.0f} ml"),
             ("simulated hold-up, with the pulp lifters", f"{1e6 * held:.0f} ml")]
     cards = [page.table(None, rows, title="Hold-up by Moys' model",
-                        note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the slurry that "
+                        note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the "
+                             "slurry that "
                              "the mill lifts.")]
     if len(getattr(profile, "z", ())) >= 3:
         z = np.linspace(0, case.length, 200)
         model = porosity * bed.cross_section(models.slurry_depth(bed, z, case.feed, lip, *fluid))
-        cards.append(page.picture(figures.holdup_along(profile, z, model), "Slurry in the pores of a resting charge by the model, "
-                                  "and all slurry of the simulation, by slices along the axis.", title="Moys' hold-up profile"))
+        cards.append(page.picture(figures.holdup_along(profile, z, model), "Slurry in the pores of a resting charge by "
+                                                                           "the model, "
+                                  "and all slurry of the simulation, by slices along the axis.",
+                                  title="Moys' hold-up profile"))
     return cards
-
-
-def mean_diameter(case):
-    """Sauter mean of the charge's classes, m."""
-    classes = case.mill["charge"]["classes"]
-    return sum(c["mass"] for c in classes) / sum(c["mass"] / c["diameter"] for c in classes)

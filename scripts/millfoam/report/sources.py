@@ -1,112 +1,96 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, logs."""
-import re
+"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its
+stages."""
 from functools import cached_property
 from pathlib import Path
 
 import h5py
 import numpy as np
-import yaml
 
 from .. import solids, tables
 from ..contacts import contact_steps
-from ..dem_tracks import read_notes
-from ..dry_runs import read_results
+from ..data_files import number, read_csv, read_json
+from ..dem_tracks import read_timestep
+from ..flow_record import FlowRecord, read_flow_record
 from ..foam import times
+from ..mill import NoMill, read_mill
 from ..mill_flow import MillFlow
 from ..mill_plots import circle
 
-
-class NoMill(RuntimeError):
-    """A folder that is no mill's case; the message says what was looked for."""
-
-
-def read_mill(folder):
-    """Text and content of a case's mill.yaml; NoMill where it is none."""
-    path = folder / "mill.yaml"
-    if not path.is_file():
-        raise NoMill(f"{folder}: no mill.yaml; expected the folder of a mill's case that was run")
-    text = path.read_text()
-    try:
-        mill = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        where = f", line {error.problem_mark.line + 1}" if getattr(error, "problem_mark", None) else ""
-        raise NoMill(f"{path}{where}: no YAML: {getattr(error, 'problem', error)}") from None
-    missing = [key for key in ("geometry", "speed", "charge") if not isinstance(mill, dict) or key not in mill]
-    if missing:
-        raise NoMill(f"{path}: no {missing[0]}; expected the description of a mill (meshing/README.md)")
-    return text, mill
-
-
-def usual_width(radius, count, height, trapezoid):
-    """Width (m) of lifters' feet where mill.yaml leaves it open, as millMesh has it: their height, or half of what chord and
-    pitch leave."""
-    tips = radius - height
-    pitch = 2 * radius
-    if trapezoid and count > 1:
-        pitch = 2 * radius * np.sin(np.pi / count)
-    if not trapezoid and count > 2:
-        pitch = 2 * tips * np.tan(np.pi / count)
-    return min(height, np.sqrt(radius**2 - tips**2), pitch / 2)
+CUT = 0.01  # of a flow's duration: what it may lack of it
 
 
 def lifter_outline(radius, count, height, width, top_width, angle):
-    """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from +x; height
-    from the shell to the middle of the flat top, width of the foot between its points on the shell."""
+    """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from
+    +x; height from the shell to the middle of the flat top, width of the foot between its points on the shell."""
     if not count:
         return circle(radius)
     half, pitch = np.arcsin(width / 2 / radius), 2 * np.pi / count
     arc = radius * np.exp(1j * np.linspace(half, pitch - half, max(3, 360 // count)))
     lifter = [radius * np.exp(-1j * half), radius - height - 0.5j * top_width, radius - height + 0.5j * top_width]
-    points = np.concatenate([np.exp(1j * (angle + number * pitch)) * np.concatenate([lifter, arc]) for number in range(count)])
+    points = np.concatenate([np.exp(1j * (angle + number * pitch)) * np.concatenate([lifter, arc])
+                             for number in range(count)])
     return np.column_stack([points.real, points.imag])[[*range(len(points)), 0]]
 
 
 class MillCase:
     """A mill's run in a folder; parts that are not there are None.
 
-    begin: flow time from which averages are taken, s; None: 2 s, or half of a flow of 3 s or less. A dry run is averaged
-    from the same time of its own, or from when it is steady. unusable: what is there but cannot be used, in words."""
+    begin: flow time from which averages are taken, s; None: the mill's own (flow.averages_start), or the second half
+    of a flow that was cut short before. A dry run is averaged from the same time of its own, or from when it is
+    steady. unusable: what is there but cannot be used, in words."""
 
     def __init__(self, folder, begin=None):
         self.folder = Path(folder)
         self.asked_begin = begin
         self.unusable = []
-        self.mill_text, self.mill = read_mill(self.folder)
+        self.mill = read_mill(self.folder)
         if self.flow is None and self.solids is None and self.dry is None:
-            raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, nor "
-                                    "dumps/results.txt; has the case run to its end?", *self.unusable]))
-        if begin is not None and self.flow and begin >= self.last:
-            raise RuntimeError(f"{self.folder}: averages from {begin:g} s on, but the flow's last written time is "
-                               f"{self.last:g} s")
+            raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, "
+                                    f"nor "
+                                    "dumps/results.json; has the case run to its end?", *self.unusable]))
+        if begin is None:
+            return
+        last = self.last if self.flow else self.solids_span[1] if self.solids else np.inf
+        if not 0 <= begin < last:
+            what = "the flow's last written time" if self.flow else "the end of solids.h5"
+            raise RuntimeError(f"{self.folder}: averages from {begin:g} s on; expected 0 or more and less than {what}, "
+                               f"{last:g} s")
 
     @property
     def name(self):
         return self.folder.resolve().name
 
     @property
-    def radius(self):
-        return self.mill["geometry"]["diameter"] / 2
+    def title(self):
+        return self.mill.title or self.name
 
-    @cached_property
+    @property
+    def radius(self):
+        return self.mill.radius
+
+    @property
     def length(self):
-        return self.flow.length if self.flow else self.mill["geometry"]["length"]
+        return self.mill.length
 
     @property
     def is_slice(self):
-        """Whether the mill is a periodic slice."""
-        return self.mill["geometry"].get("ends") == "periodic" or "slice" in self.mill["geometry"]
+        return self.mill.is_slice
 
     @property
     def lifter_height(self):
         """m; 0 for a smooth drum."""
-        lifters = self.mill["geometry"].get("lifters") or {}
-        return float(lifters.get("height", self.radius / 15)) if lifters.get("count") else 0.0
+        return self.mill.lifters[1]
+
+    @property
+    def omega(self):
+        """Angular speed about z, right-handed, rad/s."""
+        return self.mill.omega
 
     @cached_property
     def turn(self):
         """Time of a turn of the mill, s."""
-        return 2 * np.pi / abs(self.omega)
+        return self.mill.turn
 
     @cached_property
     def has_balls(self):
@@ -121,24 +105,24 @@ class MillCase:
         return self.outline_at(self.charge_span[1] if self.solids else 0)
 
     def outline_at(self, time):
-        """The outline [n, 2] (m) by mill.yaml at DEM time `time` (s): lifter 1 stands at +x at time 0."""
-        lifters = self.mill["geometry"].get("lifters") or {}
-        count = lifters.get("count", 0)
-        width = lifters.get("width", usual_width(self.radius, count, self.lifter_height, "top_width" in lifters))
-        return lifter_outline(self.radius, count, self.lifter_height, width, lifters.get("top_width", width),
-                              self.omega * time)
+        """The outline [n, 2] (m) at DEM time `time` (s): lifter 1 stands at +x at time 0."""
+        return lifter_outline(self.radius, *self.mill.lifters, self.omega * time)
 
-    @cached_property
-    def omega(self):
-        """Angular speed about z, right-handed, rad/s."""
-        if self.flow:
-            return self.flow.omega
-        run_file = self.dry / "run.txt" if self.dry else None
-        if run_file and run_file.is_file():
-            return float(read_results(run_file)["angular_velocity"])
-        speed = self.mill["speed"]
-        magnitude = speed.get("angular_velocity") or speed["fraction_of_critical"] * np.sqrt(9.81 / self.radius)
-        return -magnitude if speed.get("sense", "clockwise") == "clockwise" else magnitude
+    def json(self, path, kind):
+        """Content of a JSON file millfoam-`kind`, or None; one that cannot be read is told in `unusable`."""
+        if not path.is_file():
+            return None
+        return self._told(lambda: read_json(path, kind))
+
+    def _told(self, read, none=None):
+        """What read() gives; `none`, and the error's text in `unusable`, if it raises one."""
+        try:
+            return read()
+        except (RuntimeError, OSError, ValueError, KeyError) as error:
+            words = str(error)
+            if words not in self.unusable:
+                self.unusable.append(words)
+            return none
 
     # The charge
 
@@ -169,44 +153,58 @@ class MillCase:
         return False
 
     @cached_property
+    def charge_folders(self):
+        """Folders in which the charge may have been made: the case's, and that of solids.h5 where that is a link."""
+        return list(dict.fromkeys([self.folder.resolve()] + ([self.solids.parent] if self.solids else [])))
+
+    @cached_property
     def dry(self):
-        """The folder of the dry run's results."""
-        places = [self.folder / "dumps"] + ([self.solids.parent / "dumps"] if self.solids else [])
-        return next((place for place in places if (place / "results.txt").is_file()), None)
+        """The folder dumps/ of the dry run's results."""
+        return next((place / "dumps" for place in self.charge_folders if (place / "dumps" / "results.json").is_file()
+                     and self.json(place / "dumps" / "results.json", "charge")), None)
 
     @cached_property
     def results(self):
-        """results.txt of the dry run: name -> text."""
-        return read_results(self.dry / "results.txt") if self.dry else None
+        """results.json of the dry run."""
+        return self.json(self.dry / "results.json", "charge") if self.dry else None
+
+    def result(self, *keys):
+        """A number of results.json, NaN for null; DataError where there is none."""
+        return number(self.results, self.dry / "results.json", *keys)
 
     @cached_property
     def energy(self):
         """energy.csv of the dry run: column -> values over its records."""
-        if not self.dry or not (self.dry / "energy.csv").is_file():
-            return None
-        path = self.dry / "energy.csv"
-        names = path.read_text().split("\n", 1)[0].split(",")
-        return dict(zip(names, np.loadtxt(path, delimiter=",", skiprows=1, unpack=True, ndmin=2)))
+        return self._columns("energy.csv")
 
     @cached_property
     def overlaps(self):
-        """overlaps.csv: overlap (m), contacts of balls, contacts with walls."""
-        path = self.dry / "overlaps.csv" if self.dry else None
-        return np.loadtxt(path, delimiter=",", skiprows=1, unpack=True, ndmin=2) if path and path.is_file() else None
+        """overlaps.csv: overlap_m, contacts of balls and with walls."""
+        return self._columns("overlaps.csv")
+
+    def _columns(self, name):
+        path = self.dry / name if self.dry else None
+        found = self._told(lambda: read_csv(path)) if path and path.is_file() else None
+        return found if found and len(next(iter(found.values()))) > 1 else None
+
+    @cached_property
+    def solids_span(self):
+        """DEM times that solids.h5 covers, s."""
+        with h5py.File(self.solids) as file:
+            return float(file["window/begin"][0]), float(file["window/end"][-1])
 
     @cached_property
     def charge_span(self):
         """DEM times between which the charge is averaged, s."""
-        with h5py.File(self.solids) as file:
-            first, last = file["window/begin"][0], file["window/end"][-1]
+        first, last = self.solids_span
         if self.flow and self.flow.time0 + self.begin < last:
             return self.flow.time0 + self.begin, min(last, self.flow.time0 + self.last)
-        if self.flow:  # through a charge that is held
+        if self.flow:  # through a charge that is held, or repeated
             return first, last
         if self.asked_begin is not None:
             return self.asked_begin, last
-        steady = float(self.results.get("steady_from", 0)) if self.results else 0
-        return min(max(first, steady, 2.0 if last > 3 else 0), (first + last) / 2), last
+        steady = self.result("steady_from_s") if self.results else first
+        return min(max(first, steady), (first + last) / 2), last
 
     @cached_property
     def charge_windows(self):
@@ -227,7 +225,7 @@ class MillCase:
     @cached_property
     def contact_times(self):
         """DEM times of the dumps of contacts, s."""
-        timestep = read_notes(self.contacts / "dumps")["timestep"]
+        timestep = read_timestep(self.contacts / "dumps")
         return [step * timestep for step in contact_steps(self.contacts)]
 
     # The flow
@@ -235,14 +233,19 @@ class MillCase:
     @cached_property
     def flow(self):
         # millMesh writes the mill's mesh and numbers for a dry run too
-        begun = times(self.folder) or any(self.folder.glob("processor*")) or any(self.folder.glob("log.flow*"))
-        if not ((self.folder / "constant" / "millProperties").is_file() and begun):
+        record = self.folder / "postProcessing" / "flow"
+        if not (times(self.folder) or any(self.folder.glob("processor*")) or record.is_dir()):
             return None
         try:
             return MillFlow(self.folder)
-        except RuntimeError as error:
+        except (RuntimeError, OSError, ValueError) as error:
             self.unusable.append(f"The flow is not shown: {error}")
             return None
+
+    @cached_property
+    def record(self):
+        """FlowRecord of the flow's steps and summaries, empty where there is none."""
+        return self._told(lambda: read_flow_record(self.folder), FlowRecord(None, []))
 
     @cached_property
     def last(self):
@@ -250,10 +253,26 @@ class MillCase:
         return self.flow.frames[-1][0]
 
     @cached_property
+    def duration(self):
+        """Time that the flow was to last, s; NaN where the mill does not tell it."""
+        return float(self.mill.flow("duration_s") or np.nan)
+
+    @cached_property
+    def is_cut_short(self):
+        """Whether the flow has not come to the end that the mill asks for."""
+        return self.record.complete is False or self.last < (1 - CUT) * self.duration
+
+    @cached_property
     def begin(self):
+        """Flow time from which averages are taken, s: of a flow that has less than half of what was to be averaged,
+        its half."""
         if self.asked_begin is not None:
             return self.asked_begin
-        return 2.0 if self.last > 3 else self.last / 2
+        start = self.mill.flow("averages_start_s")
+        if start is None:
+            return self.last / 2
+        planned = max(self.duration - start, 0) if np.isfinite(self.duration) else 0
+        return start if self.last - start > planned / 2 else self.last / 2
 
     @cached_property
     def load(self):
@@ -286,13 +305,9 @@ class MillCase:
         return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
 
     def _table(self, name, read):
-        """What read() gives of a function object's table; None, told where there are such tables, if it cannot be read."""
-        try:
-            return read()
-        except tables.TableError as error:
-            if (self.folder / "postProcessing" / name).is_dir() and str(error) not in self.unusable:
-                self.unusable.append(str(error))
-            return None
+        """What read() gives of a function object's table; None without a flow and, told where there are such tables,
+        if it cannot be read."""
+        return self._told(read) if self.flow and (self.folder / "postProcessing" / name).is_dir() else None
 
     @cached_property
     def slurry(self):
@@ -300,43 +315,36 @@ class MillCase:
         path = self.folder / "slurry.h5"
         return path if self._whole(path, "let the flow run to its end (voxelAverages.H)") else None
 
-    @cached_property
+    @property
     def feed(self):
-        """Feed rate that was asked for, m3/s, or None."""
-        path = self.folder / "constant" / "operation"
-        found = re.search(r"feedRate\s+([^;\s]+)", path.read_text()) if path.is_file() else None
-        return float(found.group(1)) if found else None
+        """Feed rate, m3/s, or None."""
+        return self.mill.flow("feed_m3_s") or None
 
     @cached_property
     def law(self):
-        """The drag law's name, or None without balls."""
-        found = re.search(r"^Drag: drag law (\w+)", self.log("flow"), re.M)
-        return found.group(1) if found else None
-
-    @cached_property
-    def _logs(self):
-        return {}
-
-    def log(self, name):
-        """Text of log.NAME, after what was kept of it before a restart; of the charge's stages where that was made. Empty where
-        there is none."""
-        if name not in self._logs:
-            folders = [self.folder] + ([self.solids.parent] if self.solids else [])
-            places = [[folder / f"log.{name}{end}" for end in (".before", "")] for folder in folders]
-            found = next(([p for p in pair if p.is_file()] for pair in places if any(p.is_file() for p in pair)), [])
-            self._logs[name] = "".join(path.read_text(errors="replace") for path in found)
-        return self._logs[name]
+        """The drag law's name, or None without balls or flow: what the solver tells, else what the mill asks for."""
+        if not self.flow:
+            return None
+        if self.record.summaries:
+            return (self.record.last.get("drag") or {}).get("law")
+        return self.mill.flow("law") if self.mill.flow("balls", self.flow.displaced) else None
 
     def summary(self):
         """One line: what was run."""
-        geometry, speed = self.mill["geometry"], self.mill["speed"]
-        share = abs(self.omega) / np.sqrt(9.81 / self.radius)
-        words = [f"{1e3 * geometry['diameter']:.0f} × {1e3 * geometry['length']:.0f} mm",
-                 f"{100 * speed.get('fraction_of_critical', share):.0f} % of critical ({abs(self.omega):.2f} rad/s)"]
-        if self.results:
-            words.append(f"{int(self.results['balls'])} balls")
+        mill = self.mill
+        part = f" of {1e3 * mill.whole_length:.4g} mm" if mill.length < 0.999 * mill.whole_length else ""
+        length = f"{1e3 * mill.length:.4g} mm" + (f" (periodic slice{part})" if mill.is_slice else "")
+        words = [f"{2e3 * mill.radius:.4g} × {length}",
+                 f"{mill.sense} at {100 * mill.critical_share:.3g} % of critical ({abs(mill.omega):.2f} rad/s)"]
+        words += [f"{int(self.results['balls'])} balls"] if self.results else []
+        words += [fines_told(mill)] if mill.fines_share > 0 else []
         if self.flow:
-            words.append(f"slurry {self.mill['slurry']['density']:.0f} kg/m³")
+            words.append(f"slurry {mill.slurry('density_kg_m3'):.4g} kg/m³")
             unknown = "drag law not told" if self.flow.displaced else "no balls in the flow"
             words.append(f"drag: {self.law}" if self.law else unknown)
         return ", ".join(words)
+
+
+def fines_told(mill):
+    """In words, which part of a Mill's charge is not simulated."""
+    return f"without balls of {1e3 * mill.largest_fines:.3g} mm and less ({100 * mill.fines_share:.0f} % of the mass)"

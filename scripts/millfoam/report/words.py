@@ -6,17 +6,24 @@ import numpy as np
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
+# Ends of keys that are units, longer ones first
+UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s", "_N_m": "N m", "_m_s": "m/s",
+         "_deg": "degrees",
+         "_m3": "m³", "_m2": "m²", "_kg": "kg", "_Pa": "Pa", "_m": "m", "_s": "s", "_W": "W", "_J": "J"}
+
 
 def typeset(words):
     """Text with minus signs before numbers that stand alone, none before nought, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
-    words = re.sub(r"(?<=\d)e([+-]\d+)", lambda found: "·10" + str(int(found.group(1))).translate(SUPERSCRIPT), str(words))
+    words = re.sub(r"(?<=\d)e([+-]\d+)", lambda found: "·10" + str(int(found.group(1))).translate(SUPERSCRIPT),
+                   str(words))
     words = re.sub(r"(?<![\w.\-/])-(?=\d)", "−", words)
     words = re.sub(r"(?<=m)\^([23])(?!\d)", lambda found: "²³"[int(found.group(1)) - 2], words)
     return re.sub(r"[−+](0(?:\.0+)?)(?![\d.·])", r"\1", words)
 
 
 def decimals(error):
-    """Digits after the point that a value with this error has: the error keeps one digit, two where it begins with 1 or 2."""
+    """Digits after the point that a value with this error has: the error keeps one digit, two where it begins with 1
+    or 2."""
     exponent = int(np.floor(np.log10(error)))
     return max(0, -exponent + (1 if round(error / 10.0**exponent, 9) < 3 else 0))
 
@@ -36,9 +43,18 @@ def millilitres(volume, digits=3):
     return f"{value:.0f} ml" if abs(value) >= 10.0 ** (digits - 1) else f"{value:.{digits}g} ml"
 
 
-def short_shares(words):
-    """Text in which shares in per cent have three digits at most: 51.676534 % as 51.7 %."""
-    return re.sub(r"\d+\.\d+(?:e[+-]?\d+)?(?= %)", lambda found: f"{float(found.group(0)):.3g}", words)
+def quantity(key, value):
+    """(name, text) of an entry of a JSON result, whose key ends with its unit: volume_m3 = 0.1 as ("volume", "0.1
+    m³")."""
+    unit = next((end for end in UNITS if key.endswith(end)), "")
+    name = key.removesuffix(unit).replace("_", " ")
+    if value is None:
+        return name, "not known"
+    if isinstance(value, bool):
+        return name, "yes" if value else "no"
+    if isinstance(value, int) or not isinstance(value, float):
+        return name, f"{value} {UNITS.get(unit, '')}".strip()
+    return name, f"{value:.4g} {UNITS.get(unit, '')}".strip()
 
 
 def span_of_time(seconds):

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks of a dry run and of its averages."""
+import h5py
+import numpy as np
+
+from .verdict import Check, judged
+
+LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
+OVERLAP = 0.15  # of the diameter: physics of softened balls (Brosh, Kalman & Levy)
+BALLS = 8  # in an averaging volume: the drag laws were derived on 8 to 64
+NOISE = 0.05  # of a window's mean solidity by chance
+
+
+def lost_balls(case):
+    lost = int(case.result("lost_balls"))
+    return judged("No ball is lost", lost, 0, f"{lost} of {int(case.result('balls'))} lost",
+                  "Shorten the time-step (dem.rayleigh_fraction) or look for holes in the walls (millMesh surface).")
+
+
+def charge_steadiness(case):
+    name = "The charge is steady where it is averaged"
+    if not case.results.get("steady"):
+        return Check(name, "fails", "the dry run's power did not become steady",
+                     "Let it run longer (dem.duration, millDem --resume).")
+    since = case.result("steady_from_s")
+    found = f"steady from {since:.2f} s on"
+    if not case.solids:
+        return Check(name, "holds", found)
+    begin = case.charge_span[0]
+    return judged(name, since - begin, 0, f"{found}; averages from {begin:.2f} s",
+                  "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=0.5)
+
+
+def overlap(case):
+    diameter = case.result("smallest_diameter_m")
+    share = case.result("ball_overlap_largest_m") / diameter
+    usual = case.result("ball_overlap_99_m") / diameter
+    return judged("Balls are stiff enough", share, OVERLAP,
+                  f"largest overlap {100 * share:.1f} % of the smallest diameter, 99 % of the contacts below "
+                  f"{100 * usual:.2f} % "
+                  f"(limit {100 * OVERLAP:.0f} %)", "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
+
+
+def ledger(case):
+    with h5py.File(case.solids) as file:
+        into, outside, clipped = (file[f"ledger/{key}"][:] for key in ("volume_in", "outside", "clipped"))
+    share = ((outside + clipped) / into).max()
+    return judged("Balls are in the averages", share, LEDGER,
+                  f"at most {100 * share:.2g} % of their volume is outside or moved to neighbours in a window "
+                  f"(limit {100 * LEDGER:.0f} %)", "Let the voxels cover the mill (--box), and give its walls "
+                                                   "(--inside).")
+
+
+def averaging_volume(case):
+    with h5py.File(case.solids) as file:
+        balls = file["window/balls_per_cell"][:].mean()
+    found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived on {BALLS} to 64)"
+    if balls > 64:
+        return Check("Averaging volumes hold enough balls", "look", found,
+                     "Finer voxels would show more of the charge.")
+    return judged("Averaging volumes hold enough balls", BALLS / balls, 1, found,
+                  "Take larger voxels or --smooth; on smaller ones a law sees single balls.", doubtful=8)
+
+
+def window_noise(case):
+    name = "Windows are long enough for their mean"
+    with h5py.File(case.solids) as file:
+        count = len(file["window/begin"])
+        noise, weight = 0.0, 0.0
+        for window in np.unique(np.linspace(0, count - 1, 20).astype(int)):
+            phi, spread = file["solidity"][window], file["solidity_deviation"][window]
+            dense = phi > 0.3
+            noise += (spread[dense] / phi[dense]).sum() / np.sqrt(file["window/records"][window])
+            weight += dense.sum()
+    if weight == 0:
+        return Check(name, "unknown", "no voxel is denser than 0.3",
+                     "Take smaller voxels, so that some are full of balls.")
+    share = noise / weight
+    return judged(name, share, NOISE, f"in the dense charge a window's mean solidity is uncertain by {100 * share:.1f} "
+                                      f"% if its "
+                  f"records are independent (limit {100 * NOISE:.0f} %)",
+                  "Take longer windows (--window) or record more often (dem.record_interval).", doubtful=2 * NOISE)

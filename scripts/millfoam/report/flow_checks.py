@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Checks of a flow: its slurry, its time-steps, its mesh, and the balls in it."""
+import numpy as np
+
+from ..data_files import number
+from .verdict import Check, judged
+
+CONSERVED = 1e-6  # of the hold-up that may be missing
+CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
+OUT_OF_RANGE = 20.0  # % of the slurry in the bed
+LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
+STEPS = 0.01  # of the time-steps that may go beyond 1.5 times a limit
+# Columns of steps.csv, their limits in flow.json and what they are
+LIMITS = (("courant", "maxCo", "Courant number"), ("courant_surface", "maxAlphaCo", "at the surface"),
+          ("voidage_change", "maxVoidageChange", "change of voidage"))
+QUALITY = (("volume_error", "volume error"), ("non_orthogonality_deg", "non-orthogonality in degrees"),
+           ("skewness", "skewness"), ("volume_ratio", "volume ratio"))
+NO_STEPS = "slurryFoam writes postProcessing/flow/START/steps.csv: run the flow with it."
+
+
+def conservation(case):
+    name = "Slurry is conserved"
+    told = case.balance
+    if told is None:
+        return Check(name, "unknown", "the flow ran without the function object slurryBalance",
+                     "Add it to controlDict; see slurryBalance.H.")
+    share = np.abs(told["missing"]).max() / np.abs(told["holdUp"]).max()
+    return judged(name, share, CONSERVED, f"at most {share:.1e} of the hold-up is missing (limit {CONSERVED:.0e})",
+                  "Look in steps.csv for steps in which alpha leaves [0, 1] (alpha_min, alpha_max_minus_1), and give "
+                  "the limiter "
+                  "more iterations (nLimiterIter).")
+
+
+def column(case, name):
+    """A column of steps.csv [steps], or None where there is none or nothing in it is known."""
+    steps = case.record.steps
+    found = steps.get(name) if steps else None
+    return found if found is not None and np.isfinite(found).any() else None
+
+
+def courant(case):
+    name = "Time-steps keep to their limits"
+    steps = case.record.steps
+    if steps is None or len(steps["time_s"]) == 0:
+        return Check(name, "unknown", "there is no steps.csv of the flow", NO_STEPS)
+    found = np.column_stack([steps[key] for key, _, _ in LIMITS])
+    limits = step_limits(case)
+    if not np.isfinite(limits).any():
+        return Check(name, "unknown", "flow.json has no limits of the time-step",
+                     "Give maxCo, maxAlphaCo and maxVoidageChange in controlDict (adjustTimeStep yes).")
+    # Also a number that is none is beyond
+    over = (~(found <= 1.5 * limits)).any(axis=1).mean()
+    words = ", ".join(f"{what} {np.percentile(found[:, k], 95):.2g}"
+                      + (f" for {limits[k]:g}" if np.isfinite(limits[k]) else "")
+                      for k, (_, _, what) in enumerate(LIMITS))
+    return judged(name, over, STEPS, f"{100 * over:.1f} % of the steps are beyond 1.5 times what the flow asks for "
+                                     f"(limit "
+                  f"{100 * STEPS:g} %); 95 % of the steps stay below: {words}",
+                  "Lower flow.max_courant, flow.max_surface_courant or flow.max_time_step.", doubtful=0.05)
+
+
+def step_limits(case):
+    """Limits by flow.json's last start of the quantities of LIMITS [3]; infinite where there is none."""
+    told = case.record.last.get("limits") or {}
+    return np.array([told.get(key) or np.inf for _, key, _ in LIMITS], dtype=float)
+
+
+def mesh(case):
+    name = "The mesh is sound"
+    told = case.json(case.folder / "mesh.json", "mesh")
+    quality = (told or {}).get("quality") or {}
+    words = ", ".join(f"{what} {number(quality, 'mesh.json', key, 'value'):.3g} (limit "
+                      f"{number(quality, 'mesh.json', key, 'limit'):.3g})" for key, what in QUALITY if key in quality)
+    checked = case.json(case.folder / "check.json", "check")
+    if checked is None:
+        return Check(name, "unknown", f"checkMesh was not run (no check.json); {words}".rstrip("; "),
+                     "Run Allrun's step check_mesh, which writes check.json.")
+    if checked.get("ok") is True:
+        return Check(name, "holds", words or "checkMesh found nothing")
+    return Check(name, "fails", f"a check of checkMesh failed, see log.check; {words}".rstrip("; "),
+                 "Refine the mesh or change the lifters' section.")
+
+
+def solids_on_mesh(case):
+    name = "Balls on the flow's mesh keep their volume"
+    found = column(case, "volume_correction")
+    if found is None:
+        return Check(name, "unknown", "steps.csv does not tell the correction", NO_STEPS)
+    share = 100 * np.nanmax(np.abs(found))
+    return judged(name, share, CORRECTION, f"corrected by at most {share:.2g} % (limit {CORRECTION:g} %)",
+                  "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).")
+
+
+def drag_range(case):
+    name = "The drag law is within its range"
+    found = column(case, "beyond_law")
+    if found is None:
+        return Check(name, "unknown", "steps.csv does not tell how much of the slurry is beyond the law's range",
+                     NO_STEPS)
+    known = np.isfinite(found)
+    share = 100 * np.average(found[known], weights=case.record.steps["deltaT_s"][known])
+    return judged(name, share, OUT_OF_RANGE, f"{share:.1f} % of the slurry in the bed is beyond {case.law}'s range "
+                  f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges, flow.law).",
+                  doubtful=50,
+                  meaning="in the slurry beyond the range the drag is extrapolated; another law shows how much that "
+                          "matters")
+
+
+def one_way(case):
+    name = "The slurry would not move the balls"
+    load = case.load
+    if load is None:
+        return Check(name, "unknown", "the flow did not tell the force on the balls",
+                     "Give ballDensity in constant/bedProperties.")
+    mean, high = load
+    return judged(name, np.max([mean / LIGHT, high / HEAVY]), 1,
+                  f"its force is {mean:.2f} of their weight in the mean (limit {LIGHT}), 95 % below {high:.2f} (limit "
+                  f"{HEAVY})",
+                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.",
+                  doubtful=1 / HEAVY,
+                  meaning="the numbers hold for a charge that is not moved by the slurry; where it would be, expect "
+                          "other shapes "
+                          "of charge and slurry")

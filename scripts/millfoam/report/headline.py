@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the reader of a report must know first: numbers of a start, a repeated charge, verdicts that no longer run can
+change."""
+import numpy as np
+
+from .sources import fines_told
+
+
+def first_lines(case, checks):
+    """Sentences for the top of the report of a MillCase with these checks: the first says whether the flow's numbers
+    are of its start."""
+    lines = []
+    if case.flow:
+        lines += [line for line in (start_told(case, checks), repetition_told(case)) if line]
+    failed = [check for check in checks if check.name == "All stages belong to this mill" and check.state == "fails"]
+    if failed:
+        lines.append("Stages of different mills are mixed here: see “All stages belong to this mill” below.")
+    if case.mill.fines_share > 0:
+        lines.append(f"The charge is simulated {fines_told(case.mill)}: its load is {100 * case.mill.load:.3g} %, "
+                     f"{100 * case.mill.load_asked:.3g} % were asked for.")
+    return lines + [lasting_told(check) for check in checks if check.lasting]
+
+
+def start_told(case, checks):
+    """That the flow's numbers are of its start: it was cut short, or is not steady. Empty where neither is known."""
+    if case.is_cut_short:
+        asked = f" of {case.duration:.3g} s" if np.isfinite(case.duration) else ""
+        return (f"The flow was cut short: it ends at {case.last:.3g} s{asked}. Its numbers are of the start of the "
+                f"flow.")
+    steady = next((check.state for check in checks if check.name == "The flow is steady"), "unknown")
+    words = {"fails": "The flow is not steady: its numbers are of the start of the flow. A longer run changes them "
+                      "(flow.duration).",
+             "look": "It is doubtful whether the flow is steady: its numbers may still be of the start of the flow."}
+    return words.get(steady, "")
+
+
+def repetition_told(case):
+    """That the dry record was repeated, and how often; empty where it was not."""
+    times = (case.record.last.get("solids") or {}).get("repeated") or 0
+    return (f"The record of the dry charge is shorter than the flow and was repeated {times} "
+            f"{'time' if times == 1 else 'times'}: "
+            "the charge's motion comes back with every repetition." if times else "")
+
+
+def lasting_told(check):
+    """That a longer run cannot make a check hold, and what it means."""
+    word = "fails" if check.state == "fails" else "is doubtful"
+    return f"“{check.name}” {word}, and a longer run does not change that: {check.meaning}."

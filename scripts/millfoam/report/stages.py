@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The stages of a case by the files that they left: which mill each belongs to, and which program wrote it."""
+from dataclasses import dataclass
+
+import h5py
+
+from ..mill import PARTS
+from .verdict import Check
+
+NAME = "All stages belong to this mill"
+# Of files in the folder in which the charge was made, and of those in the case's own: kind of JSON, what to run again
+CHARGE_FILES = (("walls/walls.json", "walls", "millMesh"), ("dumps/run.json", "dumps", "millDem"),
+                ("dumps/results.json", "charge", "millDem"), ("solids.json", "averages", "millAverage"))
+CASE_FILES = (("mesh.json", "mesh", "millMesh"),)
+
+
+@dataclass
+class Stage:
+    """A file of a stage: its name, the program with its version (None: not told), fingerprints part -> 16 hex digits,
+    and what makes it again."""
+    file: str
+    program: str
+    mill: dict
+    again: str
+
+
+def stages(case):
+    """Stage of each file of a MillCase that tells of itself."""
+    found = []
+    for folders, files in ((case.charge_folders, CHARGE_FILES), ([case.folder], CASE_FILES)):
+        for name, kind, again in files:
+            path = next((folder / name for folder in folders if (folder / name).is_file()), None)
+            content = case.json(path, kind) if path else None
+            if content:
+                found.append(Stage(name, content.get("program"), content.get("mill") or {}, again))
+    for path, content in case.record.summaries:
+        name, balls = str(path.relative_to(case.folder)), content.get("solids") or {}
+        found.append(Stage(name, content.get("program"), content.get("mill") or {}, "the flow"))
+        found.append(Stage(f"the charge in {name}", None, balls.get("mill") or {}, "the flow"))
+    for path, again in ((case.solids, "millAverage"), (case.slurry, "the flow")):
+        if path:
+            with h5py.File(path) as file:
+                told = {key: text_of(value) for key, value in file.attrs.items()}
+            mill = {part: told[f"mill_{part}"] for part in PARTS if told.get(f"mill_{part}")}
+            found.append(Stage(path.name, told.get("program"), mill, again))
+    return found
+
+
+def text_of(value):
+    """An attribute of an HDF5 file: texts as text."""
+    return value.decode(errors="replace") if isinstance(value, bytes) else value
+
+
+def same_mill(case):
+    """Whether what the stages left belongs to mill.json's mill; unknown where no stage tells it."""
+    wrong, told = [], 0
+    for stage in stages(case):
+        for part, fingerprint in stage.mill.items():
+            mine = case.mill.fingerprint.get(part)
+            if not fingerprint or not mine:
+                continue
+            told += 1
+            if fingerprint != mine:
+                wrong.append(f"{stage.file} is of {part} {fingerprint}, mill.json of {mine}: run {stage.again} again")
+    if wrong:
+        return Check(NAME, "fails", "; ".join(wrong), "Run Allrun: it makes again what belongs to another mill.")
+    if not told:
+        return Check(NAME, "unknown", "no stage tells which mill it belongs to",
+                     "Run the stages again: millMesh, millDem, millAverage and slurryFoam write it.")
+    return Check(NAME, "holds", f"{told} fingerprints of the stages are those of mill.json")
+
+
+def programs(case):
+    """(files, program and version) of the files that tell them, each program once; OpenFOAM's build and LIGGGHTS'
+    version."""
+    found = [("mill.json", case.mill.content.get("program"))]
+    found += [(stage.file, stage.program) for stage in stages(case)]
+    by_program = {}
+    for name, program in found:
+        if program:
+            by_program.setdefault(program, []).append(name)
+    rows = [(", ".join(names), program) for program, names in by_program.items()]
+    told = case.record.last.get("openfoam") or {}
+    words = [f"{name} {told[key]}" for key, name in (("version", "version"), ("patch", "patch"), ("build", "build"))
+             if told.get(key)]
+    rows += [("OpenFOAM of the flow", ", ".join(words))] if words else []
+    liggghts = (case.results or {}).get("liggghts")
+    return rows + ([("LIGGGHTS of the dry run", liggghts)] if liggghts else [])

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the averaged flow drifts: its second half against its first."""
+import numpy as np
+
+from .verdict import Check, judged
+from .words import decimals
+
+DRIFT = 3.0  # standard errors between the two halves of the averages
+BATCHES = 5  # of each half, at least: what the error is from
+WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
+
+
+def batches_of(span, turn):
+    """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and how many of them
+    make a half.
+
+    One half begins with the span, the other ends with it. Where at least two turns fit, each is as many whole turns
+    as fit, and what is left of the span is in the middle, in neither: what comes back with every turn of the mill, as
+    lifters do, is no drift. A batch is one or more whole turns where a half has BATCHES of them, else a turn's half,
+    third, …"""
+    turns = int(span / 2 / turn + 0.005)  # times are rounded
+    if turns < 1:
+        return span / 2 / BATCHES, BATCHES
+    if turns < BATCHES:
+        per_turn = -(-BATCHES // turns)
+        return turn / per_turn, turns * per_turn
+    whole = turns // BATCHES
+    return whole * turn, turns // whole
+
+
+def batch_means(times, values, begin, length, count):
+    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN where there is no value."""
+    places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
+    # The last time closes the last batch
+    places[np.isclose(times, begin + count * length)] = count - 1
+    within = (places >= 0) & (places < count)
+    with np.errstate(invalid="ignore"):
+        return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
+
+
+def halves(times, values, begin, turn):
+    """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
+    batches_of.
+
+    The error is of what the batches differ from a straight line by: a drift must not hide itself. Where the middle is
+    left out both are scaled to what they are between the halves of all of the time: a drift counts as much however
+    many turns there are."""
+    chosen = times >= begin
+    times, values = times[chosen], values[chosen]
+    span = times[-1] - times[0]
+    length, half = batches_of(span, turn)
+    first, last = (batch_means(times, values, start, length, half) for start in (times[0], times[-1] - half * length))
+    batches = np.concatenate([first, last])
+    if not np.isfinite(batches).all():
+        return np.nan, np.nan
+    apart = span - half * length  # between the halves' middles
+    middles = length * (np.arange(2 * half) % half) + apart * (np.arange(2 * half) >= half)
+    straight = np.polyval(np.polyfit(middles, batches, 1), middles)
+    error = np.sqrt(np.sum((batches - straight) ** 2) / (2 * half - 2) * 2 / half)
+    scale = span / 2 / apart
+    return scale * (last.mean() - first.mean()), scale * error
+
+
+def difference_with_error(value, error):
+    """As many digits as the error allows, three after the point at most."""
+    digits = min(decimals(error), 3) if np.isfinite(error) and error > 0 else 3
+    return f"{value:+.{digits}f} ± {error:.{digits}f}"
+
+
+def flow_steadiness(case):
+    name = "The flow is steady"
+    told = case.balance
+    if told is None or (told["Time"] >= case.begin).sum() < 20:
+        return Check(name, "unknown", "the time series of slurryBalance is missing or too short",
+                     "Add slurryBalance to controlDict, or run longer.")
+    drifts, words = [], []
+    for key, unit, scale in (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)):
+        difference, error = halves(told["Time"], told[key], case.begin, case.turn)
+        # What is less than 1 % of the hold-up or of the radius is no drift that matters
+        floor = 0.01 * (told[key].mean() if key == "holdUp" else case.radius)
+        drifts.append(abs(difference) / np.maximum(error * DRIFT, floor))
+        words.append(f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}")
+    turns = (told["Time"][-1] - case.begin) / case.turn
+    return judged(name, np.max(drifts), 1, f"from {case.begin:g} s on ({turns:.2g} turns), second half less the first: "
+                  + ", ".join(words) + f" (limit {DRIFT:g} standard errors, or 1 % of the hold-up and of the radius)",
+                  "Run longer (flow.duration), or begin the averages later (--begin).", doubtful=2)

@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers and texts of the report are typeset as one writes them, with as many digits as their errors allow, and
+escaped."""
+import unittest
+
+from millfoam.report import page
+from millfoam.report.sections import last_turn
+from millfoam.report.words import decimals, millilitres, quantity, span_of_time, typeset, uncertain
+
+
+class Words(unittest.TestCase):
+    def test_minus_signs_and_powers_of_ten_are_typeset_but_not_names(self):
+        self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
+                         "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
+        self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
+
+    def test_units_shares_volumes_and_times_are_as_one_writes_them(self):
+        self.assertEqual(typeset("0.0232 m^3, 128.7 cm^2, m^35"), "0.0232 m³, 128.7 cm², m^35")
+        self.assertEqual([quantity(*one) for one in (("volume_m3", 0.123456), ("plastic_viscosity_Pa_s", 0.01),
+                                                     ("cells", 400),
+                                                     ("complete", True), ("end_s", None), ("law", "Hill"),
+                                                     ("top_width_m", 0.5))],
+                         [("volume", "0.1235 m³"), ("plastic viscosity", "0.01 Pa s"), ("cells", "400"),
+                          ("complete", "yes"),
+                          ("end", "not known"), ("law", "Hill"), ("top width", "0.5 m")])
+        self.assertEqual([millilitres(volume) for volume in (1.2345e-2, 1.04e-5, 9.651e-6, 0)],
+                         ["12345 ml", "10.4 ml", "9.65 ml", "0 ml"])
+        self.assertEqual([span_of_time(seconds) for seconds in (0, 45, 59.9, 90)],
+                         ["below 1 s", "45 s", "60 s", "1.5 min"])
+        self.assertEqual([last_turn(seconds, 1.0) for seconds in (1.05, 0.48)],
+                         ["The last turn", "The last 0.48 of a turn"])
+
+    def test_digits_are_those_that_the_error_allows(self):
+        self.assertEqual([decimals(error) for error in (0.0123, 0.03, 0.5, 1.7, 4, 25)], [3, 2, 1, 1, 0, 0])
+        self.assertEqual(uncertain(33.193095, 0.029591, "W"), "33.193 ± 0.030 W")
+        self.assertEqual(uncertain(-37.42, 1.23, "°"), "-37.4 ± 1.2°")
+        self.assertEqual(uncertain(0.0087123, float("nan"), "m/s"), "0.00871 m/s")
+
+    def test_what_is_written_into_a_page_is_escaped(self):
+        for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),
+                     page.table(["<"], [("&", 1.0)], title="<", note="&"), page.folded("<&>", "<script>&")):
+            self.assertNotRegex(made, r"&(?!amp;|lt;|gt;|quot;)|<script|<&|< ")
+
+
+if __name__ == "__main__":
+    unittest.main()
