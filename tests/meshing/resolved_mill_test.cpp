@@ -38,7 +38,8 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
     const Json two = resolved_mill(again, "test");
     EXPECT_EQ(one["mill"], two["mill"]);
     EXPECT_EQ(one["derived"], two["derived"]);
-    EXPECT_EQ(one["fingerprint"], two["fingerprint"]);
+    for (const char* key : {"fingerprint", "file", "file_fingerprint", "set"})
+      EXPECT_EQ(one[key], two[key]) << key;
   }
 }
 
