@@ -11,12 +11,14 @@
 
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pi.hpp"
+#include "meshing/mill_charge.hpp"
 #include "meshing/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
 
+using meshing::ball_mass;
 using meshing::shown;
 
 constexpr double most_balls = 1e8;  // of a class: LIGGGHTS counts balls by int
@@ -48,17 +50,16 @@ std::string key_of_class(const meshing::Mill& mill, std::size_t number) {
 
 std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
   std::vector<ClassCount> classes;
-  for (std::size_t i = 0; i < mill.charge.classes.size(); ++i) {
-    const auto& size = mill.charge.classes[i];
-    const double one = ball_mass(mill, size.diameter);
-    if (!(size.mass / one <= most_balls))
+  const auto counted = meshing::count_charge(mill).classes;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    const auto& size = counted[i];
+    if (!(static_cast<double>(size.count) <= most_balls))
       throw KeyError(key_of_class(mill, i),
-                     shown(size.mass) + " kg of balls of " + shown(size.diameter) + " m, which are " +
-                         shown(size.mass / one) + " balls",
+                     shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) + " m, which are " +
+                         shown(static_cast<double>(size.count)) + " balls",
                      "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
-    const long count = std::lround(size.mass / one);
-    if (count == 0 && size.diameter >= mill.charge.fines_below) refuse_empty_class(mill, i);
-    classes.push_back({size.diameter, size.mass, static_cast<double>(count) * one, count});
+    if (size.count == 0 && size.simulated) refuse_empty_class(mill, i);
+    classes.push_back({size.diameter, size.mass_asked, size.mass, size.count});
   }
   std::stable_sort(classes.begin(), classes.end(),
                    [](const auto& a, const auto& b) { return a.diameter > b.diameter; });
@@ -106,10 +107,6 @@ std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<
 }
 
 }  // namespace
-
-double ball_mass(const meshing::Mill& mill, double diameter) {
-  return mill.ball.density * ball_volume(diameter);
-}
 
 double ClassCount::surface() const {
   return static_cast<double>(count) * pi * diameter * diameter;

@@ -45,9 +45,6 @@ inline constexpr double round_solidity = 0.2;
 /// free.
 inline constexpr double heap_solidity = 0.6;
 
-/// Mass of one ball, density pi/6 d^3, kg.
-double ball_mass(const meshing::Mill& mill, double diameter);
-
 /// Counts the balls of each class by mass, n = round(mass/ball_mass), and cuts them into rounds. The mill has
 /// a class to simulate (simulated_classes). Throws KeyError when a simulated class results in no ball, when a
 /// ball is larger than the start cylinder, or when the charge does not fit into the start cylinder.

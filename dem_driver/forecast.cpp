@@ -135,8 +135,8 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   trial.geometry.pulp_lifters.reset();
   // No class vanishes: it would no longer set the skin of the neighbour lists as it does in the mill.
   for (auto& size : trial.charge.classes)
-    size.mass =
-        std::max(size.mass * trial.geometry.length / mill.geometry.length, ball_mass(trial, size.diameter));
+    size.mass = std::max(size.mass * trial.geometry.length / mill.geometry.length,
+                         meshing::ball_mass(trial, size.diameter));
 
   trial.dem.settle_time = 0.1;
   trial.dem.record_interval = trial_steps / 10 * whole.step.value;

@@ -6,18 +6,15 @@
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/plan_report.hpp"
 #include "meshing/mill_shape.hpp"
+#include "meshing/resolved_mill.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
 
-Json fingerprints(const meshing::Mill& /*mill*/) {
-  return Json::object();
-}
-
 Json begin_result(const std::string& what, const meshing::Mill& mill) {
   return {{"format", "millfoam-" + what},
           {"program", std::string("millDem ") + version()},
-          {"mill", fingerprints(mill)}};
+          {"mill", meshing::to_json(mill.fingerprint)}};
 }
 
 void add_rotation(Json& result, const meshing::Mill& mill) {

@@ -13,9 +13,6 @@ namespace millfoam::dem_driver {
 
 using Json = nlohmann::ordered_json;
 
-/// The fingerprints of a mill by name, that results carry; none are known yet.
-Json fingerprints(const meshing::Mill& mill);
-
 /// The head of a result that `millDem` leaves: "format" ("millfoam-<what>"), "program" with its version, and
 /// "mill", the fingerprints of the mill that it belongs to.
 Json begin_result(const std::string& what, const meshing::Mill& mill);

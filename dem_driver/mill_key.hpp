@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -18,9 +17,5 @@ class KeyError : public std::runtime_error {
  private:
   std::string key_;
 };
-
-/// The message with its place, "file:line: key …". The line is the key's or, where the file leaves the key to
-/// its default, that of the innermost section around it; a file that cannot be read any more gives no line.
-std::string with_place(const std::filesystem::path& file, const KeyError& error);
 
 }  // namespace millfoam::dem_driver

@@ -24,6 +24,10 @@ inline constexpr double allowed_misfit = 0.02;
 /// enough, the box of all walls, and what was expected.
 void require_fit(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
 
+/// Throws std::runtime_error where `walls/walls.json` says that millMesh made the walls of another mill.
+/// Walls from CAD, and walls without that file, belong to no mill.
+void require_walls_of(const std::filesystem::path& walls_folder, const meshing::Mill& mill);
+
 /// How far the triangles of each half of the mill, all walls together, cover its section (a circle) when they
 /// are seen along the axis.
 struct EndCover {

@@ -10,7 +10,6 @@
 #include "meshing/mill_charge.hpp"
 #include "meshing/mill_shape.hpp"
 #include "meshing/pi.hpp"
-#include "meshing/resolved_mill.hpp"
 #include "meshing/surface_check.hpp"
 
 namespace millfoam::meshing {
@@ -86,7 +85,7 @@ std::string mill_lines(const MillDescription& description) {
         "fines                    %.4g kg (%.3g %% of the mass) are left out; with them the load is %.3g %%",
         charge.fines_mass, 100 * charge.fines_mass / (charge.mass + charge.fines_mass),
         100 * charge.load_asked);
-  return text + line("fingerprint              %s", fingerprints(description).flow.c_str());
+  return text + line("fingerprint              %s", description.mill.fingerprint.flow.c_str());
 }
 
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& q,

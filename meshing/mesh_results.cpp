@@ -29,7 +29,7 @@ void write_mesh_results(const MillDescription& description, const VolumeMesh& me
                         const MeshQuality& quality, const Openings& openings, double time,
                         const std::filesystem::path& case_folder) {
   const double closed_form = flow_volume(description.mill.geometry);
-  Json json = result_head("millfoam-mesh", "millMesh", to_json(fingerprints(description)));
+  Json json = result_head("millfoam-mesh", "millMesh", to_json(description.mill.fingerprint));
   json["time0_s"] = time;
   json["cells"] = mesh.cells;
   json["cells_in_section"] = openings.compartment.size();
@@ -53,7 +53,7 @@ void write_mesh_results(const MillDescription& description, const VolumeMesh& me
 void write_wall_results(const std::optional<MillDescription>& description, const WallSurface& walls,
                         double volume, const std::filesystem::path& walls_folder) {
   Json mill = Json::object();
-  if (description) mill["walls"] = fingerprints(*description).walls;
+  if (description) mill["walls"] = description->mill.fingerprint.walls;
   Json json = result_head("millfoam-walls", "millMesh", mill);
   json["source"] = description ? "mill" : "cad";
   Eigen::Vector3d low = walls.points.front();

@@ -11,6 +11,7 @@
 #include "meshing/mill_shape.hpp"
 #include "meshing/openings.hpp"
 #include "meshing/pi.hpp"
+#include "meshing/resolved_mill.hpp"
 #include "meshing/rules.hpp"
 #include "meshing/yaml_section.hpp"
 
@@ -279,7 +280,9 @@ MillDescription describe_mill(const std::filesystem::path& file, const std::vect
   const auto document = std::make_shared<MillDocument>(file, set);
   const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
                                 "slurry", "air", "resolution", "flow"});
-  return {read_root(root, file.stem().string()), document};
+  MillDescription description{read_root(root, file.stem().string()), document};
+  description.mill.fingerprint = fingerprints(document->keys());
+  return description;
 }
 
 Mill read_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {

@@ -185,6 +185,15 @@ struct Flow {
   FlowAverages averages;
 };
 
+/// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
+/// depends, 16 hexadecimal digits each.
+struct MillFingerprints {
+  std::string walls;     ///< geometry and the mesh's cross-section
+  std::string charge;    ///< walls, speed, charge, materials, and dem but for its duration
+  std::string averages;  ///< charge, duration of the dry run, averages
+  std::string flow;      ///< everything but the title
+};
+
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
 struct Mill {
   std::string title;
@@ -203,6 +212,7 @@ struct Mill {
   Air air;
   Resolution resolution;
   Flow flow;
+  MillFingerprints fingerprint;
   double turn() const;        ///< time of one turn, s
   const char* sense() const;  ///< clockwise or anticlockwise, seen with x to the right and y up
 };

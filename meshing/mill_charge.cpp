@@ -8,6 +8,12 @@
 #include "meshing/pi.hpp"
 
 namespace millfoam::meshing {
+namespace {
+
+/// What a whole number can hold with all its digits in a double.
+constexpr double most_counted = 9e15;
+
+}  // namespace
 
 double ball_mass(const Mill& mill, double diameter) {
   return mill.ball.density * pi / 6 * std::pow(diameter, 3);
@@ -19,7 +25,7 @@ ChargeNumbers count_charge(const Mill& mill) {
   double asked = 0;
   for (const SizeClass& size : mill.charge.classes) {
     const double one = ball_mass(mill, size.diameter);
-    const long count = std::lround(size.mass / one);
+    const long count = std::lround(std::min(size.mass / one, most_counted));
     const BallCount ball{size.diameter, size.mass, static_cast<double>(count) * one, count,
                          size.diameter >= mill.charge.fines_below};
     numbers.classes.push_back(ball);

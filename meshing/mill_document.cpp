@@ -140,19 +140,32 @@ MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> 
   const std::string text = read_bytes(file_);
   require_utf8(file_, text);
   refuse_tabs(file_, text);
-  file_fingerprint_ = fingerprint(text);
+  source_ = file_;
+  source_fingerprint_ = fingerprint(text);
   root_ = load(file_, text);
-  if (root_["format"].IsDefined()) {
-    if (!root_["format"].IsScalar() || root_["format"].Scalar() != "millfoam-mill" || !root_["mill"].IsMap())
-      throw MillError(file_ +
-                      ":1: key 'format': expected a mill description, or a resolved one with format "
-                      "\"millfoam-mill\"");
-    root_.reset(root_["mill"]);
-  }
+  if (root_["format"].IsDefined()) take_resolved();
   for (const std::string& change : set_) apply(change);
 }
 
 MillDocument::~MillDocument() = default;
+
+std::vector<std::string> MillDocument::changes() const {
+  std::vector<std::string> all = earlier_;
+  all.insert(all.end(), set_.begin(), set_.end());
+  return all;
+}
+
+void MillDocument::take_resolved() {
+  if (!root_["format"].IsScalar() || root_["format"].Scalar() != "millfoam-mill" || !root_["mill"].IsMap())
+    throw MillError(file_ +
+                    ":1: key 'format': expected a mill description, or a resolved one with format "
+                    "\"millfoam-mill\"");
+  if (root_["file"].IsScalar()) source_ = root_["file"].Scalar();
+  if (root_["file_fingerprint"].IsScalar()) source_fingerprint_ = root_["file_fingerprint"].Scalar();
+  for (const YAML::Node& change : root_["set"])
+    if (change.IsScalar()) earlier_.push_back(change.Scalar());
+  root_.reset(root_["mill"]);
+}
 
 void MillDocument::apply(const std::string& change) {
   const std::size_t sign = change.find('=');
@@ -193,7 +206,9 @@ std::string MillDocument::place(const std::string& path) const {
     if (change != changed_.end()) return "--set " + change->second;
     const auto line = lines_.find(at);
     if (line != lines_.end()) return file_ + ":" + std::to_string(line->second);
-    // A value inside of what was set, and a section that only --set has made
+    // A section that only a change of one of its keys has made
+    const auto inside = changed_.lower_bound(at + '.');
+    if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
     const std::size_t cut = at.find_last_of(".[");
     at = cut == std::string::npos ? "" : at.substr(0, cut);
   }

@@ -27,10 +27,13 @@ class MillDocument {
   ~MillDocument();
 
   const std::string& file() const { return file_; }
-  const std::vector<std::string>& changes() const { return set_; }
+  /// Changes that were made, of a resolved mill those of its description too.
+  std::vector<std::string> changes() const;
   const YAML::Node& root() const { return root_; }
-  /// FNV-1a hash of the file's bytes, 16 hexadecimal digits.
-  const std::string& file_fingerprint() const { return file_fingerprint_; }
+  /// The description that a person wrote: the file, or that of which the resolved mill was made.
+  const std::string& source() const { return source_; }
+  /// FNV-1a hash of the source's bytes, 16 hexadecimal digits.
+  const std::string& source_fingerprint() const { return source_fingerprint_; }
 
   /// Notes the line of a key, from 1.
   void note_line(const std::string& path, int line);
@@ -43,10 +46,13 @@ class MillDocument {
   const nlohmann::ordered_json& keys() const;
 
  private:
+  void take_resolved();
   void apply(const std::string& change);
 
   std::string file_;
-  std::string file_fingerprint_;
+  std::string source_;
+  std::string source_fingerprint_;
+  std::vector<std::string> earlier_;  ///< changes of a resolved mill
   std::vector<std::string> set_;
   YAML::Node root_;
   std::map<std::string, int> lines_;

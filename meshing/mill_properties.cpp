@@ -9,7 +9,8 @@
 namespace millfoam::meshing {
 namespace {
 
-/// With fewer layers a mesh is not cut along the axis for two ranks: each would have next to nothing but borders.
+/// With fewer layers a mesh is not cut along the axis for two ranks: each would have next to nothing but
+/// borders.
 constexpr int fewest_layers_to_cut = 8;
 
 /// Lines of an OpenFOAM dictionary.
@@ -130,7 +131,7 @@ void write_flow(Entries& out, const Mill& mill) {
 void write_mill_properties(const MillDescription& description, const Openings& openings, double time,
                            const std::filesystem::path& case_folder) {
   const Mill& mill = description.mill;
-  const MillFingerprints of = fingerprints(description);
+  const MillFingerprints& of = description.mill.fingerprint;
   write_file(case_folder / "constant" / "millProperties", [&](std::ostream& stream) {
     stream << "FoamFile\n{\n    version     2.0;\n    format      ascii;\n    class       dictionary;\n"
               "    location    \"constant\";\n    object      millProperties;\n}\n\n";

@@ -164,8 +164,7 @@ Json derived_numbers(const Mill& mill) {
 
 }  // namespace
 
-MillFingerprints fingerprints(const MillDescription& description) {
-  const Json& keys = description.document->keys();
+MillFingerprints fingerprints(const Json& keys) {
   Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
   of["resolution"].erase("layers");
   MillFingerprints result;
@@ -198,10 +197,10 @@ Json resolved_mill(const MillDescription& description, const std::string& progra
   return {{"format", "millfoam-mill"},
           {"version", 1},
           {"program", program + " " + version()},
-          {"file", document.file()},
-          {"file_fingerprint", document.file_fingerprint()},
+          {"file", document.source()},
+          {"file_fingerprint", document.source_fingerprint()},
           {"set", document.changes()},
-          {"fingerprint", to_json(fingerprints(description))},
+          {"fingerprint", to_json(description.mill.fingerprint)},
           {"mill", document.keys()},
           {"derived", derived_numbers(description.mill)}};
 }

@@ -9,15 +9,8 @@
 
 namespace millfoam::meshing {
 
-/// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
-/// depends, 16 hexadecimal digits each.
-struct MillFingerprints {
-  std::string walls;     ///< geometry and the mesh's cross-section
-  std::string charge;    ///< walls, speed, charge, materials, and dem but for its duration
-  std::string averages;  ///< charge, duration of the dry run, averages
-  std::string flow;      ///< everything but the title
-};
-MillFingerprints fingerprints(const MillDescription& description);
+/// The fingerprints of a mill whose keys have these values.
+MillFingerprints fingerprints(const nlohmann::ordered_json& keys);
 nlohmann::ordered_json to_json(const MillFingerprints& fingerprints);
 
 /// The resolved mill: every key with its value, defaults filled in; derived numbers with units in their

@@ -78,7 +78,7 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, double durat
 
 std::string take_from_mill(const meshing::MillDescription& description, Options& options) {
   const meshing::Mill& mill = description.mill;
-  const meshing::MillFingerprints of = meshing::fingerprints(description);
+  const meshing::MillFingerprints& of = mill.fingerprint;
   const fs::path dumps = fs::path(options.case_folder) / "dumps";
   const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
   const bool own_windows = !options.windows.empty() || options.start || options.end;

@@ -25,8 +25,9 @@
 #include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
-#include "meshing/mill.hpp"
-#include "millfoam_version.hpp"
+#include "dem_driver/wall_fit.hpp"
+#include "meshing/mill_document.hpp"
+#include "meshing/tools/mill_options.hpp"
 
 namespace {
 
@@ -35,7 +36,7 @@ using namespace millfoam;
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string mill_file;
+  meshing::MillOptions mill;
   std::string case_folder;
   int ranks = 1;
   bool deck_only = false;
@@ -114,10 +115,11 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
 }
 
-void run(const Options& options) {
-  const auto mill = meshing::read_mill(options.mill_file);
+void run(const Options& options, const meshing::MillDescription& description) {
+  const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
   const auto plan = dem_driver::plan_dem(mill);
+  dem_driver::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
@@ -138,6 +140,7 @@ void run(const Options& options) {
   }
   dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
+  meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;
   if (step) {
@@ -161,16 +164,16 @@ void check_plan_file(const Options& options) {
   const fs::path file = options.plan_file;
   const fs::path place = fs::absolute(file).parent_path();
   std::error_code none;
-  if (fs::equivalent(file, options.mill_file, none))
+  if (fs::equivalent(file, options.mill.file, none))
     throw std::runtime_error("--json " + file.string() +
                              ": is the description of the mill, expected another file");
   if (!fs::is_directory(place))
     throw std::runtime_error("--json " + file.string() + ": no such folder, expected one that exists");
 }
 
-void plan(const Options& options) {
+void plan(const Options& options, const meshing::MillDescription& description) {
   if (!options.plan_file.empty()) check_plan_file(options);
-  const auto mill = meshing::read_mill(options.mill_file);
+  const meshing::Mill& mill = description.mill;
   const auto plan = dem_driver::plan_dem(mill);
   dem_driver::print_plan(std::cout, mill, plan);
   const auto cost = dem_driver::measure_cost(mill, options.ranks);
@@ -189,11 +192,11 @@ std::vector<std::string> arguments(int argc, char** argv) {
   return words;
 }
 
-using Action = void (*)(const Options&);
+using Action = void (*)(const Options&, const meshing::MillDescription&);
 
 void add_common(CLI::App& app, Options& options) {
-  app.set_version_flag("--version", std::string("millDem ") + version());
-  app.add_option("mill", options.mill_file, "description of the mill, mill.yaml")->required();
+  meshing::add_version(app, "millDem");
+  meshing::add_mill_options(app, options.mill)->required();
   app.add_option_function<std::string>(
          "--np", [&](const std::string& word) { options.ranks = dem_driver::read_ranks(word); },
          "number of MPI ranks (also -np)")
@@ -213,11 +216,26 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   }
   app.footer("millDem plan mill.yaml [-np N] predicts what the run will cost.");
   add_common(app, options);
-  app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made")->required();
+  app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
   app.add_flag("--resume", options.resume, "go on with a run that was broken off; a whole one is kept");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
+  if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");
   return run;
+}
+
+/// Reads the mill and acts; a key that no dry run can be made of is named with its place.
+void act(const Options& options, Action action) {
+  const meshing::MillDescription description = options.mill.read();
+  if (!options.mill.resolved.empty()) {
+    meshing::write_resolved_mill(description, "millDem", options.mill.resolved);
+    return;
+  }
+  try {
+    action(options, description);
+  } catch (const dem_driver::KeyError& error) {
+    throw meshing::MillError(description.document->place(error.key()) + ": " + error.what());
+  }
 }
 
 }  // namespace
@@ -227,13 +245,9 @@ int main(int argc, char** argv) {
   CLI::App app{"Dry run of a tumbling mill with LIGGGHTS: DIR/walls/*.stl to DIR/dumps/dump.*.txt",
                "millDem"};
   try {
-    const Action action = parse(app, options, arguments(argc, argv));
-    action(options);
+    act(options, parse(app, options, arguments(argc, argv)));
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
-  } catch (const dem_driver::KeyError& error) {
-    std::cerr << "millDem: error: " << dem_driver::with_place(options.mill_file, error) << '\n';
-    return 1;
   } catch (const std::exception& error) {
     std::cerr << "millDem: error: " << error.what() << '\n';
     return 1;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "dem_driver/pi.hpp"
+#include "meshing/mill_charge.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -84,12 +85,12 @@ TEST(ChargePlan, AChargeLighterThanHalfABallIsRefused) {
 
 TEST(ChargePlan, AClassLighterThanHalfABallIsRefusedAsItWouldStillSetTheTimeStep) {
   auto mill = small_mill();
-  mill.charge.classes.push_back({0.001, 0.49 * ball_mass(mill, 0.001)});
+  mill.charge.classes.push_back({0.001, 0.49 * meshing::ball_mass(mill, 0.001)});
   EXPECT_EQ(message_of([&] { plan_charge(mill); }),
             "key 'charge.classes[2]' = 6.41409e-07 kg of balls of 0.001 m in this mill, which rounds to 0 "
             "balls: expected at least half of one ball's mass, 1.309e-06 kg: raise the mass, or leave the "
             "class out (small ones by charge.fines_below)");
-  mill.charge.classes.back().mass = 0.51 * ball_mass(mill, 0.001);
+  mill.charge.classes.back().mass = 0.51 * meshing::ball_mass(mill, 0.001);
   EXPECT_EQ(plan_charge(mill).classes.back().count, 1);
 }
 

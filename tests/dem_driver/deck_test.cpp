@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "meshing/mill_charge.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -214,7 +215,7 @@ TEST(Deck, TheNeighbourSkinGrowsWithTheRangeOfSizes) {
   mill.geometry.length = 0.03;
   mill.charge.start_radius = 0.045;
   const auto skin = [&](double largest) {
-    mill.charge.classes.back() = {largest, ball_mass(mill, largest)};
+    mill.charge.classes.back() = {largest, meshing::ball_mass(mill, largest)};
     return after(deck_of(mill), "neighbor").front();
   };
   EXPECT_EQ(skin(0.004), "0.0008");
@@ -225,7 +226,8 @@ TEST(Deck, TheNeighbourSkinGrowsWithTheRangeOfSizes) {
 TEST(Deck, TheNeighbourSkinIsThatOfTheMeasurements) {
   auto mill = small_mill();
   const auto skin_over_smallest = [&](double smallest, double largest) {
-    mill.charge.classes = {{largest, ball_mass(mill, largest)}, {smallest, ball_mass(mill, smallest)}};
+    mill.charge.classes = {{largest, meshing::ball_mass(mill, largest)},
+                           {smallest, meshing::ball_mass(mill, smallest)}};
     return std::stod(after(deck_of(mill), "neighbor").front()) / smallest;
   };
   EXPECT_NEAR(skin_over_smallest(0.002, 0.008), 0.4, 1e-12);

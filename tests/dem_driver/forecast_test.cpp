@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "meshing/mill_charge.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -49,7 +50,7 @@ TEST(Forecast, TheTrialIsLongEnoughToBeSplitAsTheMillIs) {
 
 TEST(Forecast, AClassOfOneBallIsInTheTrialToo) {
   auto mill = long_mill();
-  mill.charge.classes.push_back({0.004, ball_mass(mill, 0.004)});
+  mill.charge.classes.push_back({0.004, meshing::ball_mass(mill, 0.004)});
   const auto trial = trial_mill(mill, 1);
   ASSERT_LT(trial.geometry.length, 0.7 * mill.geometry.length);
   EXPECT_EQ(plan_charge(trial).classes.front().count, 1);
