@@ -164,6 +164,9 @@ void MillDocument::take_resolved() {
   if (root_["file_fingerprint"].IsScalar()) source_fingerprint_ = root_["file_fingerprint"].Scalar();
   for (const YAML::Node& change : root_["set"])
     if (change.IsScalar()) earlier_.push_back(change.Scalar());
+  for (const auto& line : root_["lines"]) lines_[line.first.Scalar()] = line.second.as<int>(1);
+  for (const std::string& change : earlier_) earlier_changed_[change.substr(0, change.find('='))] = change;
+  resolved_ = true;
   root_.reset(root_["mill"]);
 }
 
@@ -197,22 +200,24 @@ void MillDocument::apply(const std::string& change) {
 }
 
 void MillDocument::note_line(const std::string& path, int line) {
-  lines_[path] = line;
+  if (!resolved_) lines_[path] = line;
 }
 
 std::string MillDocument::place(const std::string& path) const {
   for (std::string at = path; !at.empty();) {
-    const auto change = changed_.find(at);
-    if (change != changed_.end()) return "--set " + change->second;
+    for (const auto* changes : {&changed_, &earlier_changed_}) {
+      const auto change = changes->find(at);
+      if (change != changes->end()) return "--set " + change->second;
+    }
     const auto line = lines_.find(at);
-    if (line != lines_.end()) return file_ + ":" + std::to_string(line->second);
+    if (line != lines_.end()) return source_ + ":" + std::to_string(line->second);
     // A section that only a change of one of its keys has made
     const auto inside = changed_.lower_bound(at + '.');
     if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
     const std::size_t cut = at.find_last_of(".[");
     at = cut == std::string::npos ? "" : at.substr(0, cut);
   }
-  return file_ + ":1";
+  return source_ + ":1";
 }
 
 bool MillDocument::is_changed(const std::string& path) const {

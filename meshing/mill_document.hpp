@@ -35,8 +35,9 @@ class MillDocument {
   /// FNV-1a hash of the source's bytes, 16 hexadecimal digits.
   const std::string& source_fingerprint() const { return source_fingerprint_; }
 
-  /// Notes the line of a key, from 1.
+  /// Notes the line of a key, from 1. A resolved mill knows the lines of its source.
   void note_line(const std::string& path, int line);
+  const std::map<std::string, int>& lines() const { return lines_; }
   /// Where a key stands, or the innermost section around it that is there: "mill.yaml:12", or
   /// "--set flow.law=Hill".
   std::string place(const std::string& path) const;
@@ -56,10 +57,12 @@ class MillDocument {
   std::string source_;
   std::string source_fingerprint_;
   std::vector<std::string> earlier_;  ///< changes of a resolved mill
+  bool resolved_ = false;
   std::vector<std::string> set_;
   YAML::Node root_;
   std::map<std::string, int> lines_;
-  std::map<std::string, std::string> changed_;  ///< path -> the change that set it
+  std::map<std::string, std::string> changed_;          ///< path -> the change that set it
+  std::map<std::string, std::string> earlier_changed_;  ///< the same, of a resolved mill
   std::unique_ptr<nlohmann::ordered_json> keys_;
 };
 

@@ -200,6 +200,7 @@ Json resolved_mill(const MillDescription& description, const std::string& progra
           {"file", document.source()},
           {"file_fingerprint", document.source_fingerprint()},
           {"set", document.changes()},
+          {"lines", document.lines()},
           {"fingerprint", to_json(description.mill.fingerprint)},
           {"mill", document.keys()},
           {"derived", derived_numbers(description.mill)}};

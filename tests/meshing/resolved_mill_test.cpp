@@ -38,7 +38,7 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
     const Json two = resolved_mill(again, "test");
     EXPECT_EQ(one["mill"], two["mill"]);
     EXPECT_EQ(one["derived"], two["derived"]);
-    for (const char* key : {"fingerprint", "file", "file_fingerprint", "set"})
+    for (const char* key : {"fingerprint", "file", "file_fingerprint", "set", "lines"})
       EXPECT_EQ(one[key], two[key]) << key;
   }
 }
@@ -76,6 +76,16 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   // A longer dry run is resumed, but its averages are others
   EXPECT_EQ(changed("dem.duration=3").charge, mill.charge);
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
+}
+
+TEST(Place, of_a_resolved_mill_is_that_in_its_source) {
+  const TemporaryFolder folder;
+  const MillDescription first = describe(example_mill, {"dem.seed=7"});
+  const MillDescription again =
+      describe_mill(folder.write("mill.json", resolved_mill(first, "test").dump(2)), {"flow.law=Hill"});
+  for (const char* key : {"dem.duration", "dem.seed", "dem.contact_interval", "charge.classes[1]"})
+    EXPECT_EQ(again.document->place(key), first.document->place(key)) << key;
+  EXPECT_EQ(again.document->place("flow.law"), "--set flow.law=Hill");
 }
 
 TEST(Place, of_a_key_is_its_line_its_change_or_the_section_around_it) {
