@@ -30,7 +30,9 @@ constexpr double usual_settling = 1.6;
 constexpr double usual_dem_turns = 3;
 constexpr double records_per_turn = 500;
 
-double read_angular_velocity(const Section& in, const Geometry& geometry) {
+double read_angular_velocity(Section& in, const Geometry& geometry) {
+  in.alternatives({"angular_velocity", "fraction_of_critical"});
+  if (in.is_set("angular_velocity")) in.drop("sense");
   if (in.has("angular_velocity")) {
     for (const char* other : {"fraction_of_critical", "sense"}) {
       if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
@@ -144,7 +146,8 @@ Contact read_contact(const Section& materials, const std::string& key, const std
 }
 
 /// The modulus, or the overlap that it follows from.
-void read_softness(const Section& in, Dem& dem) {
+void read_softness(Section& in, Dem& dem) {
+  in.alternatives({"youngs_modulus", "largest_overlap"});
   if (in.has("youngs_modulus")) {
     if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
     dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
@@ -162,7 +165,7 @@ double fall_time(const Geometry& geometry) {
   return std::sqrt(2 * geometry.diameter / gravity);
 }
 
-Dem read_dem(const Section& in, const Geometry& geometry, double turn) {
+Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   Dem dem;
   read_softness(in, dem);
   dem.rayleigh_fraction = in.number(
@@ -226,7 +229,8 @@ void read_materials(const Section& root, Mill& mill) {
   mill.ball_wall = read_contact(in, "ball_wall", "wall");
 }
 
-void read_layers(const Section& geometry, const Section& resolution, Mill& mill) {
+void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
+  resolution.alternatives({"cell_size", "counts"});
   mill.resolution = read_resolution(resolution, mill.geometry);
   mill.whole_length = mill.geometry.length;
   if (geometry.has("slice")) take_slice(geometry, mill);
@@ -242,21 +246,22 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   const Section geometry = in.section(
       "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
   mill.geometry = read_geometry(geometry);
-  mill.angular_velocity = read_angular_velocity(
-      in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"}), mill.geometry);
+  Section speed = in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"});
+  mill.angular_velocity = read_angular_velocity(speed, mill.geometry);
   read_materials(in, mill);
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
-  mill.dem = read_dem(
+  Section dem =
       in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
-                                  "settle_time", "duration", "record_interval", "contact_interval", "seed"}),
-      mill.geometry, mill.turn());
-  const Section slurry =
+                                  "settle_time", "duration", "record_interval", "contact_interval", "seed"});
+  mill.dem = read_dem(dem, mill.geometry, mill.turn());
+  Section slurry =
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
   mill.slurry = read_slurry(slurry);
   mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
-  read_layers(geometry, in.optional_section("resolution", {"cell_size", "counts", "layers"}), mill);
+  Section resolution = in.optional_section("resolution", {"cell_size", "counts", "layers"});
+  read_layers(geometry, resolution, mill);
   mill.averages = read_averages(in, mill);
   mill.flow = read_flow(in, slurry, mill);
   return mill;

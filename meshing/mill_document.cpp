@@ -215,6 +215,11 @@ std::string MillDocument::place(const std::string& path) const {
   return file_ + ":1";
 }
 
+bool MillDocument::is_changed(const std::string& path) const {
+  const auto inside = changed_.lower_bound(path + '.');
+  return changed_.count(path) > 0 || (inside != changed_.end() && inside->first.rfind(path + '.', 0) == 0);
+}
+
 void MillDocument::record(const std::string& path, const nlohmann::ordered_json& value) {
   std::string pointer;
   for (const std::string& name : names_of(path)) pointer += '/' + name;

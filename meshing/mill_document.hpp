@@ -41,6 +41,9 @@ class MillDocument {
   /// "--set flow.law=Hill".
   std::string place(const std::string& path) const;
 
+  /// Whether --set gave this very key, or one inside of it.
+  bool is_changed(const std::string& path) const;
+
   /// Keeps the value of a key that was read; `path` as in "charge.classes[0].mass".
   void record(const std::string& path, const nlohmann::ordered_json& value);
   const nlohmann::ordered_json& keys() const;

@@ -20,7 +20,7 @@ constexpr double usual_voxel = 2.5;
 constexpr double windows_per_turn = 20;
 constexpr double usual_flow_turns = 3;
 constexpr double share_averaged = 2.0 / 3;
-constexpr double fields_per_turn = 50;
+constexpr double fields_per_turn = 24;
 constexpr double samples_per_window = 10;
 constexpr double finest_flow_voxel = 1.0 / 32;
 constexpr double longest_step_of_turn = 1e-3;
@@ -35,7 +35,8 @@ Rule whole_number(const std::string& what) {
 }
 
 /// Voxels across and along the mill, by `voxel_size` or `counts`; an even number across unless counted.
-Voxels read_voxels(const Section& in, const Geometry& geometry, double usual_size, int usual_along) {
+Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int usual_along) {
+  in.alternatives({"voxel_size", "counts"});
   const double length = reach(geometry);
   Voxels voxels;
   double half = geometry.radius();
@@ -54,7 +55,7 @@ Voxels read_voxels(const Section& in, const Geometry& geometry, double usual_siz
     voxels.shape[0] = 2 * static_cast<int>(std::ceil(half / size * (1 - 1e-9)));
     half = voxels.shape[0] * size / 2;
     voxels.shape[2] =
-        usual_along > 0 ? usual_along : std::max(1, static_cast<int>(std::lround(length / size)));
+        usual_along > 0 ? usual_along : std::max(1, static_cast<int>(std::floor(length / size + 0.25)));
   }
   voxels.shape[1] = voxels.shape[0];
   voxels.lower = {-half, -half, 0};
@@ -67,18 +68,22 @@ double whole_records(double time, const Mill& mill) {
   return std::max(1.0, std::round(time / mill.dem.record_interval)) * mill.dem.record_interval;
 }
 
-FlowStart read_start(const Section& flow, const Section& slurry, const Mill& mill) {
+FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
   const double radius = mill.geometry.radius();
   const double pores = count_charge(mill).pore_volume;
   const Rule level = {"a height in m within the radius, " + shown(radius) + " m, of the axis",
                       [=](double v) { return std::abs(v) <= radius; }};
   FlowStart start;
+  const bool both_set = flow.is_set("start") && slurry.is_set("level");
+  if (flow.is_set("start") && !both_set) slurry.drop("level");
   if (slurry.has("level")) {
-    if (flow.has("start")) flow.refuse("start", "either it or slurry.level");
+    if (flow.has("start") && (both_set || !slurry.is_set("level")))
+      flow.refuse("start", "either it or slurry.level");
     start.level = slurry.number("level", level);
     return start;
   }
-  const Section in = flow.optional_section("start", {"level", "volume", "fill"});
+  Section in = flow.optional_section("start", {"level", "volume", "fill"});
+  in.alternatives({"level", "volume", "fill"});
   for (const auto& [one, other] : {std::pair("level", "volume"), {"level", "fill"}, {"volume", "fill"}})
     if (in.has(one) && in.has(other)) in.refuse(other, std::string("either it or ") + one);
   if (in.has("level")) {
@@ -107,7 +112,8 @@ void check_room(const Section& flow, const Flow& read, const Mill& mill) {
                                                       " m^3, the mill has room for " + shown(room) + " m^3");
 }
 
-void read_duration(const Section& in, const Mill& mill, Flow& flow) {
+void read_duration(Section& in, const Mill& mill, Flow& flow) {
+  in.alternatives({"duration", "turns"});
   if (in.has("duration")) {
     if (in.has("turns")) in.refuse("turns", "either duration or turns");
     flow.duration = in.number("duration", time_above_zero());
@@ -151,7 +157,7 @@ double usual_averages_start(const Flow& flow, double turn) {
 }
 
 FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, const Mill& mill) {
-  const Section in =
+  Section in =
       flow_section.optional_section("averages", {"start", "window", "interval", "voxel_size", "counts"});
   const double radius = mill.geometry.radius();
   const double size = std::max(shell_cell_size(mill.resolution, mill.geometry), finest_flow_voxel * radius);
@@ -181,7 +187,7 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
 }  // namespace
 
 Averages read_averages(const Section& root, const Mill& mill) {
-  const Section in =
+  Section in =
       root.optional_section("averages", {"voxel_size", "counts", "window", "start", "method", "template"});
   const ChargeNumbers charge = count_charge(mill);
   const double usual_size = std::min(std::max(charge.largest_diameter, usual_voxel * charge.sauter_diameter),
@@ -209,8 +215,8 @@ Averages read_averages(const Section& root, const Mill& mill) {
   return averages;
 }
 
-Flow read_flow(const Section& root, const Section& slurry, const Mill& mill) {
-  const Section in = root.optional_section(
+Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
+  Section in = root.optional_section(
       "flow", {"solver", "duration", "turns", "balls", "law", "multiplier", "viscosity", "polydispersity",
                "out_of_range", "start", "feed", "max_courant", "max_surface_courant", "max_voidage_change",
                "max_time_step", "write_interval", "slices", "averages"});

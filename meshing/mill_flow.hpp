@@ -13,6 +13,6 @@ Averages read_averages(const Section& root, const Mill& mill);
 /// The map `flow` under the root, and `level` of the map `slurry`. `mill` has everything but the flow. Throws
 /// MillError for a flow that cannot be: an unknown law, a start given twice, more slurry than there is room,
 /// …
-Flow read_flow(const Section& root, const Section& slurry, const Mill& mill);
+Flow read_flow(const Section& root, Section& slurry, const Mill& mill);
 
 }  // namespace millfoam::meshing

@@ -124,6 +124,21 @@ std::vector<Section> Section::list(const std::string& key, const Keys& known) co
   return sections;
 }
 
+bool Section::is_set(const std::string& key) const {
+  return document_->is_changed(path_of(key)) && has(key);
+}
+
+void Section::drop(const std::string& key) {
+  node_.remove(key);
+}
+
+void Section::alternatives(const Keys& keys) {
+  const auto set = [&](const std::string& key) { return is_set(key); };
+  if (std::none_of(keys.begin(), keys.end(), set)) return;
+  for (const std::string& key : keys)
+    if (!set(key)) drop(key);
+}
+
 bool Section::has(const std::string& key) const {
   return find(key).IsDefined();
 }

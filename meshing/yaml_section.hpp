@@ -36,6 +36,13 @@ class Section {
   /// The maps in the list under `key`, which must be there and have at least one.
   std::vector<Section> list(const std::string& key, const Keys& known) const;
 
+  /// Whether --set gave the key, or one inside of it.
+  bool is_set(const std::string& key) const;
+  /// Takes the key as not given.
+  void drop(const std::string& key);
+  /// Keys of which one at most is meant: one that --set gives takes the place of the others in the file.
+  void alternatives(const Keys& keys);
+
   bool has(const std::string& key) const;
   /// Whether the key is there with a single word or text, not a map or a list.
   bool is_text(const std::string& key) const;

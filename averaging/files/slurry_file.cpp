@@ -83,6 +83,8 @@ class Rows {
     hdf5::write_attribute(root, "complete", 0);
     hdf5::write_attribute(root, "time0", header.time0);
     hdf5::write_attribute(root, "window", header.window);
+    for (const auto& [name, text] : {std::pair("program", header.program), {"mill_flow", header.mill_flow}})
+      if (!text.empty()) hdf5::write_attribute(root, name, text);
     const hdf5::Handle grid_group = hdf5::create_group(root, "grid");
     hdf5::write_grid(grid_group.get(), grid);
     inside_.push_back(create(grid_group.get(), "insideFraction", false, "1"));

@@ -62,9 +62,11 @@ long long window_of(const SlurrySegment& segment, double window, const std::stri
 
 /// What holds for a whole slurry file.
 struct SlurryHeader {
-  double time0 = 0;   ///< DEM time at flow time 0, s
-  double window = 0;  ///< length of the windows, s
-  double start = 0;   ///< flow time from which the mean over the run is taken, s
+  double time0 = 0;            ///< DEM time at flow time 0, s
+  double window = 0;           ///< length of the windows, s
+  double start = 0;            ///< flow time from which the mean over the run is taken, s
+  std::string program = {};    ///< that writes the file, with its version
+  std::string mill_flow = {};  ///< fingerprint of the mill; empty: not known
 };
 
 /// Puts a flow's segments, in order of time, together: means over windows [k w, (k+1) w) of flow time, and

@@ -45,7 +45,8 @@ def read_charge(path, flow, begin):
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
         return None
-    return solids.read_map(path, flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+    span = solids.span_of_flow(*solids.recorded_span(path), flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+    return solids.read_map(path, *span)
 
 
 def summary(flow, charge, begin):

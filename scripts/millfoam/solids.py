@@ -95,6 +95,18 @@ def mean_map(maps):
     return _map((maps[0].x, maps[0].y), inside, balls, flux, maps[0].begin, maps[-1].end, FAINT, maps[0].sense)
 
 
+def span_of_flow(first, last, begin, end):
+    """DEM times (s) over which the charge of a flow from `begin` to `end` is averaged, of a record from `first` to `last`: the
+    same, or the whole record where the flow outlasts it, which is then held or repeated."""
+    return (begin, end) if end <= last * (1 + 1e-9) and begin >= first else (first, last)
+
+
+def recorded_span(path):
+    """DEM times at which the first window of a solids.h5 begins and the last one ends, s."""
+    with open_hdf5(path) as file:
+        return float(file["window/begin"][0]), float(file["window/end"][-1])
+
+
 def read_map(path, begin=-np.inf, end=np.inf):
     """Mean over axis and time of the windows that touch [begin, end) of DEM time (s), see read_windows."""
     return mean_map(read_windows(path, begin, end))

@@ -50,7 +50,7 @@ class MadeUpTree(unittest.TestCase):
         self.assert_refused("averaging/a.cpp", '"meshing/mill.hpp"', "averaging must not know meshing")
 
     def test_averaging_must_not_include_dem_driver(self):
-        self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"', "averaging must not know dem_driver")
+        self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"', "averaging/tools must not know dem_driver")
 
     def test_averaging_must_not_include_drag(self):
         self.assert_refused("averaging/a.hpp", '"openfoam_module/drag/drag_laws.hpp"', "openfoam_module/drag")

@@ -94,6 +94,7 @@ class FedMill(unittest.TestCase):
     def test_voxels_hold_what_the_cells_hold(self):
         with h5py.File(self.case / "slurry.h5") as file:
             self.assertEqual(file.attrs["complete"], 1)
+            self.assertRegex(file.attrs["program"].decode(), r"^voxelAverages \d+\.\d+\.\d+")
             np.testing.assert_allclose(file["window/begin"][:], [0, WINDOW, 2 * WINDOW], atol=1e-9)
             self.assertEqual(list(file["window/ends_short"][:]), [0, 0, 1])
             voxel = 0.3 * 0.3 * 0.338 / (30 * 30 * 13)

@@ -136,6 +136,16 @@ TEST(Set, takes_maps_and_removes_keys) {
   EXPECT_EQ(read(example_mill, {"geometry.slice=0.012", "geometry.slice=~"}).geometry.length, 0.024);
 }
 
+TEST(Set, of_one_alternative_takes_the_place_of_the_other) {
+  EXPECT_DOUBLE_EQ(read(bare_mill + "flow: {turns: 5}\n", {"flow.duration=2"}).flow.duration, 2);
+  EXPECT_EQ(read(example_mill, {"flow.start.fill=1"}).flow.start.level, std::nullopt);
+  EXPECT_EQ(read(bare_mill + "flow: {start: {fill: 1}}\n", {"slurry.level=-0.1"}).flow.start.level, -0.1);
+  EXPECT_EQ(read(example_mill, {"speed.angular_velocity=2"}).angular_velocity, 2);
+  EXPECT_EQ(read(example_mill, {"dem.largest_overlap=0.05"}).dem.youngs_modulus, 0);
+  EXPECT_NE(refusal(bare_mill + "flow: {turns: 5, duration: 2}\n").find("either duration or turns"),
+            std::string::npos);
+}
+
 TEST(Set, says_what_it_is_when_it_is_none) {
   for (const char* change : {"flow.law", "=3", "a..b=1", "charge.classes[x].mass=1"})
     EXPECT_NE(refusal(example_mill, {change}).find("expected PATH=VALUE"), std::string::npos) << change;

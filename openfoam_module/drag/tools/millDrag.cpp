@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "millfoam_version.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/pore_viscosity.hpp"
 
@@ -84,6 +85,7 @@ const CLI::Validator not_negative =
     finite_number("a number that is 0 or more", [](double value) { return value >= 0; });
 
 void add_options(CLI::App& app, Options& options) {
+  app.set_version_flag("--version", std::string("millDrag ") + millfoam::version());
   app.add_option("--law", options.law, "name of a law, or all")->capture_default_str();
   app.add_flag("--ranges", options.ranges, "list the laws with their ranges and references instead");
   app.add_option("--phi", options.phi, "solidities, separated by commas or blanks")

@@ -12,6 +12,7 @@
 #include "Switch.H"
 #include "untrapped.H"
 #include "vector.H"
+#include "millfoam_version.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -64,6 +65,8 @@ static SlurryHeader readHeader(const dictionary& dict, const Time& time)
     header.time0 = mill.lookupOrDefault<scalar>("time0", 0);
     header.window = dict.get<scalar>("window");
     header.start = dict.lookupOrDefault<scalar>("start", 0);
+    header.program = std::string("voxelAverages ") + millfoam::version();
+    header.mill_flow = mill.lookupOrDefault<string>("flowFingerprint", "");
     if (!(header.window > 0))
     {
         FatalIOErrorInFunction(dict)

@@ -197,10 +197,8 @@ class MillCase:
     def charge_span(self):
         """DEM times between which the charge is averaged, s."""
         first, last = self.solids_span
-        if self.flow and self.flow.time0 + self.begin < last:
-            return self.flow.time0 + self.begin, min(last, self.flow.time0 + self.last)
-        if self.flow:  # through a charge that is held, or repeated
-            return first, last
+        if self.flow:
+            return solids.span_of_flow(first, last, self.flow.time0 + self.begin, self.flow.time0 + self.last)
         if self.asked_begin is not None:
             return self.asked_begin, last
         steady = self.result("steady_from_s") if self.results else first
