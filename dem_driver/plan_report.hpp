@@ -24,7 +24,7 @@ struct MeasuredForecast {
   int ranks = 1;
 };
 
-/// Writes the same as JSON, format "millfoam-dem-plan" (dem_driver/README.md), with the forecast where there
+/// Writes the same as JSON, format "millfoam-dem-plan" (FORMATS.md), with the forecast where there
 /// is one. Throws std::runtime_error naming the file when it cannot be written.
 void write_plan_file(const std::filesystem::path& file, const meshing::Mill& mill, const DemPlan& plan,
                      const std::optional<MeasuredForecast>& forecast = std::nullopt);

@@ -15,7 +15,7 @@ std::filesystem::path summary_path(const std::filesystem::path& solids_file);
 /// Throws SolidsFileError when there is something at `path` that is no summary of a solids file.
 void require_summary_or_nothing(const std::filesystem::path& path);
 
-/// The summary as JSON, see averaging/README.md: what `report` prints, as numbers with units in their keys.
+/// The summary as JSON, see FORMATS.md: what `report` prints, as numbers with units in their keys.
 /// What is not known is null.
 std::string as_json(const SolidsSummary& summary);
 
