@@ -2,7 +2,7 @@
 """Writes one HTML file about a mill's case, or about several beside each other, with all figures in it.
 
     scripts/report CASE            writes CASE/report.html
-    scripts/report CASE CASE …     writes comparison.html, the first case being what the others are held against
+    scripts/report CASE CASE …     writes comparison.html, the first case being what the others are compared with
 
 CASE is the folder of a mill's case that was run, or of a dry run."""
 import argparse
@@ -17,12 +17,13 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
     parser.add_argument("--begin", type=float,
-                        help="time from which averages are taken, s [flow time 2, or half of a shorter run]")
+                        help="time from which averages are taken, s [the mill's flow.averages.start, or half of a flow "
+                             "that was cut short]")
     parser.add_argument("--measured", type=Path, metavar="CSV",
-                        help="a measured map of the charge on the run's voxels to hold it against: x_m, y_m, solidity, "
+                        help="a measured map of the charge on the run's voxels to compare it with: x_m, y_m, solidity, "
                              "vx, vy")
     parser.add_argument("--tracer", type=Path, action="append", default=[], metavar="FILE",
-                        help="a tracer's track, lines of t, x, y, z in s and m, to hold the charge against; may be "
+                        help="a tracer's track, lines of t, x, y, z in s and m, to compare the charge with; may be "
                              "given again")
     parser.add_argument("-o", "--output", type=Path, help="the file to write")
     options = parser.parse_args()
