@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tells time, disk and memory of every stage of a mill's case beforehand, from trials on this machine.
+
+    python3 -m millfoam.plan FOLDER -np N [--charge OTHER]
+
+FOLDER holds mill.json. Prints a table and writes FOLDER/plan.json. What is measured here and what is calibrated on
+earlier runs: scripts/README.md, "What it will take"."""
+import argparse
+import json
+import math
+import os
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from .data_files import DataError, entry, number
+from .mill import NoMill, read_mill
+from .plan_trial import Cost, try_charge, try_flow, try_mesh
+from .run import RunError
+
+GRAVITY = 9.81
+
+# Calibrated on runs of a 0.6 m, a 12 cm and a 30 cm mill
+CELL_COURANT, SURFACE_COURANT = 0.55, 1.0  # limit of the Courant number -> time-step over cell size / speed of the fall
+STEP_WITH_BALLS, STEP_WITHOUT = 2.0, 1.35  # mean step of a flow over a step at its start without balls
+CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 465, 307  # of a written time with 17 digits
+FACE_BYTES = 91
+RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
+PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
+VOXEL_BYTES, SOLIDS_VOXEL_BYTES = 42, 120  # of one window of slurry.h5, of solids.h5
+PICTURES_TIME, FRAME_TIME, FRAMES = 12.0, 0.35, 40  # s; of a frame of the report's animation, which has 40 at most
+PICTURES_DISK, PYTHON_MEMORY = 6e6, 190e6
+AVERAGE_MEMORY = 21e6  # and what one record of all balls takes
+RECORD_BYTES = 100  # of one ball in memory
+BUSY = 0.4  # load per core above which others are told to be at work
+SHORT = 10.0  # s; times below are not told exactly
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Prediction of a stage: s, bytes, bytes; `source` says where it is from."""
+    name: str
+    time: float
+    disk: float
+    memory: float
+    source: str
+
+
+@dataclass(frozen=True)
+class FlowPlan:
+    """Of a flow: typical time-step in s, number of steps, of written times and of windows of slurry.h5."""
+    time_step: float
+    steps: int
+    written_times: int
+    windows: int
+
+
+def flow_number(mill, *keys):
+    return mill.derived("flow", *keys)
+
+
+def typical_time_step(mill, cell):
+    """Time-step in s at which a flow through cells of that size (m, across the mill) will go for most of its time.
+
+    The largest one allowed, or those at which slurry that falls through the mill, U = sqrt(2 g D + (omega R)^2),
+    reaches the limits of the Courant numbers. A flow stays below the smallest for part of the time: they are joined
+    smoothly."""
+    speed = math.hypot(math.sqrt(4 * GRAVITY * mill.radius), mill.omega * mill.radius)
+    limits = (flow_number(mill, "max_time_step_s"),
+              CELL_COURANT * flow_number(mill, "max_courant") * cell / speed,
+              SURFACE_COURANT * flow_number(mill, "max_surface_courant") * cell / speed)
+    smallest = min(limits)
+    return smallest * sum((limit / smallest) ** -8 for limit in limits) ** (-1 / 8)
+
+
+def plan_flow(mill, mesh):
+    """FlowPlan of a Mill on a MeshTrial's mesh. Written times are met exactly, which shortens steps."""
+    cell = math.sqrt(mesh.volume / mill.length / mesh.cells_in_section)
+    time_step = typical_time_step(mill, cell)
+    duration, interval = flow_number(mill, "duration_s"), flow_number(mill, "write_interval_s")
+    time_step = interval / math.ceil(interval / time_step - 1e-6)
+    windows = duration / flow_number(mill, "averages", "window_s")
+    steps, written_times = duration / time_step, duration / interval
+    return FlowPlan(time_step, *(math.ceil(count - 1e-6) for count in (steps, written_times, windows)))
+
+
+def charge_stage(dem):
+    """Stage of the dry run from millDem's plan."""
+    keys = ("wall_time_s", "disk_bytes", "memory_bytes")
+    return Stage("charge", *(number(dem, "dem_plan.json", key) for key in keys), "trial of the dry run")
+
+
+def average_stage(mill, dem):
+    """Stage of the averages: a ball's record takes about as long as a ball's step of the dry run.
+
+    Where the averages start once the charge is steady, that is the second half of the dry run at the latest: that
+    half is taken."""
+    duration, start = mill.asked("dem", "duration"), entry(mill.content, mill.path, "derived", "averages", "start_s")
+    span = duration / 2 if start == "steady" else duration - start
+    balls = number(dem, "dem_plan.json", "balls")
+    records = span / mill.asked("dem", "record_interval")
+    voxels = math.prod(entry(mill.content, mill.path, "derived", "averages", "shape"))
+    windows = span / mill.derived("averages", "window_s")
+    return Stage("average", balls * records / number(dem, "dem_plan.json", "rate_balls_steps_per_s"),
+                 SOLIDS_VOXEL_BYTES * voxels * windows, AVERAGE_MEMORY + RECORD_BYTES * balls,
+                 "rate of the dry run's trial")
+
+
+def flow_stage(mill, mesh, trial, plan, ranks):
+    """Stage of the flow with its reconstruction."""
+    balls = mill.flow("balls")
+    step = trial.step_time * (STEP_WITH_BALLS if balls else STEP_WITHOUT)
+    rebuilt = RECONSTRUCT_STEPS * trial.step_time * ranks ** PARALLEL_GAIN if ranks > 1 else 0.0
+    cell_bytes = CELL_BYTES_WITH_BALLS if balls else CELL_BYTES_WITHOUT
+    copies = 2 if ranks > 1 else 1  # in processor* and reconstructed
+    fields = plan.written_times * copies * (cell_bytes * mesh.cells + FACE_BYTES * mesh.faces)
+    voxels = math.prod(mill.flow("averages")["shape"])
+    averages = VOXEL_BYTES * voxels * (2 * plan.windows + plan.written_times)  # slurry.h5, and the parts it is made of
+    return Stage("flow", plan.steps * step + plan.written_times * rebuilt, fields + averages, ranks * trial.memory,
+                 "trial of the flow's first steps")
+
+
+def pictures_stage(plan):
+    """Stage of the pictures and the report."""
+    return Stage("pictures and report", PICTURES_TIME + FRAME_TIME * min(FRAMES, plan.written_times), PICTURES_DISK,
+                 PYTHON_MEMORY, "earlier runs")
+
+
+def make_stages(mill, ranks, charge=None):
+    """All Stages of a Mill's case and its FlowPlan and MeshTrial; trials are made in a temporary folder.
+
+    charge: folder of the case that the charge is taken from; its stages are not told then. RunError with a tool's own
+    words where it refuses the mill."""
+    path = mill.path.resolve()
+    with tempfile.TemporaryDirectory(prefix="millfoam-plan-") as folder:
+        dry = try_charge(folder, path, ranks) if mill.flow("balls") and not charge else None
+        case = Path(folder) / "case"
+        case.mkdir()
+        mesh = try_mesh(case, path)
+        trial = try_flow(case, mill.flow("solver"), flow_number(mill, "max_time_step_s"), ranks)
+    plan = plan_flow(mill, mesh)
+    made = Cost(mesh.cost.time, mesh.cost.memory)
+    stages = []
+    if dry:
+        stages = [Stage("walls", made.time, mesh.walls_disk, made.memory, "made here"), charge_stage(dry),
+                  average_stage(mill, dry)]
+    stages += [Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"),
+               Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
+               flow_stage(mill, mesh, trial, plan, ranks), pictures_stage(plan)]
+    return stages, plan, mesh
+
+
+def total(stages):
+    """Stage of all: sums of time and disk, the largest memory."""
+    return Stage("total", sum(one.time for one in stages), sum(one.disk for one in stages),
+                 max(one.memory for one in stages), "")
+
+
+def time_text(seconds):
+    """Time in words: `< 10 s`, `25 s`, `12 min`, `3.4 h`."""
+    if seconds < SHORT:
+        return f"< {SHORT:.0f} s"
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+def size_text(size):
+    """Bytes in words: `< 1 MB`, `25 MB`, `1.9 GB`."""
+    if size < 1e6:
+        return "< 1 MB"
+    return f"{size / 1e6:.0f} MB" if size < 1e9 else f"{size / 1e9:.1f} GB"
+
+
+def table(stages):
+    """Lines of the table of Stages, with their total."""
+    rows = [("stage", "time", "disk", "memory", "from")]
+    rows += [(one.name, time_text(one.time), size_text(one.disk), size_text(one.memory), one.source)
+             for one in [*stages, total(stages)]]
+    return [f"{row[0]:20} {row[1]:>8} {row[2]:>9} {row[3]:>9}   {row[4]}".rstrip() for row in rows]
+
+
+def write_plan(path, mill, ranks, charge, stages, plan, mesh):
+    """Writes plan.json: the Stages as numbers, and what the flow's are made of."""
+    def numbers(one):
+        return {"time_s": one.time, "disk_bytes": round(one.disk), "memory_bytes": round(one.memory)}
+    content = {"format": "millfoam-plan", "program": "plan", "tools": mill.content.get("program"),
+               "mill": mill.fingerprint, "ranks": ranks, "charge_from": charge, "cells": mesh.cells,
+               "flow_steps": plan.steps, "flow_time_step_s": plan.time_step, "written_times": plan.written_times,
+               "stages": [{"stage": one.name, **numbers(one), "from": one.source} for one in stages],
+               "total": numbers(total(stages))}
+    part = path.with_name(path.name + ".part")
+    part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+    os.replace(part, path)
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="plan", description="time, disk and memory of every stage of a mill's case")
+    parser.add_argument("folder", help="with the resolved mill, mill.json")
+    parser.add_argument("-np", dest="ranks", type=int, default=1, metavar="N", help="number of processes")
+    parser.add_argument("--charge", metavar="FOLDER", help="case that the charge and its averages are taken from")
+    options = parser.parse_args()
+    if options.ranks < 1:
+        parser.error(f"-np {options.ranks}: expected 1 or more")
+    before = os.getloadavg()[0]
+    try:
+        mill = read_mill(options.folder)
+        stages, plan, mesh = make_stages(mill, options.ranks, options.charge)
+        write_plan(Path(options.folder) / "plan.json", mill, options.ranks, options.charge, stages, plan, mesh)
+    except (NoMill, DataError, RunError) as error:
+        sys.exit(str(error))
+    except OSError as error:
+        sys.exit(f"plan: {error.filename or options.folder}: {error.strerror or error}")
+    print("\n".join(table(stages)))
+    print(f"The flow: {mesh.cells} cells, about {plan.steps} steps of {1e3 * plan.time_step:.3g} ms, "
+          f"{plan.written_times} written times, on {options.ranks} process{'es' if options.ranks > 1 else ''}")
+    cores = os.cpu_count()
+    if before > BUSY * cores:
+        print(f"Other programs were at work (load {before:.1f} on {cores} cores): a free machine takes less time")
+    if options.charge:
+        print(f"The charge and its averages come from {options.charge}; what that case takes is not counted here")
+
+
+if __name__ == "__main__":
+    main()
