@@ -13,11 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-MillDescription describe(const std::string& text, const std::vector<std::string>& set = {}) {
-  const TemporaryFolder folder;
-  return describe_mill(folder.write("mill.yaml", text), set);
-}
-
 TEST(ResolvedMill, is_read_again_as_the_same_mill) {
   const std::string fill = with(example_mill, R"(  classes:
     - {diameter: 0.008, mass: 0.02}

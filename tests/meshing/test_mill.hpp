@@ -7,6 +7,9 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "meshing/mill.hpp"
 
 namespace millfoam::meshing {
 
@@ -77,5 +80,11 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// The mill of a text, changed by --set.
+inline MillDescription describe(const std::string& text, const std::vector<std::string>& set = {}) {
+  const TemporaryFolder folder;
+  return describe_mill(folder.write("mill.yaml", text), set);
+}
 
 }  // namespace millfoam::meshing
