@@ -6,17 +6,19 @@ import sys
 from pathlib import Path
 
 from . import mill_plots, solids
+from .mill import read_mill
 from .mill_flow import MillFlow
 
 
 def main():
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
-    parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [half of the run]")
+    parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [the mill's flow.averages.start, or half of a flow "
+                             "that does not reach beyond it]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]
-    begin = last / 2 if options.begin is None else options.begin
+    begin = usual_begin(options.case, last) if options.begin is None else options.begin
     if not 0 <= begin < last:
         raise RuntimeError(f"--begin {begin:g}: expected 0 or more and less than the flow's last written time, "
                            f"{last:g} s")
@@ -38,6 +40,12 @@ def main():
         print(f"force of the fluid on the balls over their weight: mean {load[0]:.3g}, 95 % below {load[1]:.3g}")
     for name in names:
         print(folder / name)
+
+
+def usual_begin(case, last):
+    """Flow time (s) from which averages are taken: the mill's, or half of a flow that ends before it."""
+    start = read_mill(case).flow("averages_start_s") if (case / "mill.json").is_file() else None
+    return start if start is not None and start < last else last / 2
 
 
 def read_charge(path, flow, begin):
