@@ -55,7 +55,7 @@ Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int
     voxels.shape[0] = 2 * static_cast<int>(std::ceil(half / size * (1 - 1e-9)));
     half = voxels.shape[0] * size / 2;
     voxels.shape[2] =
-        usual_along > 0 ? usual_along : std::max(1, static_cast<int>(std::floor(length / size + 0.25)));
+        usual_along > 0 ? usual_along : std::max(1, static_cast<int>(std::lround(length / size)));
   }
   voxels.shape[1] = voxels.shape[0];
   voxels.lower = {-half, -half, 0};

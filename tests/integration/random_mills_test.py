@@ -350,7 +350,7 @@ class Broken(MillTest):
                 text, places = written(changed)
                 at = path[:len(path) - len(key)] + misspelt
                 with self.subTest(path=at):
-                    self.refused(text, f"key '{at}' is unknown: did you mean '{key}'?", line=places[at])
+                    self.refused(text, f"key '{at}' is unknown: did you mean '", line=places[at])
                 section = path.rpartition(".")[0]
                 other = f"{section}.lining" if section else "lining"
                 self.refused(written(mill)[0], f"key '{other}' is unknown", "known here: ", change=f"{other}=3")

@@ -190,7 +190,7 @@ class SmallMill(Folder):
         subprocess.run(["millMesh", "mill.yaml", "--resolved", "mill.json"], cwd=self.folder, check=True)
         done = self.plan()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertRegex(done.stderr, r"^millDem: error: .*mill\.json:\d+: key 'charge' = .*rounds to 0 balls")
+        self.assertRegex(done.stderr, r"^millDem: error: .*mill\.yaml:\d+: key 'charge' = .*rounds to 0 balls")
 
     def test_a_trial_that_takes_too_long_is_ended(self):
         finer = ("--set", "resolution.cell_size=0.003", "--set", "resolution.layers=6")
