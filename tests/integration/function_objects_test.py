@@ -15,7 +15,7 @@ from millfoam import foam
 from millfoam.mill_flow import MillFlow
 from millfoam.run import RunError, run
 from millfoam.tables import read_columns, read_table
-from mill_run_test import replace
+from mill_case import replace
 from slurry_case import SLURRY, SlurryTest
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"

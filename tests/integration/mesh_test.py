@@ -11,33 +11,34 @@ from millfoam.run import run
 
 ROOT = Path(__file__).resolve().parents[2]
 MILLS = ROOT / "cases" / "mills"
-SLICE, SMALL, LARGE = (MILLS / name for name in ("mill_12cm/mill.yaml", "mill_12cm/mill_full.yaml",
-                                                 "mill_30cm/mill.yaml"))
-SYSTEM = SLICE.parent / "system"
-NO_PULP_LIFTERS = r"  pulp_lifters:.*\n", ""
-NINE_LAYERS = (r"(?m)^  layers: 33", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2")
+SLICE, LARGE = (MILLS / name / "mill.yaml" for name in ("mill_12cm", "mill_30cm"))
+SYSTEM = ROOT / "scripts" / "mill_case" / "system"
+CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
+application checkMesh; startTime 0; endTime 1; deltaT 1; writeInterval 1;
+"""
+WHOLE = "geometry.slice=~"
+NO_PULP_LIFTERS = "geometry.pulp_lifters=~"
+CLOSED = ("geometry.inlet=~", "geometry.grates=~", NO_PULP_LIFTERS)
+NINE_LAYERS = ("resolution.layers=9", "geometry.pulp_lifters.layers=2")
 
 
-def counts(gap, lifter, height, ring):
-    return r"(cell_size|counts): .*", f"counts: {{gap: {gap}, lifter: {lifter}, height: {height}, ring: {ring}}}"
+def counts(gap, lifter, height, ring, layers):
+    """The numbers of cells in the place of whatever resolution the mill has."""
+    return f"resolution={{counts: {{gap: {gap}, lifter: {lifter}, height: {height}, ring: {ring}}}, layers: {layers}}}"
 
 
-def layers(number):
-    return r"(?m)^  layers: \d+", f"  layers: {number}"
+def settings(changes):
+    """Options `--set` of a list of changes."""
+    return [word for change in changes for word in ("--set", change)]
 
 
 class Mesh(unittest.TestCase):
     def check(self, *changes, mill=SLICE, turned_to=0):
-        """Meshes a mill.yaml after the changes [(pattern, new)] and returns what checkMesh says."""
+        """Meshes a mill with the changes `path=value` and returns what checkMesh says."""
         case = Path(tempfile.mkdtemp(prefix="mesh-"))
         self.addCleanup(shutil.rmtree, case)
         shutil.copytree(SYSTEM, case / "system")
-        text = mill.read_text()
-        for pattern, new in changes:
-            text, count = re.subn(pattern, new, text)
-            self.assertEqual(count, 1, pattern)
-        (case / "mill.yaml").write_text(text)
-        run(case, "millMesh", "mill.yaml", "--case", ".", "--at-time", turned_to)
+        run(case, "millMesh", mill, *settings(changes), "--case", ".", "--at-time", turned_to)
         report = run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")
         self.assertIn("\nMesh OK.\n", report, report[-2000:])
         self.assertLessEqual(float(re.search(r"non-orthogonality Max: (\S+)", report).group(1)), 45)
@@ -65,22 +66,21 @@ class Mesh(unittest.TestCase):
         self.check(turned_to=1.0)
 
     def test_plain_ends(self):
-        self.check((r"ends: periodic", "ends: plain"), layers(12), (r"  start_length: \S+\n", ""))
+        self.check(WHOLE, "resolution.layers=12")
 
     def test_smooth_drum(self):
-        self.check((r"count: 12", "count: 0"), (r"  height: 0.008\n", ""), (r"    width: 0.006\n", ""))
+        self.check("geometry.lifters={count: 0}")
 
     def test_fine_and_coarse_cells(self):
         for size in (0.002, 0.006):
             with self.subTest(size=size):
-                self.check((r"cell_size: \S+", f"cell_size: {size}"))
+                self.check(f"resolution.cell_size={size}")
 
     def test_published_resolutions_of_the_12_cm_mill(self):
-        coarse, fine = counts(11, 3, 5, 9), counts(24, 6, 8, 19)
-        for mill, resolution in ((SLICE, (coarse, layers(1))), (SLICE, (fine, layers(1))),
-                                 (SMALL, (coarse, layers(12))), (SMALL, (fine, layers(12)))):
-            with self.subTest(mill=mill.name, resolution=resolution):
-                self.check(*resolution, mill=mill)
+        for resolution in ((11, 3, 5, 9), (24, 6, 8, 19)):
+            with self.subTest(resolution=resolution):
+                self.check(counts(*resolution, layers=5))
+                self.check(counts(*resolution, layers=12), WHOLE)
 
     def test_published_resolutions_of_the_30_cm_mill_with_and_without_pulp_lifters(self):
         for number, changes in ((9, NINE_LAYERS), (33, ())):
@@ -89,51 +89,46 @@ class Mesh(unittest.TestCase):
                 self.assertRegex(report, r"inlet +\d+ .* ok")
                 self.assertRegex(report, r"outlet +\d+ .* ok")
                 self.assertIn("Number of regions: 1 (OK)", report)
-                report = self.check(layers(number), NO_PULP_LIFTERS, mill=LARGE)
+                report = self.check(f"resolution.layers={number}", NO_PULP_LIFTERS, mill=LARGE)
                 self.assertRegex(report, r"grates +\d+ .* ok")
 
     def test_plain_ends_of_the_30_cm_mill(self):
         for number in (9, 33):
             with self.subTest(layers=number):
-                self.check((r"  inlet:.*\n", ""), (r"  grates:.*\n", ""), NO_PULP_LIFTERS, counts(5, 1, 1, 5),
-                           layers(number), mill=LARGE)
+                self.check(*CLOSED, "flow.feed=0", counts(5, 1, 1, 5, layers=number), mill=LARGE)
 
     def test_periodic_slice_of_the_30_cm_mill(self):
-        self.check((r"  ends: plain\n", "  slice: 0.0165\n  ends: plain\n"), mill=LARGE)
+        self.check("geometry.slice=0.0165", mill=LARGE)
 
     def test_trapezoidal_lifters(self):
-        for mill, width, top, changes in ((SMALL, 0.006, 0.003, [layers(9)]), (LARGE, 0.010, 0.006, NINE_LAYERS)):
+        for mill, width, top, changes in ((SLICE, 0.006, 0.003, (WHOLE, "resolution.layers=9")),
+                                          (LARGE, 0.010, 0.006, NINE_LAYERS)):
             with self.subTest(mill=mill.parent.name):
-                self.check((r"    width: .*\n", f"    width: {width}\n    top_width: {top}\n"), *changes, mill=mill)
+                self.check(f"geometry.lifters.width={width}", f"geometry.lifters.top_width={top}", *changes, mill=mill)
 
     def assemble(self, lines):
         """Makes a mesh out of the lines of an OBJ file and returns what checkMesh says."""
         case = Path(tempfile.mkdtemp(prefix="mesh-"))
         self.addCleanup(shutil.rmtree, case)
         shutil.copytree(SYSTEM, case / "system")
+        (case / "system" / "controlDict").write_text(CONTROL)  # the mills' own wants numbers of a mill
         (case / "faces.obj").write_text("\n".join(lines) + "\n")
         run(case, "millMesh", "assemble", "faces.obj", "--case", ".")
         return run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")
 
     def test_faces_taken_apart_and_assembled(self):
-        text = SLICE.read_text().replace("ends: periodic", "ends: plain")
-        lines = self.shuffled_faces(re.sub(r"  start_length: \S+\n", "", text))
-        self.assertIn("\nMesh OK.\n", self.assemble(lines))
+        self.assertIn("\nMesh OK.\n", self.assemble(self.shuffled_faces(SLICE, WHOLE, "resolution.layers=9")))
 
     def test_faces_of_a_mill_with_pulp_lifters_taken_apart_and_assembled(self):
-        text = LARGE.read_text()
-        for pattern, new in NINE_LAYERS:
-            text = re.sub(pattern, new, text)
-        report = self.assemble(self.shuffled_faces(text))
+        report = self.assemble(self.shuffled_faces(LARGE, *NINE_LAYERS))
         self.assertIn("\nMesh OK.\n", report)
         self.assertRegex(report, r"outlet +\d+ .* ok")
         self.assertIn("Number of regions: 1 (OK)", report)
 
-    def shuffled_faces(self, mill):
+    def shuffled_faces(self, mill, *changes):
         """Lines of an OBJ file of a mill's faces, which are in any order and every third turned."""
         with tempfile.TemporaryDirectory() as folder:
-            Path(folder, "mill.yaml").write_text(mill)
-            run(Path(folder), "millMesh", "faces", "mill.yaml", "-o", "faces.obj")
+            run(Path(folder), "millMesh", "faces", mill, *settings(changes), "-o", "faces.obj")
             lines = Path(folder, "faces.obj").read_text().splitlines()
         points, faces, group = [line for line in lines if line.startswith("v")], [], ""
         for line in lines:
@@ -167,6 +162,7 @@ def prism(section, low, high, points_before=0):
     points = [f"v {x} {y} {z}" for z in (low, high) for x, y in section]
     sides = [[i, (i + 1) % n, (i + 1) % n + n, i + n] for i in range(n)] + [range(n), range(n, 2 * n)]
     return points + ["f " + " ".join(str(1 + points_before + i) for i in side) for side in sides]
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fed mill's first hundredths of a second, coarse and without balls: what is fed is there, what is written can go on."""
+"""The fed mill's first hundredths of a second, coarse and without balls: what is fed is there, what is written can be
+resumed."""
 import re
 import shutil
 import sys
@@ -14,10 +15,13 @@ from PIL import Image
 from millfoam import axial, foam
 from millfoam.mill_flow import MillFlow
 from millfoam.run import run
-from mill_run_test import replace
+from mill_case import run_mill
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
 FEED, HALF, END = 65.3e-6, 0.01, 0.02  # m3/s, s
+CHANGES = ("resolution={counts: {gap: 2, lifter: 1, height: 1, ring: 10}, layers: 9}", "geometry.pulp_lifters.layers=2",
+           "flow.balls=no", f"flow.duration={END}", f"flow.write_interval={HALF}",
+           "flow.averages={start: 0, window: 0.02, interval: 0.005}")
 
 
 class FedMill(unittest.TestCase):
@@ -25,26 +29,21 @@ class FedMill(unittest.TestCase):
     def setUpClass(cls):
         cls.case = Path(tempfile.mkdtemp(prefix="mill-30cm-"))
         cls.addClassCleanup(shutil.rmtree, cls.case)
-        for part in ("system", "constant", "0.orig"):
-            shutil.copytree(CASE / part, cls.case / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
-        shutil.copy(CASE / "mill.yaml", cls.case)
-        replace(cls.case / "mill.yaml", (r"counts: .*", "counts: {gap: 2, lifter: 1, height: 1, ring: 10}"),
-                (r"^  layers: \d+", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2"))
-        replace(cls.case / "system" / "controlDict", (r"^writeInterval +[^;]+", f"writeInterval {HALF}"))
-        (cls.case / "constant" / "operation").write_text(f"feedRate {FEED};\nlaw none;\n")
-        (cls.case / "constant" / "bedProperties").unlink()
-        shutil.copytree(cls.case / "0.orig", cls.case / "0")
-        run(cls.case, "millMesh", "mill.yaml", "--case", ".")
-        cls.start = run(cls.case, "slurryStart")
-        cls.log = ""
+        # As Allrun's variant fluid_only_75
+        cls.stages = run_mill(cls.case, CASE / "mill.yaml", *CHANGES, until="start")
+        cls.start = (cls.case / "log.start").read_text()
         for end in (HALF, END):  # the second goes on from the first's last time
-            replace(cls.case / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {end}"))
-            cls.log += run(cls.case, "slurryFoam")
+            run(cls.case, "foamDictionary", "-entry", "endTime", "-set", end, "system/controlDict")
+            run(cls.case, "slurryFoam")
         cls.flow = MillFlow(cls.case)
 
+    def test_a_flow_without_balls_takes_no_charge(self):
+        self.assertEqual(re.findall(r"^Running (\w+):", self.stages, re.M), ["mesh", "check", "start"])
+
     def test_the_slurry_grows_by_the_feed(self):
-        times, volumes = axial.slurry_volumes(self.log)
+        times, volumes = axial.slurry_volumes(self.case)
         self.assertAlmostEqual(times[-1], END, delta=1e-9)
+        self.assertEqual(len(list((self.case / "postProcessing" / "flow").glob("[0-9]*"))), 2)
         start = float(re.search(r"m: (\S+) m3", self.start).group(1))
         # At rest the pool just reaches the outlet's lip: next to nothing leaves in this time
         self.assertAlmostEqual((volumes[-1] - start) / (FEED * END), 1, delta=0.02)
@@ -63,7 +62,6 @@ class FedMill(unittest.TestCase):
         self.assertAlmostEqual(profile.height.mean(), -0.09, delta=0.01)
 
     def test_profiles_are_drawn_of_one_run_and_of_several(self):
-        (self.case / "log.flow").write_text(self.log)
         told = run(self.case, sys.executable, CASE / "axial.py", ".")
         self.assertRegex(told, r"feed 65\.3 ml/s, discharge")
         for name in ("axial.csv", "axial.png", "z_velocity.png"):

@@ -1,84 +1,51 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A shortened run of the 12 cm mill, every stage real: the result must be a mill.
+"""A shortened run of the 12 cm mill, every stage real: the result must be a mill. And what Allrun keeps and makes again.
 
 The mill case itself with coarser cells and less time: slurryFoam with the law's drag and with none, and interFoam with
 particleDrag."""
+import fcntl
+import os
 import re
 import shutil
 import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from millfoam import foam, solids
+from millfoam.data_files import read_json
 from millfoam.mill_flow import MillFlow
-from millfoam.run import run
+from millfoam.run import RunError, run
 from millfoam.slurry import read_slurry_map
 from millfoam.tables import read_columns
+from mill_case import run_mill
+import mills_test
 
 ROOT = Path(__file__).resolve().parents[2]
-CASE, SCRIPTS = ROOT / "cases" / "mills" / "mill_12cm", ROOT / "scripts"
+MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
 START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
-MULTIPLIERS = {"law": 1, "off": 0}  # on slurryFoam's drag
+CHANGES = ("resolution={cell_size: 0.005, layers: 15}", f"dem.duration={START + END}", f"flow.duration={END}",
+           f"averages={{voxel_size: 0.011, window: 0.05, start: {START}}}", "flow.write_interval=0.02",
+           f"flow.averages={{start: {LATE}, window: 0.05}}")
+os.environ["MILLFOAM_NP"] = "1"  # of all flows here
+VARIANTS = {"law": (), "off": ("flow.multiplier=0",), "stock": ("flow.solver=interFoam",)}
 
 
-def replace(path, *changes):
-    """Replaces each pattern, which must be there once, in a file of the case."""
-    text = path.read_text()
-    for pattern, new in changes:
-        text, count = re.subn(pattern, new, text, flags=re.M)
-        if count != 1:
-            raise AssertionError(f"{path}: '{pattern}' found {count} times")
-    path.write_text(text)
-
-
-class MillRun(unittest.TestCase):
-    logs = {}  # of slurryFoam, by name
+class ShortMill(unittest.TestCase):
+    """Three flows through one charge."""
 
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="mill-run-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        charge = cls.folder / "charge"
-        charge.mkdir()
-        for part in ("system", "constant", "0.orig"):
-            shutil.copytree(CASE / part, charge / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
-        shutil.copy(CASE / "mill.yaml", charge)
-        replace(charge / "mill.yaml", (r"cell_size: \S+", "cell_size: 0.005"), (r"layers: \S+", "layers: 3"),
-                (r"  duration: \S+", f"  duration: {START + END}"))
-        replace(charge / "system" / "controlDict", (r"^endTime +[^;]+", f"endTime {END}"),
-                (r"^( +start +)[^;]+", rf"\g<1>{LATE}"))
-        run(charge, "millMesh", "mill.yaml", "--case", ".", "--at-time", START)
-        run(charge, "millDem", "mill.yaml", "--case", ".")
-        length = foam.read_dictionary(charge / "constant" / "millProperties")["length"]
-        run(charge, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.066, -0.066, 0, 0.066, 0.066, length,
-            "--shape", 12, 12, 2, "--periodic", "z", "--inside", "walls/*.stl", "--start", START, "--window", 0.05,
-            "-o", "solids.h5")
-        shutil.copytree(charge / "0.orig", charge / "0")
-        cls.flows = {name: cls.slurry_foam(charge, name, multiplier) for name, multiplier in MULTIPLIERS.items()}
-        cls.flows["stock"] = cls.inter_foam(charge)
-        cls.solids = solids.read_map(charge / "solids.h5", START + LATE, START + END)
+        cls.flows = {}
+        for name, changes in VARIANTS.items():
+            run_mill(cls.folder / name, MILL, *CHANGES, *changes, charge=None if name == "law" else cls.folder / "law")
+            cls.flows[name] = MillFlow(cls.folder / name)
+        cls.solids = solids.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
         cls.print_summary()
-
-    @classmethod
-    def slurry_foam(cls, charge, name, multiplier):
-        case = cls.folder / name
-        shutil.copytree(charge, case, ignore=shutil.ignore_patterns("dumps"))
-        replace(case / "constant" / "bedProperties", (r"multiplier +\S+;", f"multiplier {multiplier};"))
-        run(case, "slurryStart")
-        cls.logs[name] = run(case, "slurryFoam")
-        return MillFlow(case)
-
-    @classmethod
-    def inter_foam(cls, charge):
-        case = cls.folder / "stock"
-        shutil.copytree(charge, case, ignore=shutil.ignore_patterns("dumps"))
-        shutil.copytree(CASE / "stock.orig", case, dirs_exist_ok=True)
-        (case / "constant" / "bedProperties").unlink()
-        run(case, "setAlphaField")
-        run(case, "millInterFoam")
-        return MillFlow(case)
 
     @classmethod
     def print_summary(cls):
@@ -130,7 +97,8 @@ class MillRun(unittest.TestCase):
             self.assertLess(np.ptp(volumes), share * volumes[0], name)
 
     def test_time_steps_stay_long(self):
-        for name, log in self.logs.items():
+        for name in ("law", "off"):
+            log = (self.folder / name / "log.flow").read_text()
             steps = np.array(re.findall(r"^deltaT = (\S+)", log, re.M), dtype=float)
             self.assertGreater(steps.min(), np.median(steps) / 20, name)
 
@@ -166,12 +134,106 @@ class MillRun(unittest.TestCase):
         x, y = read_slurry_map(flow.case / "slurry.h5", START + LATE, START + END).centroid()
         np.testing.assert_allclose((x, y), self.late_centroids("law").mean(axis=0), atol=5e-4)
 
-    def test_a_report_is_written(self):
-        case = self.flows["law"].case
-        run(case, SCRIPTS / "report", ".")
-        text = (case / "report.html").read_text()
-        for words in ("Slurry is conserved", "Tangential velocity", "Hold-up", "data:image/png", "level: -0.002"):
-            self.assertTrue(words in text, words)
+    def test_reports_are_written(self):
+        for name, words in (("law", "multiplier: 1.0"), ("off", "multiplier: 0.0"), ("stock", "solver: interFoam")):
+            text = (self.folder / name / "report.html").read_text()
+            for told in ("Slurry is conserved", "Tangential velocity", "Hold-up", "data:image/png", words):
+                self.assertIn(told, text.replace("&quot;", "").replace('"', "") if told == words else text, name)
+
+
+class Again(unittest.TestCase):
+    """A small mill that was run: what a second call keeps, makes again and refuses."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = Path(tempfile.mkdtemp(prefix="mill-again-"))
+        cls.addClassCleanup(shutil.rmtree, folder)
+        (folder / "mill.yaml").write_text(mills_test.SliceOfGlass.YAML)
+        run(folder, ROOT / "scripts" / "new_mill", "mill.yaml", folder / "case")
+        cls.whole = folder / "case"
+        run(cls.whole, "./Allrun")
+
+    def setUp(self):
+        folder = Path(tempfile.mkdtemp(prefix="mill-again-"))
+        self.addCleanup(shutil.rmtree, folder)
+        self.case = folder / "case"
+        shutil.copytree(self.whole, self.case, symlinks=True)
+
+    def allrun(self, *options):
+        """(stages that were made, stages that were kept) of an Allrun."""
+        told = run(self.case, "./Allrun", *options)
+        return tuple(re.findall(rf"^{word} (\w+):", told, re.M) for word in ("Running", "Keeping"))
+
+    def refused(self, *command):
+        """What a program says that fails, without its line breaks."""
+        with self.assertRaises(RunError):
+            run(self.case, *command)
+        return " ".join((self.case / f"log.{Path(command[0]).name}").read_text().split())
+
+    FLOW = ["mesh", "check", "start", "flow"]
+
+    def test_everything_is_kept(self):
+        made, kept = self.allrun()
+        self.assertEqual(kept, ["walls", "charge", "average", *self.FLOW])
+        self.assertEqual(made, ["pictures", "report"])
+
+    def test_another_law_makes_mesh_and_flow_again(self):
+        made, kept = self.allrun("--set", "flow.law=Hill")
+        self.assertEqual(kept, ["walls", "charge", "average"])
+        self.assertEqual(made, [*self.FLOW, "pictures", "report"])
+        self.assertEqual(read_json(self.case / "mill.json", "mill")["derived"]["flow"]["law"], "Hill")
+
+    def test_another_window_makes_the_averages_again(self):
+        made, kept = self.allrun("--set", "averages.window=0.05")
+        self.assertEqual(kept, ["walls", "charge"])
+        self.assertEqual(made, ["average", *self.FLOW, "pictures", "report"])
+        self.assertEqual(read_json(self.case / "solids.json", "averages")["windows"], 4)
+
+    def test_another_speed_makes_the_charge_again(self):
+        made, kept = self.allrun("--until", "charge", "--set", "speed.fraction_of_critical=0.6")
+        self.assertEqual((made, kept), (["charge"], ["walls"]))
+
+    def test_two_at_a_time_are_refused(self):
+        with open(self.case / ".stages" / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            told = self.refused("./Allrun")
+        self.assertIn("another Allrun is at work in", told)
+
+    def test_solids_of_an_older_dry_run_are_found(self):
+        self.allrun("--until", "charge", "--set", "dem.seed=7")
+        shutil.rmtree(self.case / ".stages")
+        run(self.case, "millMesh", "mill.json", "--case", ".")
+        for time in foam.times(self.case):
+            shutil.rmtree(time[1])
+        shutil.copytree(self.case / "0.orig", self.case / "0")
+        told = self.refused("slurryStart")
+        old, new = (read_json(folder / "mill.json", "mill")["fingerprint"]["averages"] for folder in (self.whole, self.case))
+        self.assertNotEqual(old, new)
+        for words in ("solids.h5", old, new, "millAverage"):
+            self.assertIn(words, told)
+
+    def test_averages_of_dumps_of_another_mill_are_refused(self):
+        self.assertIn("run millDem again", self.refused("millAverage", "mill.yaml", "--case", ".", "--set", "dem.seed=7"))
+
+    def test_a_flow_at_another_speed_than_the_charge_is_refused(self):
+        properties = self.case / "constant" / "millProperties"
+        run(self.case, "foamDictionary", "-entry", "omega", "-set", "2.5", properties)
+        told = self.refused("slurryFoam")
+        for words in ("2.5", "4.00287", "millAverage"):
+            self.assertIn(words, told)
+
+    def test_a_finished_flow_is_not_started_over(self):
+        before = (self.case / "0.05" / "alpha.slurry").read_bytes()
+        self.assertIn("0.05", self.refused("slurryStart"))
+        self.assertEqual((self.case / "0.05" / "alpha.slurry").read_bytes(), before)
+
+    def test_averages_by_the_mill_are_those_by_hand(self):
+        run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.3, -0.3, 0, 0.3, 0.3, 0.1, "--shape", 6, 6, 1,
+            "--periodic", "z", "--inside", "walls/*.stl", "--start", 0.2, "--window", 0.1, "-o", "by_hand.h5")
+        run(self.case, "millAverage", "mill.yaml", "--case", ".")
+        with h5py.File(self.case / "solids.h5") as mine, h5py.File(self.case / "by_hand.h5") as hand:
+            for name in ("solidity", "velocity", "grid/insideFraction", "window/begin", "window/end"):
+                np.testing.assert_allclose(mine[name][:], hand[name][:], rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 if __name__ == "__main__":
