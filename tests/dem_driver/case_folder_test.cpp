@@ -113,13 +113,14 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
   const CaseFolder folder{temporary.path()};
   auto mill = small_mill();
   mill.charge.fines_below = 0.0025;
+  mill.fingerprint = {"w", "c", "a", "f"};
   const DemPlan plan = plan_dem(mill);
   prepare_folders(folder);
   write_run_file(folder, mill, plan);
   EXPECT_EQ(tests::read_json(folder.run_file()),
             (nlohmann::json{{"format", "millfoam-dumps"},
                             {"program", std::string("millDem ") + version()},
-                            {"mill", nlohmann::json::object()},
+                            {"mill", {{"walls", "w"}, {"charge", "c"}, {"averages", "a"}, {"flow", "f"}}},
                             {"timestep_s", plan.step.value},
                             {"interval", plan.step.steps_per_record},
                             {"angular_velocity_rad_s", -12.0},

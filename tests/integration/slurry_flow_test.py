@@ -13,7 +13,7 @@ from millfoam import foam
 from openfoam_case import require_environment, rotating_mesh
 from slurry_case import AIR, SLURRY, SlurryTest
 
-MILL = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_12cm"
+MILL = Path(__file__).resolve().parents[2] / "scripts" / "mill_case"
 # Soft edges and a way that goes through the surface; it stays inside the box.
 BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005;"
          " velocity (0.3 0.3 0); moves yes; }")
