@@ -10,8 +10,8 @@ STAGES = 'cd "$1"; . "$2/case_functions"; . "$2/mill_stages"; shift 2; run_mill 
 
 
 def run_mill(folder, mill, *changes, until=None, charge=None):
-    """What the stages of the mill in a mill.yaml, changed by `path=value`, say; they run in a folder, up to one of them, and
-    take the charge of another case's folder where one is given. RunError where a stage fails."""
+    """What the stages of the mill in a mill.yaml, changed by `path=value`, say; they run in a folder, up to one of
+    them, and take the charge of another case's folder where one is given. RunError where a stage fails."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     options = [word for change in changes for word in ("--set", change)]

@@ -30,7 +30,7 @@ def ball(diameter):
 
 
 def section(radius, count=0, height=0.0, width=0.0, top=None):
-    """Area of a mill's cross-section, m2: the circle without its lifters, of which each stands on an arc of the shell."""
+    """Area of a mill's cross-section, m2: the circle without lifters, each of which stands on an arc of the shell."""
     half = asin(width / 2 / radius)
     arc = radius ** 2 * (half - np.sin(2 * half) / 2)
     trapezoid = (width + (width if top is None else top)) / 2 * (sqrt(radius ** 2 - width ** 2 / 4) - radius + height)
@@ -40,13 +40,15 @@ def section(radius, count=0, height=0.0, width=0.0, top=None):
 class MillRun:
     """What must hold of every mill; a subclass is a mill.
 
-    YAML; RANKS of the solver; RADIUS, LENGTH (m, of what is computed, pulp lifters too); SECTION (m2); OMEGA (rad/s, signed);
-    BALLS, number of balls simulated by diameter (m); SOLIDS_SHAPE, SLURRY_SHAPE, numbers of voxels; DENSITY of the balls (kg/m3);
-    FRICTION of ball on ball and ball on wall; SLURRY, volume (m3) or None with LEVEL (m); DRY, RECORD, START (s) of the dry
-    run, its records and its averages; FLOW (s)."""
+    YAML; RANKS of the solver; RADIUS, LENGTH (m, of what is computed, pulp lifters too); SECTION (m2); OMEGA (rad/s,
+    signed); BALLS, number of balls simulated by diameter (m); SOLIDS_SHAPE, SLURRY_SHAPE, numbers of voxels; PAST, what
+    voxels reach beyond the mill where their size does not divide it (share of the mill); DENSITY of the balls (kg/m3);
+    FRICTION of ball on ball and ball on wall; SLURRY, volume (m3) or None with LEVEL (m); FED (m3/s); DRY, RECORD,
+    START (s) of the dry run, its records and its averages; FLOW (s)."""
     RANKS = 1
     SLURRY = LEVEL = None
-    FED = 0.0  # m3/s
+    FED = 0.0
+    PAST = 1e-9
 
     @classmethod
     def setUpClass(cls):
@@ -61,7 +63,8 @@ class MillRun:
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
             cls.told += done.stdout
             if done.returncode:
-                raise AssertionError(f"{command[0].name} of {cls.__name__} ended with {done.returncode}:\n{cls.told[-3000:]}")
+                raise AssertionError(f"{command[0].name} of {cls.__name__} ended with {done.returncode}:\n"
+                                     f"{cls.told[-3000:]}")
         cls.mesh = foam.read_mesh(cls.case)
         cls.steps = read_csv(cls.case / "postProcessing" / "flow" / "0" / "steps.csv")
 
@@ -82,7 +85,8 @@ class MillRun:
     def test_no_stage_failed_and_none_was_left_out(self):
         steps = re.findall(r"^Running (\w+):", self.told, re.M)
         parallel = [["flow"], ["decompose", "flow", "reconstruct"]][self.RANKS > 1]
-        self.assertEqual(steps, ["walls", "charge", "average", "mesh", "check", "start", *parallel, "pictures", "report"])
+        self.assertEqual(steps, ["walls", "charge", "average", "mesh", "check", "start", *parallel, "pictures",
+                                 "report"])
         self.assertNotIn("Traceback", self.told)
 
     def test_the_report_is_of_this_mill(self):
@@ -120,7 +124,8 @@ class MillRun:
 
     def test_the_charge_is_carried_to_the_rising_side(self):
         # In a smooth drum it swings, about a place on that side
-        places = [np.average(rows["x"], weights=rows["radius"] ** 3) for rows in map(self.rows, dict(self.dumps()).values())]
+        places = [np.average(rows["x"], weights=rows["radius"] ** 3)
+                  for rows in map(self.rows, dict(self.dumps()).values())]
         self.assertGreater(np.mean(places) * np.sign(self.OMEGA), 0.02 * self.RADIUS)
 
     def test_the_dry_run_lasts_as_asked(self):
@@ -138,9 +143,8 @@ class MillRun:
             self.assertAlmostEqual(file["window/begin"][0], self.START, delta=1e-9)
             self.assertGreater(file["solidity"][:].max(), 0.1)
         self.assertAlmostEqual(self.json("solids.json", "averages")["volume_in_m3"],
-                               sum(count * ball(size) for size, count in self.BALLS.items()), delta=1e-6 * self.RADIUS ** 3)
-
-    PAST = 1e-9  # what voxels of a size that does not divide the diameter may reach beyond the mill, share of it
+                               sum(count * ball(size) for size, count in self.BALLS.items()),
+                               delta=1e-6 * self.RADIUS ** 3)
 
     def test_the_flow_lasts_as_asked(self):
         self.assertAlmostEqual(foam.times(self.case)[-1][0], self.FLOW, delta=1e-9)
@@ -180,7 +184,7 @@ class MillRun:
 
 
 class SliceOfGlass(MillRun, unittest.TestCase):
-    """0.6 m, named materials, anticlockwise, slurry by slurry.level; the issue's example of a whole mill in a file."""
+    """0.6 m, named materials, anticlockwise, slurry by slurry.level."""
     YAML = """
 title: sixty centimetres of glass
 geometry: {diameter: 0.6, length: 0.1, ends: periodic, lifters: {count: 12, height: 0.03, width: 0.03}}
@@ -202,7 +206,7 @@ flow: {duration: 0.05}
 
 
 class SliceOfTrapezoids(MillRun, unittest.TestCase):
-    """1.8 m, a slice of 0.2 m out of 2 m, steel, trapezoids, overlap by its share, slurry by fill, averages from steady on."""
+    """1.8 m, 0.2 m out of 2 m as a slice, steel, trapezoids, overlap by its share, slurry by fill, counts."""
     YAML = f"""
 title: trapezoids of 1.8 m
 geometry:
@@ -301,7 +305,7 @@ flow: {duration: 0.03, write_interval: 0.01, start: {level: -0.015}}
 
 
 class WholeSmoothDrum(MillRun, unittest.TestCase):
-    """0.1 m, closed and smooth, three sizes, of which the smallest is left out; own and named materials; a volume of slurry."""
+    """0.1 m, closed and smooth, three sizes, the smallest left out; own and named materials; a volume of slurry."""
     YAML = """
 title: smooth drum with fines
 geometry: {diameter: 0.1, length: 0.06, ends: plain, lifters: {count: 0}}
