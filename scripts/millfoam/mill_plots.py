@@ -205,31 +205,51 @@ def plot_strip(flow, out, count=6):
     plt.close(figure)
 
 
-def frame_figure(flow, time, path, ends=None):
-    """Figure of the slurry at a written time; `ends`: what flow.end_wall() gives, for many frames."""
-    figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
-    patches = draw_frame(axis, flow, time, path, *(ends or flow.end_wall()))
-    figure.colorbar(patches, ax=axis, shrink=0.8, label="slurry share over the axis, –")
-    return figure
-
-
-def charge_figure(charge, radius, omega, outline=None):
-    """Figure of a SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), in its `outline` [n, 2] (m)."""
-    figure, axis = plt.subplots(figsize=(5.4, 4.6), constrained_layout=True)
-    solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
-    image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
-    figure.colorbar(image, ax=axis, shrink=0.85, label="solidity over the axis, –")
-    draw_outline(axis, outline, radius, omega)
-    axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10)
-    return figure
-
-
-def animate(flow, out):
-    """The frames as an endless GIF."""
+def frame_figures(flow, frames):
+    """One figure for each of `frames` (time in s, folder) of the slurry, on the same page: to be saved one after the
+    other."""
     ends = flow.end_wall()
+
+    def draw(axis, frame):
+        return draw_frame(axis, flow, *frame, *ends)
+
+    return redrawn_figures(frames, draw, 0.8, "slurry share over the axis, –")
+
+
+def charge_figures(charges, radius, omega, outline_at):
+    """One figure for each SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), on the same page;
+    outline_at(time in s): its outline [n, 2] (m), or None."""
+    def draw(axis, charge):
+        solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
+        image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
+        draw_outline(axis, outline_at(charge.end), radius, omega)
+        axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10)
+        return image
+
+    return redrawn_figures(charges, draw, 0.85, "solidity over the axis, –")
+
+
+def redrawn_figures(things, draw, shrink, label):
+    """One figure that is drawn anew for each of `things` by draw(axis, thing), which gives what its colour bar shows. The
+    places on the page are found once, for the first of them: that takes longer than to draw."""
+    figure, axis = plt.subplots(figsize=(5.4, 4.6), layout="constrained")
+    for number, thing in enumerate(things):
+        axis.clear()
+        shown = draw(axis, thing)
+        if number == 0:
+            figure.colorbar(shown, ax=axis, shrink=shrink, label=label)
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")
+        yield figure
+    plt.close(figure)
+
+
+def animate(flow, out, most=60):
+    """The frames, at most so many of them and equally spaced, as an endless GIF."""
+    frames = [flow.frames[k] for k in np.unique(np.linspace(0, len(flow.frames) - 1, most).astype(int))]
     pictures = []
-    for time, path in flow.frames:
+    for figure in frame_figures(flow, frames):
         buffer = io.BytesIO()
-        save(frame_figure(flow, time, path, ends), buffer, dpi=80)
+        figure.savefig(buffer, dpi=80)
         pictures.append(Image.open(buffer).convert("P", palette=Image.ADAPTIVE, colors=128))
     pictures[0].save(out, save_all=True, append_images=pictures[1:], duration=100, loop=0)

@@ -91,10 +91,9 @@ def text(words):
 
 
 def encode(figure, dpi=140, colours=256):
-    """A matplotlib figure as a data URL of a PNG with a palette of so many colours; closes it."""
+    """A matplotlib figure as a data URL of a PNG with a palette of so many colours."""
     drawn, buffer = io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, dpi=dpi, format="png")
-    plt.close(figure)
     Image.open(drawn).convert("RGB").quantize(colours, dither=Image.Dither.NONE).save(buffer, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
 
@@ -102,8 +101,10 @@ def encode(figure, dpi=140, colours=256):
 def picture(figure, caption, *, title=None):
     """A card with a figure. The caption, plain text, also tells those who cannot see it what it shows."""
     alt = text(f"{title}: {caption}" if title else caption)
+    encoded = encode(figure)
+    plt.close(figure)
     return ('<figure class="card">' + (f"<h3>{text(title)}</h3>" if title else "")
-            + f'<img alt="{alt}" src="{encode(figure)}"><figcaption>{text(caption)}</figcaption></figure>')
+            + f'<img alt="{alt}" src="{encoded}"><figcaption>{text(caption)}</figcaption></figure>')
 
 
 def table(head, rows, *, title=None, note=None, wide=False):

@@ -42,16 +42,14 @@ def animation(case):
         frames = [frame for frame in case.flow.frames if frame[0] >= max(case.last - case.turn, 1e-9)]
         shown = case.last - max([time for time, _ in case.flow.frames if time < frames[0][0]], default=0)
         frames = [frames[k] for k in np.unique(np.linspace(0, len(frames) - 1, FRAMES).astype(int))]
-        ends = case.flow.end_wall()
         edge = " and edge of the charge (orange, solidity 0.2)" if case.has_balls else ""
-        return page.player((mill_plots.frame_figure(case.flow, *frame, ends) for frame in frames),
+        return page.player(mill_plots.frame_figures(case.flow, frames),
                            f"Share of slurry over the axis (blue){edge}, flow time {frames[0][0]:.2f} to "
                            f"{frames[-1][0]:.2f} s.", title=last_turn(shown, case.turn))
     windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
     shown = windows[-1].end - windows[0].begin
     windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
-    return page.player((mill_plots.charge_figure(one, case.radius, case.omega, case.outline_at(one.end))
-                        for one in windows),
+    return page.player(mill_plots.charge_figures(windows, case.radius, case.omega, case.outline_at),
                        f"Solidity over the axis, window by window, DEM time {windows[0].begin:.2f} to "
                        f"{windows[-1].end:.2f} s; "
                        "the mill's outline at the end of each.", title=last_turn(shown, case.turn))
