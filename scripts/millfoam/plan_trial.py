@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Trials on the machine at hand: what the dry run, the mesh and a step of the flow of one mill cost here."""
 import os
-import re
 import shutil
 import subprocess
 import time
@@ -108,11 +107,14 @@ def try_mesh(folder, mill):
 
 
 def shorten(folder, largest_step):
-    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case."""
+    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row at
+    the end of each step."""
     with open(folder / "system" / "controlDict", "a") as control:
         control.write(f"endTime {LARGEST_STEPS * largest_step:.9g};\n"
                       'functions { trial { type abort; libs ("libutilityFunctionObjects.so"); '
-                      'file "<case>/stop"; action noWriteNow; } }\n')
+                      'file "<case>/stop"; action noWriteNow; } '
+                      'steps { type fieldMinMax; libs ("libfieldFunctionObjects.so"); fields (alpha.slurry); '
+                      'log no; } }\n')
 
 
 def try_flow(folder, solver, largest_step, ranks):
@@ -131,25 +133,31 @@ def try_flow(folder, solver, largest_step, ranks):
         start.append(run_measured(folder, "decomposePar", "-force", ranks=ranks))
         program = ["mpirun", "-np", ranks, *program, "-parallel"]
     start_disk = disk(folder / "0", *folder.glob("processor*"))
-    log = folder / "log.flow"
+    seen = []
 
     def watch(seconds):
-        if seconds > TRIAL_TIME and len(execution_times(log)) >= FEWEST_STEPS:
+        steps = steps_done(folder)
+        if steps > len(seen):
+            seen.extend([seconds] * (steps - len(seen)))
+        if seconds > TRIAL_TIME and steps >= FEWEST_STEPS:
             (folder / "stop").touch()
-    cost = run_measured(folder, *program, log=log.name, watch=watch, ranks=ranks)
-    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk, step_time(log),
+    cost = run_measured(folder, *program, log="log.flow", watch=watch, ranks=ranks)
+    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk, step_time(seen),
                      cost.memory)
 
 
-def execution_times(log):
-    """Time in s that a solver had computed for at the end of each step, from its log."""
-    return [float(word) for word in re.findall(r"ExecutionTime = (\S+) s", Path(log).read_text(errors="replace"))]
+def steps_done(folder):
+    """Number of steps that the trial of a flow has made."""
+    table = folder / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
+    if not table.is_file():
+        return 0
+    return sum(line.endswith("\n") and not line.startswith("#") for line in table.open())
 
 
-def step_time(log):
-    """Mean time in s of a step after the first ones. RunError where there are too few steps."""
-    times = execution_times(log)
-    if len(times) < 2:
-        raise RunError(f"the trial of the flow made {len(times)} steps; expected 2 or more")
-    first = min(FIRST_STEPS, len(times) // 2)
-    return (times[-1] - times[first - 1]) / (len(times) - first)
+def step_time(seen):
+    """Mean time in s of a step after the first ones; seen: when the end of each step was seen. RunError where there are
+    too few steps."""
+    if len(seen) < 2:
+        raise RunError(f"the trial of the flow made {len(seen)} steps; expected 2 or more")
+    first = min(FIRST_STEPS, len(seen) // 2)
+    return (seen[-1] - seen[first - 1]) / (len(seen) - first)

@@ -23,6 +23,7 @@ from millfoam import foam
 from millfoam.mill_runs import FINE, MILL, set_options
 from millfoam.run import run as run_program
 from millfoam.run import write_parameters
+from pool_history import largest_speeds
 
 STILL = 1e-6  # m/s, largest speed of the slurry alone
 CONSERVED = 1e-6  # relative change of the slurry's volume
@@ -65,14 +66,6 @@ def run(name, work, here):
         run_program(case, "setAlphaField")
     run_program(case, "millInterFoam")
     return case
-
-
-def largest_speeds(case):
-    """Time (s) and largest speed (m/s) of every step, as the function object wrote them."""
-    lines = (case / "postProcessing" / "speeds" / "0" / "fieldMinMax.dat").read_text().splitlines()
-    # time, field, smallest, where, largest, where
-    columns = [line.split("\t") for line in lines if not line.startswith("#")]
-    return np.array([[float(column[0]), float(column[4])] for column in columns])
 
 
 def measure(case):

@@ -2,7 +2,6 @@
 """Spurious speeds of a pool that should be at rest, read from a run's written times and kept beside it."""
 import csv
 import math
-import re
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np
@@ -71,12 +70,19 @@ class History:
         return late / max(early, STILL)
 
 
+def largest_speeds(case):
+    """Time (s) and largest speed (m/s) of every step [steps, 2], as the function object wrote them."""
+    lines = (case / "postProcessing" / "speeds" / "0" / "fieldMinMax.dat").read_text().splitlines()
+    # time, field, smallest, where, largest, where
+    columns = [line.split("\t") for line in lines if not line.startswith("#")]
+    return np.array([[float(column[0]), float(column[4])] for column in columns])
+
+
 def measure(case):
     """History of a run out of its fields; a time that holds values that are not finite ends it."""
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
-    solver_log = next(path for path in case.glob("log.*") if path.name.endswith("Foam"))
-    stepped = np.array(re.findall(r"^Time = (\S+)", solver_log.read_text(), flags=re.M), dtype=float)
+    stepped = largest_speeds(case)[:, 0]
     displaced = (case / "constant" / "bedProperties").is_file()  # interFoam's slurry lies between the balls as if they were not
     rows = []
     for time, folder in foam.times(case):
