@@ -25,6 +25,7 @@ from millfoam.mill import read_mill
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE, REPORT = ROOT / "scripts" / "mill_case", ROOT / "scripts" / "report"
 MILLS = int(os.environ.get("MILLFOAM_RANDOM_MILLS", 12))
+PLANNED = 4  # every fourth mill is also planned, which takes longer than its other stages
 CRASHES = ("Traceback", "terminate called", "Segmentation", "Assertion", "core dumped", "sigFpe", "stack smashing")
 HARD = {"density": 7800, "youngs_modulus": 2e11, "poisson_ratio": 0.3}
 CONTACT = {"restitution": 0.6, "friction": 0.4, "rolling_friction": 0.01}
@@ -218,6 +219,17 @@ class Valid(MillTest):
                 self.setUp()
                 self.pass_stages(random_mill(rng), rng)
                 self.assertIn("random mill", (self.case / "report.html").read_text())
+                if seed % PLANNED == 0:
+                    self.pass_plan()
+
+    def pass_plan(self):
+        """What a resolved mill will take is found, and is of this mill."""
+        self.pass_stage(sys.executable, "-m", "millfoam.plan", ".")
+        plan, mesh = read_json(self.case / "plan.json", "plan"), read_json(self.case / "mesh.json", "mesh")
+        self.assertEqual((plan["mill"], plan["cells"]), (read_mill(self.case).fingerprint, mesh["cells"]))
+        for stage in plan["stages"]:
+            for key in ("time_s", "disk_bytes", "memory_bytes"):
+                self.assertGreater(stage[key], 0, f"{stage['stage']}: {key}")
 
 
 class OneChange(MillTest):
