@@ -9,12 +9,13 @@ from pathlib import Path
 
 from .data_files import number, read_json
 from .run import RunError
+from .tables import TableError, read_table
 
 TEMPLATE = Path(__file__).resolve().parents[1] / "mill_case"
 TRIAL_TIME = 20.0  # s that the trial of the flow may last
 LARGEST_STEPS = 30  # its length in largest time-steps: about 40 steps, because the first ones are shorter
 FIRST_STEPS = 10  # that are not counted: the time-step grows from its first value
-FEWEST_STEPS = 4  # that are waited for on a mesh too large for the trial's time
+FEWEST_STEPS = 4  # a mesh too large for the trial's time makes so many, or a multiple
 
 
 @dataclass(frozen=True)
@@ -107,14 +108,15 @@ def try_mesh(folder, mill):
 
 
 def shorten(folder, largest_step):
-    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row at
-    the end of each step."""
+    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets the
+    time that each step has taken."""
     with open(folder / "system" / "controlDict", "a") as control:
         control.write(f"endTime {LARGEST_STEPS * largest_step:.9g};\n"
                       'functions { trial { type abort; libs ("libutilityFunctionObjects.so"); '
-                      'file "<case>/stop"; action noWriteNow; } '
-                      'steps { type fieldMinMax; libs ("libfieldFunctionObjects.so"); fields (alpha.slurry); '
-                      'log no; } }\n')
+                      'file "<case>/stop"; action noWriteNow; '
+                      f'timeStart 1e-12; executeControl timeStep; executeInterval {FEWEST_STEPS}; '
+                      f'writeControl timeStep; writeInterval {FEWEST_STEPS}; }} '
+                      'steps { type timeInfo; libs ("libutilityFunctionObjects.so"); } }\n')
 
 
 def try_flow(folder, solver, largest_step, ranks):
@@ -133,31 +135,27 @@ def try_flow(folder, solver, largest_step, ranks):
         start.append(run_measured(folder, "decomposePar", "-force", ranks=ranks))
         program = ["mpirun", "-np", ranks, *program, "-parallel"]
     start_disk = disk(folder / "0", *folder.glob("processor*"))
-    seen = []
 
     def watch(seconds):
-        steps = steps_done(folder)
-        if steps > len(seen):
-            seen.extend([seconds] * (steps - len(seen)))
-        if seconds > TRIAL_TIME and steps >= FEWEST_STEPS:
+        if seconds > TRIAL_TIME:
             (folder / "stop").touch()
     cost = run_measured(folder, *program, log="log.flow", watch=watch, ranks=ranks)
-    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk, step_time(seen),
-                     cost.memory)
+    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk,
+                     step_time(execution_times(folder)), cost.memory)
 
 
-def steps_done(folder):
-    """Number of steps that the trial of a flow has made."""
-    table = folder / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
-    if not table.is_file():
-        return 0
-    return sum(line.endswith("\n") and not line.startswith("#") for line in table.open())
+def execution_times(folder):
+    """Times in s [steps] for which a trial's solver had computed at the end of each step; empty where there is none."""
+    try:
+        names, rows = read_table(folder, "steps", "timeInfo")
+    except TableError:
+        return []
+    return rows[:, names.index("cpuTime")]
 
 
-def step_time(seen):
-    """Mean time in s of a step after the first ones; seen: when the end of each step was seen. RunError where there are
-    too few steps."""
-    if len(seen) < 2:
-        raise RunError(f"the trial of the flow made {len(seen)} steps; expected 2 or more")
-    first = min(FIRST_STEPS, len(seen) // 2)
-    return (seen[-1] - seen[first - 1]) / (len(seen) - first)
+def step_time(times):
+    """Mean time in s of a step after the first ones. RunError where there are too few steps."""
+    if len(times) < 2:
+        raise RunError(f"the trial of the flow made {len(times)} steps; expected 2 or more")
+    first = min(FIRST_STEPS, len(times) // 2)
+    return (times[-1] - times[first - 1]) / (len(times) - first)

@@ -38,6 +38,15 @@ def batch_means(times, values, begin, length, count):
         return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
 
 
+def error_over_turns(times, values, begin, turn):
+    """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
+    turn takes `turn` s; NaN where fewer than two fit."""
+    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
+    if turns < 2:
+        return np.nan
+    return batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns)
+
+
 def halves(times, values, begin, turn):
     """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
     batches_of.
