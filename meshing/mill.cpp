@@ -31,21 +31,29 @@ constexpr double usual_dem_turns = 3;
 constexpr double records_per_turn = 500;
 
 double read_angular_velocity(Section& in, const Geometry& geometry) {
+  const Rule turning = {"an angular velocity in rad/s other than 0, negative for clockwise",
+                        [](double v) { return v != 0; }};
+  // A fraction that --set gives turns the mill as the file's angular velocity does
+  std::optional<std::string> usual_sense;
+  if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
+    usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
   in.alternatives({"angular_velocity", "fraction_of_critical"});
-  if (in.is_set("angular_velocity")) in.drop("sense");
+  in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
     for (const char* other : {"fraction_of_critical", "sense"}) {
       if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
     }
-    return in.number("angular_velocity", {"an angular velocity in rad/s other than 0, negative for clockwise",
-                                          [](double v) { return v != 0; }});
+    return in.number("angular_velocity", turning);
   }
   const double fraction =
       in.number("fraction_of_critical",
                 {"a fraction of the critical speed above 0 and up to 3, 0.75 for 75 % (or the key "
                  "angular_velocity)",
                  [](double v) { return v > 0 && v <= 3; }});
-  const double sign = in.choice("sense", {"clockwise", "anticlockwise"}) == "clockwise" ? -1 : 1;
+  const Section::Keys senses = {"clockwise", "anticlockwise"};
+  const std::string sense =
+      usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
+  const double sign = sense == "clockwise" ? -1 : 1;
   return sign * fraction * critical_speed(geometry);
 }
 
@@ -58,6 +66,14 @@ Rule ball_diameter(const Geometry& geometry) {
                         slice_is_short ? "the mill's length" : "the radius inside the lifters");
 }
 
+std::vector<Section> list_classes(const Section& in) {
+  return in.list("classes", {"diameter", "mass"});
+}
+
+Rule class_mass() {
+  return positive("a mass in kg");
+}
+
 std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry) {
   for (const char* other : {"fill", "diameter", "packing"}) {
     if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
@@ -66,14 +82,15 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry)
       geometry.length /
       in.number("reference_length", positive("the length in m that the masses fill"), geometry.length);
   std::vector<SizeClass> classes;
-  for (const Section& item : in.list("classes", {"diameter", "mass"})) {
-    classes.push_back({item.number("diameter", ball_diameter(geometry)),
-                       item.number("mass", positive("a mass in kg")) * share});
+  for (const Section& item : list_classes(in)) {
+    classes.push_back(
+        {item.number("diameter", ball_diameter(geometry)), item.number("mass", class_mass()) * share});
   }
   return classes;
 }
 
-std::vector<SizeClass> read_fill(const Section& in, const Geometry& geometry, double density) {
+/// Mass in kg of balls that fill the asked share of the mill in bulk.
+double read_fill_mass(const Section& in, const Geometry& geometry, double density) {
   if (in.has("reference_length")) in.refuse("reference_length", "it beside classes only, not beside fill");
   const double fill =
       in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
@@ -81,13 +98,36 @@ std::vector<SizeClass> read_fill(const Section& in, const Geometry& geometry, do
                                    {"the solidity of a resting charge, above 0 and up to 0.74",
                                     [](double v) { return v > 0 && v <= 0.74; }},
                                    0.6);
-  return {
-      {in.number("diameter", ball_diameter(geometry)), fill * packing * density * analytic_volume(geometry)}};
+  return fill * packing * density * analytic_volume(geometry);
 }
 
-Charge read_charge(const Section& in, const Geometry& geometry, double density) {
+/// Makes the masses of the file's classes fill the share that --set gives, with their sizes and their shares.
+void fill_with_classes(Section& in, const Geometry& geometry, double density) {
+  in.displace("fill", {"reference_length"});
+  const double wanted = read_fill_mass(in, geometry, density);
+  for (const char* read : {"fill", "packing"}) in.drop(read);
+  double mass = 0;
+  for (const SizeClass& size : read_classes(in, geometry)) mass += size.mass;
+  for (Section& item : list_classes(in)) item.put("mass", item.number("mass", class_mass()) * wanted / mass);
+}
+
+/// What --set gives takes the place of the file's other way to say how much charge there is.
+void choose_charge(Section& in, const Geometry& geometry, double density) {
+  in.displace("classes", {"fill", "diameter", "packing"});
+  if (in.is_set("fill") && in.has("classes") && !in.is_set("classes") && !in.has("diameter"))
+    fill_with_classes(in, geometry, density);
+  else
+    in.displace("fill", {"classes", "reference_length"});
+}
+
+Charge read_charge(Section in, const Geometry& geometry, double density) {
+  choose_charge(in, geometry, density);
   Charge charge;
-  charge.classes = in.has("classes") ? read_classes(in, geometry) : read_fill(in, geometry, density);
+  if (in.has("classes"))
+    charge.classes = read_classes(in, geometry);
+  else
+    charge.classes = {
+        {in.number("diameter", ball_diameter(geometry)), read_fill_mass(in, geometry, density)}};
   double volume = 0;
   double largest = 0;
   for (const SizeClass& size : charge.classes) {

@@ -79,7 +79,8 @@ Lifters read_lifters(const Section& in, double radius) {
   return lifters;
 }
 
-Inlet read_inlet(const Section& in, double room) {
+Inlet read_inlet(Section in, double room) {
+  in.alternatives({"area", "radius"});
   const std::string inside = "the radius inside the lifters";
   if (!in.has("area")) {
     return {in.number("radius", positive_below("a length (or the key area)", room, " m", inside))};

@@ -5,6 +5,7 @@
 
 #include "meshing/mill.hpp"
 #include "meshing/mill_charge.hpp"
+#include "meshing/mill_shape.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
@@ -139,6 +140,97 @@ TEST(Set, of_one_alternative_takes_the_place_of_the_other) {
   EXPECT_EQ(mill_of(example_mill, {"speed.angular_velocity=2"}).angular_velocity, 2);
   EXPECT_EQ(mill_of(example_mill, {"dem.largest_overlap=0.05"}).dem.youngs_modulus, 0);
   EXPECT_NE(refusal_of(bare_mill + "flow: {turns: 5, duration: 2}\n").find("either duration or turns"),
+            std::string::npos);
+}
+
+TEST(Set, of_one_alternative_takes_the_place_of_the_other_in_every_section) {
+  EXPECT_DOUBLE_EQ(mill_of(bare_mill + "flow: {duration: 5}\n", {"flow.turns=1"}).flow.duration,
+                   mill_of(bare_mill).turn());
+  const std::string inlet = with(example_mill, "speed:", "  inlet: {radius: 0.02}\nspeed:");
+  EXPECT_DOUBLE_EQ(mill_of(inlet, {"geometry.inlet.area=0.001"}).geometry.inlet->radius,
+                   std::sqrt(0.001 / std::acos(-1.0)));
+  EXPECT_EQ(mill_of(example_mill, {"resolution.counts={gap: 11, lifter: 3, height: 5, ring: 9}"})
+                .resolution.cell_size,
+            0);
+  EXPECT_EQ(mill_of(bare_mill + "averages: {voxel_size: 0.06}\n", {"averages.counts={across: 9, along: 2}"})
+                .averages.voxels.shape,
+            (std::array<int, 3>{9, 9, 2}));
+  EXPECT_EQ(
+      mill_of(bare_mill + "flow: {start: {volume: 0.001}}\n", {"flow.start.level=-0.1"}).flow.start.level,
+      -0.1);
+}
+
+TEST(Set, of_a_fraction_of_the_critical_speed_keeps_the_sense_of_the_files_angular_velocity) {
+  const std::string speed = "fraction_of_critical: 0.5\n  sense: clockwise";
+  const double critical = std::sqrt(9.81 / 0.06);
+  for (const double sign : {-1, 1}) {
+    const std::string text = with(example_mill, speed, "angular_velocity: " + std::to_string(sign * 6.4));
+    EXPECT_DOUBLE_EQ(mill_of(text, {"speed.fraction_of_critical=0.7"}).angular_velocity,
+                     sign * 0.7 * critical);
+  }
+  const std::string text = with(example_mill, speed, "angular_velocity: -6.4");
+  EXPECT_DOUBLE_EQ(
+      mill_of(text, {"speed.fraction_of_critical=0.7", "speed.sense=anticlockwise"}).angular_velocity,
+      0.7 * critical);
+}
+
+TEST(Set, of_classes_takes_the_place_of_fill_and_diameter) {
+  const Mill mill = mill_of(bare_mill, {"charge.classes=[{diameter: 0.03, mass: 5}]"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.03);
+  EXPECT_EQ(mill.charge.classes[0].mass, 5);
+}
+
+TEST(Set, of_fill_and_diameter_takes_the_place_of_classes) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.3", "charge.diameter=0.005"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.005);
+  EXPECT_NEAR(count_charge(mill).load, 0.3, 1e-3);
+}
+
+TEST(Set, of_fill_alone_fills_with_the_files_classes_in_their_shares) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.25"});
+  const Charge& charge = mill.charge;
+  ASSERT_EQ(charge.classes.size(), 2U);
+  EXPECT_EQ(charge.classes[0].diameter, 0.008);
+  EXPECT_EQ(charge.classes[1].diameter, 0.002);
+  EXPECT_DOUBLE_EQ(charge.classes[1].mass / charge.classes[0].mass, 1.5);
+  const double mass = charge.classes[0].mass + charge.classes[1].mass;
+  EXPECT_DOUBLE_EQ(mass, 0.25 * 0.6 * 2700 * analytic_volume(mill.geometry));
+  // As much with another packing
+  EXPECT_DOUBLE_EQ(mill_of(text, {"charge.fill=0.25", "charge.packing=0.5"}).charge.classes[0].mass,
+                   charge.classes[0].mass * 0.5 / 0.6);
+}
+
+TEST(Set, of_two_alternatives_is_refused) {
+  const auto refused = [](const std::string& text, const std::vector<std::string>& set,
+                          const std::string& message) {
+    EXPECT_NE(refusal_of(text, set).find(message), std::string::npos) << refusal_of(text, set);
+  };
+  refused(example_mill, {"charge.fill=0.3", "charge.classes=[{diameter: 0.005, mass: 0.1}]"},
+          "--set charge.fill=0.3: key 'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.classes[0].mass=0.1"},
+          "'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.reference_length=0.1"},
+          "'charge.reference_length' = 0.1: expected it beside classes only");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.fraction_of_critical=0.5"},
+          "either angular_velocity alone");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.sense=clockwise"},
+          "either angular_velocity alone");
+  refused(bare_mill, {"flow.duration=2", "flow.turns=1"}, "either duration or turns");
+  refused(bare_mill, {"flow.start.level=0", "flow.start.volume=0.001"}, "either it or level");
+  refused(bare_mill, {"flow.start.fill=1", "slurry.level=0"}, "either it or slurry.level");
+  refused(example_mill, {"dem.youngs_modulus=1e7", "dem.largest_overlap=0.05"},
+          "either it or youngs_modulus");
+  refused(example_mill, {"resolution.cell_size=0.003", "resolution.counts={gap: 11}"},
+          "either cell_size or counts");
+}
+
+TEST(Set, leaves_two_alternatives_of_the_file_refused) {
+  const std::string both = with(example_mill, "  classes", "  fill: 0.3\n  classes");
+  EXPECT_NE(refusal_of(both, {"dem.seed=3"}).find("'charge.fill' = 0.3: expected either classes"),
             std::string::npos);
 }
 
