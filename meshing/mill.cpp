@@ -30,9 +30,18 @@ constexpr double usual_settling = 1.6;
 constexpr double usual_dem_turns = 3;
 constexpr double records_per_turn = 500;
 
+/// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
+constexpr double slowest_fraction = 0.001;
+constexpr double fastest_fraction = 3;
+
 double read_angular_velocity(Section& in, const Geometry& geometry) {
-  const Rule turning = {"an angular velocity in rad/s other than 0, negative for clockwise",
-                        [](double v) { return v != 0; }};
+  const double critical = critical_speed(geometry);
+  const double slowest = slowest_fraction * critical;
+  const double fastest = fastest_fraction * critical;
+  const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
+                            " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
+                            " of the critical speed), negative for clockwise",
+                        [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
   // A fraction that --set gives turns the mill as the file's angular velocity does
   std::optional<std::string> usual_sense;
   if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
@@ -45,16 +54,15 @@ double read_angular_velocity(Section& in, const Geometry& geometry) {
     }
     return in.number("angular_velocity", turning);
   }
-  const double fraction =
-      in.number("fraction_of_critical",
-                {"a fraction of the critical speed above 0 and up to 3, 0.75 for 75 % (or the key "
-                 "angular_velocity)",
-                 [](double v) { return v > 0 && v <= 3; }});
+  const double fraction = in.number(
+      "fraction_of_critical", {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
+                                   shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity)",
+                               [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
   const Section::Keys senses = {"clockwise", "anticlockwise"};
   const std::string sense =
       usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
   const double sign = sense == "clockwise" ? -1 : 1;
-  return sign * fraction * critical_speed(geometry);
+  return sign * fraction * critical;
 }
 
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
@@ -70,21 +78,24 @@ std::vector<Section> list_classes(const Section& in) {
   return in.list("classes", {"diameter", "mass"});
 }
 
-Rule class_mass() {
-  return positive("a mass in kg");
+/// `share` of the mass lies in the mill.
+Rule class_mass(const Geometry& geometry, double density, double share) {
+  return positive_up_to("a mass in kg (of the mill full of the balls' material at most)",
+                        density * analytic_volume(geometry) / share);
 }
 
-std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry) {
+std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry, double density) {
   for (const char* other : {"fill", "diameter", "packing"}) {
     if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
   }
   const double share =
-      geometry.length /
-      in.number("reference_length", positive("the length in m that the masses fill"), geometry.length);
+      geometry.length / in.number("reference_length",
+                                  positive_up_to("the length in m that the masses fill,", longest),
+                                  geometry.length);
   std::vector<SizeClass> classes;
   for (const Section& item : list_classes(in)) {
-    classes.push_back(
-        {item.number("diameter", ball_diameter(geometry)), item.number("mass", class_mass()) * share});
+    classes.push_back({item.number("diameter", ball_diameter(geometry)),
+                       item.number("mass", class_mass(geometry, density, share)) * share});
   }
   return classes;
 }
@@ -107,8 +118,9 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density) {
   const double wanted = read_fill_mass(in, geometry, density);
   for (const char* read : {"fill", "packing"}) in.drop(read);
   double mass = 0;
-  for (const SizeClass& size : read_classes(in, geometry)) mass += size.mass;
-  for (Section& item : list_classes(in)) item.put("mass", item.number("mass", class_mass()) * wanted / mass);
+  for (const SizeClass& size : read_classes(in, geometry, density)) mass += size.mass;
+  for (Section& item : list_classes(in))
+    item.put("mass", item.number("mass", class_mass(geometry, density, 1)) * wanted / mass);
 }
 
 /// What --set gives takes the place of the file's other way to say how much charge there is.
@@ -124,7 +136,7 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
   choose_charge(in, geometry, density);
   Charge charge;
   if (in.has("classes"))
-    charge.classes = read_classes(in, geometry);
+    charge.classes = read_classes(in, geometry, density);
   else
     charge.classes = {
         {in.number("diameter", ball_diameter(geometry)), read_fill_mass(in, geometry, density)}};
@@ -152,21 +164,20 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
                  [=](double v) { return v > largest / 2 && v <= room; }},
                 room - largest / 2);
   const bool plain = geometry.ends == Ends::plain;
-  charge.start_length =
-      in.number("start_length",
-                {plain ? "a length above the largest ball's diameter, " + shown(largest) +
-                             " m, and not above the mill's, " + shown(geometry.length) + " m"
-                       : "a length above 0",
-                 [=](double v) { return plain ? v > largest && v <= geometry.length : v > 0; }},
-                0.98 * geometry.length);
+  charge.start_length = in.number(
+      "start_length",
+      {plain ? "a length above the largest ball's diameter, " + shown(largest) +
+                   " m, and not above the mill's, " + shown(geometry.length) + " m"
+             : length_of_mill().expected,
+       [=](double v) { return plain ? v > largest && v <= geometry.length : length_of_mill().holds(v); }},
+      0.98 * geometry.length);
   return charge;
 }
 
 Material read_material(const Section& materials, const std::string& key) {
   if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
   const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
-  return {in.number("density", positive("a density in kg/m^3")),
-          in.number("youngs_modulus", positive("a modulus in Pa")),
+  return {in.number("density", density()), in.number("youngs_modulus", youngs_modulus()),
           in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
 }
 
@@ -181,23 +192,23 @@ Contact read_contact(const Section& materials, const std::string& key, const std
   const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
   return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
                                     [](double v) { return v > 0 && v <= 1; }}),
-          in.number("friction", not_negative("a friction coefficient")),
-          in.number("rolling_friction", not_negative("a rolling friction coefficient"))};
+          in.number("friction", friction_coefficient("a friction coefficient")),
+          in.number("rolling_friction", friction_coefficient("a rolling friction coefficient"))};
 }
 
 /// The modulus, or the overlap that it follows from.
-void read_softness(Section& in, Dem& dem) {
+void read_softness(Section& in, const Geometry& geometry, Dem& dem) {
   in.alternatives({"youngs_modulus", "largest_overlap"});
   if (in.has("youngs_modulus")) {
     if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
-    dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
+    dem.youngs_modulus = in.number("youngs_modulus", youngs_modulus());
   } else {
     dem.largest_overlap = in.number(
         "largest_overlap",
         {"a share of the diameter above 0 and up to 0.15", [](double v) { return v > 0 && v <= 0.15; }},
         default_largest_overlap);
   }
-  dem.soften_below = in.number("soften_below", not_negative("a diameter in m"), 0);
+  dem.soften_below = in.number("soften_below", zero_up_to("a diameter in m", geometry.diameter), 0);
 }
 
 /// Time to fall through the mill's diameter, s.
@@ -207,7 +218,7 @@ double fall_time(const Geometry& geometry) {
 
 Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   Dem dem;
-  read_softness(in, dem);
+  read_softness(in, geometry, dem);
   dem.rayleigh_fraction = in.number(
       "rayleigh_fraction",
       {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
@@ -228,16 +239,18 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   return dem;
 }
 
+/// Honey has 10 Pa s, fresh concrete a yield stress of 1e3 Pa, liquid iron a surface tension of 1.9 N/m.
 Slurry read_slurry(const Section& in) {
-  return {in.number("density", positive("a density in kg/m^3")),
-          in.number("plastic_viscosity", positive("a viscosity in Pa s")),
-          in.number("yield_stress", not_negative("a stress in Pa")),
-          in.number("surface_tension", not_negative("a surface tension in N/m"), 0.07)};
+  return {in.number("density", density()),
+          in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
+          in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
+          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07)};
 }
 
+/// Gases reach a liquid's density and viscosity at the critical point at most.
 Air read_air(const Section& in) {
-  return {in.number("density", positive("a density in kg/m^3"), 1.2),
-          in.number("viscosity", positive("a viscosity in Pa s"), 1.8e-5)};
+  return {in.number("density", positive_up_to("a density in kg/m^3", 1000), 1.2),
+          in.number("viscosity", positive_up_to("a viscosity in Pa s", 0.01), 1.8e-5)};
 }
 
 /// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which

@@ -2,9 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "meshing/mill.hpp"
 #include "meshing/mill_charge.hpp"
+#include "meshing/mill_document.hpp"
 #include "meshing/mill_shape.hpp"
 #include "tests/meshing/test_mill.hpp"
 
@@ -94,7 +98,8 @@ TEST(FlowStart, is_refused_when_given_twice_or_too_large) {
       std::string::npos);
   EXPECT_NE(refusal_of(bare_mill, {"flow.start={level: 0, fill: 1}"}).find("either it or level"),
             std::string::npos);
-  EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=1"}).find("the mill has room for"), std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=0.025"}).find("the mill has room for"),
+            std::string::npos);
 }
 
 TEST(Flow, laws_are_those_of_the_table) {
@@ -258,6 +263,56 @@ TEST(Lengths, in_millimetres_are_refused) {
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=120"}).find("up to 50 m"), std::string::npos);
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=1e300"}).find("up to 50 m"), std::string::npos);
   EXPECT_NE(refusal_of(example_mill, {"dem.duration=1e12"}).find("up to 100000 s"), std::string::npos);
+}
+
+/// The paths of all numbers of a resolved mill's keys, and whether each is a whole one.
+std::vector<std::pair<std::string, bool>> numbers_of(const nlohmann::ordered_json& keys) {
+  std::vector<std::pair<std::string, bool>> paths;
+  const nlohmann::ordered_json flat = keys.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number()) continue;
+    std::string path;
+    std::istringstream names(pointer.substr(1));
+    for (std::string name; std::getline(names, name, '/');) {
+      const bool item = name.find_first_not_of("0123456789") == std::string::npos;
+      path += item ? "[" + name + "]" : (path.empty() ? "" : ".") + name;
+    }
+    paths.emplace_back(path, value.is_number_integer());
+  }
+  return paths;
+}
+
+TEST(Numbers, are_bounded_each_by_something_that_a_mill_can_have) {
+  const std::string whole = with(with(with(example_mill, "speed:", R"(  inlet: {radius: 0.02}
+  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}
+  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}
+speed:)"),
+                                      "  classes", "  reference_length: 0.024\n  classes"),
+                                 "  level: -0.012\n", "");
+  const std::string smooth = with(with(bare_mill, "count: 12", "count: 0"), "ends: periodic", "ends: plain");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> mills{
+      {whole, {"flow.start={volume: 1e-5}", "flow.duration=1", "geometry.slice=0.02"}},
+      {whole, {"geometry.inlet={area: 0.001}", "speed={angular_velocity: 3}", "dem={youngs_modulus: 1e7}"}},
+      {bare_mill, {"averages={counts: {across: 9, along: 2}}", "flow.start={level: -0.1}", "flow.turns=1"}},
+      {smooth, {"resolution={counts: {gap: 48, ring: 9}}", "flow.averages={counts: {across: 9, along: 2}}"}},
+      {example_mill, {"resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9}}"}}};
+  std::set<std::string> tried;
+  for (const auto& [text, set] : mills) {
+    const MillDescription mill = describe(text, set);
+    for (const auto& [path, is_whole] : numbers_of(mill.document->keys())) {
+      for (const std::string& value : is_whole ? std::vector<std::string>{"2000000000", "-2000000000"}
+                                               : std::vector<std::string>{"1e300", "-1e300"}) {
+        std::vector<std::string> changed = set;
+        changed.push_back(path + "=" + value);
+        const std::string message = refusal_of(text, changed);
+        const std::string start =
+            "--set " + changed.back() + ": key '" + path + "' = " + value + ": expected ";
+        EXPECT_EQ(message.rfind(start, 0), 0U) << path << " = " << value << ": " << message;
+      }
+      tried.insert(path);
+    }
+  }
+  EXPECT_GT(tried.size(), 60U);
 }
 
 TEST(Charge, counts_whole_balls_and_names_fines) {
