@@ -178,6 +178,41 @@ class Uncovered(RecordTest):
                             "millAverage", "uncovered warn")
 
 
+class EmptyZones(RecordTest):
+    """A grate before the last of four cells, which the voxels do not see."""
+
+    def case(self, entries="emptyZones (behind);", **options):
+        phi = solids.uniform(0.1, 0.3, shape=(1, 1, 2))
+        chamber = 0.75 * 0.04 ** 3 * phi[:, 0, 0, 0]
+        case = self.record_case(phi, deposited=chamber, velocity=(0.1, 0, 0),
+                                entries=f"ledgerCorrection yes; uncovered error; {entries}", **options)
+        case.write("system/topoSetDict", """
+            actions ( { name behind; type cellZoneSet; action new; source boxToCell; box (0.03 -9 -9) (9 9 9); } );""")
+        self.assert_runs(case, "topoSet")
+        return case
+
+    def test_have_no_solids_and_the_others_have_all_of_the_ledgers(self):
+        case = self.case(end_time=0.02)
+        found = self.fields(case, "solidity", 0.008, 0.018)
+        np.testing.assert_allclose(found, [[0.1, 0.1, 0.1, 0], [0.3, 0.3, 0.3, 0]], rtol=1e-12)
+        np.testing.assert_array_equal(case.field("solidsVelocity", 0.018)[3], [0, 0, 0])
+
+    def test_are_empty_on_two_ranks_too(self):
+        case = self.case()
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        self.assert_runs(case, "millInterFoam", ranks=2)
+        self.assert_runs(case, "reconstructPar")
+        np.testing.assert_allclose(case.field("solidity", STEP), [0.1, 0.1, 0.1, 0], rtol=1e-12)
+
+    def test_need_no_voxels(self):
+        found, = self.fields(self.case(upper=(0.03, 0.04, 0.04)), "solidity", STEP)
+        np.testing.assert_allclose(found, [0.1, 0.1, 0.1, 0], rtol=1e-12)
+
+    def test_that_the_mesh_has_not_are_refused(self):
+        self.assert_refused(self.case("emptyZones (pulpLifters);"), "emptyZones names pulpLifters", "behind")
+
+
 class BlockTest(OpenFoamTest):
     def block_case(self, *blocks, cells=(8, 6, 4), upper=(0.04, 0.03, 0.02), end_time=STEP, entries=""):
         case = self.box(cells=cells, upper=upper, delta_t=STEP, end_time=end_time)
