@@ -137,6 +137,35 @@ class Ledger(RecordTest):
                 self.assert_refused(self.ledger_case(factor), "the ledger says", "above 2 %", "--inside",
                                     "ledgerCorrection no")
 
+    def assert_advice(self, *words, shape, cells=(4, 1, 1), **options):
+        """The refusal of solids on uniform voxels, of which the ledger says 3 % more, holds the words."""
+        phi = solids.uniform(0.3, shape=shape)
+        case = self.box(cells=cells, delta_t=STEP, end_time=STEP)
+        solids.write(case.path / "solids.h5", **BOX, solidity=phi, deposited=np.array([1.03 * 0.3 * 0.04 ** 3]), **options)
+        case.drag('law Ergun; solids "solids.h5"; interpolation cell; ledgerCorrection yes;')
+        log = case.run("millInterFoam").log
+        message = " ".join(log[log.index("FOAM FATAL"):].split())
+        for word in ("the correction would be 3 %, in size above 2 %", *words):
+            self.assertIn(word, message)
+
+    def test_the_refusal_of_few_balls_names_the_voxels_that_hold_eight(self):
+        # 0.6 V/(pi/6 d^3) = 2.29 balls of 2 cm in 2 x 2 x 4 cm; 8 balls take (8 pi/6 d^3/0.6)^(1/3) = 3.82 cm
+        self.assert_advice("There are 5 balls of 0.02 m", "voxels are 0.02 m wide and 0.04 m long",
+                           "holds 2.29 balls, and 8 make an average", "voxels of at least 0.04 m (averages.voxel_size",
+                           "averages.window", shape=(1, 2, 2), diameter=0.02)
+
+    def test_the_refusal_of_thick_layers_names_the_thickness_and_the_voxels(self):
+        self.assert_advice("take layers of at most 0.01 m (resolution.layers) or voxels of at least 0.02 m"
+                           " (averages.voxel_size", shape=(4, 2, 2), cells=(4, 4, 2), diameter=0.002)
+
+    def test_the_refusal_of_wide_cells_names_their_width(self):
+        self.assert_advice("take cells of at most 0.01 m (resolution.cell_size", "voxels of at least 0.02 m",
+                           shape=(2, 4, 4), cells=(2, 2, 4), diameter=0.002)
+
+    def test_the_refusal_of_coarse_voxels_names_how_small_they_may_be(self):
+        self.assert_advice("take smaller ones, down to 0.00956 m (averages.voxel_size", "resolution.cell_size",
+                           shape=(1, 1, 1), cells=(4, 4, 4), diameter=0.005)
+
     def test_below_two_per_cent_is_not(self):
         for factor in (1.0195, 0.9805):
             with self.subTest(factor=factor):

@@ -6,6 +6,7 @@
 #include "movingBed.H"
 #include "readableLog.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "resolutionAdvice.H"
 #include "uncoveredCells.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -98,7 +99,9 @@ void Foam::movingBed::setSolidity(scalarField& solidity)
     solidity = sums_.solidity();
     if (conservation_.valid() && source_->knowsVolume())
     {
-        conservation_->correct(solidity, mesh_.V(), source_->volume());
+        conservation_->correct(
+            solidity, mesh_.V(), source_->volume(),
+            [this] { return resolutionAdvice(mesh_, source_(), sums_); });
     }
 }
 

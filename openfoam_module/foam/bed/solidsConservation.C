@@ -72,16 +72,21 @@ Foam::scalar Foam::solidsConservation::factorFor(
 
 
 void Foam::solidsConservation::checkSize(
-    const scalar found, const scalar volume) const
+    const scalar found, const scalar volume,
+    const std::function<string()>& advice) const
 {
     if (mag(volume - found) <= tooLarge * found)
         return;
 
+    OStringStream percent;
+    percent.precision(3);
+    percent << 100 * (volume / max(found, VSMALL) - 1) << " %, in size above "
+            << 100 * tooLarge << " %";
     FatalIOErrorInFunction(dict_)
         << "the solids fill " << found << " m3 of the mesh but the ledger says "
-        << volume << " m3: the correction would be above " << 100 * tooLarge
-        << " %. Does the grid of the solids cover the mesh, were the walls "
-           "given"
+        << volume << " m3: the correction would be " << percent.str().c_str()
+        << ". " << advice().c_str()
+        << "Does the grid of the solids cover the mesh, were the walls given"
         << " to millAverage (--inside), is the mesh turned to the solids' time?"
         << " A mesh that holds only a part of the charge by intention wants"
         << " ledgerCorrection no" << exit(FatalIOError);
@@ -110,11 +115,12 @@ Foam::solidsConservation::solidsConservation(const dictionary& dict)
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::solidsConservation::correct(
-    scalarField& solidity, const scalarField& V, const scalar volume)
+    scalarField& solidity, const scalarField& V, const scalar volume,
+    const std::function<string()>& advice)
 {
     scalar found = sum(solidity * V);
     reduce(found, sumOp<scalar>());
-    checkSize(found, volume);
+    checkSize(found, volume, advice);
     solids_ = volume;
     if (found <= 0)
         return;
