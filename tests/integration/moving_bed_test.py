@@ -152,7 +152,7 @@ class Ledger(RecordTest):
         # 0.6 V/(pi/6 d^3) = 2.29 balls of 2 cm in 2 x 2 x 4 cm; 8 balls take (8 pi/6 d^3/0.6)^(1/3) = 3.82 cm
         self.assert_advice("There are 5 balls of 0.02 m", "voxels are 0.02 m wide and 0.04 m long",
                            "holds 2.29 balls, and 8 make an average", "voxels of at least 0.04 m (averages.voxel_size",
-                           "averages.window", shape=(1, 2, 2), diameter=0.02)
+                           shape=(1, 2, 2), diameter=0.02)
 
     def test_the_refusal_of_thick_layers_names_the_thickness_and_the_voxels(self):
         self.assert_advice("take layers of at most 0.01 m (resolution.layers) or voxels of at least 0.02 m"
@@ -165,6 +165,18 @@ class Ledger(RecordTest):
     def test_the_refusal_of_coarse_voxels_names_how_small_they_may_be(self):
         self.assert_advice("take smaller ones, down to 0.00956 m (averages.voxel_size", "resolution.cell_size",
                            shape=(1, 1, 1), cells=(4, 4, 4), diameter=0.005)
+
+    def test_the_refusal_of_voxels_with_eight_balls_asks_for_no_smaller_ones(self):
+        self.assert_advice("take others (averages.voxel_size, averages.counts), or more balls", shape=(1, 1, 1),
+                           cells=(4, 4, 4), diameter=0.018)
+
+    def test_a_larger_correction_may_be_allowed(self):
+        case = self.ledger_case(1.03, entries="ledgerCorrection yes; largestCorrection 0.04;")
+        found, = self.fields(case, "solidity", STEP)
+        np.testing.assert_allclose(found, 1.03 * self.phi, rtol=1e-12)
+        self.assert_refused(self.ledger_case(1.05, entries="ledgerCorrection yes; largestCorrection 0.04;"), "above 4 %")
+        self.assert_refused(self.ledger_case(1, entries="ledgerCorrection yes; largestCorrection 2;"),
+                            "largestCorrection is 2", "from 0 to 1")
 
     def test_below_two_per_cent_is_not(self):
         for factor in (1.0195, 0.9805):

@@ -199,11 +199,13 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
 
 Foam::wordList Foam::movingBed::entries()
 {
-    return {"solids",         "interpolation", "inTime",
-            "outOfRange",     "time0",         "omega",
-            "fingerprint",    "block",         "blocks",
-            "uncovered",      "emptyZones",    "ledgerCorrection",
-            "largestSolidity"};
+    return {"solids",          "interpolation",
+            "inTime",          "outOfRange",
+            "time0",           "omega",
+            "fingerprint",     "block",
+            "blocks",          "uncovered",
+            "emptyZones",      "ledgerCorrection",
+            "largestSolidity", "largestCorrection"};
 }
 
 

@@ -87,14 +87,14 @@ addKeys(Ostream& text, const extent& voxel, const extent& cell, const scalar d)
     const scalar balls =
         dense_ * sqr(voxel.across) * voxel.along / ballVolume(d);
     const scalar smallest = cbrt(fewBalls_ * ballVolume(d) / dense_);
-    const char* const voxelKeys = " m (averages.voxel_size, averages.counts)";
+    const char* const voxelKeys = " (averages.voxel_size, averages.counts)";
 
     if (balls < fewBalls_)
     {
         text << " A voxel of a dense charge holds " << balls << " balls, and "
              << fewBalls_ << " make an average: take voxels of at least "
-             << max(smallest, max(cell.across, cell.along)) << voxelKeys
-             << " or longer windows (averages.window).";
+             << max(smallest, max(cell.across, cell.along)) << " m" << voxelKeys
+             << ".";
         return;
     }
     if (longer(cell.along, voxel.along))
@@ -102,21 +102,30 @@ addKeys(Ostream& text, const extent& voxel, const extent& cell, const scalar d)
         text << " Layers that are thicker than the voxels pass over balls:"
              << " take layers of at most " << voxel.along
              << " m (resolution.layers) or voxels of at least " << cell.along
-             << voxelKeys << ".";
+             << " m" << voxelKeys << ".";
     }
     if (longer(cell.across, voxel.across))
     {
         text << " Cells that are wider than the voxels pass over balls: take"
              << " cells of at most " << voxel.across
              << " m (resolution.cell_size, resolution.counts) or voxels of at"
-             << " least " << cell.across << voxelKeys << ".";
+             << " least " << cell.across << " m" << voxelKeys << ".";
     }
-    if (!longer(cell.along, voxel.along) && !longer(cell.across, voxel.across))
+    if (longer(cell.along, voxel.along) || longer(cell.across, voxel.across))
     {
-        text << " Walls and the charge's surface cut coarse voxels: take"
-             << " smaller ones, down to " << smallest << voxelKeys
+        return;
+    }
+    text << " Walls and the charge's surface cut coarse voxels: take ";
+    if (longer(voxel.across, 1.2 * smallest))
+    {
+        text << "smaller ones, down to " << smallest << " m" << voxelKeys
              << ", with cells and layers no larger (resolution.cell_size,"
-             << " resolution.layers), or longer windows (averages.window).";
+             << " resolution.layers).";
+    }
+    else
+    {
+        text << "others" << voxelKeys << ", or more balls in a longer mill;"
+             << " these hold about as few balls as make an average.";
     }
 }
 
