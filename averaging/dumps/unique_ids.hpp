@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "averaging/dumps/particle.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "averaging/grids/grid.hpp"
-#include "averaging/statistics/record_sums.hpp"
+#include "averaging/values/ledger.hpp"
+#include "averaging/values/solids_window.hpp"
 
 /// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
 /// class may be used by two threads at once.
@@ -21,38 +22,6 @@ inline constexpr int solids_version = 2;
 /// A solids file that cannot be read or written; the message names the file and the reason.
 class SolidsFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// A span of DEM time [begin, end), s, and the number of records (dumps) averaged in it.
-struct TimeWindow {
-  double begin = 0;
-  double end = 0;
-  long long records = 0;
-  bool starts_late = false;  ///< records are missing at its beginning
-  bool ends_short = false;   ///< or at the end that was asked for
-};
-
-/// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
-struct SolidsWindow {
-  std::vector<double> solidity;    ///< [n] particle volume over cell volume, in [0, 1)
-  std::vector<double> velocity;    ///< [n][3] volume-weighted velocity of the particles in the lab frame, m/s
-  std::vector<double> diameter;    ///< [n] Sauter mean d32 = sum V / sum(V/d), m
-  std::vector<double> diameter43;  ///< [n] d43 = sum(V d) / sum V, m
-  /// [n] share of the cell inside the mill, mean over the window; empty unless walls cut the cells.
-  /// `solidity` is by the volume inside.
-  std::vector<double> inside_fraction;
-};
-
-/// Everything that is stored about one window.
-struct WindowAverage {
-  TimeWindow time;
-  Ledger ledger;  ///< means over the window's records
-  SolidsWindow mean;
-  std::vector<double> number;                ///< [n] of balls, parts counting as parts, mean over the records
-  std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
-  std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
-  std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
-  double balls_per_cell = 0;  ///< mean over the records of balls deposited / cells that hold some of them
 };
 
 /// What holds for the whole file.

@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-namespace millfoam::averaging {
+#include "averaging/values/vector3.hpp"
 
-/// Three components along x, y, z: a position in m or a velocity in m/s.
-using Vector3 = std::array<double, 3>;
+namespace millfoam::averaging {
 
 /// Numbers of a voxel along x, y, z, each from 0 to the shape along that axis less one.
 using VoxelIndex = std::array<int, 3>;

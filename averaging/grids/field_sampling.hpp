@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "averaging/files/solids_file.hpp"
-#include "averaging/grids/grid.hpp"
+#include "averaging/grids/box_grid.hpp"
+#include "averaging/grids/cylinder_grid.hpp"
+#include "averaging/values/solids_window.hpp"
 
 namespace millfoam::averaging {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "averaging/at.hpp"
+#include "averaging/values/as_index.hpp"
 
 namespace millfoam::averaging {
 
@@ -31,7 +31,7 @@ template <typename Place>
 std::vector<int> spatial_order(std::size_t n, Place&& place) {
   std::vector<std::pair<std::uint32_t, int>> keyed;
   keyed.reserve(n);
-  for (int i = 0; at(i) < n; ++i) keyed.emplace_back(morton(place(i)), i);
+  for (int i = 0; as_index(i) < n; ++i) keyed.emplace_back(morton(place(i)), i);
   std::sort(keyed.begin(), keyed.end());
   std::vector<int> order;
   order.reserve(n);
@@ -43,7 +43,7 @@ std::vector<int> order_of_cells(const MeshGeometry& geometry) {
   const Eigen::AlignedBox3d& box = geometry.box();
   const double scale = 1023 / box.sizes().maxCoeff();
   return spatial_order(geometry.cells(), [&](int cell) -> Array3i {
-    return ((geometry.centres()[at(cell)] - box.min()) * scale).cast<int>();
+    return ((geometry.centres()[as_index(cell)] - box.min()) * scale).cast<int>();
   });
 }
 
@@ -92,8 +92,8 @@ void CellLocator::list_cells() {
   const Vector3d size = double(1 << deepest) * per_metre_.cwiseInverse();
   const Eigen::Vector3f half = (size / 2 * (1 + 1e-6)).cast<float>();
   std::vector<std::array<int, 2>> found;  // coarse voxel, cell
-  for (int cell = 0; at(cell) < geometry_->cells(); ++cell) {
-    const Eigen::AlignedBox3d& box = geometry_->boxes()[at(cell)];
+  for (int cell = 0; as_index(cell) < geometry_->cells(); ++cell) {
+    const Eigen::AlignedBox3d& box = geometry_->boxes()[as_index(cell)];
     const Array3i low = ((box.min() - lower_).array() / size.array() - 1e-6).cast<int>().max(0);
     const Array3i high = ((box.max() - lower_).array() / size.array() + 1e-6).cast<int>().min(shape_ - 1);
     for (int k = low[2]; k <= high[2]; ++k) {
@@ -106,12 +106,12 @@ void CellLocator::list_cells() {
       }
     }
   }
-  voxel_begin_.assign(at(shape_.prod()) + 1, 0);
-  for (const auto& [voxel, cell] : found) ++voxel_begin_[at(voxel) + 1];
+  voxel_begin_.assign(as_index(shape_.prod()) + 1, 0);
+  for (const auto& [voxel, cell] : found) ++voxel_begin_[as_index(voxel) + 1];
   for (std::size_t v = 1; v < voxel_begin_.size(); ++v) voxel_begin_[v] += voxel_begin_[v - 1];
   voxel_cells_.resize(found.size());
   std::vector<int> next(voxel_begin_.begin(), voxel_begin_.end() - 1);
-  for (const auto& [voxel, cell] : found) voxel_cells_[at(next[at(voxel)]++)] = cell;
+  for (const auto& [voxel, cell] : found) voxel_cells_[as_index(next[as_index(voxel)]++)] = cell;
 }
 
 void CellLocator::fill_voxel(const Array3i& voxel) {
@@ -170,7 +170,7 @@ void CellLocator::fill(Filling& filling, const Array3i& corner, int level, const
 int CellLocator::list_code(Filling& filling, const std::vector<int>& cells) {
   const int count = static_cast<int>(cells.size());
   for (const int place : filling.lists) {
-    if (lists_[at(place)] != count) continue;
+    if (lists_[as_index(place)] != count) continue;
     if (std::equal(cells.begin(), cells.end(), lists_.begin() + place + 1)) return -2 - place;
   }
   const int place = static_cast<int>(lists_.size());

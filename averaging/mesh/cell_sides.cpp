@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "averaging/at.hpp"
-#include "averaging/pi.hpp"
+#include "averaging/values/as_index.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 
@@ -20,10 +20,11 @@ Vector3d area_vector(const MeshGeometry& geometry, std::size_t face) {
   const MeshTopology& topology = geometry.topology();
   const int* corner = topology.face_points.data() + topology.face_begin[face];
   const int count = topology.face_begin[face + 1] - topology.face_begin[face];
-  const Vector3d& base = geometry.points()[at(corner[0])];
+  const Vector3d& base = geometry.points()[as_index(corner[0])];
   Vector3d sum = Vector3d::Zero();
   for (int i = 2; i < count; ++i) {
-    sum += (geometry.points()[at(corner[i - 1])] - base).cross(geometry.points()[at(corner[i])] - base);
+    sum += (geometry.points()[as_index(corner[i - 1])] - base)
+               .cross(geometry.points()[as_index(corner[i])] - base);
   }
   return sum;
 }
@@ -59,8 +60,8 @@ void CellSides::update(const MeshGeometry& geometry) {
   for (const int cell : order_) {
     const auto begin = static_cast<int>(planes_.size());
     add_cell(geometry, cell);
-    ranges_[at(cell)] = {begin, static_cast<int>(planes_.size())};
-    star_[at(cell)] = is_star(geometry, cell) ? 1 : 0;
+    ranges_[as_index(cell)] = {begin, static_cast<int>(planes_.size())};
+    star_[as_index(cell)] = is_star(geometry, cell) ? 1 : 0;
   }
 }
 
@@ -74,7 +75,8 @@ void CellSides::measure_face(const MeshGeometry& geometry, std::size_t face) {
   slab.low = std::numeric_limits<double>::max();
   slab.high = std::numeric_limits<double>::lowest();
   for (int i = topology.face_begin[face]; i < topology.face_begin[face + 1]; ++i) {
-    const double height = slab.normal.dot(geometry.points()[at(topology.face_points[at(i)])] - origin_);
+    const double height =
+        slab.normal.dot(geometry.points()[as_index(topology.face_points[as_index(i)])] - origin_);
     slab.low = std::min(slab.low, height);
     slab.high = std::max(slab.high, height);
   }
@@ -85,13 +87,14 @@ void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
   const auto [first, last] = geometry.faces_of(cell);
   Eigen::Index lane = 4;
   for (const int* face = first; face != last; ++face) {
-    const Slab& slab = slabs_[at(*face)];
-    const bool owned = topology.owner[at(*face)] == cell;
+    const Slab& slab = slabs_[as_index(*face)];
+    const bool owned = topology.owner[as_index(*face)] == cell;
     const Vector3d normal = owned ? slab.normal : Vector3d(-slab.normal);
     double high = std::numeric_limits<double>::lowest();
     for (const int* other = first; other != last; ++other) {
-      for (int i = topology.face_begin[at(*other)]; i < topology.face_begin[at(*other) + 1]; ++i) {
-        high = std::max(high, normal.dot(geometry.points()[at(topology.face_points[at(i)])]));
+      for (int i = topology.face_begin[as_index(*other)]; i < topology.face_begin[as_index(*other) + 1];
+           ++i) {
+        high = std::max(high, normal.dot(geometry.points()[as_index(topology.face_points[as_index(i)])]));
       }
     }
     if (lane == 4) {
@@ -110,11 +113,11 @@ void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
 }
 
 bool CellSides::is_star(const MeshGeometry& geometry, int cell) const {
-  const Vector3d& centre = geometry.centres()[at(cell)];
-  const double room = 1e-6 * std::cbrt(geometry.volumes()[at(cell)]);
+  const Vector3d& centre = geometry.centres()[as_index(cell)];
+  const double room = 1e-6 * std::cbrt(geometry.volumes()[as_index(cell)]);
   const auto [begin, end] = geometry.facets_of(cell);
   return std::all_of(begin, end, [&](int f) {
-    const Facet& facet = geometry.facets()[at(f)];
+    const Facet& facet = geometry.facets()[as_index(f)];
     const double height = facet.offset - facet.normal.dot(centre);
     return (facet.owner == cell ? height : -height) > room;
   });
@@ -126,7 +129,7 @@ CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vect
   const auto [begin, end] = geometry.faces_of(cell);
   for (const int* face = begin; face != end; ++face) {
     const auto number = static_cast<std::size_t>(face - begin);
-    const Planes& planes = planes_[at(ranges_[at(cell)].begin) + number / 4];
+    const Planes& planes = planes_[as_index(ranges_[as_index(cell)].begin) + number / 4];
     const auto lane = static_cast<Eigen::Index>(number % 4);
     const float height = planes.nx[lane] * place.x + planes.ny[lane] * place.y + planes.nz[lane] * place.z;
     if (height < planes.low[lane]) continue;
@@ -139,15 +142,16 @@ CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vect
 /// Inside also when the ray from the centroid through the point does not go through this face.
 CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vector3d& point, int cell,
                                         int face) const {
-  const Vector3d& centre = geometry.centres()[at(cell)];
+  const Vector3d& centre = geometry.centres()[as_index(cell)];
   const Vector3d ray = point - centre;
-  for (int f = geometry.first_facet(at(face)); f < geometry.first_facet(at(face) + 1); ++f) {
-    const Facet& facet = geometry.facets()[at(f)];
+  for (int f = geometry.first_facet(as_index(face)); f < geometry.first_facet(as_index(face) + 1); ++f) {
+    const Facet& facet = geometry.facets()[as_index(f)];
     const double sign = facet.owner == cell ? 1 : -1;
     bool is_met = true;
     for (int i = 0; is_met && i < facet.corner_count; ++i) {
-      const Vector3d from = geometry.points()[at(facet.corners[at(i)])] - centre;
-      const Vector3d to = geometry.points()[at(facet.corners[at((i + 1) % facet.corner_count)])] - centre;
+      const Vector3d from = geometry.points()[as_index(facet.corners[as_index(i)])] - centre;
+      const Vector3d to =
+          geometry.points()[as_index(facet.corners[as_index((i + 1) % facet.corner_count)])] - centre;
       const double turn = sign * ray.dot(from.cross(to));
       // A ray through an edge may be said to meet both facets, never none.
       is_met = turn >= 0 || turn * turn <= 1e-24 * ray.squaredNorm() * from.squaredNorm() * to.squaredNorm();
@@ -162,8 +166,8 @@ CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vect
 
 CellSides::Side CellSides::side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const {
   Eigen::Array4f below = Eigen::Array4f::Constant(-1);
-  for (int b = ranges_[at(cell)].begin; b < ranges_[at(cell)].end; ++b) {
-    const Planes& planes = planes_[at(b)];
+  for (int b = ranges_[as_index(cell)].begin; b < ranges_[as_index(cell)].end; ++b) {
+    const Planes& planes = planes_[as_index(b)];
     const Eigen::Array4f height = planes.nx * middle.x + planes.ny * middle.y + planes.nz * middle.z;
     const Eigen::Array4f reach =
         planes.nx.abs() * half.x() + planes.ny.abs() * half.y() + planes.nz.abs() * half.z();
@@ -177,14 +181,14 @@ double CellSides::winding(const MeshGeometry& geometry, const Vector3d& point, i
   double sum = 0;
   const auto [begin, end] = geometry.facets_of(cell);
   for (const int* f = begin; f != end; ++f) {
-    const Facet& facet = geometry.facets()[at(*f)];
-    const Vector3d a = geometry.points()[at(facet.corners[0])] - point;
+    const Facet& facet = geometry.facets()[as_index(*f)];
+    const Vector3d a = geometry.points()[as_index(facet.corners[0])] - point;
     // A facet that the point lies on is seen under no angle: both cells get what is left of the sphere.
     if (std::abs(facet.normal.dot(a)) <= flat_) continue;
     double angle = 0;
     for (int i = 2; i < facet.corner_count; ++i) {
-      angle += solid_angle(a, geometry.points()[at(facet.corners[at(i - 1)])] - point,
-                           geometry.points()[at(facet.corners[at(i)])] - point);
+      angle += solid_angle(a, geometry.points()[as_index(facet.corners[as_index(i - 1)])] - point,
+                           geometry.points()[as_index(facet.corners[as_index(i)])] - point);
     }
     sum += facet.owner == cell ? angle : -angle;
   }
@@ -195,7 +199,7 @@ int CellSides::settle(const MeshGeometry& geometry, const Vector3d& point,
                       const std::vector<int>& cells) const {
   constexpr double seen_from_outside = 1e-6;
   for (const int cell : cells) {
-    const Side side = star_[at(cell)] != 0 ? side_of_star(geometry, point, cell) : Side::unclear;
+    const Side side = star_[as_index(cell)] != 0 ? side_of_star(geometry, point, cell) : Side::unclear;
     if (side == Side::inside) return cell;
     if (side == Side::unclear && winding(geometry, point, cell) > seen_from_outside) return cell;
   }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "averaging/at.hpp"
+#include "averaging/values/as_index.hpp"
 
 namespace millfoam::averaging {
 
@@ -54,7 +54,8 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
     nodes_[number].count = static_cast<int>(last - first);
   } else {
     Eigen::AlignedBox3d centres;
-    for (std::size_t i = first; i < last; ++i) centres.extend(geometry_.boxes()[at(order_[i])].center());
+    for (std::size_t i = first; i < last; ++i)
+      centres.extend(geometry_.boxes()[as_index(order_[i])].center());
     Eigen::Index axis = 0;
     centres.sizes().maxCoeff(&axis);
     const std::size_t middle = (first + last) / 2;
@@ -62,8 +63,8 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
     std::nth_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
                      begin + static_cast<std::ptrdiff_t>(last), [&](int a, int b) {
                        const auto& boxes = geometry_.boxes();
-                       return boxes[at(a)].min()[axis] + boxes[at(a)].max()[axis] <
-                              boxes[at(b)].min()[axis] + boxes[at(b)].max()[axis];
+                       return boxes[as_index(a)].min()[axis] + boxes[as_index(a)].max()[axis] <
+                              boxes[as_index(b)].min()[axis] + boxes[as_index(b)].max()[axis];
                      });
     build_node(first, middle);
     build_node(middle, last);
@@ -73,7 +74,8 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
 
 void CellTree::fit_leaf(Node& node) const {
   Eigen::AlignedBox3d box;
-  for (int i = node.first; i < node.first + node.count; ++i) box.extend(geometry_.boxes()[at(order_[at(i)])]);
+  for (int i = node.first; i < node.first + node.count; ++i)
+    box.extend(geometry_.boxes()[as_index(order_[as_index(i)])]);
   // More than single precision loses, so that no point on the boundary is missed.
   const double room = 1e-6 * geometry_.box().diagonal().norm();
   node.low = as_array(sides_.local(box.min() - Vector3d::Constant(room)));
@@ -90,7 +92,7 @@ double CellTree::fit() {
       fit_leaf(node);
     } else {
       const Node& left = nodes_[n + 1];
-      const Node& right = nodes_[at(left.skip)];
+      const Node& right = nodes_[as_index(left.skip)];
       node.low = left.low.min(right.low);
       node.high = left.high.max(right.high);
     }
@@ -108,11 +110,11 @@ int CellTree::locate(const Vector3d& point, int hint) const {
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!node.contains(place)) {
-      n = at(node.skip);
+      n = as_index(node.skip);
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i) {
-      const int cell = order_[at(i)];
+      const int cell = order_[as_index(i)];
       const CellSides::Side side = sides_.side(cell, local);
       if (side == CellSides::Side::inside) return cell;
       if (side == CellSides::Side::unclear) unclear.push_back(cell);
@@ -130,10 +132,10 @@ void CellTree::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cell
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!((high >= node.low).all() && (low <= node.high).all())) {
-      n = at(node.skip);
+      n = as_index(node.skip);
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i) cells.push_back(order_[at(i)]);
+    for (int i = node.first; i < node.first + node.count; ++i) cells.push_back(order_[as_index(i)]);
     ++n;
   }
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

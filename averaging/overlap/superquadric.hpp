@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "averaging/dumps/particle.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 

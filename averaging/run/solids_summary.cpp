@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/sharing/box_exact.hpp"
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

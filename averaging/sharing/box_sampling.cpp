@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "averaging/dumps/particle.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
-#include "averaging/pi.hpp"
 #include "averaging/sharing/mesh_sharing.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

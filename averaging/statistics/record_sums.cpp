@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "averaging/overlap/superquadric.hpp"
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 
@@ -31,14 +31,6 @@ double add_shares(const Particle& particle, double diameter, double particle_vol
 }
 
 }  // namespace
-
-Ledger& operator+=(Ledger& ledger, const Ledger& other) {
-  ledger.volume_in += other.volume_in;
-  ledger.deposited += other.deposited;
-  ledger.outside += other.outside;
-  ledger.clipped += other.clipped;
-  return ledger;
-}
 
 void sum_record(CellSharing& sharing, const ParticleRecord& record, double time, RecordSums& sums) {
   assert(record.shapes.empty() || record.shapes.size() == record.particles.size());

@@ -3,20 +3,11 @@
 
 #include <vector>
 
-#include "averaging/dumps/dump_reader.hpp"
 #include "averaging/sharing/cell_sharing.hpp"
+#include "averaging/values/ledger.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
-
-/// Where the particles' volume went, m^3: volume_in = deposited + outside.
-struct Ledger {
-  double volume_in = 0;  ///< of all particles
-  double deposited = 0;  ///< in the grid's cells
-  double outside = 0;    ///< beyond the grid
-  double clipped = 0;    ///< of the deposited: moved to neighbours, from within walls or above a cap
-};
-
-Ledger& operator+=(Ledger& ledger, const Ledger& other);
 
 /// Sums over the particles of one record, per cell of a grid of n cells. V is the part of a particle's volume
 /// in the cell, d the diameter of the sphere of the particle's volume, v its velocity.

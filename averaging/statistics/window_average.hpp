@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "averaging/files/solids_file.hpp"
 #include "averaging/statistics/window_moments.hpp"
+#include "averaging/values/solids_window.hpp"
 
 namespace millfoam::averaging {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 #include "averaging/walls/clipped_polygon.hpp"
 #include "averaging/walls/column_volumes.hpp"
 #include "averaging/walls/disc_part.hpp"

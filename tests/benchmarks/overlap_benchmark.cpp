@@ -10,7 +10,7 @@
 
 #include "averaging/overlap/sphere_template.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 #include "averaging/sharing/box_exact.hpp"
 #include "averaging/sharing/box_sampling.hpp"
 #include "averaging/sharing/cylinder_exact.hpp"

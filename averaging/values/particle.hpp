@@ -2,8 +2,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
-#include "averaging/grids/box_grid.hpp"
+#include "averaging/values/vector3.hpp"
 
 namespace millfoam::averaging {
 
@@ -24,6 +25,13 @@ struct Superquadric {
   Vector3 half_axes{};                           ///< a, b, c, m
   std::array<double, 2> blockiness{2, 2};        ///< n1, n2; 2 and 2 is an ellipsoid
   std::array<double, 4> quaternion{1, 0, 0, 0};  ///< turns the body's frame into the lab's; scalar part first
+};
+
+/// All balls at one time.
+struct ParticleRecord {
+  long long step = 0;  ///< DEM time-step
+  std::vector<Particle> particles;
+  std::vector<Superquadric> shapes;  ///< [particles], or empty when all are spheres
 };
 
 }  // namespace millfoam::averaging

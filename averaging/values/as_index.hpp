@@ -6,7 +6,7 @@
 namespace millfoam::averaging {
 
 /// A number that is known not to be negative, as an index.
-inline std::size_t at(int number) {
+inline std::size_t as_index(int number) {
   return static_cast<std::size_t>(number);
 }
 
