@@ -29,7 +29,7 @@ struct SolidsHeader {
   double time0 = 0;                        ///< DEM time at which the first window begins, s
   double timestep = 0;                     ///< of the DEM run, s
   bool whole_run = false;                  ///< one window over the whole run
-  std::string method;                      ///< how balls were shared between cells, in words
+  std::string method;                      ///< how balls were deposited in cells, in words
   std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
   double smoothing = 0;                    ///< width of the diffusion on the mesh, m; 0: none
   std::optional<double> solidity_cap;      ///< above which solids were moved to neighbours

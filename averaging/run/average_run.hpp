@@ -29,13 +29,13 @@ struct MeshRequest {
   double smoothing = 0;             ///< its width, m; 0: `usual_smoothing` Sauter diameters of the first dump
 };
 
-/// How balls are shared between cells.
-enum class SharingMethod {
+/// How balls are deposited in cells.
+enum class DepositionMethod {
   exact,  ///< exact volumes of intersection
   sample  ///< points of a template
 };
 
-/// What balls are shared between.
+/// Where balls are deposited.
 using GridRequest = std::variant<BoxGrid, CylinderGrid, MeshRequest>;
 
 /// A series of windows of one length.
@@ -52,15 +52,15 @@ struct AverageRequest {
   std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.json beside the dumps
   std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
   GridRequest grid;
-  SharingMethod method = SharingMethod::exact;
+  DepositionMethod method = DepositionMethod::exact;
   int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics
   std::vector<std::filesystem::path> walls;  ///< STL files, or a mesh file, within which voxels count
   std::optional<double> solidity_cap;
   std::vector<WindowsRequest> windows;  ///< all are averaged in one pass over the dumps
   std::optional<double> start;          ///< DEM time, s
   std::optional<double> end;            ///< DEM time, s
-  /// Share of the balls' volume that may lie outside the grid in the first record and in the last one. A grid
-  /// that misses more cannot be meant for these balls.
+  /// Deposit of the balls' volume that may lie outside the grid in the first record and in the last one. A
+  /// grid that misses more cannot be meant for these balls.
   double largest_outside = 0.5;
   std::string mill_averages;  ///< fingerprint of the mill and its averages, for the file; empty: not known
   int threads = 0;            ///< of this process; 0: as many as OpenMP gives

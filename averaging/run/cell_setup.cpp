@@ -4,17 +4,18 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/deposition/exact_box_deposition.hpp"
+#include "averaging/deposition/exact_cylinder_deposition.hpp"
+#include "averaging/deposition/exact_mesh_deposition.hpp"
+#include "averaging/deposition/sampled_box_deposition.hpp"
+#include "averaging/deposition/sampled_cylinder_deposition.hpp"
+#include "averaging/deposition/sampled_mesh_deposition.hpp"
 #include "averaging/grids/neighbours.hpp"
 #include "averaging/mesh/deforming_mesh.hpp"
 #include "averaging/mesh/mesh_cells.hpp"
 #include "averaging/mesh/mesh_file.hpp"
 #include "averaging/mesh/moving_mesh.hpp"
 #include "averaging/mesh/periodic_faces.hpp"
-#include "averaging/sharing/box_exact.hpp"
-#include "averaging/sharing/box_sampling.hpp"
-#include "averaging/sharing/cylinder_exact.hpp"
-#include "averaging/sharing/cylinder_sampling.hpp"
-#include "averaging/sharing/mesh_sharing.hpp"
 
 namespace millfoam::averaging {
 
@@ -24,7 +25,7 @@ using Note = std::function<void(const std::string&)>;
 
 std::string method_in_words(const AverageRequest& request) {
   const std::string points = std::to_string(request.template_points) + " points along a diameter";
-  return request.method == SharingMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
+  return request.method == DepositionMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
 }
 
 std::string in_words(double number) {
@@ -42,8 +43,9 @@ std::string rotation(double angular_velocity) {
 
 /// One of two classes for the same cells, by the method asked for.
 template <typename Exact, typename Sampling, typename... Arguments>
-std::unique_ptr<CellSharing> by_method(SharingMethod method, Arguments&&... arguments) {
-  if (method == SharingMethod::exact) return std::make_unique<Exact>(std::forward<Arguments>(arguments)...);
+std::unique_ptr<Deposition> by_method(DepositionMethod method, Arguments&&... arguments) {
+  if (method == DepositionMethod::exact)
+    return std::make_unique<Exact>(std::forward<Arguments>(arguments)...);
   return std::make_unique<Sampling>(std::forward<Arguments>(arguments)...);
 }
 
@@ -104,12 +106,12 @@ CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const
 
 CellSetup set_up_cells(const BoxGrid& grid, const AverageRequest& request, const RunSettings& settings,
                        const Note& note) {
-  return set_up_voxels<BoxExact, BoxSampling>(grid, request, settings, note);
+  return set_up_voxels<ExactBoxDeposition, SampledBoxDeposition>(grid, request, settings, note);
 }
 
 CellSetup set_up_cells(const CylinderGrid& grid, const AverageRequest& request, const RunSettings& settings,
                        const Note& note) {
-  return set_up_voxels<CylinderExact, CylinderSampling>(grid, request, settings, note);
+  return set_up_voxels<ExactCylinderDeposition, SampledCylinderDeposition>(grid, request, settings, note);
 }
 
 /// How a mesh that keeps its shape moves, in the words of `parse_motion`; empty at rest.
@@ -190,8 +192,8 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
     setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
     note("smoothing over a width of " + in_words(setup.smoothing) + " m");
   }
-  setup.sharing = by_method<MeshExact, MeshSampling>(whole.method, std::move(mesh), whole.template_points,
-                                                     request.period_z);
+  setup.deposition = by_method<ExactMeshDeposition, SampledMeshDeposition>(
+      whole.method, std::move(mesh), whole.template_points, request.period_z);
   return setup;
 }
 

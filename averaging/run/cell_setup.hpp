@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "averaging/deposition/deposition.hpp"
 #include "averaging/grids/grid.hpp"
 #include "averaging/mesh/mesh_diffusion.hpp"
 #include "averaging/run/average_run.hpp"
 #include "averaging/run/voxel_room.hpp"
-#include "averaging/sharing/cell_sharing.hpp"
 #include "averaging/statistics/window_average.hpp"
 
 namespace millfoam::averaging {
@@ -25,7 +25,7 @@ struct RunSettings {
 /// What a request's grid, method and walls come to: prepared once, and shared by all threads.
 struct CellSetup {
   Grid grid;
-  std::unique_ptr<CellSharing> sharing;  ///< each thread has a clone of it
+  std::unique_ptr<Deposition> deposition;  ///< each thread has a clone of it
   CellRoom room;
   std::shared_ptr<const VoxelRoom> walls;          ///< null unless walls cut the cells
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed

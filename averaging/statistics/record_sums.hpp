@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "averaging/sharing/cell_sharing.hpp"
+#include "averaging/deposition/deposition.hpp"
 #include "averaging/values/ledger.hpp"
 #include "averaging/values/particle.hpp"
 
@@ -32,8 +32,8 @@ struct RecordSums {
   double& at(std::size_t cell, std::size_t column) { return values[cell * columns + column]; }
 };
 
-/// Shares all particles of a record between the cells at a DEM time, s. `sums` is overwritten; its storage is
-/// used again.
-void sum_record(CellSharing& sharing, const ParticleRecord& record, double time, RecordSums& sums);
+/// Deposits all particles of a record in the cells at a DEM time, s. `sums` is overwritten; its storage is
+/// used again. Throws as `Deposition`.
+void sum_record(Deposition& deposition, const ParticleRecord& record, double time, RecordSums& sums);
 
 }  // namespace millfoam::averaging

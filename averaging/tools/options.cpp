@@ -224,7 +224,7 @@ AverageRequest as_request(const Options& options) {
   request.dumps = options.dumps;
   request.timestep = options.timestep;
   request.angular_velocity = options.speed;
-  request.method = options.method == "exact" ? SharingMethod::exact : SharingMethod::sample;
+  request.method = options.method == "exact" ? DepositionMethod::exact : DepositionMethod::sample;
   request.template_points = options.template_points;
   request.walls = matching_files(options.walls);
   request.solidity_cap = options.solidity_cap;

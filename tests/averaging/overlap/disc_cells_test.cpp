@@ -8,7 +8,7 @@
 #include <random>
 
 #include "averaging/overlap/gauss_legendre.hpp"
-#include "tests/averaging/overlap/quadrature.hpp"
+#include "tests/averaging/overlap/quadrature_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {

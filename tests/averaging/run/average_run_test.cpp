@@ -77,7 +77,7 @@ TEST_F(AverageRun, WritesWindowsWithTheVolumeWhereTheBallIs) {
 TEST_F(AverageRun, SamplingAgreesWithExactVolumesToTheTemplatesError) {
   run();
   const SolidsWindow exact = SolidsReader(output()).read_window(15);
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   run();
   const SolidsWindow sampled = SolidsReader(output()).read_window(15);
   EXPECT_EQ(SolidsReader(output()).header().method, "sample, 12 points along a diameter");
@@ -179,9 +179,9 @@ TEST_F(AverageRun, AStoppedRunOfOtherSettingsIsNotTakenUp) {
   run();
   const std::string fresh = bytes(output());
   request.checkpoint_interval = 0;
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   run_and_stop(60);
-  request.method = SharingMethod::exact;
+  request.method = DepositionMethod::exact;
   run();
   expect_named(notes.back(), {"other dumps or settings"});
   EXPECT_EQ(bytes(output()), fresh);
@@ -192,10 +192,10 @@ TEST_F(AverageRun, WindowsOfAnotherStoppedRunInBetweenAreNotTakenForItsOwn) {
   const std::string fresh = bytes(output());
   request.checkpoint_interval = 0;
   run_and_stop(60);
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   request.checkpoint_interval = 1000;
   run_and_stop(100);
-  request.method = SharingMethod::exact;
+  request.method = DepositionMethod::exact;
   run();
   EXPECT_EQ(bytes(output()), fresh);
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "averaging/sharing/box_exact.hpp"
+#include "averaging/deposition/exact_box_deposition.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -14,9 +14,9 @@ namespace {
 const BoxGrid unit_voxel({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
 
 void add(WindowMoments& moments, const std::vector<Particle>& particles) {
-  BoxExact sharing(unit_voxel);
+  ExactBoxDeposition deposition(unit_voxel);
   RecordSums sums;
-  sum_record(sharing, {0, particles, {}}, 0, sums);
+  sum_record(deposition, {0, particles, {}}, 0, sums);
   moments.add(sums);
 }
 
