@@ -78,9 +78,9 @@ CellLocator::CellLocator(std::shared_ptr<const MeshGeometry> geometry)
 
 void CellLocator::lay_grid() {
   const Eigen::AlignedBox3d& box = geometry_->box();
-  const double room = 1e-9 * box.diagonal().norm();
-  lower_ = box.min().array() - room;
-  const Vector3d extent = box.sizes().array() + 2 * room;
+  const double margin = 1e-9 * box.diagonal().norm();
+  lower_ = box.min().array() - margin;
+  const Vector3d extent = box.sizes().array() + 2 * margin;
   const double edge = std::cbrt(extent.prod() / static_cast<double>(geometry_->cells()));
   constexpr double most_along_an_axis = 1e5;
   shape_ = (extent / edge).array().round().max(1).min(most_along_an_axis).cast<int>();

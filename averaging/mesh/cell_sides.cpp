@@ -114,12 +114,12 @@ void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
 
 bool CellSides::is_star(const MeshGeometry& geometry, int cell) const {
   const Vector3d& centre = geometry.centres()[as_index(cell)];
-  const double room = 1e-6 * std::cbrt(geometry.volumes()[as_index(cell)]);
+  const double margin = 1e-6 * std::cbrt(geometry.volumes()[as_index(cell)]);
   const auto [begin, end] = geometry.facets_of(cell);
   return std::all_of(begin, end, [&](int f) {
     const Facet& facet = geometry.facets()[as_index(f)];
     const double height = facet.offset - facet.normal.dot(centre);
-    return (facet.owner == cell ? height : -height) > room;
+    return (facet.owner == cell ? height : -height) > margin;
   });
 }
 

@@ -16,7 +16,7 @@ namespace millfoam::averaging {
 /// the face's innermost point and n . x = high through the outermost point of the cell. What is beyond one
 /// `high` is outside; what is below every `low` sees all faces from inside and is inside, by the winding
 /// number, of convex and other cells alike. For a convex cell with flat faces low = high. The planes are kept
-/// in single precision, with what that may cost added to the room between them.
+/// in single precision, with what that may cost added to the margin between them.
 ///
 /// Where the planes leave it unclear, it is settled by the facets. The ray from the centroid of a cell that
 /// is star-shaped about it leaves the cell once; if that is through a face whose plane left it unclear, the

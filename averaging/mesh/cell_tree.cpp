@@ -77,9 +77,9 @@ void CellTree::fit_leaf(Node& node) const {
   for (int i = node.first; i < node.first + node.count; ++i)
     box.extend(geometry_.boxes()[as_index(order_[as_index(i)])]);
   // More than single precision loses, so that no point on the boundary is missed.
-  const double room = 1e-6 * geometry_.box().diagonal().norm();
-  node.low = as_array(sides_.local(box.min() - Vector3d::Constant(room)));
-  node.high = as_array(sides_.local(box.max() + Vector3d::Constant(room)));
+  const double margin = 1e-6 * geometry_.box().diagonal().norm();
+  node.low = as_array(sides_.local(box.min() - Vector3d::Constant(margin)));
+  node.high = as_array(sides_.local(box.max() + Vector3d::Constant(margin)));
 }
 
 /// Fits all boxes and returns their surface over that of the cells' own boxes.

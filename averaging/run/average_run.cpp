@@ -52,8 +52,8 @@ class Collector {
     // Journals are begun anew only when no note of an earlier run can lead to them.
     if (!earlier) std::filesystem::remove(resume_);
     for (std::size_t s = 0; s < job.plans.size(); ++s) {
-      series_.emplace_back(request.windows[s].output, job.plans[s], job.settings.timestep, setup.room, cells,
-                           id, earlier ? earlier->rows[s] : 0);
+      series_.emplace_back(request.windows[s].output, job.plans[s], job.settings.timestep, setup.limits,
+                           cells, id, earlier ? earlier->rows[s] : 0);
       if (earlier) series_.back().restore(earlier->open[s]);
     }
     if (earlier) next_block_ = earlier->next_block;
@@ -112,7 +112,8 @@ class Collector {
     }
     for (std::size_t s = 0; s < earlier->rows.size(); ++s) {
       const std::filesystem::path journal = WindowSeries::journal_path(request_.windows[s].output);
-      if (WindowJournal::holds(journal, id, cells, !setup_.room.volumes.empty(), earlier->rows[s])) continue;
+      if (WindowJournal::holds(journal, id, cells, !setup_.limits.whole_volumes.empty(), earlier->rows[s]))
+        continue;
       progress_.note("the finished windows in " + journal.string() +
                      " are not those of the unfinished run: starting afresh");
       return std::nullopt;
@@ -139,7 +140,7 @@ class Collector {
     header.angular_velocity = job_.settings.angular_velocity;
     header.smoothing = setup_.smoothing;
     header.solidity_cap = request_.solidity_cap;
-    header.inside_fractions = !setup_.room.volumes.empty();
+    header.inside_fractions = !setup_.limits.whole_volumes.empty();
     header.program = program();
     header.mill_averages = request_.mill_averages;
     if (job_.notes) {

@@ -56,9 +56,9 @@ std::vector<double> voxel_volumes(const Grid& grid) {
 }
 
 /// The walls that cut the voxels, turning with the mill.
-std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
-                                              const AverageRequest& request, const RunSettings& settings,
-                                              const Note& note) {
+std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
+                                                const AverageRequest& request, const RunSettings& settings,
+                                                const Note& note) {
   Surface surface;
   double time = 0;
   if (request.walls.size() == 1 && request.walls[0].extension() == ".h5") {
@@ -84,7 +84,7 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
   } else if (!settings.angular_velocity) {
     note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
-  return std::make_shared<VoxelRoom>(grid, surface, motion, time);
+  return std::make_shared<MovingWalls>(grid, surface, motion, time);
 }
 
 /// What boxes and cylinders have in common.
@@ -95,12 +95,12 @@ CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const
                   {},      nullptr,
                   nullptr, method_in_words(request),
                   0};
-  setup.room.solidity_cap = request.solidity_cap;
+  setup.limits.solidity_cap = request.solidity_cap;
   if (!request.walls.empty()) {
     setup.walls = moving_walls(grid, request, settings, note);
-    setup.room.volumes = voxel_volumes(setup.grid);
+    setup.limits.whole_volumes = voxel_volumes(setup.grid);
   }
-  if (request.solidity_cap || setup.walls) setup.room.neighbours = neighbours(grid);
+  if (request.solidity_cap || setup.walls) setup.limits.neighbours = neighbours(grid);
   return setup;
 }
 
@@ -185,8 +185,8 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   cells.time = time;
 
   CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0};
-  setup.room.solidity_cap = whole.solidity_cap;
-  if (whole.solidity_cap) setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
+  setup.limits.solidity_cap = whole.solidity_cap;
+  if (whole.solidity_cap) setup.limits.neighbours = neighbours(mesh->geometry(), request.period_z);
   if (request.smoothed) {
     setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
     setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);

@@ -10,8 +10,8 @@
 #include "averaging/grids/grid.hpp"
 #include "averaging/mesh/mesh_diffusion.hpp"
 #include "averaging/run/average_run.hpp"
-#include "averaging/run/voxel_room.hpp"
 #include "averaging/statistics/window_average.hpp"
+#include "averaging/walls/moving_walls.hpp"
 
 namespace millfoam::averaging {
 
@@ -26,8 +26,8 @@ struct RunSettings {
 struct CellSetup {
   Grid grid;
   std::unique_ptr<Deposition> deposition;  ///< each thread has a clone of it
-  CellRoom room;
-  std::shared_ptr<const VoxelRoom> walls;          ///< null unless walls cut the cells
+  CellLimits limits;
+  std::shared_ptr<const MovingWalls> walls;        ///< null unless walls cut the cells
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed
   std::string method;                              ///< in words, for the solids file
   double smoothing = 0;                            ///< width, m

@@ -18,7 +18,7 @@ const WindowMoments& RecordWorker::process(const RecordBlock& block) {
     const ParticleRecord record = read_dump(dumps_[r].path);
     const double time = static_cast<double>(record.step) * timestep_;
     sum_record(*deposition_, record, time, sums_);
-    if (setup_.walls) sums_.cell_volumes = setup_.walls->volumes(time);
+    if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
     if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
     moments_.add(sums_);
   }

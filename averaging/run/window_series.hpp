@@ -17,9 +17,9 @@ class WindowSeries {
   /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
   /// @param id      of the run, for the journal
   /// @param rows    finished windows of an earlier run that was killed
-  /// @param room    for `average`; must outlive the series
-  WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep, const CellRoom& room,
-               std::size_t cells, std::size_t id, std::size_t rows);
+  /// @param limits  for `average`; must outlive the series
+  WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep,
+               const CellLimits& limits, std::size_t cells, std::size_t id, std::size_t rows);
 
   /// Adds a block: the next one, or one that no window of this series holds.
   void add(const RecordBlock& block, const WindowMoments& moments);
@@ -46,7 +46,7 @@ class WindowSeries {
   std::filesystem::path output_;
   WindowPlan plan_;
   double timestep_;
-  const CellRoom& room_;
+  const CellLimits& limits_;
   WindowMoments open_;
   WindowJournal journal_;
 };

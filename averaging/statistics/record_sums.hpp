@@ -24,7 +24,7 @@ struct RecordSums {
   };
 
   std::vector<double> values;        ///< [n][columns]
-  std::vector<double> cell_volumes;  ///< [n] room for balls and fluid in the cell at this time, m^3
+  std::vector<double> cell_volumes;  ///< [n] inside the mill, for balls and fluid, at this time, m^3
   Ledger ledger;
 
   std::size_t cells() const { return cell_volumes.size(); }

@@ -40,7 +40,7 @@ class WindowMoments {
     return sums_[cell * RecordSums::columns + column];
   }
   /// Sum over the records of the cell's volume, m^3.
-  double cell_volume(std::size_t cell) const { return spread(cell)[room]; }
+  double cell_volume(std::size_t cell) const { return spread(cell)[inside_volume]; }
   /// Mean square deviation of the records' solidities from their mean.
   double solidity_variance(std::size_t cell) const;
   /// The same of the records' mean velocities, weighted by the balls' volume; component 0 to 2, m^2/s^2.
@@ -54,7 +54,7 @@ class WindowMoments {
  private:
   /// Columns of the spreads.
   enum Spread : std::size_t {
-    room,                                  ///< sum of cell volumes
+    inside_volume,                         ///< sum of cell volumes
     solidity_mean,                         ///< of the records' solidities
     solidity_squares,                      ///< sum of squared differences from it
     velocity_mean,                         ///< of the records' velocities, weighted by volume; three columns

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "tests/averaging/deposition/deposition_support.hpp"
 
 namespace millfoam::averaging {

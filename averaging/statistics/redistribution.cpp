@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/walls/solidity_cap.hpp"
+#include "averaging/statistics/redistribution.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -51,7 +51,7 @@ class Rings {
   std::size_t walk_ = 0;
 };
 
-/// Moves the volume above a cell's capacity into the nearest rings with room.
+/// Moves the volume above a cell's capacity into the nearest rings with free volume.
 void move_from(std::size_t cell, double excess, std::size_t columns, const std::vector<double>& capacities,
                Rings& rings, std::vector<double>& values) {
   const double volume = values[cell * columns];
@@ -61,7 +61,7 @@ void move_from(std::size_t cell, double excess, std::size_t columns, const std::
     for (std::size_t k = 0; k < columns; ++k) result[k] = values[cell * columns + k] / volume;
     return result;
   }();
-  const auto free_room = [&](std::size_t c) { return std::max(0.0, capacities[c] - values[c * columns]); };
+  const auto free_volume = [&](std::size_t c) { return std::max(0.0, capacities[c] - values[c * columns]); };
   double left = excess;
   for (auto ring = rings.next(rings.start(cell)); left > 0; ring = rings.next(ring)) {
     if (ring.empty()) {
@@ -70,12 +70,12 @@ void move_from(std::size_t cell, double excess, std::size_t columns, const std::
               << " m3 and no cell that they can reach has room for them; expected a larger cap";
       throw std::runtime_error(message.str());
     }
-    double room = 0;
-    for (const std::size_t c : ring) room += free_room(c);
-    if (room == 0) continue;
-    const double moved = std::min(left, room);
+    double free = 0;
+    for (const std::size_t c : ring) free += free_volume(c);
+    if (free == 0) continue;
+    const double moved = std::min(left, free);
     for (const std::size_t c : ring) {
-      const double part = moved * (free_room(c) / room);
+      const double part = moved * (free_volume(c) / free);
       for (std::size_t k = 0; k < columns; ++k) values[c * columns + k] += part * per_volume[k];
     }
     left = moved == left ? 0 : left - moved;
@@ -85,8 +85,9 @@ void move_from(std::size_t cell, double excess, std::size_t columns, const std::
 
 }  // namespace
 
-double move_excess(std::vector<double>& values, std::size_t columns, const std::vector<double>& capacities,
-                   const std::vector<std::array<int, 2>>& neighbours) {
+double redistribute_excess(std::vector<double>& values, std::size_t columns,
+                           const std::vector<double>& capacities,
+                           const std::vector<std::array<int, 2>>& neighbours) {
   assert(values.size() == capacities.size() * columns);
   Rings rings(capacities.size(), neighbours);
   double moved = 0;
@@ -100,24 +101,25 @@ double move_excess(std::vector<double>& values, std::size_t columns, const std::
   return moved;
 }
 
-HandedOver empty_walls(std::vector<double>& values, std::size_t columns, const std::vector<double>& room,
-                       const std::vector<std::array<int, 2>>& neighbours) {
-  assert(values.size() == room.size() * columns);
+Redistributed redistribute_from_walls(std::vector<double>& values, std::size_t columns,
+                                      const std::vector<double>& inside_volumes,
+                                      const std::vector<std::array<int, 2>>& neighbours) {
+  assert(values.size() == inside_volumes.size() * columns);
   constexpr int furthest = 3;
-  Rings rings(room.size(), neighbours);
-  HandedOver result;
-  for (std::size_t cell = 0; cell < room.size(); ++cell) {
+  Rings rings(inside_volumes.size(), neighbours);
+  Redistributed result;
+  for (std::size_t cell = 0; cell < inside_volumes.size(); ++cell) {
     double* const own = &values[cell * columns];
-    if (room[cell] > 0 || own[0] == 0) continue;
+    if (inside_volumes[cell] > 0 || own[0] == 0) continue;
     double taken = 0;
     auto ring = rings.start(cell);
     for (int n = 0; n < furthest && taken == 0; ++n) {
       ring = rings.next(ring);
-      for (const std::size_t other : ring) taken += room[other];
+      for (const std::size_t other : ring) taken += inside_volumes[other];
     }
     (taken > 0 ? result.moved : result.lost) += own[0];
     for (const std::size_t other : ring) {
-      const double part = taken > 0 ? room[other] / taken : 0;
+      const double part = taken > 0 ? inside_volumes[other] / taken : 0;
       for (std::size_t k = 0; k < columns; ++k) values[other * columns + k] += part * own[k];
     }
     std::fill_n(own, columns, 0.0);

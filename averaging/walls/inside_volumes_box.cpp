@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/walls/clipped_polygon.hpp"
 #include "averaging/walls/column_volumes.hpp"
-#include "averaging/walls/inside_fraction.hpp"
+#include "averaging/walls/inside_volumes.hpp"
 
 namespace millfoam::averaging {
 
@@ -33,7 +33,7 @@ class BoxVolumes {
     std::vector<double> result(grid_.size());
     for (std::size_t column = 0; column < grid_.size() / nx; ++column) {
       columns_.for_each_slab(column, grid_.spacing()[0], [&](std::size_t i, double volume) {
-        result[column * nx + i] = tidied(volume, grid_.voxel_volume());
+        result[column * nx + i] = without_round_off(volume, grid_.voxel_volume());
       });
     }
     return result;

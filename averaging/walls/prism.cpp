@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/walls/disc_part.hpp"
+#include "averaging/walls/prism.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// Adds the triangle of three points.
-void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, double level, BelowPlane& sum) {
+void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, double level, Prism& sum) {
   const Vector3d ab = b - a, ac = c - a;
   const double area = (ab.x() * ac.y() - ab.y() * ac.x()) / 2;
   sum.area += area;
@@ -31,7 +31,7 @@ double excess_over_sine(double angle) {
 
 /// Adds the segment of the circle between the chord from `a` to `b` and the arc, of less than half a turn.
 void add_segment(const Vector3d& a, const Vector3d& b, double level, double radius, const Vector2d& slope,
-                 BelowPlane& sum) {
+                 Prism& sum) {
   const Vector2d from = a.head<2>(), to = b.head<2>();
   const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
   const double sine = std::sin(angle / 2), cosine = std::cos(angle / 2);
@@ -58,16 +58,16 @@ std::optional<std::array<double, 2>> inner_part(const Vector3d& a, const Vector3
 
 }  // namespace
 
-BelowPlane below(const ClippedPolygon& polygon, double level) {
-  BelowPlane sum;
+Prism prism_below(const ClippedPolygon& polygon, double level) {
+  Prism sum;
   for (std::size_t c = 2; c < polygon.size(); ++c) {
     add_triangle(polygon[0], polygon[c - 1], polygon[c], level, sum);
   }
   return sum;
 }
 
-BelowPlane below(const ClippedPolygon& polygon, double level, double radius, const Vector2d& slope) {
-  BelowPlane sum;
+Prism prism_below(const ClippedPolygon& polygon, double level, double radius, const Vector2d& slope) {
+  Prism sum;
   Vector3d first, last;
   bool any = false, last_leaves = false, first_enters = false;
   const auto join = [&](const Vector3d& next, bool next_enters) {

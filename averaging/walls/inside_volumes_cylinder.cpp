@@ -5,8 +5,8 @@
 #include "averaging/values/pi.hpp"
 #include "averaging/walls/clipped_polygon.hpp"
 #include "averaging/walls/column_volumes.hpp"
-#include "averaging/walls/disc_part.hpp"
-#include "averaging/walls/inside_fraction.hpp"
+#include "averaging/walls/inside_volumes.hpp"
+#include "averaging/walls/prism.hpp"
 
 namespace millfoam::averaging {
 
@@ -111,7 +111,7 @@ class CylinderVolumes {
       for (int i = 0; i < nr; ++i) {
         const double whole = grid_.voxel_volume({i, j, 0});
         columns_.for_each_slab(column(i, j), grid_.spacing()[2], [&](std::size_t k, double volume) {
-          result[grid_.offset({i, j, static_cast<int>(k)})] = tidied(volume, whole);
+          result[grid_.offset({i, j, static_cast<int>(k)})] = without_round_off(volume, whole);
         });
       }
     }
@@ -132,12 +132,12 @@ class CylinderVolumes {
     for (const Vector3d& corner : piece) farthest = std::max(farthest, corner.head<2>().norm());
     const int nr = grid_.shape()[0];
     const auto within = [&](int i) {
-      return farthest <= radius(i) ? below(piece, level) : below(piece, level, radius(i), slope);
+      return farthest <= radius(i) ? prism_below(piece, level) : prism_below(piece, level, radius(i), slope);
     };
     int i = static_cast<int>(
         std::clamp(std::ceil((farthest - radius(0)) / grid_.spacing()[0]), 0.0, static_cast<double>(nr)));
-    for (BelowPlane outer = within(i); i-- > 0;) {
-      const BelowPlane inner = within(i);
+    for (Prism outer = within(i); i-- > 0;) {
+      const Prism inner = within(i);
       columns_.add(column(i, j), static_cast<std::size_t>(k), outer.area - inner.area,
                    outer.volume - inner.volume);
       if (inner.area == 0 && inner.volume == 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/walls/inside_fraction.hpp"
+#include "averaging/walls/inside_volumes.hpp"
 
 #include <gtest/gtest.h>
 
