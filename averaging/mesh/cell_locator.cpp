@@ -63,7 +63,7 @@ struct CellLocator::Filling {
 };
 
 CellLocator::CellLocator(std::shared_ptr<const MeshGeometry> geometry)
-    : geometry_(std::move(geometry)), sides_(*geometry_, order_of_cells(*geometry_)) {
+    : geometry_(std::move(geometry)), containment_(*geometry_, order_of_cells(*geometry_)) {
   lay_grid();
   list_cells();
   voxels_.resize(voxel_begin_.size() - 1);
@@ -100,7 +100,8 @@ void CellLocator::list_cells() {
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
           const Vector3d middle = lower_ + size.cwiseProduct(Vector3d(i + 0.5, j + 0.5, k + 0.5));
-          if (sides_.side_of_box(cell, sides_.local(middle), half) == CellSides::Side::outside) continue;
+          const CellContainment::LocalPoint local = containment_.local(middle);
+          if (containment_.test_box(cell, local, half) == CellContainment::Answer::outside) continue;
           found.push_back({static_cast<int>(index({i, j, k})), cell});
         }
       }
@@ -138,14 +139,14 @@ void CellLocator::fill_voxel(const Array3i& voxel) {
 void CellLocator::fill(Filling& filling, const Array3i& corner, int level, const std::vector<int>& cells) {
   const Vector3d half = per_metre_.cwiseInverse() * (double(1 << level) / 2);
   const Vector3d middle = lower_ + corner.cast<double>().matrix().cwiseQuotient(per_metre_) + half;
-  const CellSides::Local local = sides_.local(middle);
+  const CellContainment::LocalPoint local = containment_.local(middle);
   const Eigen::Vector3f reach = (half * (1 + 1e-6)).cast<float>();
   std::vector<int> meeting;
   int code = outside;
   for (const int cell : cells) {
-    const CellSides::Side side = sides_.side_of_box(cell, local, reach);
-    if (side == CellSides::Side::inside) code = cell;
-    if (side == CellSides::Side::unclear) meeting.push_back(cell);
+    const CellContainment::Answer answer = containment_.test_box(cell, local, reach);
+    if (answer == CellContainment::Answer::inside) code = cell;
+    if (answer == CellContainment::Answer::unclear) meeting.push_back(cell);
   }
   const int finest = deepest - filling.depth;
   const bool known = code != outside || meeting.empty();
@@ -181,22 +182,22 @@ int CellLocator::list_code(Filling& filling, const std::vector<int>& cells) {
 }
 
 int CellLocator::choose(const Vector3d& point, int hint, int list) const {
-  const CellSides::Local local = sides_.local(point);
-  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const CellContainment::LocalPoint local = containment_.local(point);
+  if (hint >= 0 && containment_.test(hint, local) == CellContainment::Answer::inside) return hint;
   const int* begin = lists_.data() + list + 1;
   const int* end = begin + begin[-1];
   thread_local std::vector<int> unclear;
   unclear.clear();
   for (const int* cell = begin; cell != end; ++cell) {
     if (*cell == hint) continue;
-    const CellSides::Side side = sides_.side(*cell, local);
-    if (side == CellSides::Side::inside) return *cell;
-    if (side == CellSides::Side::unclear) unclear.push_back(*cell);
+    const CellContainment::Answer answer = containment_.test(*cell, local);
+    if (answer == CellContainment::Answer::inside) return *cell;
+    if (answer == CellContainment::Answer::unclear) unclear.push_back(*cell);
   }
   if (hint >= 0 && std::binary_search(begin, end, hint)) {
     unclear.insert(std::upper_bound(unclear.begin(), unclear.end(), hint), hint);
   }
-  return unclear.empty() ? outside : sides_.settle(*geometry_, point, unclear);
+  return unclear.empty() ? outside : containment_.first_holding(*geometry_, point, unclear);
 }
 
 void CellLocator::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "averaging/mesh/cell_containment.hpp"
 #include "averaging/mesh/cell_search.hpp"
-#include "averaging/mesh/cell_sides.hpp"
 #include "averaging/mesh/mesh_geometry.hpp"
 
 namespace millfoam::averaging {
@@ -69,7 +69,7 @@ class CellLocator : public CellSearch {
   int list_code(Filling& filling, const std::vector<int>& cells);
 
   std::shared_ptr<const MeshGeometry> geometry_;
-  CellSides sides_;
+  CellContainment containment_;
   Eigen::Vector3d lower_;
   Eigen::Vector3d per_metre_;  ///< smallest fine voxels per m
   Eigen::Array3d limit_;       ///< the grid's extent in smallest fine voxels

@@ -22,18 +22,18 @@ double half_surface(const Vector3d& size) {
   return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
-Array3f as_array(const CellSides::Local& point) {
+Array3f as_array(const CellContainment::LocalPoint& point) {
   return {point.x, point.y, point.z};
 }
 
 }  // namespace
 
-CellTree::CellTree(const MeshGeometry& geometry) : geometry_(geometry), sides_(geometry) {
+CellTree::CellTree(const MeshGeometry& geometry) : geometry_(geometry), containment_(geometry) {
   build();
 }
 
 void CellTree::update() {
-  sides_.update(geometry_);
+  containment_.update(geometry_);
   if (fit() > worn * cost_) build();
 }
 
@@ -78,8 +78,8 @@ void CellTree::fit_leaf(Node& node) const {
     box.extend(geometry_.boxes()[as_index(order_[as_index(i)])]);
   // More than single precision loses, so that no point on the boundary is missed.
   const double margin = 1e-6 * geometry_.box().diagonal().norm();
-  node.low = as_array(sides_.local(box.min() - Vector3d::Constant(margin)));
-  node.high = as_array(sides_.local(box.max() + Vector3d::Constant(margin)));
+  node.low = as_array(containment_.local(box.min() - Vector3d::Constant(margin)));
+  node.high = as_array(containment_.local(box.max() + Vector3d::Constant(margin)));
 }
 
 /// Fits all boxes and returns their surface over that of the cells' own boxes.
@@ -102,8 +102,8 @@ double CellTree::fit() {
 }
 
 int CellTree::locate(const Vector3d& point, int hint) const {
-  const CellSides::Local local = sides_.local(point);
-  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const CellContainment::LocalPoint local = containment_.local(point);
+  if (hint >= 0 && containment_.test(hint, local) == CellContainment::Answer::inside) return hint;
   const Array3f place = as_array(local);
   thread_local std::vector<int> unclear;
   unclear.clear();
@@ -115,20 +115,20 @@ int CellTree::locate(const Vector3d& point, int hint) const {
     }
     for (int i = node.first; i < node.first + node.count; ++i) {
       const int cell = order_[as_index(i)];
-      const CellSides::Side side = sides_.side(cell, local);
-      if (side == CellSides::Side::inside) return cell;
-      if (side == CellSides::Side::unclear) unclear.push_back(cell);
+      const CellContainment::Answer answer = containment_.test(cell, local);
+      if (answer == CellContainment::Answer::inside) return cell;
+      if (answer == CellContainment::Answer::unclear) unclear.push_back(cell);
     }
     ++n;
   }
   if (unclear.empty()) return -1;
   std::sort(unclear.begin(), unclear.end());
-  return sides_.settle(geometry_, point, unclear);
+  return containment_.first_holding(geometry_, point, unclear);
 }
 
 void CellTree::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {
   cells.clear();
-  const Array3f low = as_array(sides_.local(box.min())), high = as_array(sides_.local(box.max()));
+  const Array3f low = as_array(containment_.local(box.min())), high = as_array(containment_.local(box.max()));
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!((high >= node.low).all() && (low <= node.high).all())) {

@@ -11,8 +11,8 @@
 
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/grids/cylinder_grid.hpp"
+#include "averaging/run/communicator.hpp"
 #include "averaging/run/solids_summary.hpp"
-#include "averaging/run/team.hpp"
 
 namespace millfoam::averaging {
 
@@ -86,6 +86,6 @@ struct AverageProgress {
 ///
 /// Throws DumpError, WindowError, SolidsFileError, MeshFileError or std::invalid_argument.
 std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,
-                                       Team& team);
+                                       Communicator& communicator);
 
 }  // namespace millfoam::averaging

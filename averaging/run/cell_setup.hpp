@@ -15,7 +15,7 @@
 
 namespace millfoam::averaging {
 
-/// What the notes of the DEM run and the request agree on.
+/// What the DEM run's metadata and the request agree on.
 struct RunSettings {
   double timestep = 0;                     ///< of the DEM run, s
   std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s

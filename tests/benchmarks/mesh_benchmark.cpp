@@ -116,13 +116,13 @@ BENCHMARK(rigid_random_points)->Arg(5)->Arg(11)->Arg(22)->Arg(46)->Unit(benchmar
 void baseline_every_cell(benchmark::State& state) {
   const TestMesh mesh = mill(size_of(state));
   const MeshGeometry geometry(mesh.topology, mesh.points);
-  const CellSides sides(geometry);
+  const CellContainment containment(geometry);
   Points points = coherent_points();
   points.resize(1000);
   const auto locate = [&](const Vector3d& point, int) {
     for (int cell = 0; cell < static_cast<int>(geometry.cells()); ++cell) {
       if (!geometry.boxes()[static_cast<std::size_t>(cell)].contains(point)) continue;
-      if (sides.side(cell, sides.local(point)) == CellSides::Side::inside) return cell;
+      if (containment.test(cell, containment.local(point)) == CellContainment::Answer::inside) return cell;
     }
     return -1;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/tools/mpi_team.hpp"
+#include "averaging/tools/mpi_communicator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,13 +22,13 @@ void in_pieces(Numbers& numbers, Action&& action) {
 
 }  // namespace
 
-bool MpiTeam::launched() {
+bool MpiCommunicator::launched() {
   constexpr std::array<const char*, 3> set_by_launchers{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"};
   return std::any_of(set_by_launchers.begin(), set_by_launchers.end(),
                      [](const char* name) { return std::getenv(name) != nullptr; });
 }
 
-MpiTeam::MpiTeam() {
+MpiCommunicator::MpiCommunicator() {
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
   if (provided < MPI_THREAD_SERIALIZED) {
@@ -38,38 +38,38 @@ MpiTeam::MpiTeam() {
   MPI_Comm_size(MPI_COMM_WORLD, &size_);
 }
 
-MpiTeam::~MpiTeam() {
+MpiCommunicator::~MpiCommunicator() {
   wait_until_sent();
   MPI_Finalize();
 }
 
-void MpiTeam::send(const std::vector<double>& numbers) {
+void MpiCommunicator::send(const std::vector<double>& numbers) {
   wait_until_sent();
-  under_way_ = numbers;
-  in_pieces(under_way_, [this](const double* first, int count) {
+  sending_ = numbers;
+  in_pieces(sending_, [this](const double* first, int count) {
     MPI_Request request = MPI_REQUEST_NULL;
     MPI_Isend(first, count, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD, &request);
     requests_.push_back(request);
   });
 }
 
-void MpiTeam::wait_until_sent() {
+void MpiCommunicator::wait_until_sent() {
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   requests_.clear();
 }
 
-void MpiTeam::receive(int rank, std::vector<double>& numbers) {
+void MpiCommunicator::receive(int rank, std::vector<double>& numbers) {
   in_pieces(numbers, [rank](double* first, int count) {
     MPI_Recv(first, count, MPI_DOUBLE, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   });
 }
 
-long long MpiTeam::from_first(long long number) {
+long long MpiCommunicator::broadcast(long long number) {
   MPI_Bcast(&number, 1, MPI_LONG_LONG, 0, MPI_COMM_WORLD);
   return number;
 }
 
-void MpiTeam::abort() {
+void MpiCommunicator::abort() {
   MPI_Abort(MPI_COMM_WORLD, 1);
   std::abort();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/mesh/cell_sides.hpp"
+#include "averaging/mesh/cell_containment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,16 +37,17 @@ double solid_angle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 }  // namespace
 
-CellSides::CellSides(const MeshGeometry& geometry, std::vector<int> order) : order_(std::move(order)) {
+CellContainment::CellContainment(const MeshGeometry& geometry, std::vector<int> order)
+    : order_(std::move(order)) {
   update(geometry);
 }
 
-CellSides::CellSides(const MeshGeometry& geometry) : order_(geometry.cells()) {
+CellContainment::CellContainment(const MeshGeometry& geometry) : order_(geometry.cells()) {
   std::iota(order_.begin(), order_.end(), 0);
   update(geometry);
 }
 
-void CellSides::update(const MeshGeometry& geometry) {
+void CellContainment::update(const MeshGeometry& geometry) {
   origin_ = geometry.box().center();
   const Vector3d reach = geometry.box().max().cwiseAbs().cwiseMax(geometry.box().min().cwiseAbs());
   // Rounding of the point, the normal and the sum, each 6e-8, bounded by 7 of them.
@@ -65,7 +66,7 @@ void CellSides::update(const MeshGeometry& geometry) {
   }
 }
 
-void CellSides::measure_face(const MeshGeometry& geometry, std::size_t face) {
+void CellContainment::measure_face(const MeshGeometry& geometry, std::size_t face) {
   const MeshTopology& topology = geometry.topology();
   Slab& slab = slabs_[face];
   slab.normal = area_vector(geometry, face);
@@ -82,7 +83,7 @@ void CellSides::measure_face(const MeshGeometry& geometry, std::size_t face) {
   }
 }
 
-void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
+void CellContainment::add_cell(const MeshGeometry& geometry, int cell) {
   const MeshTopology& topology = geometry.topology();
   const auto [first, last] = geometry.faces_of(cell);
   Eigen::Index lane = 4;
@@ -112,7 +113,7 @@ void CellSides::add_cell(const MeshGeometry& geometry, int cell) {
   }
 }
 
-bool CellSides::is_star(const MeshGeometry& geometry, int cell) const {
+bool CellContainment::is_star(const MeshGeometry& geometry, int cell) const {
   const Vector3d& centre = geometry.centres()[as_index(cell)];
   const double margin = 1e-6 * std::cbrt(geometry.volumes()[as_index(cell)]);
   const auto [begin, end] = geometry.facets_of(cell);
@@ -124,8 +125,9 @@ bool CellSides::is_star(const MeshGeometry& geometry, int cell) const {
 }
 
 /// Of a cell that is star-shaped about its centroid; unclear where the point is about on a facet.
-CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vector3d& point, int cell) const {
-  const Local place = local(point);
+CellContainment::Answer CellContainment::test_star_shaped(const MeshGeometry& geometry, const Vector3d& point,
+                                                          int cell) const {
+  const LocalPoint place = local(point);
   const auto [begin, end] = geometry.faces_of(cell);
   for (const int* face = begin; face != end; ++face) {
     const auto number = static_cast<std::size_t>(face - begin);
@@ -133,15 +135,15 @@ CellSides::Side CellSides::side_of_star(const MeshGeometry& geometry, const Vect
     const auto lane = static_cast<Eigen::Index>(number % 4);
     const float height = planes.nx[lane] * place.x + planes.ny[lane] * place.y + planes.nz[lane] * place.z;
     if (height < planes.low[lane]) continue;
-    const Side side = side_of_face(geometry, point, cell, *face);
-    if (side != Side::inside) return side;
+    const Answer answer = test_face(geometry, point, cell, *face);
+    if (answer != Answer::inside) return answer;
   }
-  return Side::inside;
+  return Answer::inside;
 }
 
 /// Inside also when the ray from the centroid through the point does not go through this face.
-CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vector3d& point, int cell,
-                                        int face) const {
+CellContainment::Answer CellContainment::test_face(const MeshGeometry& geometry, const Vector3d& point,
+                                                   int cell, int face) const {
   const Vector3d& centre = geometry.centres()[as_index(cell)];
   const Vector3d ray = point - centre;
   for (int f = geometry.first_facet(as_index(face)); f < geometry.first_facet(as_index(face) + 1); ++f) {
@@ -158,26 +160,27 @@ CellSides::Side CellSides::side_of_face(const MeshGeometry& geometry, const Vect
     }
     if (!is_met) continue;
     const double above = sign * (facet.normal.dot(point) - facet.offset);
-    if (std::abs(above) <= 1e3 * flat_) return Side::unclear;
-    if (above > 0) return Side::outside;
+    if (std::abs(above) <= 1e3 * flat_) return Answer::unclear;
+    if (above > 0) return Answer::outside;
   }
-  return Side::inside;
+  return Answer::inside;
 }
 
-CellSides::Side CellSides::side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const {
+CellContainment::Answer CellContainment::test_box(int cell, const LocalPoint& middle,
+                                                  const Eigen::Vector3f& half) const {
   Eigen::Array4f below = Eigen::Array4f::Constant(-1);
   for (int b = ranges_[as_index(cell)].begin; b < ranges_[as_index(cell)].end; ++b) {
     const Planes& planes = planes_[as_index(b)];
     const Eigen::Array4f height = planes.nx * middle.x + planes.ny * middle.y + planes.nz * middle.z;
     const Eigen::Array4f reach =
         planes.nx.abs() * half.x() + planes.ny.abs() * half.y() + planes.nz.abs() * half.z();
-    if ((height - reach - planes.high).maxCoeff() > 0) return Side::outside;
+    if ((height - reach - planes.high).maxCoeff() > 0) return Answer::outside;
     below = below.max(height + reach - planes.low);
   }
-  return below.maxCoeff() < 0 ? Side::inside : Side::unclear;
+  return below.maxCoeff() < 0 ? Answer::inside : Answer::unclear;
 }
 
-double CellSides::winding(const MeshGeometry& geometry, const Vector3d& point, int cell) const {
+double CellContainment::winding(const MeshGeometry& geometry, const Vector3d& point, int cell) const {
   double sum = 0;
   const auto [begin, end] = geometry.facets_of(cell);
   for (const int* f = begin; f != end; ++f) {
@@ -195,13 +198,14 @@ double CellSides::winding(const MeshGeometry& geometry, const Vector3d& point, i
   return sum / (4 * pi);
 }
 
-int CellSides::settle(const MeshGeometry& geometry, const Vector3d& point,
-                      const std::vector<int>& cells) const {
+int CellContainment::first_holding(const MeshGeometry& geometry, const Vector3d& point,
+                                   const std::vector<int>& cells) const {
   constexpr double seen_from_outside = 1e-6;
   for (const int cell : cells) {
-    const Side side = star_[as_index(cell)] != 0 ? side_of_star(geometry, point, cell) : Side::unclear;
-    if (side == Side::inside) return cell;
-    if (side == Side::unclear && winding(geometry, point, cell) > seen_from_outside) return cell;
+    const Answer answer =
+        star_[as_index(cell)] != 0 ? test_star_shaped(geometry, point, cell) : Answer::unclear;
+    if (answer == Answer::inside) return cell;
+    if (answer == Answer::unclear && winding(geometry, point, cell) > seen_from_outside) return cell;
   }
   return -1;
 }

@@ -22,48 +22,49 @@ namespace millfoam::averaging {
 /// is star-shaped about it leaves the cell once; if that is through a face whose plane left it unclear, the
 /// facet that the ray goes through decides. For other cells, and for points on a facet, the sum of the
 /// facets' solid angles does: 4 pi inside and 0 outside.
-class CellSides {
+class CellContainment {
  public:
-  enum class Side { outside, inside, unclear };
+  enum class Answer { outside, inside, unclear };
 
-  /// A point, or the middle of a box, as the planes want it.
-  struct Local {
+  /// A point, or the middle of a box, from the mesh's middle in m, in the planes' precision.
+  struct LocalPoint {
     float x, y, z;
   };
 
   /// Of cells whose planes lie in memory in the order of their numbers.
-  explicit CellSides(const MeshGeometry& geometry);
+  explicit CellContainment(const MeshGeometry& geometry);
 
   /// Of cells whose planes lie in memory in a given order of all their numbers.
-  CellSides(const MeshGeometry& geometry, std::vector<int> order);
+  CellContainment(const MeshGeometry& geometry, std::vector<int> order);
 
   /// Follows a geometry that has moved.
   void update(const MeshGeometry& geometry);
 
-  Local local(const Eigen::Vector3d& point) const {
+  LocalPoint local(const Eigen::Vector3d& point) const {
     const Eigen::Vector3f p = (point - origin_).cast<float>();
     return {p.x(), p.y(), p.z()};
   }
 
-  /// By the planes alone.
-  Side side(int cell, const Local& point) const {
+  /// Of a point, by the planes alone.
+  Answer test(int cell, const LocalPoint& point) const {
     const Range range = ranges_[static_cast<std::size_t>(cell)];
     Eigen::Array4f below = Eigen::Array4f::Constant(-1);
     for (int b = range.begin; b < range.end; ++b) {
       const Planes& planes = planes_[static_cast<std::size_t>(b)];
       const Eigen::Array4f height = planes.nx * point.x + planes.ny * point.y + planes.nz * point.z;
-      if ((height - planes.high).maxCoeff() > 0) return Side::outside;
+      if ((height - planes.high).maxCoeff() > 0) return Answer::outside;
       below = below.max(height - planes.low);
     }
-    return below.maxCoeff() < 0 ? Side::inside : Side::unclear;
+    return below.maxCoeff() < 0 ? Answer::inside : Answer::unclear;
   }
 
   /// Of a whole box about a point: outside and inside are certain.
   /// @param half  half its edges, m
-  Side side_of_box(int cell, const Local& middle, const Eigen::Vector3f& half) const;
+  Answer test_box(int cell, const LocalPoint& middle, const Eigen::Vector3f& half) const;
 
   /// The lowest of the cells, given in rising order, that holds the point, or -1, by solid angles.
-  int settle(const MeshGeometry& geometry, const Eigen::Vector3d& point, const std::vector<int>& cells) const;
+  int first_holding(const MeshGeometry& geometry, const Eigen::Vector3d& point,
+                    const std::vector<int>& cells) const;
 
  private:
   /// Four faces.
@@ -91,8 +92,8 @@ class CellSides {
   void measure_face(const MeshGeometry& geometry, std::size_t face);
   void add_cell(const MeshGeometry& geometry, int cell);
   bool is_star(const MeshGeometry& geometry, int cell) const;
-  Side side_of_star(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
-  Side side_of_face(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell, int face) const;
+  Answer test_star_shaped(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
+  Answer test_face(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell, int face) const;
   double winding(const MeshGeometry& geometry, const Eigen::Vector3d& point, int cell) const;
 
   Eigen::Vector3d origin_;

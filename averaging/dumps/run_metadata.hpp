@@ -7,8 +7,9 @@
 
 namespace millfoam::averaging {
 
-/// What the DEM driver notes in `run.json` beside its dumps, an object of JSON; other keys are allowed.
-struct RunNotes {
+/// What the DEM driver writes about its run in `run.json` beside its dumps, an object of JSON; other keys are
+/// allowed.
+struct RunMetadata {
   std::filesystem::path file;              ///< where it was read
   std::string run_id;                      ///< of the dry run: FNV-1a of the file's bytes, 16 hex digits
   std::optional<double> timestep;          ///< key `timestep_s`, s
@@ -25,16 +26,16 @@ struct RunNotes {
 /// a `format` other than millfoam-dumps, a `timestep_s` that is not a positive number, an `interval` that is
 /// not a positive whole number, and other values of another kind than above. A key that is null counts as not
 /// there.
-std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder);
+std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder);
 
-/// The DEM time-step, s: `given`, or else the notes'.
+/// The DEM time-step, s: `given`, or else the metadata's.
 /// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when
 /// `given` is not positive.
-double agreed_timestep(std::optional<double> given, const std::optional<RunNotes>& notes);
+double agreed_timestep(std::optional<double> given, const std::optional<RunMetadata>& metadata);
 
-/// The mill's angular velocity, rad/s: `given`, or else the notes', or nothing. Throws DumpError as
+/// The mill's angular velocity, rad/s: `given`, or else the metadata's, or nothing. Throws DumpError as
 /// `agreed_timestep` when they differ or `given` is not finite.
 std::optional<double> agreed_angular_velocity(std::optional<double> given,
-                                              const std::optional<RunNotes>& notes);
+                                              const std::optional<RunMetadata>& metadata);
 
 }  // namespace millfoam::averaging

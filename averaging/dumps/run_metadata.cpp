@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/dumps/run_notes.hpp"
+#include "averaging/dumps/run_metadata.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ std::string fnv1a(const std::string& bytes) {
 }
 
 /// The keys of an object in a file, which is named where a value cannot be.
-class NotedValues {
+class MetadataValues {
  public:
   /// Throws DumpError unless `text` is an object.
-  NotedValues(const std::string& text, std::string file) : file_(std::move(file)) {
+  MetadataValues(const std::string& text, std::string file) : file_(std::move(file)) {
     try {
       object_ = nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
@@ -88,7 +88,7 @@ class NotedValues {
   nlohmann::json object_;
 };
 
-std::optional<double> fines_share(const NotedValues& values) {
+std::optional<double> fines_share(const MetadataValues& values) {
   const auto mass = [&](const char* key) {
     return values.number(key, "a mass of 0 kg or more", [](double m) { return m >= 0 && std::isfinite(m); });
   };
@@ -99,58 +99,59 @@ std::optional<double> fines_share(const NotedValues& values) {
 
 }  // namespace
 
-std::optional<RunNotes> read_run_notes(const std::filesystem::path& folder) {
-  RunNotes notes;
-  notes.file = folder / "run.json";
-  std::ifstream input(notes.file, std::ios::binary);
+std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder) {
+  RunMetadata metadata;
+  metadata.file = folder / "run.json";
+  std::ifstream input(metadata.file, std::ios::binary);
   if (!input) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-  notes.run_id = fnv1a(text);
-  const NotedValues values(text, notes.file.string());
+  metadata.run_id = fnv1a(text);
+  const MetadataValues values(text, metadata.file.string());
   const std::string format = values.text("format");
   if (!format.empty() && format != "millfoam-dumps") values.fail("format", format, "\"millfoam-dumps\"");
-  notes.timestep =
+  metadata.timestep =
       values.number("timestep_s", "a positive number", [](double dt) { return dt > 0 && std::isfinite(dt); });
-  notes.interval = values.positive_count("interval");
-  notes.angular_velocity = values.number("angular_velocity_rad_s", "a finite number",
-                                         [](double omega) { return std::isfinite(omega); });
-  notes.mill_charge = values.text("charge", "mill");
-  notes.fines_share = fines_share(values);
-  return notes;
+  metadata.interval = values.positive_count("interval");
+  metadata.angular_velocity = values.number("angular_velocity_rad_s", "a finite number",
+                                            [](double omega) { return std::isfinite(omega); });
+  metadata.mill_charge = values.text("charge", "mill");
+  metadata.fines_share = fines_share(values);
+  return metadata;
 }
 
-double agreed_timestep(std::optional<double> given, const std::optional<RunNotes>& notes) {
+double agreed_timestep(std::optional<double> given, const std::optional<RunMetadata>& metadata) {
   std::ostringstream message;
   message.precision(12);
-  const bool noted = notes && notes->timestep;
-  if (!given && !noted) {
+  const bool known = metadata && metadata->timestep;
+  if (!given && !known) {
     message << "the DEM time-step is not known: give --dt SECONDS, or a file 'run.json' with the key "
                "'timestep_s' beside the dumps";
   } else if (given && !(*given > 0 && std::isfinite(*given))) {
     message << "--dt is " << *given << ", expected a positive time in s";
-  } else if (given && noted && std::abs(*given - *notes->timestep) > 1e-9 * *notes->timestep) {
-    message << "--dt is " << *given << " s, but " << notes->file.string() << " says timestep_s "
-            << *notes->timestep << " s; they must be the same";
+  } else if (given && known && std::abs(*given - *metadata->timestep) > 1e-9 * *metadata->timestep) {
+    message << "--dt is " << *given << " s, but " << metadata->file.string() << " says timestep_s "
+            << *metadata->timestep << " s; they must be the same";
   } else {
-    return noted ? *notes->timestep : *given;
+    return known ? *metadata->timestep : *given;
   }
   throw DumpError(message.str());
 }
 
 std::optional<double> agreed_angular_velocity(std::optional<double> given,
-                                              const std::optional<RunNotes>& notes) {
+                                              const std::optional<RunMetadata>& metadata) {
   std::ostringstream message;
   message.precision(12);
   if (given && !std::isfinite(*given)) {
     message << "--speed is " << *given << ", expected a finite angular velocity in rad/s";
-  } else if (given && notes && notes->angular_velocity &&
-             std::abs(*given - *notes->angular_velocity) > 1e-9 * std::abs(*given)) {
-    message << "--speed is " << *given << " rad/s, but " << notes->file.string()
-            << " says angular_velocity_rad_s " << *notes->angular_velocity << " rad/s; they must be the same";
+  } else if (given && metadata && metadata->angular_velocity &&
+             std::abs(*given - *metadata->angular_velocity) > 1e-9 * std::abs(*given)) {
+    message << "--speed is " << *given << " rad/s, but " << metadata->file.string()
+            << " says angular_velocity_rad_s " << *metadata->angular_velocity
+            << " rad/s; they must be the same";
   } else if (given) {
     return given;
   } else {
-    return notes ? notes->angular_velocity : std::nullopt;
+    return metadata ? metadata->angular_velocity : std::nullopt;
   }
   throw DumpError(message.str());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/run/job.hpp"
+#include "averaging/run/run_plan.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -36,32 +36,32 @@ double sauter_diameter(const ParticleRecord& record) {
 
 }  // namespace
 
-Job prepare(const AverageRequest& request, const AverageProgress& progress) {
-  Job job;
-  job.dumps = find_dumps(request.dumps);
-  job.notes = read_run_notes(job.dumps.front().path.parent_path());
-  job.settings.timestep = agreed_timestep(request.timestep, job.notes);
-  job.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, job.notes);
-  const std::optional<long long> interval = job.notes ? job.notes->interval : std::nullopt;
+RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress) {
+  RunPlan plan;
+  plan.dumps = find_dumps(request.dumps);
+  plan.metadata = read_run_metadata(plan.dumps.front().path.parent_path());
+  plan.settings.timestep = agreed_timestep(request.timestep, plan.metadata);
+  plan.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, plan.metadata);
+  const std::optional<long long> interval = plan.metadata ? plan.metadata->interval : std::nullopt;
   std::vector<long long> steps;
-  for (const DumpFile& dump : job.dumps) steps.push_back(dump.step);
+  for (const DumpFile& dump : plan.dumps) steps.push_back(dump.step);
   for (const WindowsRequest& windows : request.windows) {
-    job.plans.push_back(
-        plan_windows(steps, {job.settings.timestep, interval, windows.length, request.start, request.end}));
-    for (const std::string& sentence : job.plans.back().notes) progress.note(sentence);
+    plan.series.push_back(
+        plan_windows(steps, {plan.settings.timestep, interval, windows.length, request.start, request.end}));
+    for (const std::string& sentence : plan.series.back().notes) progress.note(sentence);
   }
-  job.settings.sauter_diameter =
-      sauter_diameter(read_dump(job.dumps[job.plans[0].windows[0].first_record].path));
-  job.blocks = plan_blocks(job.plans, block_size(job.plans));
-  return job;
+  plan.settings.sauter_diameter =
+      sauter_diameter(read_dump(plan.dumps[plan.series[0].windows[0].first_record].path));
+  plan.blocks = plan_blocks(plan.series, block_size(plan.series));
+  return plan;
 }
 
-void require_fitting_grid(const AverageRequest& request, const Job& job, const CellSetup& setup) {
-  const WindowSpan& last = job.plans[0].windows.back();
+void require_fitting_grid(const AverageRequest& request, const RunPlan& plan, const CellSetup& setup) {
+  const WindowSpan& last = plan.series[0].windows.back();
   std::string first_misfit;
-  for (const std::size_t r : {job.plans[0].windows[0].first_record, last.first_record + last.records - 1}) {
-    const DumpFile& dump = job.dumps[r];
-    const double time = static_cast<double>(dump.step) * job.settings.timestep;
+  for (const std::size_t r : {plan.series[0].windows[0].first_record, last.first_record + last.records - 1}) {
+    const DumpFile& dump = plan.dumps[r];
+    const double time = static_cast<double>(dump.step) * plan.settings.timestep;
     const std::string found =
         misfit(setup, read_dump(dump.path), time, dump.path.string(), request.largest_outside);
     if (found.empty()) return;
