@@ -23,12 +23,13 @@ class BoxDeposition : public Deposition {
   void deposit(const Particle& particle, const Superquadric& shape, std::vector<Deposit>& deposits) override;
 
  protected:
+  /// @param template_points  points along a diameter for what is sampled
   BoxDeposition(const BoxGrid& grid, int template_points);
   BoxDeposition(const BoxDeposition&) = default;
   BoxDeposition& operator=(const BoxDeposition&) = default;
 
-  const BoxGrid& grid() const { return grid_; }
-  const std::array<GridAxis, 3>& axes() const { return axes_; }
+  const BoxGrid& grid() const { return grid_; }                  ///< where balls are deposited
+  const std::array<GridAxis, 3>& axes() const { return axes_; }  ///< of the grid: x, y, z
 
  private:
   BoxGrid grid_;

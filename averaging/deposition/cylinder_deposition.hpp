@@ -22,12 +22,13 @@ class CylinderDeposition : public Deposition {
   void deposit(const Particle& particle, const Superquadric& shape, std::vector<Deposit>& deposits) override;
 
  protected:
+  /// @param template_points  points along a diameter for what is sampled
   CylinderDeposition(const CylinderGrid& grid, int template_points);
   CylinderDeposition(const CylinderDeposition&) = default;
   CylinderDeposition& operator=(const CylinderDeposition&) = default;
 
-  const CylinderGrid& grid() const { return grid_; }
-  const GridAxis& z_axis() const { return z_axis_; }
+  const CylinderGrid& grid() const { return grid_; }  ///< where balls are deposited
+  const GridAxis& z_axis() const { return z_axis_; }  ///< of the grid
 
  private:
   CylinderGrid grid_;

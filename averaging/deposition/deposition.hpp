@@ -11,8 +11,8 @@ namespace millfoam::averaging {
 
 /// The volume of a ball that lies in one cell.
 struct Deposit {
-  std::size_t cell = 0;
-  double volume = 0;  ///< m^3, positive
+  std::size_t cell = 0;  ///< its place in a field on the grid or mesh
+  double volume = 0;     ///< m^3, positive
 };
 
 /// Deposits the volume of balls in the cells of a grid or mesh, as other codes deposit mass or charge: one

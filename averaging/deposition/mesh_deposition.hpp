@@ -30,6 +30,7 @@ class MeshDeposition : public Deposition {
   ///                  reaches over an end of the mesh comes in on the other side; without it the mesh ends
   ///                  there. Throws std::invalid_argument when the mesh's extent along z differs from it.
   MeshDeposition(std::unique_ptr<MovingMesh> mesh, int points_per_diameter, std::optional<double> period_z);
+  /// A copy for another thread, with a clone of the mesh.
   MeshDeposition(const MeshDeposition& other);
 
   /// Adds the deposits in the cells that a sphere in the mesh's frame meets; centre and radius in m. It is
@@ -42,7 +43,7 @@ class MeshDeposition : public Deposition {
 
   /// A cell that the present image of a ball meets.
   struct MetCell {
-    int cell = 0;
+    int cell = 0;        ///< number of the cell
     double volume = 0;   ///< of the ball in the cell, m^3; sampling counts points in it
     bool whole = false;  ///< the ball holds all of the cell
   };
@@ -64,10 +65,10 @@ class MeshDeposition : public Deposition {
   /// @param ball_volume  m^3
   void append_deposits(double ball_volume, std::vector<Deposit>& deposits) const;
 
-  const MovingMesh& mesh() const { return *mesh_; }
-  bool is_periodic() const { return period_z_.has_value(); }
+  const MovingMesh& mesh() const { return *mesh_; }           ///< at the time of the record
+  bool is_periodic() const { return period_z_.has_value(); }  ///< along z
 
-  std::vector<MetCell> met_cells_;
+  std::vector<MetCell> met_cells_;  ///< by the present image
 
  private:
   /// The image of a coordinate along z within the mesh, where that repeats.

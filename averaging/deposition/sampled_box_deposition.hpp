@@ -10,8 +10,8 @@
 
 namespace millfoam::averaging {
 
-/// Deposits spheres in the voxels of a box by sampling: a voxel gets the fraction of a sphere's volume that
-/// is the fraction of the template's points in it; a sphere wholly in one voxel gives it exactly its volume.
+/// Deposits spheres in the voxels of a box by sampling: a voxel gets the same fraction of a sphere's
+/// volume as of the template's points; a sphere wholly in one voxel gives it exactly its volume.
 ///
 /// The template's coordinates along an axis do not depend on those along the others, so the points in a voxel
 /// are a block of the lattice, counted by a table: the cost is a few look-ups per voxel met, whatever the

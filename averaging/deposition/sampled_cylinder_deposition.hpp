@@ -11,8 +11,8 @@
 
 namespace millfoam::averaging {
 
-/// Deposits spheres in the voxels of a cylinder by sampling: a voxel gets the fraction of a sphere's volume
-/// that is the fraction of the template's points in it.
+/// Deposits spheres in the voxels of a cylinder by sampling: a voxel gets the same fraction of a sphere's
+/// volume as of the template's points.
 ///
 /// The template's columns along z are located once each, and their points counted by layers.
 class SampledCylinderDeposition : public CylinderDeposition {

@@ -11,7 +11,7 @@
 namespace millfoam::averaging {
 
 /// Deposits spheres by the points of a `SphereTemplate`, along the axes of the mesh's frame: a cell gets the
-/// fraction of the volume that is the fraction of the points in it.
+/// same fraction of the volume as of the points.
 class SampledMeshDeposition : public MeshDeposition {
  public:
   /// @param mesh, period_z       as of MeshDeposition, with its errors

@@ -25,7 +25,7 @@ class CellPoints {
   /// @param divisions  m of an edge of a tetrahedron. Throws std::invalid_argument unless it is 1 to 10.
   explicit CellPoints(const MeshGeometry& mesh, int divisions = 2);
 
-  std::size_t cells() const { return begin_.size() - 1; }
+  std::size_t cells() const { return begin_.size() - 1; }                  ///< number of cells of the mesh
   std::size_t size() const { return tetrahedra_.size() * parts_.size(); }  ///< number of points, at most
 
   /// Adds a field to the sums over voxels; where the grid is periodic its images are one.

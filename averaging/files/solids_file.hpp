@@ -46,6 +46,7 @@ struct SolidsHeader {
 /// that looks whole. All members throw SolidsFileError.
 class SolidsWriter {
  public:
+  /// Makes `path` + ".part", replacing an older one.
   SolidsWriter(const std::filesystem::path& path, const Grid& grid, const SolidsHeader& header);
   ~SolidsWriter();
   SolidsWriter(const SolidsWriter&) = delete;
@@ -78,7 +79,7 @@ class SolidsReader {
   SolidsReader(SolidsReader&&) noexcept;
   SolidsReader& operator=(SolidsReader&&) noexcept;
 
-  const Grid& grid() const;
+  const Grid& grid() const;                        ///< that the fields live on
   const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
   double time0() const;                            ///< DEM time at which the first window begins, s
   double timestep() const;                         ///< of the DEM run, s

@@ -27,11 +27,11 @@ class BoxGrid {
   BoxGrid(const Vector3& lower, const Vector3& upper, const VoxelIndex& shape,
           const std::array<bool, 3>& periodic = {false, false, false});
 
-  const Vector3& lower() const { return lower_; }
-  const Vector3& upper() const { return upper_; }
-  const VoxelIndex& shape() const { return shape_; }
-  const std::array<bool, 3>& periodic() const { return periodic_; }
-  const Vector3& spacing() const { return spacing_; }  ///< edges of a voxel, m
+  const Vector3& lower() const { return lower_; }                    ///< corner, m
+  const Vector3& upper() const { return upper_; }                    ///< corner, m
+  const VoxelIndex& shape() const { return shape_; }                 ///< voxels along x, y, z
+  const std::array<bool, 3>& periodic() const { return periodic_; }  ///< along x, y, z
+  const Vector3& spacing() const { return spacing_; }                ///< edges of a voxel, m
 
   std::size_t size() const;     ///< number of voxels
   double voxel_volume() const;  ///< m^3

@@ -9,7 +9,7 @@ namespace millfoam::averaging {
 
 /// The solids at one point.
 struct LocalSolids {
-  double solidity = 0;
+  double solidity = 0;    ///< volume of particles over volume
   Vector3 velocity{};     ///< of the particles, lab frame, m/s; 0 where there are none
   double diameter = 0;    ///< Sauter mean, m; 0 where there are no particles
   double diameter43 = 0;  ///< m; 0 where there are no particles

@@ -12,9 +12,12 @@ namespace millfoam::averaging {
 /// `outside`.
 class GridAxis {
  public:
+  /// Stands for a cell beyond the ends.
   static constexpr int outside = -1;
 
-  /// @param name  for messages
+  /// @param name          for messages
+  /// @param lower, upper  ends, m
+  /// @param cells         number of steps
   GridAxis(char name, double lower, double upper, int cells, bool periodic)
       : name_(name),
         lower_(lower),
@@ -23,9 +26,11 @@ class GridAxis {
         cells_(cells),
         periodic_(periodic) {}
 
+  /// An axis of a box, 0 to 2 for x, y, z.
   static GridAxis of(const BoxGrid& grid, std::size_t axis) {
     return {"xyz"[axis], grid.lower()[axis], grid.upper()[axis], grid.shape()[axis], grid.periodic()[axis]};
   }
+  /// The axis of a cylinder.
   static GridAxis along_z(const CylinderGrid& grid) {
     return {'z', grid.ends()[0], grid.ends()[1], grid.shape()[2], grid.periodic_z()};
   }

@@ -24,11 +24,12 @@ namespace millfoam::averaging {
 /// facets' solid angles does: 4 pi inside and 0 outside.
 class CellContainment {
  public:
+  /// Whether a cell contains a point or a whole box.
   enum class Answer { outside, inside, unclear };
 
   /// A point, or the middle of a box, from the mesh's middle in m, in the planes' precision.
   struct LocalPoint {
-    float x, y, z;
+    float x, y, z;  ///< m
   };
 
   /// Of cells whose planes lie in memory in the order of their numbers.
@@ -40,6 +41,7 @@ class CellContainment {
   /// Follows a geometry that has moved.
   void update(const MeshGeometry& geometry);
 
+  /// A point of the mesh's frame, m, for the tests.
   LocalPoint local(const Eigen::Vector3d& point) const {
     const Eigen::Vector3f p = (point - origin_).cast<float>();
     return {p.x(), p.y(), p.z()};

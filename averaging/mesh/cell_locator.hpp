@@ -21,9 +21,10 @@ namespace millfoam::averaging {
 /// (`hint`).
 class CellLocator : public CellSearch {
  public:
+  /// Prepares the search, in a time that grows as the number of cells.
   explicit CellLocator(std::shared_ptr<const MeshGeometry> geometry);
 
-  const MeshGeometry& geometry() const { return *geometry_; }
+  const MeshGeometry& geometry() const { return *geometry_; }  ///< of the mesh that is searched
 
   int locate(const Eigen::Vector3d& point, int hint = -1) const final {
     const Eigen::Array3d place = (point - lower_).array() * per_metre_.array();

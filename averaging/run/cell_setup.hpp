@@ -24,9 +24,9 @@ struct RunSettings {
 
 /// What a request's grid, method and walls come to: prepared once, and shared by all threads.
 struct CellSetup {
-  Grid grid;
-  std::unique_ptr<Deposition> deposition;  ///< each thread has a clone of it
-  CellLimits limits;
+  Grid grid;                                       ///< for the solids file
+  std::unique_ptr<Deposition> deposition;          ///< each thread has a clone of it
+  CellLimits limits;                               ///< for `average`
   std::shared_ptr<const MovingWalls> walls;        ///< null unless walls cut the cells
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed
   std::string method;                              ///< in words, for the solids file

@@ -15,11 +15,11 @@ namespace millfoam::averaging {
 
 /// The dumps of a run and how they are cut into windows and blocks.
 struct RunPlan {
-  std::vector<DumpFile> dumps;
-  std::optional<RunMetadata> metadata;
-  RunSettings settings;
-  std::vector<WindowPlan> series;  ///< for each series of windows
-  std::vector<RecordBlock> blocks;
+  std::vector<DumpFile> dumps;          ///< in order of time
+  std::optional<RunMetadata> metadata;  ///< of run.json, where it lies beside the dumps
+  RunSettings settings;                 ///< what request and metadata agree on
+  std::vector<WindowPlan> series;       ///< windows of each length
+  std::vector<RecordBlock> blocks;      ///< of all of them, in order of time
 };
 
 /// Finds the dumps of a request and cuts them. Throws DumpError, WindowError.

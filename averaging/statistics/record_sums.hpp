@@ -25,9 +25,10 @@ struct RecordSums {
 
   std::vector<double> values;        ///< [n][columns]
   std::vector<double> cell_volumes;  ///< [n] inside the mill, for balls and fluid, at this time, m^3
-  Ledger ledger;
+  Ledger ledger;                     ///< of the record, m^3
 
-  std::size_t cells() const { return cell_volumes.size(); }
+  std::size_t cells() const { return cell_volumes.size(); }  ///< their number
+  /// The entry of a cell and Column.
   double at(std::size_t cell, std::size_t column) const { return values[cell * columns + column]; }
   double& at(std::size_t cell, std::size_t column) { return values[cell * columns + column]; }
 };

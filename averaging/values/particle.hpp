@@ -10,7 +10,7 @@ namespace millfoam::averaging {
 
 /// A ball.
 struct Particle {
-  long long id = 0;
+  long long id = 0;    ///< the same in all records of a run
   Vector3 position{};  ///< of its centre, m
   Vector3 velocity{};  ///< m/s
   double radius = 0;   ///< m, positive; of a superquadric: of the sphere around it
@@ -29,8 +29,8 @@ struct Superquadric {
 
 /// All balls at one time.
 struct ParticleRecord {
-  long long step = 0;  ///< DEM time-step
-  std::vector<Particle> particles;
+  long long step = 0;                ///< DEM time-step
+  std::vector<Particle> particles;   ///< in the order of the dump
   std::vector<Superquadric> shapes;  ///< [particles], or empty when all are spheres
 };
 

@@ -3,6 +3,7 @@
 
 namespace millfoam::averaging {
 
+/// The circle's circumference over its diameter.
 inline constexpr double pi = 3.14159265358979323846;
 
 }  // namespace millfoam::averaging

@@ -9,9 +9,9 @@ namespace millfoam::averaging {
 
 /// A span of DEM time [begin, end), s, and the number of records (dumps) averaged in it.
 struct TimeWindow {
-  double begin = 0;
-  double end = 0;
-  long long records = 0;
+  double begin = 0;          ///< s
+  double end = 0;            ///< s, not included
+  long long records = 0;     ///< averaged in it
   bool starts_late = false;  ///< records are missing at its beginning
   bool ends_short = false;   ///< or at the end that was asked for
 };
@@ -29,9 +29,9 @@ struct SolidsWindow {
 
 /// Everything that is stored about one window.
 struct WindowAverage {
-  TimeWindow time;
-  Ledger ledger;  ///< means over the window's records
-  SolidsWindow mean;
+  TimeWindow time;                           ///< what the window covers
+  Ledger ledger;                             ///< means over the window's records
+  SolidsWindow mean;                         ///< what a flow needs
   std::vector<double> number;                ///< [n] of balls, parts counting as parts, mean over the records
   std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
   std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
