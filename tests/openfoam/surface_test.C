@@ -1,0 +1,222 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Description
+    slurrySurface: planes, potential and curvature of surfaces that are known.
+
+\*---------------------------------------------------------------------------*/
+
+#include <gtest/gtest.h>
+
+#include "slurryShares.H"
+#include "slurrySurface.H"
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+
+//- Largest angle between the surface's normals and n, rad, in inner cells that
+//  hold more than a trace of either fluid
+scalar largestTilt(
+    const slurrySurface& surface, const volScalarField& alpha, const vector& n)
+{
+    const labelHashSet outer(atBoundary(alpha.mesh()));
+    scalar result = 0;
+    forAll(alpha, celli)
+    {
+        const scalar less = min(alpha[celli], 1 - alpha[celli]);
+        if (less > 0.02 && !outer.found(celli))
+        {
+            result = max(result, mag(surface.normal()[celli] ^ n));
+        }
+    }
+    return result;
+}
+
+
+//- Largest difference of the potential at crossed faces from a level's
+scalar largestDifference(const slurrySurface& surface, const scalar expected)
+{
+    const surfaceScalarField side(surface.side());
+    const surfaceScalarField potential(surface.potential(gravity));
+    scalar result = 0;
+    forAll(side, facei)
+    {
+        if (side[facei] != 0)
+        {
+            result = max(result, mag(potential[facei] - expected));
+        }
+    }
+    return result;
+}
+
+//- Mean and largest difference of the curvature from what is expected, 1/m
+Pair<scalar> curvatureError(const slurrySurface& surface, const scalar expected)
+{
+    const surfaceScalarField side(surface.side());
+    const surfaceScalarField curvature(surface.curvature());
+    scalar total = 0, largest = 0;
+    label n = 0;
+    forAll(side, facei)
+    {
+        if (side[facei] != 0)
+        {
+            total += curvature[facei];
+            largest = max(largest, mag(curvature[facei] - expected));
+            ++n;
+        }
+    }
+    return {total / n - expected, largest};
+}
+
+} // End anonymous namespace
+
+// * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
+
+TEST(slurrySurface, findsATiltedPlaneOnASkewedMesh)
+{
+    smallCase box(
+        {{8, 8, 3}, {1, 1, 0.4}, skewed}, 0.1, "slurrySurface { fits 4; }");
+    const vector n(unit(vector(0.6, 0.7, 0.1)));
+    volScalarField alpha(
+        box.field<scalar>("alpha.slurry", dimless, 0, "zeroGradient"));
+    fillBelow(alpha, n, 0.6);
+    const slurrySurface surface(alpha, vector::zero);
+
+    const scalar tilt = largestTilt(surface, alpha, n);
+    EXPECT_GT(tilt, 0);
+    EXPECT_LT(tilt, 0.02);
+    forAll(alpha, celli)
+    {
+        if (magSqr(surface.normal()[celli]) > 0.5)
+        {
+            EXPECT_NEAR(
+                surface.planes().wetVolume(
+                    celli, surface.normal()[celli], surface.offset(celli)),
+                alpha[celli] * box.mesh().V()[celli],
+                1e-12 * box.mesh().V()[celli]);
+        }
+    }
+}
+
+TEST(slurrySurface, aLevelHasOnePotentialAtEveryFaceItCrosses)
+{
+    smallCase box({{8, 8, 3}, {1, 1, 0.4}, skewed});
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    const scalar height = 0.5371;
+    fillBelow(alpha, vector(0, 1, 0), height);
+    const slurrySurface surface(alpha, gravity);
+
+    EXPECT_GT(gSum(mag(surface.side())()), 20);
+    EXPECT_LT(largestDifference(surface, -9.81 * height), 1e-11);
+    forAll(alpha, celli)
+    {
+        EXPECT_EQ(
+            surface.wet()[celli], box.mesh().C()[celli].y() < height ? 1 : 0);
+    }
+}
+
+TEST(slurrySurface, staysInTheLabWhenTheMeshMoves)
+{
+    smallCase box({{8, 8, 3}, {1, 1, 0.4}, skewed});
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    const scalar height = 0.5371;
+    fillBelow(alpha, vector(0, 1, 0), height);
+    slurrySurface surface(alpha, gravity);
+
+    box.mesh().movePoints(box.mesh().points() + vector(0.01, 0.02, 0));
+    surface.locate();
+
+    EXPECT_LT(largestDifference(surface, -9.81 * height), 1e-11);
+}
+
+TEST(slurrySurface, crossesLinesWhereALevelDoes)
+{
+    smallCase box({{2, 4, 2}, {1, 1, 1}});
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    fillBelow(alpha, vector(0, 1, 0), 0.55);
+    const slurrySurface surface(alpha, gravity);
+
+    // Between the rows at 0.375, wet, and at 0.625, dry, lies 0.7 of the way
+    const surfaceScalarField line(surface.wetLine());
+    const surfaceScalarField side(surface.side());
+    label crossed = 0;
+    forAll(side, facei)
+    {
+        if (side[facei] != 0)
+        {
+            EXPECT_NEAR(line[facei], 0.7, 1e-12);
+            EXPECT_EQ(side[facei], 1);
+            ++crossed;
+        }
+    }
+    EXPECT_EQ(crossed, 4);
+}
+
+TEST(slurrySurface, cyclicFacesSeeWhatInnerFacesSee)
+{
+    smallCase box({{6, 6, 2}, {1, 1, 0.3}, skewed, true});
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    // Level lines along the lattice's x, so that the field is periodic
+    const vector along(skewed(vector(1, 0, 0)));
+    const vector n(unit(along ^ vector(0, 0, -1)));
+    fillBelow(alpha, n, 0.52 * (skewed(vector(0, 1, 0)) & n));
+    const slurrySurface surface(alpha, vector::zero);
+
+    const surfaceScalarField line(surface.wetLine());
+    const label patchi = box.mesh().boundaryMesh().findPatchID("left");
+    const labelUList& cells = box.mesh().boundary()[patchi].faceCells();
+    forAll(cells, i)
+    {
+        const label inner = box.mesh().owner().find(cells[i]);
+        EXPECT_NEAR(line.boundaryField()[patchi][i], line[inner], 1e-12);
+    }
+}
+
+TEST(slurrySurface, aPlaneHasNoCurvature)
+{
+    smallCase box(
+        {{8, 8, 3}, {1, 1, 0.4}, skewed}, 0.1, "slurrySurface { fits 6; }");
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    fillBelow(alpha, unit(vector(0.6, 0.7, 0.1)), 0.6);
+
+    EXPECT_LT(
+        curvatureError(slurrySurface(alpha, vector::zero), 0).second(), 0.1);
+}
+
+TEST(slurrySurface, aDropCurvesTwiceAndABubbleTheOtherWay)
+{
+    smallCase box({{14, 14, 14}, {1, 1, 1}});
+    volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    const scalar radius = 0.33;
+    fillWhere(
+        alpha, 6,
+        [=](const point& p)
+        { return magSqr(p - point(0.5, 0.51, 0.49)) < sqr(radius); });
+    EXPECT_LT(
+        mag(curvatureError(slurrySurface(alpha, vector::zero), 2 / radius)
+                .first()),
+        0.05 * 2 / radius);
+
+    alpha = 1 - alpha;
+    EXPECT_LT(
+        mag(curvatureError(slurrySurface(alpha, vector::zero), -2 / radius)
+                .first()),
+        0.05 * 2 / radius);
+}
+
+TEST(slurrySurface, refusesAnglesTheWrongWayRound)
+{
+    smallCase box({}, 0.1, "slurrySurface { levelAngle (30 15); }");
+    const volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
+    EXPECT_NE(
+        errorOf([&] { slurrySurface(alpha, gravity); })
+            .find("two angles in degrees, the smaller first"),
+        std::string::npos);
+}
+
+// ************************************************************************* //
