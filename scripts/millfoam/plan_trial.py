@@ -151,7 +151,8 @@ def steps_done(folder):
     table = folder / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
     if not table.is_file():
         return 0
-    return sum(line.endswith("\n") and not line.startswith("#") for line in table.open())
+    with table.open() as lines:
+        return sum(line.endswith("\n") and not line.startswith("#") for line in lines)
 
 
 def step_time(seen):
