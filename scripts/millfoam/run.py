@@ -32,6 +32,11 @@ def run(case, *command):
     return text
 
 
+def set_options(changes):
+    """Settings `path=value` of a mill as a tool's options."""
+    return [word for change in changes for word in ("--set", change)]
+
+
 def case_options(description, quick=None):
     """Options of a verification case's script: `jobs`, and `quick` where a text says what its quick form leaves out."""
     parser = argparse.ArgumentParser(description=description)

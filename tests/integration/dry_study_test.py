@@ -18,12 +18,12 @@ import numpy as np
 from dem_run_test import MILL
 from millfoam import axial
 from millfoam.compare import difference
-from millfoam.dry_runs import is_whole, make_dry_run
 from millfoam.mill import read_mill
-from millfoam.mill_runs import resolved, write_mill
-from millfoam.published_mills import averages, published_loads
 from millfoam.run import RunError, run
 from millfoam.solids import SolidsMap
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.mill_runs import resolved, write_mill
+from millstudies.published_mills import averages, published_loads
 
 ROOT = Path(__file__).resolve().parents[2]
 STARS = "\n// ************************************************************************* //\n"
@@ -73,8 +73,8 @@ class Runs(FolderTest):
     def test_a_run_that_was_broken_off_is_resumed_with_another_duration_but_not_as_another_mill(self):
         made = []
         write_mill(self.drum(0.1), self.folder / "drum")
-        with mock.patch("millfoam.mill_runs.run", lambda folder, *command: made.append(command)), \
-                mock.patch("millfoam.dry_runs.run", side_effect=RunError("stopped")):
+        with mock.patch("millstudies.mill_runs.run", lambda folder, *command: made.append(command)), \
+                mock.patch("millstudies.dry_runs.run", side_effect=RunError("stopped")):
             with self.assertRaisesRegex(RunError, "of another mill"):
                 make_dry_run(self.folder / "drum", self.drum(0.1, "dem.seed=4"), ranks=1)
             self.assertEqual(made, [])

@@ -10,12 +10,13 @@ from unittest import mock
 import numpy as np
 
 from dry_study_test import load
-from millfoam import mill_runs, slurry_shape
-from millfoam.convergence import judge
+from millfoam import slurry_shape
 from millfoam.mill import read_mill
 from millfoam.mill_flow import MillFlow
-from millfoam.mill_runs import Setting
-from millfoam.run import RunError, run
+from millfoam.run import RunError, run, set_options
+from millstudies import mill_runs
+from millstudies.convergence import judge
+from millstudies.mill_runs import Setting
 
 TILT = 25.0  # of a pool's surface, degrees: it stands higher on the rising side
 TIMES = (0.1, 0.2, 0.3)
@@ -75,7 +76,7 @@ class TiltedPool(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, case)
         (case / "constant").mkdir()
         shutil.copy(mill_runs.TEMPLATE / "constant" / "bedProperties", case / "constant")
-        run(case, "millMesh", mill_runs.MILL, "--case", ".", *mill_runs.set_options(mill_runs.FINE))
+        run(case, "millMesh", mill_runs.MILL, "--case", ".", *set_options(mill_runs.FINE))
         for time in (0.0, *TIMES):
             (case / f"{time:g}").mkdir()
             (case / f"{time:g}" / "alpha.slurry").write_text("")

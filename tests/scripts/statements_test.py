@@ -12,11 +12,13 @@ from unittest import mock
 import h5py
 import numpy as np
 
-from millfoam import flow_readings, statements
+from millfoam import flow_readings
 from millfoam.axial import AxialSeries, gaussians
-from millfoam.flow_readings import Mean, RunReadings, Surface
+from millfoam.flow_readings import Mean
 from millfoam.mill import Mill
-from millfoam.statements import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
+from millstudies import statements
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, turn
+from millstudies.run_readings import RunReadings, Surface, surface_line
 from slurry_maps_test import RADIUS, WALL, slurry_map
 
 Z = np.linspace(0.005, 0.3, 33)
@@ -43,7 +45,7 @@ def a_slice(law=None, solids=30, last=5.0, **read):
 
 def verdicts_of(function, *runs, of_slice=False):
     """The verdicts on the 30 cm mill, or those on the 12 cm mill's slice."""
-    found = function(statements.Runs(runs))
+    found = function(Runs(runs))
     return [one.verdict for one in found if of_slice == ("slice" in one.runs + one.figure)]
 
 
@@ -57,14 +59,14 @@ class Flat(unittest.TestCase):
 
     def test_a_run_that_is_short_or_missing_is_told(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
-        found = statements.flat_without_balls(statements.Runs([short]))
+        found = statements.flat_without_balls(Runs([short]))
         self.assertEqual([one.verdict for one in found], [NOT_TESTED] * 3)
         self.assertIn("fluid_only_60 ends at 3.4 s; expected 4.5 s", found[0].figure)
         self.assertIn("missing: fluid_only_75", found[1].figure)
         self.assertEqual("missing: 12 cm slice at 50 %, without balls", found[2].figure)
 
     def test_what_could_not_be_read_is_told(self):
-        found = statements.flat_without_balls(statements.Runs([run(failures=["surface not read: no slurry"])]))
+        found = statements.flat_without_balls(Runs([run(failures=["surface not read: no slurry"])]))
         self.assertEqual((found[1].verdict, found[1].figure), (NOT_TESTED, "surface not read: no slurry"))
 
 
@@ -120,11 +122,11 @@ class WithBalls(unittest.TestCase):
         for function, count in ((statements.drag_raises, 3), (statements.concentration_raises, 2)):
             self.assertEqual(verdicts_of(function, *runs, of_slice=True), [CONFIRMED] * count)
             self.assertEqual(set(verdicts_of(function, *runs)), {NOT_TESTED})
-        shrinks = statements.drag_raises(statements.Runs(runs))[-1]
+        shrinks = statements.drag_raises(Runs(runs))[-1]
         self.assertEqual(shrinks.statement, "that difference shrinks from 30 % to 50 % slurry")
         self.assertIn("1.00 ± 0.0", shrinks.figure)
         self.assertEqual(verdicts_of(statements.drag_raises, *runs[:2], of_slice=True), [CONFIRMED, NOT_TESTED])
-        missing = statements.concentration_raises(statements.Runs(runs[:1]))[2]
+        missing = statements.concentration_raises(Runs(runs[:1]))[2]
         self.assertEqual(missing.figure, "missing: 12 cm slice at 50 %, Beetstra, 40 % slurry")
 
     def test_a_slice_is_flat_without_balls_and_follows_them(self):
@@ -155,7 +157,7 @@ class WithBalls(unittest.TestCase):
     def test_reynolds_numbers_of_slurries_without_a_published_limit_are_not_tested(self):
         for one in (run(law="Beetstra", solids=30), a_slice("Beetstra", 30), a_slice("Beetstra", None)):
             one.reynolds = np.array([50.0, 400.0]), np.array([3.0, 1.0])
-            found = statements.reynolds_below(statements.Runs([one]))
+            found = statements.reynolds_below(Runs([one]))
             self.assertEqual({each.verdict for each in found}, {NOT_TESTED})
             self.assertRegex(found[-1].figure, "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
 
@@ -194,7 +196,7 @@ class Steady(unittest.TestCase):
         return found
 
     def judged(self, one):
-        return statements.surface_follows(statements.Runs([one]))[0]
+        return statements.surface_follows(Runs([one]))[0]
 
     def test_a_drift_between_the_halves_leaves_a_statement_undecided(self):
         self.assertEqual(self.judged(self.moved(lambda t: 0 * t)).verdict, CONFIRMED)
@@ -206,7 +208,7 @@ class Steady(unittest.TestCase):
 
     def test_less_than_a_turn_leaves_a_statement_undecided(self):
         one = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
-        self.assertAlmostEqual(statements.turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
+        self.assertAlmostEqual(turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
         late = TIMES > 4.0
         one.series = AxialSeries(Z, TIMES[late], *(values[late] for values in (
             one.series.height, one.series.holdup, one.series.pressure)))
@@ -217,7 +219,7 @@ class Steady(unittest.TestCase):
     def test_each_of_two_runs_must_be_steady(self):
         runs = self.moved(lambda t: 0 * t), self.moved(lambda t: 5e-3 * t)
         runs[1].law = "ErgunWenYu"
-        found = statements.drag_raises(statements.Runs(runs))[0]
+        found = statements.drag_raises(Runs(runs))[0]
         self.assertEqual(found.verdict, UNDECIDED)
         self.assertIn("not steady: run_75_Beetstra_20: its height drifts", found.figure)
 
@@ -281,17 +283,17 @@ class Reading(unittest.TestCase):
         slope = np.tan(np.radians(25))
         for sign in (1, -1):
             level = slurry_map(lambda x, y, sign=sign: np.where(y < -sign * slope * x - 0.02, 1.0, 0.0))
-            tilt, deviation, _ = flow_readings.surface_line(level, RADIUS, RADIUS - WALL)
+            tilt, deviation, _ = surface_line(level, RADIUS, RADIUS - WALL)
             self.assertAlmostEqual(tilt, sign * 25, delta=0.5)
             self.assertLess(deviation, 0.001)
 
     def test_a_wavy_surface_deviates(self):
         wavy = slurry_map(lambda x, y: np.where(y < 0.01 * np.sin(100 * x), 1.0, 0.0))
-        self.assertAlmostEqual(flow_readings.surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
+        self.assertAlmostEqual(surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
 
     def test_without_slurry_there_is_no_surface(self):
         with self.assertRaisesRegex(RuntimeError, "no free surface of the slurry"):
-            flow_readings.surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
+            surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
 
     def test_errors_are_those_of_block_means(self):
         value, error = flow_readings.series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
@@ -327,7 +329,7 @@ class Reading(unittest.TestCase):
         np.testing.assert_array_equal(found.times, [2, 3])
         np.testing.assert_array_equal(found.height, [[-1, np.nan], [-3, -4]])
         np.testing.assert_array_equal(found.pressure, [[5, np.nan], [7, 8]])
-        self.assertAlmostEqual(statements.height(run(series=found)).value, (-1 - 3.5) / 2)
+        self.assertAlmostEqual(height(run(series=found)).value, (-1 - 3.5) / 2)
 
 
 if __name__ == "__main__":

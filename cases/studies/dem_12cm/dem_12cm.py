@@ -19,13 +19,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from millfoam import other_readings, published_mills
 from millfoam.charge import Charge, charge_with_errors, read_charge
 from millfoam.charge_plots import draw_charge
-from millfoam.dry_runs import is_whole, make_dry_run
-from millfoam.published_mills import Setting, run_name
 from millfoam.run import RunError, run
 from millfoam.solids import read_windows, with_error
+from millstudies import other_readings, published_mills
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.published_mills import Setting, run_name
 
 HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"

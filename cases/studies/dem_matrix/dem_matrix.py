@@ -16,8 +16,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from millfoam.dry_runs import is_whole, make_dry_run
-from millfoam.published_mills import matrix, mill, run_name
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.published_mills import matrix, mill, run_name
 
 HERE = Path(__file__).parent.resolve()
 COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",

@@ -3,7 +3,7 @@
 """The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: where the slurry
 stands, what power it takes, and the particle Reynolds numbers in the bed.
 
-Runs are kept in the folder runs/ (scripts/millfoam/mill_runs.py): a run that is whole is not repeated. Exit code 1 when one
+Runs are kept in the folder runs/ (millstudies.mill_runs): a run that is whole is not repeated. Exit code 1 when one
 failed; the table and the figure then show the others."""
 import argparse
 import csv
@@ -20,8 +20,8 @@ import numpy as np
 from millfoam.flow_record import read_flow_record
 from millfoam.mill_flow import MillFlow
 from millfoam.mill_plots import draw_mill
-from millfoam.mill_runs import COARSE, MILL, Setting, make_runs
 from millfoam.slurry_shape import LEVEL, read_shape
+from millstudies.mill_runs import COARSE, MILL, Setting, make_runs
 
 HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law

@@ -3,7 +3,7 @@
 """The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed order
 and error bar of the slurry's height, toe and shoulder.
 
-Runs are kept beside those of mill_drag_comparison, whose dry run they share (scripts/millfoam/mill_runs.py): a
+Runs are kept beside those of mill_drag_comparison, whose dry run they share (millstudies.mill_runs): a
 run that is whole is not repeated. Exit code 1 when one failed; then there is no judgement of what it belongs to."""
 import argparse
 import csv
@@ -17,10 +17,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.convergence import judge
 from millfoam.mill_flow import MillFlow
-from millfoam.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
 from millfoam.slurry_shape import read_shape
+from millstudies.convergence import judge
+from millstudies.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
 
 HERE = Path(__file__).parent.resolve()
 RUNS = HERE.parent / "mill_drag_comparison" / "runs"

@@ -13,9 +13,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.compare import difference
-from millfoam.dry_runs import make_dry_run
-from millfoam.mill_runs import MILL, resolved
-from millfoam.published_mills import averages
+from millstudies.dry_runs import make_dry_run
+from millstudies.mill_runs import MILL, resolved
+from millstudies.published_mills import averages
 
 HERE = Path(__file__).parent.resolve()
 MODULI = (1e7, 1e8, 1e9)

@@ -8,9 +8,10 @@ import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from millfoam.mill_runs import summary_of_whole
 from millfoam.report.sources import MillCase
-from millfoam.statements import Verdict, read, verdicts
+from millstudies.compared_runs import Verdict
+from millstudies.mill_runs import summary_of_whole
+from millstudies.statements import read, verdicts
 
 HERE = Path(__file__).parent.resolve()
 MILLS = HERE.parents[1] / "mills"

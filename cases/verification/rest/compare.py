@@ -20,9 +20,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam import foam
-from millfoam.mill_runs import FINE, MILL, set_options
 from millfoam.run import run as run_program
-from millfoam.run import write_parameters
+from millfoam.run import set_options, write_parameters
+from mill_slice import FINE, MILL
 from pool_history import largest_speeds
 
 STILL = 1e-6  # m/s, largest speed of the slurry alone

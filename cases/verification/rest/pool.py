@@ -15,9 +15,9 @@ import numpy as np
 
 import pool_pictures
 import pool_table
-from millfoam.mill_runs import FINE, MILL, set_options
-from millfoam.run import RunError, write_parameters
+from millfoam.run import RunError, set_options, write_parameters
 from millfoam.run import run as run_program
+from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 
 SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "slurryFoam": "slurryFoam"}

@@ -14,12 +14,12 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from .data_files import DataError, read_json
-from .flow_record import read_flow_record
-from .mill import Mill
-from .run import RunError, run
+from millfoam.data_files import DataError, read_json
+from millfoam.flow_record import read_flow_record
+from millfoam.mill import Mill
+from millfoam.run import RunError, run, set_options
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
 TEMPLATE = ROOT / "scripts" / "mill_case"
 DICTIONARIES = ("0.orig", "constant", "system")  # of the template: a case of slurryFoam with balls
@@ -39,11 +39,6 @@ class Setting:
     name: str
     averages: tuple = ()
     flow: tuple = ()
-
-
-def set_options(changes):
-    """Settings `path=value` as a tool's options."""
-    return [word for change in changes for word in ("--set", change)]
 
 
 def resolved(mill, changes=()):

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from .data_files import number, read_json
-from .mill import read_mill
+from millfoam.data_files import number, read_json
+from millfoam.mill import read_mill
+from millfoam.run import RunError, run
+from millfoam.solids import read_map
+
 from .mill_runs import is_of, make_charge
-from .run import RunError, run
-from .solids import read_map
 
 
 @dataclass

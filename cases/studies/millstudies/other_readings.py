@@ -6,8 +6,8 @@ Each reading is a function (SolidsMap, radius in m) -> root mean square deviatio
 does not have it. Names: VELOCITY and SURFACE."""
 import numpy as np
 
-from .charge import circulation_centre, tangential_profile
-from .free_surface import WALL, fit_logistic, free_surface, surface_points
+from millfoam.charge import circulation_centre, tangential_profile
+from millfoam.free_surface import WALL, fit_logistic, free_surface, surface_points
 
 FIRST_BALLS = 0.01  # solidity, of the largest voxel's, from which a voxel counts when the thinnest flight does
 TURN = 15.0  # of the line through the centre of circulation, degrees
