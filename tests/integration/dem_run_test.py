@@ -18,10 +18,11 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import compare, solids
-from millfoam.dem_tracks import read_tracks
+from millfoam.files import solids_file
+from millfoam.files.tracks import read_tracks
+from millfoam.readings import compare
+from millfoam.readings.tracer import tracer_map
 from millfoam.run import RunError, run
-from millfoam.tracer import tracer_map
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -338,7 +339,7 @@ class Tracer(unittest.TestCase):
         cls.volume = np.sum(4 / 3 * np.pi * balls[:, -1] ** 3)
         cls.ids = {size: balls[np.isclose(2 * balls[:, -1], size), 0].astype(int) for size in (0.004, 0.002)}
         cls.turn = 2 * np.pi / abs(read_json(cls.case / "dumps" / "run.json")["angular_velocity_rad_s"])
-        cls.whole = solids.read_map(cls.case / "solids.h5", cls.BEGIN, cls.END)
+        cls.whole = solids_file.read_map(cls.case / "solids.h5", cls.BEGIN, cls.END)
         with h5py.File(cls.case / "solids.h5") as file:
             grid = file["grid"]
             cls.edges = [np.linspace(*ends, count + 1) for *ends, count in zip(*(grid.attrs[name] for name in (

@@ -16,11 +16,11 @@ from unittest import mock
 import numpy as np
 
 from dem_run_test import MILL
-from millfoam import axial
-from millfoam.compare import difference
-from millfoam.mill import read_mill
+from millfoam.files.mill import read_mill
+from millfoam.files.solids_file import SolidsMap
+from millfoam.readings import axial
+from millfoam.readings.compare import difference
 from millfoam.run import RunError, run
-from millfoam.solids import SolidsMap
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.mill_runs import resolved, write_mill
 from millstudies.published_mills import averages, published_loads

@@ -11,10 +11,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.tables import read_columns, read_table
+from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from millfoam.tables import read_columns, read_table
 from mill_case import replace
 from slurry_case import SLURRY, SlurryTest
 

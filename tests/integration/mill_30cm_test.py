@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from millfoam import axial, foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.written_times import MillFlow
+from millfoam.readings import axial
 from millfoam.run import run
 from mill_case import run_mill
 

@@ -10,9 +10,9 @@ from unittest import mock
 import numpy as np
 
 from dry_study_test import load
-from millfoam import slurry_shape
-from millfoam.mill import read_mill
-from millfoam.mill_flow import MillFlow
+from millfoam.files.mill import read_mill
+from millfoam.files.written_times import MillFlow
+from millfoam.readings import shell_angles, slurry_in_cells
 from millfoam.run import RunError, run, set_options
 from millstudies import mill_runs
 from millstudies.convergence import judge
@@ -40,31 +40,31 @@ def keys_of(mill, path=""):
 class ToeAndShoulder(unittest.TestCase):
     def ring(self, *arcs):
         """Share in the ring's bins: 1 within the arcs (begin, end) in degrees, 0 outside, straight over four bins between."""
-        angles, share = slurry_shape.bin_centres(), 0.0
+        angles, share = shell_angles.bin_centres(), 0.0
         for begin, end in arcs:
             from_middle = np.abs((angles - (begin + end) / 2 + 180) % 360 - 180)
-            share = share + np.clip(((end - begin) / 2 - from_middle) / (4 * slurry_shape.BIN) + 0.5, 0, 1)
+            share = share + np.clip(((end - begin) / 2 - from_middle) / (4 * shell_angles.BIN) + 0.5, 0, 1)
         return share
 
     def test_ends_of_an_arc_are_found_between_the_bins(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((-41.3, 67.9))), (-41.3, 67.9), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((-41.3, 67.9))), (-41.3, 67.9), atol=1e-9)
 
     def test_slurry_may_reach_past_the_top(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((10.4, 200.2))), (10.4, -159.8), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((10.4, 200.2))), (10.4, -159.8), atol=1e-9)
 
     def test_a_smaller_arc_is_not_the_slurry(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((-20, 50), (90, 110))), (-20, 50), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((-20, 50), (90, 110))), (-20, 50), atol=1e-9)
 
     def test_no_slurry_and_nothing_else_have_no_ends(self):
-        bins = len(slurry_shape.bin_centres())
-        self.assertTrue(np.all(np.isnan(slurry_shape.toe_and_shoulder(np.zeros(bins)))))
-        self.assertTrue(np.all(np.isnan(slurry_shape.toe_and_shoulder(np.ones(bins)))))
+        bins = len(shell_angles.bin_centres())
+        self.assertTrue(np.all(np.isnan(shell_angles.toe_and_shoulder(np.zeros(bins)))))
+        self.assertTrue(np.all(np.isnan(shell_angles.toe_and_shoulder(np.ones(bins)))))
 
     def test_angles_count_from_straight_down_to_the_rising_side(self):
         clockwise, other = -1.0, 1.0
-        self.assertAlmostEqual(slurry_shape.shell_angle(0.0, -1.0, clockwise), 0)
-        self.assertAlmostEqual(slurry_shape.shell_angle(-1.0, 0.0, clockwise), 90)
-        self.assertAlmostEqual(slurry_shape.shell_angle(1.0, 0.0, other), 90)
+        self.assertAlmostEqual(shell_angles.shell_angle(0.0, -1.0, clockwise), 0)
+        self.assertAlmostEqual(shell_angles.shell_angle(-1.0, 0.0, clockwise), 90)
+        self.assertAlmostEqual(shell_angles.shell_angle(1.0, 0.0, other), 90)
 
 
 class TiltedPool(unittest.TestCase):
@@ -83,17 +83,17 @@ class TiltedPool(unittest.TestCase):
         cls.flow = MillFlow(case)
         for time, path in cls.flow.frames:
             cls.write_frame(time, path)
-        cls.shape = slurry_shape.read_shape(cls.flow, TIMES[0])
+        cls.shape = slurry_in_cells.read_shape(cls.flow, TIMES[0])
 
     @classmethod
     def write_frame(cls, time, path):
         flow = cls.flow
-        points, column = slurry_shape.samples(flow)
+        points, column = slurry_in_cells.samples(flow)
         x, y = flow.turned(points, time).T
         tilt = np.radians(TILT)
         # The mill turns clockwise: it rises at x < 0
         below = y + x * np.tan(tilt) < 0
-        share = np.bincount(column, below, minlength=len(flow.column_centres)) / slurry_shape.SAMPLES**2
+        share = np.bincount(column, below, minlength=len(flow.column_centres)) / slurry_in_cells.SAMPLES**2
         x, y = flow.turned(flow.centres[:, :2], time).T
         cells = len(flow.centres)
         write_field(path / "alpha.slurry", share[flow.column])
@@ -112,7 +112,7 @@ class TiltedPool(unittest.TestCase):
         self.assertAlmostEqual(np.degrees(np.arctan2(-x, -y)), TILT, delta=0.5)
 
     def test_torque_is_the_weights_and_the_gain_of_angular_momentum(self):
-        frame = slurry_shape.read_frame(self.flow, *self.flow.frames[1])
+        frame = slurry_in_cells.read_frame(self.flow, *self.flow.frames[1])
         mass = 1239 * 0.6 * self.flow.volumes.sum() / 2
         x, y = self.flow.centres[:, :2].T
         inertia = 1239 * (frame.slurry * (x**2 + y**2)).sum()

@@ -18,9 +18,9 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam import foam
-from millfoam.data_files import read_json
-from millfoam.mill import read_mill
+from millfoam.files import foam
+from millfoam.files.data_files import read_json
+from millfoam.files.mill import read_mill
 
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE, REPORT = ROOT / "scripts" / "mill_case", ROOT / "scripts" / "report"

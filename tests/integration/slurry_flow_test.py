@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 from openfoam_case import require_environment, rotating_mesh
-from slurry_case import AIR, SLURRY, SlurryTest
+from slurry_case import SlurryTest
 
 MILL = Path(__file__).resolve().parents[2] / "scripts" / "mill_case"
 # Soft edges and a way that goes through the surface; it stays inside the box.

@@ -8,9 +8,10 @@ import numpy as np
 from PIL import Image
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.charge import charge_with_errors, read_charge
-from millfoam.charge_plots import charge_figure, tangential_figure
-from millfoam.mill_plots import circle, save
+from millfoam.files.outline import circle
+from millfoam.plots.charge_plots import charge_figure, tangential_figure
+from millfoam.plots.mill_plots import save
+from millfoam.readings.charge import charge_with_errors, read_charge
 
 
 class Pictures(unittest.TestCase):

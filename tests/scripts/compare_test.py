@@ -11,10 +11,11 @@ from types import SimpleNamespace
 import numpy as np
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.compare import CLOSEST, compare, difference, difference_maps, read_measured, surface_difference
-from millfoam.free_surface import free_surface, toe_and_shoulder
-from millfoam.report import held_against
-from millfoam.solids import SolidsMap
+from millfoam.files.measured_map import read_measured
+from millfoam.files.solids_file import SolidsMap
+from millfoam.readings.compare import CLOSEST, compare, difference, difference_maps, surface_difference
+from millfoam.readings.free_surface import free_surface, toe_and_shoulder
+from millfoam.report import measurements
 
 
 def uniform(solidity, speed):
@@ -168,7 +169,7 @@ class Measured(unittest.TestCase):
         charge = charge_map(below(lambda x: -0.01 + 0 * x), turning(5, (0, -0.06)), voxels=32)
         other = replace(charge, solidity=charge.solidity.copy(), velocity=np.full_like(charge.velocity, np.nan))
         other.solidity[13:] = np.nan
-        rows = dict(held_against.difference_rows(SimpleNamespace(charge=charge, radius=RADIUS), other,
+        rows = dict(measurements.difference_rows(SimpleNamespace(charge=charge, radius=RADIUS), other,
                                                  difference_maps(charge, other)))
         self.assertEqual((rows["velocity, x"], rows["velocity, y"]), ("not known", "not known"))
         self.assertIn("not known", rows["free surface"])

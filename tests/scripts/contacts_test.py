@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
-from millfoam.contacts import Contacts, read_contacts, read_materials
+from millfoam.files.contact_dumps import read_materials
+from millfoam.readings.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
+from millfoam.readings.contacts import Contacts, read_contacts
 from report_cases import write_json
 
 RADIUS, DENSITY, OVERLAP = 0.01, 2500.0, 1e-4

@@ -6,7 +6,8 @@ import unittest
 import numpy as np
 from scipy.integrate import quad
 
-from millfoam.models import Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up, surface_number
+from millfoam.readings.models import (Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up,
+                                      surface_number)
 
 CHARGE = Charge(radius=0.15, length=0.3, porosity=0.4, diameter=0.005)
 SLURRY = {"viscosity": 0.01, "density": 1300.0}

@@ -14,7 +14,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from millfoam import plan, plan_trial
+from millfoam.plan import __main__ as plan
+from millfoam.plan import trial
 from millfoam.run import RunError
 
 SMALL = """
@@ -100,7 +101,7 @@ class Arithmetic(Folder):
         self.enterContext(mock.patch.dict(os.environ, {"PATH": f"{stubs}:{os.environ['PATH']}", "STUBS": str(stubs)}))
         self.enterContext(mock.patch.object(tempfile, "tempdir", str(self.temporary)))
         # The clock of this machine, busy as it is, has no part in the arithmetic
-        self.enterContext(mock.patch.object(plan_trial, "step_time", return_value=STEP))
+        self.enterContext(mock.patch.object(trial, "step_time", return_value=STEP))
 
     def ended(self, *options):
         """Runs the plan in this process."""
@@ -206,23 +207,23 @@ class Arithmetic(Folder):
 
 class Steps(unittest.TestCase):
     def test_the_first_ones_are_not_counted(self):
-        first = [40.0 + 0.1 * step for step in range(plan_trial.FIRST_STEPS)]
+        first = [40.0 + 0.1 * step for step in range(trial.FIRST_STEPS)]
         later = [first[-1] + STEP * step for step in range(1, 22)]
-        self.assertAlmostEqual(plan_trial.step_time(first + later), STEP)
-        self.assertAlmostEqual(plan_trial.step_time([40.0, 40.5, 41.0, 41.5]), STEP)
+        self.assertAlmostEqual(trial.step_time(first + later), STEP)
+        self.assertAlmostEqual(trial.step_time([40.0, 40.5, 41.0, 41.5]), STEP)
 
     def test_too_few_are_refused(self):
         for seen in ([], [1.0]):
             with self.assertRaisesRegex(RunError, f"made {len(seen)} steps; expected 2 or more"):
-                plan_trial.step_time(seen)
+                trial.step_time(seen)
 
     def test_a_row_that_is_being_written_is_no_step(self):
         with tempfile.TemporaryDirectory(prefix="plan-test-") as folder:
-            self.assertEqual(plan_trial.steps_done(Path(folder)), 0)
+            self.assertEqual(trial.steps_done(Path(folder)), 0)
             table = Path(folder) / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
             table.parent.mkdir(parents=True)
             table.write_text("# Time\n0.1 1\n0.2 1\n0.3")
-            self.assertEqual(plan_trial.steps_done(Path(folder)), 2)
+            self.assertEqual(trial.steps_done(Path(folder)), 2)
 
 
 class SmallMill(Folder):
@@ -240,14 +241,14 @@ class SmallMill(Folder):
         for solver in ("slurryFoam", "interFoam"):
             case = self.folder / solver
             case.mkdir()
-            mesh = plan_trial.try_mesh(case, self.folder / "mill.json")
+            mesh = trial.try_mesh(case, self.folder / "mill.json")
             self.assertEqual(mesh.cells, 6 * mesh.cells_in_section)
-            with mock.patch.object(plan_trial, "TRIAL_TIME", 0):
-                trial = plan_trial.try_flow(case, solver, 1e-3, 2)
-            self.assertIn(plan_trial.steps_done(case), range(plan_trial.FEWEST_STEPS, 40))
-            self.assertGreater(trial.step_time, 0)
+            with mock.patch.object(trial, "TRIAL_TIME", 0):
+                flow = trial.try_flow(case, solver, 1e-3, 2)
+            self.assertIn(trial.steps_done(case), range(trial.FEWEST_STEPS, 40))
+            self.assertGreater(flow.step_time, 0)
             # Of a rank with OpenFOAM's libraries, not of mpirun
-            self.assertGreater(trial.memory, 80e6)
+            self.assertGreater(flow.memory, 80e6)
 
     def test_every_stage_of_a_real_mill_is_told(self):
         (self.folder / "mill.yaml").write_text(SMALL)

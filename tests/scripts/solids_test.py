@@ -8,7 +8,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam.solids import mean_map, read_map, read_windows, with_error
+from millfoam.files.solids_file import mean_map, read_map, read_windows
+from millfoam.readings.means import with_error
 
 
 def write(path, solidity, speed, complete=1):

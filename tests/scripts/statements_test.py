@@ -12,14 +12,14 @@ from unittest import mock
 import h5py
 import numpy as np
 
-from millfoam import flow_readings
-from millfoam.axial import AxialSeries, gaussians
-from millfoam.flow_readings import Mean
-from millfoam.mill import Mill
+from millfoam.files.mill import Mill
+from millfoam.readings import slurry_over_time
+from millfoam.readings.axial import AxialSeries, gaussians
+from millfoam.readings.means import Mean, series_mean
 from millstudies import statements
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, turn
 from millstudies.run_readings import RunReadings, Surface, surface_line
-from slurry_maps_test import RADIUS, WALL, slurry_map
+from slurry_on_maps_test import RADIUS, WALL, slurry_map
 
 Z = np.linspace(0.005, 0.3, 33)
 TIMES = np.arange(2, 5, 0.05)
@@ -296,36 +296,36 @@ class Reading(unittest.TestCase):
             surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
 
     def test_errors_are_those_of_block_means(self):
-        value, error = flow_readings.series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
+        value, error = series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
         self.assertAlmostEqual(float(value), 3)
         self.assertAlmostEqual(float(error), np.std([1, 2, 3, 4, 5], ddof=1) / np.sqrt(5))
 
     def test_windows_of_the_averaged_time_are_parted(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch.object(flow_readings, "read_slurry_map") as read:
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(slurry_over_time, "read_slurry_map") as read:
             path = Path(folder) / "slurry.h5"
             with h5py.File(path, "w") as file:
                 file["window/begin"] = 1 + 0.05 * np.arange(12)
                 file["window/end"] = 1.05 + 0.05 * np.arange(12)
             case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path, flow=SimpleNamespace(time0=1.0))
-            list(flow_readings.slurry_blocks(case))
+            list(slurry_over_time.slurry_blocks(case))
             parts = [call.args[1:3] for call in read.call_args_list]
             np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])
             case.begin = 0.58
             with self.assertRaisesRegex(RuntimeError, "slurry.h5: no window from DEM time 1.58 to 1.6 s"):
-                list(flow_readings.slurry_blocks(case))
+                list(slurry_over_time.slurry_blocks(case))
 
     def test_written_times_are_parted_where_there_is_no_slurry_file(self):
         frames = [(0.1 * k, f"time {k}") for k in range(11)]
         case = SimpleNamespace(begin=0.5, last=1.0, slurry=None, flow=SimpleNamespace(time0=0.0, frames=frames))
-        with mock.patch.object(flow_readings, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
-            parts = list(flow_readings.slurry_blocks(case))
+        with mock.patch.object(slurry_over_time, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
+            parts = list(slurry_over_time.slurry_blocks(case))
         self.assertEqual(parts, [["time 5", "time 6"], ["time 7"], ["time 8"], ["time 9"], ["time 10"]])
 
     def test_tables_of_function_objects_are_taken_from_the_beginning_of_the_averages_on(self):
         times = np.array([1.0, 2.0, 3.0])
         tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]], "p_rgh": [[9, 9], [5, 0], [7, 8]]}
         case = SimpleNamespace(begin=2.0, axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
-        found = flow_readings.read_series(case)
+        found = slurry_over_time.read_series(case)
         np.testing.assert_array_equal(found.times, [2, 3])
         np.testing.assert_array_equal(found.height, [[-1, np.nan], [-3, -4]])
         np.testing.assert_array_equal(found.pressure, [[5, np.nan], [7, 8]])

@@ -11,12 +11,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam, mill_plots
-from millfoam.axial import axial_profile, discharge, fit_gaussians, slurry_volumes
-from millfoam.flow_readings import RING, humps_at_ends, ring_depth
-from millfoam.mill import read_mill
-from millfoam.mill_flow import MillFlow
-from millfoam.slurry_maps import axial_flow, axial_velocity, slurry_ends
+from millfoam.files import foam
+from millfoam.files.mill import read_mill
+from millfoam.files.written_times import MillFlow
+from millfoam.plots import mill_plots
+from millfoam.readings.axial import axial_profile, discharge, fit_gaussians, humps_at_ends, slurry_volumes
+from millfoam.readings.slurry_on_maps import axial_flow, axial_velocity, slurry_ends
+from millfoam.readings.slurry_over_time import RING, ring_depth
 
 
 def plot_profile(profile, fits, path):

@@ -12,9 +12,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import mill_plots
-from millfoam.mill_flow import MillFlow
-from millfoam.slurry_maps import axial_velocity
+from millfoam.files.written_times import MillFlow
+from millfoam.plots import mill_plots
+from millfoam.readings.slurry_on_maps import axial_velocity
 
 LIMIT = 30  # of the maps' colours, mm/s
 

@@ -19,10 +19,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from millfoam.charge import Charge, charge_with_errors, read_charge
-from millfoam.charge_plots import draw_charge
+from millfoam.files.solids_file import read_windows
+from millfoam.plots.charge_plots import draw_charge
+from millfoam.readings.charge import Charge, charge_with_errors, read_charge
+from millfoam.readings.means import with_error
 from millfoam.run import RunError, run
-from millfoam.solids import read_windows, with_error
 from millstudies import other_readings, published_mills
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import Setting, run_name

@@ -62,10 +62,11 @@ def write_table(rows):
 def plot(rows):
     """Power against speed, a line for each load; and every run's place."""
     figure, axis = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
-    for mill, load in sorted({(r["mill"], r["load_percent"]) for r in rows}, key=lambda item: (item[0], float(item[1]))):
-        line = sorted((r for r in rows if (r["mill"], r["load_percent"]) == (mill, load)), key=lambda r: r["speed_percent"])
+    lines = sorted({(r["mill"], r["load_percent"]) for r in rows}, key=lambda item: (item[0], float(item[1])))
+    for size, load in lines:
+        line = sorted((r for r in rows if (r["mill"], r["load_percent"]) == (size, load)), key=lambda r: r["speed_percent"])
         axis.errorbar([r["speed_percent"] for r in line], [r["power_W"] for r in line], [r["power_error_W"] for r in line],
-                      marker="o", ms=4, capsize=3, label=f"{mill}, {load} % load")
+                      marker="o", ms=4, capsize=3, label=f"{size}, {load} % load")
     axis.set(xlabel="speed, % of critical", ylabel="power that the charge takes, W", ylim=(0, None))
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8)

@@ -17,10 +17,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.flow_record import read_flow_record
-from millfoam.mill_flow import MillFlow
-from millfoam.mill_plots import draw_mill
-from millfoam.slurry_shape import LEVEL, read_shape
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.written_times import MillFlow
+from millfoam.plots.mill_plots import draw_mill
+from millfoam.readings.shell_angles import LEVEL
+from millfoam.readings.slurry_in_cells import read_shape
 from millstudies.mill_runs import COARSE, MILL, Setting, make_runs
 
 HERE = Path(__file__).parent.resolve()

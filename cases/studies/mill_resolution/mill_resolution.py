@@ -17,8 +17,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.mill_flow import MillFlow
-from millfoam.slurry_shape import read_shape
+from millfoam.files.written_times import MillFlow
+from millfoam.readings.slurry_in_cells import read_shape
 from millstudies.convergence import judge
 from millstudies.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from millfoam.flow_readings import Mean, series_mean
+from millfoam.readings.means import Mean, series_mean
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 LARGE, SLICE = "30 cm mill", "12 cm slice"

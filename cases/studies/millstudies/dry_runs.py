@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from millfoam.data_files import number, read_json
-from millfoam.mill import read_mill
+from millfoam.files.data_files import number, read_json
+from millfoam.files.mill import read_mill
+from millfoam.files.solids_file import read_map
 from millfoam.run import RunError, run
-from millfoam.solids import read_map
 
 from .mill_runs import is_of, make_charge
 

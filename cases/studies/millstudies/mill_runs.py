@@ -14,9 +14,9 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from millfoam.data_files import DataError, read_json
-from millfoam.flow_record import read_flow_record
-from millfoam.mill import Mill
+from millfoam.files.data_files import DataError, read_json
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.mill import Mill
 from millfoam.run import RunError, run, set_options
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other ways to read the tangential velocity and the free surface off a map: each changes one choice of millfoam.charge or
-millfoam.free_surface, so that a published number that was read in an unknown way can be held against all of them.
+"""Other ways to read the tangential velocity and the free surface off a map: each changes one choice of readings.charge or
+readings.free_surface, so that a published number that was read in an unknown way can be held against all of them.
 
 Each reading is a function (SolidsMap, radius in m) -> root mean square deviation, m/s or m, and raises RuntimeError where the map
 does not have it. Names: VELOCITY and SURFACE."""
 import numpy as np
 
-from millfoam.charge import circulation_centre, tangential_profile
-from millfoam.free_surface import WALL, fit_logistic, free_surface, surface_points
+from millfoam.readings.charge import circulation_centre, tangential_profile
+from millfoam.readings.free_surface import WALL, fit_logistic, free_surface, surface_points
 
 FIRST_BALLS = 0.01  # solidity, of the largest voxel's, from which a voxel counts when the thinnest flight does
 TURN = 15.0  # of the line through the centre of circulation, degrees

@@ -5,11 +5,12 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from millfoam import slurry_maps
-from millfoam.axial import AxialSeries
-from millfoam.flow_readings import Mean, block_mean, read_series, ring_depth, slurry_blocks, slurry_way
-from millfoam.free_surface import free_surface
-from millfoam.slurry_shape import read_frame, reynolds
+from millfoam.readings import slurry_on_maps
+from millfoam.readings.axial import AxialSeries
+from millfoam.readings.free_surface import free_surface
+from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.slurry_in_cells import read_frame, reynolds
+from millfoam.readings.slurry_over_time import read_series, ring_depth, slurry_blocks, slurry_way
 
 # Of the published slurries: density, kg/m3 -> solids, % by mass
 CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
@@ -50,12 +51,12 @@ class RunReadings:
 
 def surface_line(slurry, radius, inner):
     """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free surface of a
-    slurry_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond. RuntimeError if there is none.
+    slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond. RuntimeError if there is none.
 
     The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing of it."""
     centres_x, centres_y = slurry.centres()
     within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
-    pool = slurry_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
+    pool = slurry_on_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
     columns = np.flatnonzero(pool.where.any(axis=0))
     tops = len(centres_y) - 1 - np.argmax(pool.where[::-1, columns], axis=0)
     step = slurry.y[1] - slurry.y[0]
@@ -99,7 +100,7 @@ def read_reynolds(case):
 
 
 def read_run(case):
-    """RunReadings of a report.sources.MillCase with a flow; what cannot be read stands in `failures`."""
+    """RunReadings of a MillCase with a flow; what cannot be read stands in `failures`."""
     name = f"{case.folder.resolve().parent.name}/{case.name}"
     found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
                         CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)

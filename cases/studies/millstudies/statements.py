@@ -5,8 +5,9 @@ that say so. Tilts, numbers of humps and shares that are compared with a limit a
 import numpy as np
 from scipy.signal import find_peaks
 
-from millfoam.axial import fit_gaussians
-from millfoam.flow_readings import Mean, read_series, series_mean
+from millfoam.readings.axial import fit_gaussians
+from millfoam.readings.means import Mean, series_mean
+from millfoam.readings.slurry_over_time import read_series
 
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign, height,
                             judged, sign, unread)
@@ -242,7 +243,7 @@ def verdicts(runs):
 
 
 def read(case):
-    """RunReadings of a report.sources.MillCase with a flow, of a slice too with its series: it tells whether it is steady."""
+    """RunReadings of a MillCase with a flow, of a slice too with its series: it tells whether it is steady."""
     found = read_run(case)
     if found.series is None and not found.ends:
         try:

@@ -12,7 +12,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.compare import difference
+from millfoam.readings.compare import difference
 from millstudies.dry_runs import make_dry_run
 from millstudies.mill_runs import MILL, resolved
 from millstudies.published_mills import averages

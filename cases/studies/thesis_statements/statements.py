@@ -8,7 +8,7 @@ import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from millfoam.report.sources import MillCase
+from millfoam.files.mill_case import MillCase
 from millstudies.compared_runs import Verdict
 from millstudies.mill_runs import summary_of_whole
 from millstudies.statements import read, verdicts

@@ -23,9 +23,9 @@ from scipy.optimize import brentq
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
 from flow_curve import regularised
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
 # Viscous enough to be steady soon
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 1.0, 0.1

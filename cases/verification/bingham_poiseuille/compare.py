@@ -18,9 +18,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from flow_curve import regularised
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
 # Slurry with 30 % solids by mass
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014

@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import set_options, write_parameters
 from mill_slice import FINE, MILL

@@ -15,8 +15,8 @@ import numpy as np
 
 import pool_pictures
 import pool_table
-from millfoam.run import RunError, set_options, write_parameters
 from millfoam.run import run as run_program
+from millfoam.run import RunError, set_options, write_parameters
 from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 

@@ -6,7 +6,7 @@ from dataclasses import astuple, dataclass, fields
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 
 
 BED = 0.05  # solidity from which on slurry is between balls

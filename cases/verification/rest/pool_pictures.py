@@ -9,7 +9,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from scipy.spatial import cKDTree
 
-from millfoam import foam
+from millfoam.files import foam
 
 COLOURS = {"interFoam": "tab:red", "interIsoFoam": "tab:orange", "slurryFoam": "tab:blue"}
 SLOWEST, FASTEST = 1e-5, 10.0  # m/s, of the maps' colours

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import pool
-from millfoam import foam
+from millfoam.files import foam
 from millfoam.run import run as run_program
 from pool_history import Run
 

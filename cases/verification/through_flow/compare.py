@@ -22,9 +22,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
 LENGTH, WIDTH = 0.8, 0.1  # m
 SPEED, DENSITY, NU = 0.5, 1000.0, 1e-6  # superficial m/s; kg/m3; m2/s

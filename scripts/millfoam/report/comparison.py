@@ -2,10 +2,13 @@
 """Sections of the report that hold several cases against the first."""
 import numpy as np
 
-from .. import axial, charge, compare, mill_plots
-from ..slurry_maps import SlurryMap
+from ..files.slurry_file import SlurryMap
+from ..plots import mill_plots
+from ..readings import axial, charge, compare
+from ..readings.free_surface import free_surface
 from . import figures, maps, page
-from .readings import FRAME, key_numbers
+from .case_readings import FRAME, key_numbers
+from .headline import summary
 
 
 def sections(cases, readings, names, found):
@@ -35,7 +38,7 @@ def numbers(cases, readings, names):
     columns = [dict(key_numbers(case, reading)) for case, reading in zip(cases, readings)]
     keys = list(dict.fromkeys(key for column in columns for key in column))
     rows = [(key, *(column.get(key, "–") for column in columns)) for key in keys]
-    rows.insert(0, ("run", *(case.summary() for case in cases)))
+    rows.insert(0, ("run", *(summary(case) for case in cases)))
     short = [f" {name}:{words}" for name, words in zip(names, [one.short_blocks(slurry=False) for one in readings])
              if words]
     return page.table(["", *names], rows, wide=True, note="±: standard errors of batch means over time. Angles are "
@@ -90,7 +93,7 @@ def charge_differences(told):
                                   title=f"{name} less {first_name}"))
         found = compare.difference(case.charge, first.charge)
         try:
-            surface = compare.surface_difference(*(compare.free_surface(one.charge, one.radius)
+            surface = compare.surface_difference(*(free_surface(one.charge, one.radius)
                                                    for one in (case, first)))
             height = f"{1e3 * surface.mean:+.2g} mm, deviating by {1e3 * surface.deviation:.2g} mm"
         except RuntimeError:

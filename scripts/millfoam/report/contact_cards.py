@@ -3,7 +3,7 @@
 power."""
 import numpy as np
 
-from ..contact_spectra import PARTS, power_to_dissipate, read_spectra
+from ..readings.contact_spectra import PARTS, power_to_dissipate, read_spectra
 from . import page
 from .figures import COLOURS, axes_of
 

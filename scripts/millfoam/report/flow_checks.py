@@ -2,7 +2,7 @@
 """Checks of a flow: its slurry, its time-steps, its mesh, and the balls in it."""
 import numpy as np
 
-from ..data_files import number
+from ..files.data_files import number
 from .verdict import Check, judged
 
 CONSERVED = 1e-6  # of the hold-up that may be missing

@@ -3,8 +3,6 @@
 change."""
 import numpy as np
 
-from .sources import fines_told
-
 
 def first_lines(case, checks):
     """Sentences for the top of the report of a MillCase with these checks: the first says whether the flow's numbers
@@ -46,3 +44,24 @@ def lasting_told(check):
     """That a longer run cannot make a check hold, and what it means."""
     word = "fails" if check.state == "fails" else "is doubtful"
     return f"“{check.name}” {word}, and a longer run does not change that: {check.meaning}."
+
+
+def summary(case):
+    """One line on a MillCase: what was run."""
+    mill = case.mill
+    part = f" of {1e3 * mill.whole_length:.4g} mm" if mill.length < 0.999 * mill.whole_length else ""
+    length = f"{1e3 * mill.length:.4g} mm" + (f" (periodic slice{part})" if mill.is_slice else "")
+    words = [f"{2e3 * mill.radius:.4g} × {length}",
+             f"{mill.sense} at {100 * mill.critical_share:.3g} % of critical ({abs(mill.omega):.2f} rad/s)"]
+    words += [f"{int(case.results['balls'])} balls"] if case.results else []
+    words += [fines_told(mill)] if mill.fines_share > 0 else []
+    if case.flow:
+        words.append(f"slurry {mill.slurry('density_kg_m3'):.4g} kg/m³")
+        unknown = "drag law not told" if case.flow.displaced else "no balls in the flow"
+        words.append(f"drag: {case.law}" if case.law else unknown)
+    return ", ".join(words)
+
+
+def fines_told(mill):
+    """In words, which part of a Mill's charge is not simulated."""
+    return f"without balls of {1e3 * mill.largest_fines:.3g} mm and less ({100 * mill.fines_share:.0f} % of the mass)"

@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .. import mill_plots
+from ..plots import mill_plots
 from .figures import RED
 
 DIFFERENCE = "RdBu_r"

@@ -3,11 +3,12 @@
 import h5py
 import numpy as np
 
-from .. import charge_plots, mill_plots, solids
-from ..data_files import read_text
+from ..files import solids_file
+from ..files.data_files import read_text
+from ..plots import charge_plots, mill_plots
 from . import figures, maps, page
+from .case_readings import FRAME, key_numbers
 from .contact_cards import contact_section
-from .readings import FRAME, key_numbers
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
 from .words import quantity, span_of_time
@@ -46,7 +47,7 @@ def animation(case):
         return page.player(mill_plots.frame_figures(case.flow, frames),
                            f"Share of slurry over the axis (blue){edge}, flow time {frames[0][0]:.2f} to "
                            f"{frames[-1][0]:.2f} s.", title=last_turn(shown, case.turn))
-    windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
+    windows = solids_file.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
     shown = windows[-1].end - windows[0].begin
     windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
     return page.player(mill_plots.charge_figures(windows, case.radius, case.omega, case.outline_at),

@@ -3,10 +3,12 @@
 it."""
 import numpy as np
 
-from .. import axial, charge, mill_plots, models, slurry_maps
-from ..flow_readings import RING, Way, humps_at_ends, ring_depth
-from ..free_surface import at_points
-from ..tables import time_mean
+from ..plots import mill_plots
+from ..readings import axial, charge, models, slurry_on_maps
+from ..readings.axial import humps_at_ends
+from ..readings.free_surface import at_points
+from ..readings.means import time_mean
+from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
 from .words import millilitres, uncertain
 
@@ -51,7 +53,7 @@ def slurry_rows(case, readings):
     if case.solids and case.law:
         points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
         solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
-    pool = slurry_maps.pool(slurry, solidity)
+    pool = slurry_on_maps.pool(slurry, solidity)
     rows.append(("pool clear of the charge" if case.has_balls else "pool",
                  f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0
                  else "none"))
@@ -59,7 +61,7 @@ def slurry_rows(case, readings):
         return rows
     if not isinstance(way, Way):
         return rows + [("along the axis", str(way))]
-    halves = slurry_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
+    halves = slurry_on_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
     rows += [(f"along the axis at the {name}: mean (90 % of it)", uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
               + f" ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
              for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import h5py
 
-from ..mill import PARTS
+from ..files.mill import PARTS
 from .verdict import Check
 
 NAME = "All stages belong to this mill"

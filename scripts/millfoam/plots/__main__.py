@@ -5,9 +5,10 @@ import argparse
 import sys
 from pathlib import Path
 
-from . import mill_plots, solids
-from .mill import read_mill
-from .mill_flow import MillFlow
+from ..files import solids_file
+from ..files.mill import read_mill
+from ..files.written_times import MillFlow
+from . import mill_plots
 
 
 def main():
@@ -53,8 +54,8 @@ def read_charge(path, flow, begin):
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
         return None
-    span = solids.span_of_flow(*solids.recorded_span(path), flow.time0 + begin, flow.time0 + flow.frames[-1][0])
-    return solids.read_map(path, *span)
+    span = solids_file.span_of_flow(*solids_file.recorded_span(path), flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+    return solids_file.read_map(path, *span)
 
 
 def summary(flow, charge, begin):

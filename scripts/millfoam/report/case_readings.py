@@ -2,10 +2,11 @@
 """What is read off a case's maps and tables, once for all sections, and the numbers that are asked for first."""
 import numpy as np
 
-from .. import axial, charge
-from ..flow_readings import humps_at_ends, mean_slurry, read_series, slurry_blocks, slurry_way
-from ..slurry_maps import SlurryMap
-from ..tables import time_mean
+from ..files.slurry_file import SlurryMap
+from ..readings import axial, charge
+from ..readings.axial import humps_at_ends
+from ..readings.means import time_mean
+from ..readings.slurry_over_time import mean_slurry, read_series, slurry_blocks, slurry_way
 from .words import millilitres, uncertain
 
 FRAME = ("Distances x are positive to the side where the shell falls, on the right of a clockwise mill: they are alike "
@@ -69,7 +70,7 @@ class Readings:
         return charge.charge_with_errors(maps, self.case.radius) if len(maps) >= 4 else None
 
     def _way(self):
-        """flow_readings.Way by blocks of time, or of the mean where one of them tells nothing."""
+        """slurry_over_time.Way by blocks of time, or of the mean where one of them tells nothing."""
         try:
             return slurry_way(self.blocks, self.case.radius, self.case.lifter_height)
         except RuntimeError:

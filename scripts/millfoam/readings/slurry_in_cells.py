@@ -1,54 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off a flow.
+"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off the cells of a flow's
+written times.
 
-Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
-positive, the toe's usually negative."""
+Angles: see shell_angles."""
 from dataclasses import dataclass
 
 import numpy as np
 
-from . import foam
-from .flow_record import read_flow_record
+from ..files import foam
+from ..files.flow_record import read_flow_record
+from .means import weighted_percentile
+from .shell_angles import BIN, shell_angle, toe_and_shoulder
 
-BIN = 3.0  # of the ring along the lifters' tips, degrees
-LEVEL = 0.5  # slurry's share of the fluid at its surface
 SAMPLES = 4  # along each side of a column's quad
 BED = 0.2  # solidity from which on a place belongs to the bed
-
-
-def shell_angle(x, y, omega):
-    """Angle from straight down, degrees in [-180, 180), positive on the rising side of a mill of speed omega
-    (rad/s)."""
-    return (np.degrees(np.arctan2(np.sign(omega) * x, -y)) + 180) % 360 - 180
-
-
-def bin_centres():
-    """Of the ring's bins, degrees."""
-    return np.arange(-180 + BIN / 2, 180, BIN)
-
-
-def crossing(angles, share, inside, outside):
-    """Angle at which the share, straight between the two bins, is LEVEL."""
-    part = (share[inside] - LEVEL) / (share[inside] - share[outside])
-    way = (angles[outside] - angles[inside] + 180) % 360 - 180
-    return (angles[inside] + part * way + 180) % 360 - 180
-
-
-def toe_and_shoulder(share):
-    """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins
-    [bins].
-
-    Of the arcs with a share of at least LEVEL the one that holds most slurry counts. NaN where there is no end:
-    nowhere that much slurry, or everywhere."""
-    angles, wet = bin_centres(), share >= LEVEL
-    starts = np.flatnonzero(wet & ~np.roll(wet, 1))
-    if len(starts) == 0:
-        return np.nan, np.nan
-    bins = len(share)
-    arcs = [np.arange(start, start + np.argmin(np.roll(wet, -start))) % bins for start in starts]
-    arc = max(arcs, key=lambda bins_of: share[bins_of].sum())
-    return (crossing(angles, share, arc[0], arc[0] - 1),
-            crossing(angles, share, arc[-1], (arc[-1] + 1) % bins))
 
 
 def samples(flow):
@@ -131,13 +96,6 @@ def reynolds(frame, density, viscosity):
     slip = np.linalg.norm(frame.balls[bed] - frame.velocity[bed], axis=1)
     number = density * (1 - frame.solidity[bed]) * slip * frame.diameter[bed] / viscosity
     return number, frame.slurry[bed]
-
-
-def weighted_percentile(values, weights, percents):
-    """Values below which these percents of the weight lie."""
-    order = np.argsort(values)
-    below = np.cumsum(weights[order]) - weights[order] / 2
-    return np.interp(np.asarray(percents) / 100 * weights.sum(), below, values[order])
 
 
 @dataclass

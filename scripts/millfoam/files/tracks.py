@@ -1,32 +1,66 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tracks of single balls out of the dumps of a dry run (layout: dem_driver/README.md)."""
+"""Tracks of single balls: of tracers from text files, and out of the dumps of a dry run (layout: dem_driver/README.md)."""
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from .data_files import number, read_json
-from .tracer import Trajectory
+from .dumps import numbered_dumps, read_timestep
 
 POSITION = ("x", "y", "z")
 
 
-def read_notes(dumps):
-    """DIR/dumps/run.json: timestep_s, interval (steps between dumps), angular_velocity_rad_s, …; RuntimeError naming
-    what is wrong with it."""
-    return read_json(Path(dumps) / "run.json", "dumps")
+@dataclass
+class Trajectory:
+    """Track of one tracer: time [n] (s), increasing; position [n, 3] (m). ValueError where it is none."""
+    time: np.ndarray
+    position: np.ndarray
+
+    def __post_init__(self):
+        self.time, self.position = np.asarray(self.time, dtype=float), np.asarray(self.position, dtype=float)
+        if self.position.shape != (len(self.time), 3) or len(self.time) < 2:
+            raise ValueError(f"{len(self.time)} times and positions {self.position.shape}; expected [n] and [n, 3], n > 1")
+        if not (np.isfinite(self.time).all() and np.isfinite(self.position).all()):
+            raise ValueError("a track with values that are not finite")
+        if not (np.diff(self.time) > 0).all():
+            raise ValueError(f"time does not increase after {self.time[np.argmax(np.diff(self.time) <= 0)]} s")
 
 
-def read_timestep(dumps):
-    """The dry run's time-step by DIR/dumps/run.json, s."""
-    return number(read_notes(dumps), Path(dumps) / "run.json", "timestep_s")
+def read_trajectory(path, time_unit=1.0, length_unit=1.0):
+    """Trajectory from a text file of lines t, x, y, z, parted by commas or blanks; empty lines, lines that begin with #, and one
+    line of names at the top are skipped. Units: in s and m. RuntimeError naming file, line and value for a wrong number of
+    columns, a word that is no number or not finite, time that does not increase, or fewer than two points."""
+    rows = []
+    with open(path) as file:
+        for number, line in enumerate(file, 1):
+            words = line.replace(",", " ").split()
+            if not words or words[0].startswith("#") or (not rows and number == 1 and not _is_number(words[0])):
+                continue
+            row = _numbers(f"{path}:{number}", words)
+            if rows and row[0] <= rows[-1][0]:
+                raise RuntimeError(f"{path}:{number}: time {row[0]:g} after {rows[-1][0]:g}, expected times that increase")
+            rows.append(row)
+    if len(rows) < 2:
+        raise RuntimeError(f"{path}: {len(rows)} points, expected 2 or more")
+    table = np.array(rows)
+    return Trajectory(table[:, 0] * time_unit, table[:, 1:] * length_unit)
 
 
-def numbered_dumps(folder, kind="dump"):
-    """[(step, path)] of a folder's `<kind>.<step>.txt`, by step; RuntimeError where there are none."""
-    found = sorted((int(path.name.split(".")[1]), path) for path in Path(folder).glob(f"{kind}.*.txt"))
-    if not found:
-        raise RuntimeError(f"{folder}: no {kind}.<step>.txt")
-    return found
+def _is_number(word):
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _numbers(where, words):
+    if len(words) != 4:
+        raise RuntimeError(f"{where}: {len(words)} columns, expected 4: t, x, y, z")
+    for word in words:
+        if not _is_number(word) or not np.isfinite(float(word)):
+            raise RuntimeError(f"{where}: '{word}', expected a finite number")
+    return [float(word) for word in words]
 
 
 def read_tracks(dumps, ids, begin=0.0, end=np.inf):

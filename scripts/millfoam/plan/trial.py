@@ -7,10 +7,10 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from .data_files import number, read_json
-from .run import RunError
+from ..files.data_files import number, read_json
+from ..run import RunError
 
-TEMPLATE = Path(__file__).resolve().parents[1] / "mill_case"
+TEMPLATE = Path(__file__).resolve().parents[2] / "mill_case"
 TRIAL_TIME = 20.0  # s that the trial of the flow may last
 LARGEST_STEPS = 30  # its length in largest time-steps: about 40 steps, because the first ones are shorter
 FIRST_STEPS = 10  # that are not counted: the time-step grows from its first value

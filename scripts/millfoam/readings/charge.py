@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read off a map of the charge: centre of circulation, toe and shoulder, free surface
-(millfoam.free_surface), tangential velocity.
+(free_surface), tangential velocity.
 
 x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense.
 
@@ -14,8 +14,8 @@ from scipy.fft import dstn, idstn
 
 from .free_surface import (EDGE, SMOOTHING, WALL, FreeSurface, along_the_shell, at_points, free_surface, smoothed,
                            toe_and_shoulder)
-from .slurry_shape import shell_angle
-from .solids import with_error
+from .means import with_error
+from .shell_angles import shell_angle
 
 TURNING = 0.3  # least share of circulation in the charge's motion about its centre
 POINTS = 100  # along the line through the centre of circulation
@@ -176,7 +176,7 @@ def read_charge(charge, radius, wall=WALL):
 
 
 def charge_with_errors(maps, radius, wall=WALL, blocks=8):
-    """Readings with standard errors over time (millfoam.solids.with_error), of SolidsMap of successive windows: name ->
+    """Readings with standard errors over time (means.with_error), of SolidsMap of successive windows: name ->
     Reading of centre (x, y), ends (toe, shoulder), surface_rmsd and tangential_rmsd."""
     readings = {"centre": lambda one: circulation_centre(one, radius),
                 "ends": lambda one: toe_and_shoulder(one, radius, wall),

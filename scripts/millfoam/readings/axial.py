@@ -6,7 +6,7 @@ from itertools import combinations
 import numpy as np
 from scipy.optimize import curve_fit
 
-from .flow_record import read_flow_record
+from ..files.flow_record import read_flow_record
 
 
 @dataclass
@@ -123,6 +123,12 @@ def fit_gaussians(z, height, count):
     humps = sorted(best[1][1:].reshape(-1, 3), key=lambda hump: hump[1])
     heights, places, widths = (tuple(map(float, values)) for values in zip(*humps))
     return Humps(places, heights, widths, float(best[1][0]), best[0])
+
+
+def humps_at_ends(humps, z):
+    """How many axial.Humps stand at an end of the slices z [n] (m): the profile has no hump there that it tells."""
+    slack = 0.1 * (z[1] - z[0])
+    return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
 
 
 def slurry_volumes(case):

@@ -1,36 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its
-stages."""
+"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its stages."""
 from functools import cached_property
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from .. import solids, tables
-from ..contacts import contact_steps
-from ..data_files import number, read_csv, read_json
-from ..dem_tracks import read_timestep
-from ..flow_record import FlowRecord, read_flow_record
-from ..foam import times
-from ..mill import NoMill, read_mill
-from ..mill_flow import MillFlow
-from ..mill_plots import circle
+from . import solids_file, tables
+from .contact_dumps import contact_steps
+from .data_files import number, read_csv, read_json
+from .dumps import read_timestep
+from .flow_record import FlowRecord, read_flow_record
+from .foam import times
+from .mill import NoMill, read_mill
+from .outline import lifter_outline
+from .written_times import MillFlow
 
 CUT = 0.01  # of a flow's duration: what it may lack of it
-
-
-def lifter_outline(radius, count, height, width, top_width, angle):
-    """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from
-    +x; height from the shell to the middle of the flat top, width of the foot between its points on the shell."""
-    if not count:
-        return circle(radius)
-    half, pitch = np.arcsin(width / 2 / radius), 2 * np.pi / count
-    arc = radius * np.exp(1j * np.linspace(half, pitch - half, max(3, 360 // count)))
-    lifter = [radius * np.exp(-1j * half), radius - height - 0.5j * top_width, radius - height + 0.5j * top_width]
-    points = np.concatenate([np.exp(1j * (angle + number * pitch)) * np.concatenate([lifter, arc])
-                             for number in range(count)])
-    return np.column_stack([points.real, points.imag])[[*range(len(points)), 0]]
 
 
 class MillCase:
@@ -198,7 +184,7 @@ class MillCase:
         """DEM times between which the charge is averaged, s."""
         first, last = self.solids_span
         if self.flow:
-            return solids.span_of_flow(first, last, self.flow.time0 + self.begin, self.flow.time0 + self.last)
+            return solids_file.span_of_flow(first, last, self.flow.time0 + self.begin, self.flow.time0 + self.last)
         if self.asked_begin is not None:
             return self.asked_begin, last
         steady = self.result("steady_from_s") if self.results else first
@@ -207,12 +193,12 @@ class MillCase:
     @cached_property
     def charge_windows(self):
         """SolidsMap of each window of charge_span."""
-        return solids.read_windows(self.solids, *self.charge_span) if self.solids else []
+        return solids_file.read_windows(self.solids, *self.charge_span) if self.solids else []
 
     @cached_property
     def charge(self):
         """SolidsMap of the charge over charge_span."""
-        return solids.mean_map(self.charge_windows) if self.solids else None
+        return solids_file.mean_map(self.charge_windows) if self.solids else None
 
     @cached_property
     def contacts(self):
@@ -326,23 +312,3 @@ class MillCase:
         if self.record.summaries:
             return (self.record.last.get("drag") or {}).get("law")
         return self.mill.flow("law") if self.mill.flow("balls", self.flow.displaced) else None
-
-    def summary(self):
-        """One line: what was run."""
-        mill = self.mill
-        part = f" of {1e3 * mill.whole_length:.4g} mm" if mill.length < 0.999 * mill.whole_length else ""
-        length = f"{1e3 * mill.length:.4g} mm" + (f" (periodic slice{part})" if mill.is_slice else "")
-        words = [f"{2e3 * mill.radius:.4g} × {length}",
-                 f"{mill.sense} at {100 * mill.critical_share:.3g} % of critical ({abs(mill.omega):.2f} rad/s)"]
-        words += [f"{int(self.results['balls'])} balls"] if self.results else []
-        words += [fines_told(mill)] if mill.fines_share > 0 else []
-        if self.flow:
-            words.append(f"slurry {mill.slurry('density_kg_m3'):.4g} kg/m³")
-            unknown = "drag law not told" if self.flow.displaced else "no balls in the flow"
-            words.append(f"drag: {self.law}" if self.law else unknown)
-        return ", ".join(words)
-
-
-def fines_told(mill):
-    """In words, which part of a Mill's charge is not simulated."""
-    return f"without balls of {1e3 * mill.largest_fines:.3g} mm and less ({100 * mill.fines_share:.0f} % of the mass)"

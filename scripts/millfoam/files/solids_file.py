@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window, and estimates how far a mean
-over time is uncertain."""
+"""Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window."""
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -110,38 +109,3 @@ def recorded_span(path):
 def read_map(path, begin=-np.inf, end=np.inf):
     """Mean over axis and time of the windows that touch [begin, end) of DEM time (s), see read_windows."""
     return mean_map(read_windows(path, begin, end))
-
-
-@dataclass
-class Reading:
-    """value of the mean over all windows, a number or an array, and its standard error, from as many `blocks` of windows; on
-    `failed` further blocks there was nothing to read. The error is NaN if it could be read on fewer than two."""
-    value: np.ndarray
-    error: np.ndarray
-    blocks: int
-    failed: int
-
-
-def with_error(reading, maps, blocks=8):
-    """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
-
-    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is nothing to
-    read. What it raises for the mean of all windows is passed on.
-    maps: as read_windows gives them; they are cut into at most `blocks` equal blocks of successive windows (what is left over
-    goes to the first ones), each block is averaged and read, and the error is the readings' standard deviation over the root of
-    their number. That holds as far as blocks are longer than what the charge remembers, about a turn of the charge.
-    Method of batch means: A. M. Law, Simulation Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
-    if len(maps) < 2 or blocks < 2:
-        raise ValueError(f"{len(maps)} windows in {blocks} blocks: an error over time needs at least two of each")
-    value = np.asarray(reading(mean_map(maps)), dtype=float)
-    parts = np.array_split(np.arange(len(maps)), min(blocks, len(maps)))
-    found = []
-    for part in parts:
-        try:
-            one = np.asarray(reading(mean_map([maps[i] for i in part])), dtype=float)
-        except RuntimeError:
-            continue
-        if np.all(np.isfinite(one)):
-            found.append(one)
-    error = np.std(found, axis=0, ddof=1) / np.sqrt(len(found)) if len(found) > 1 else np.full(value.shape, np.nan)
-    return Reading(value, error, len(found), len(parts) - len(found))

@@ -12,7 +12,7 @@ from contourpy import contour_generator
 from scipy.ndimage import gaussian_filter, map_coordinates
 from scipy.optimize import curve_fit
 
-from .slurry_shape import shell_angle
+from .shell_angles import shell_angle
 
 SMOOTHING = 0.05  # standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
 EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map

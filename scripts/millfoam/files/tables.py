@@ -55,11 +55,3 @@ def read_columns(case, name):
     """The same as a dictionary: column name -> values [times]; names without their units, `holdUp` for `holdUp_m3`."""
     names, rows = read_table(case, name)
     return {re.sub(r"_(s|m|m3|m3/s|m/s|Nm|W|Pa)$", "", column): rows[:, k] for k, column in enumerate(names)}
-
-
-def time_mean(times, values, begin):
-    """Mean of values [times] from `begin` (s) on, each standing for the time since the one before; NaN if there are none."""
-    times = np.asarray(times)
-    steps = np.diff(times, prepend=2 * times[0] - times[1] if len(times) > 1 else times[0] - 1)
-    late = times >= begin
-    return float(np.average(np.asarray(values)[late], weights=steps[late])) if late.any() else np.nan

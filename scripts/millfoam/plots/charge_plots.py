@@ -35,7 +35,7 @@ def _arrows(axis, charge):
 
 
 def charge_figure(charge, readings, radius, outline=None):
-    """Figure of a SolidsMap with its Charge (millfoam.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
+    """Figure of a SolidsMap with its Charge (readings.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
     outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through it, free surface
     with its logistic, toe and shoulder."""
     figure, axis = plt.subplots(figsize=(5.2, 5.1), layout="constrained")

@@ -4,7 +4,10 @@ tracers."""
 import h5py
 import numpy as np
 
-from .. import compare, tracer
+from ..files.measured_map import read_measured
+from ..files.tracks import read_trajectory
+from ..readings import compare, tracer
+from ..readings.free_surface import free_surface
 from . import maps, page
 
 MOST_OUTSIDE = 0.5  # of a track's time, outside of the voxels: it is in other units then, or of another place
@@ -19,7 +22,7 @@ def measured_section(case, path):
     if not case.solids:
         raise RuntimeError(f"{case.folder}: no solids.h5 to hold {path} against")
     try:
-        measured = compare.read_measured(path, case.charge)
+        measured = read_measured(path, case.charge)
     except ValueError as error:  # what is no text is one, too
         words = str(error)
         raise RuntimeError(words if words.startswith(str(path)) else f"{path}: {words}") from None
@@ -51,7 +54,7 @@ def tracer_section(case, paths):
 def read_track(path):
     """A track with points enough for a velocity; RuntimeError naming file, line and value."""
     try:
-        track = tracer.read_trajectory(path)
+        track = read_trajectory(path)
     except UnicodeDecodeError:
         raise RuntimeError(f"{path}: no text; expected lines of t, x, y, z") from None
     if len(track.time) < 3:
@@ -129,7 +132,7 @@ def difference_rows(case, other, apart):
     rows += [("inside the mill with a difference of solidity over 0.1", f"{100 * apart.shares[far].sum():.3g} %"),
              ("voxels in the mill that are not known", str(found.missing))]
     try:
-        surface = compare.surface_difference(*(compare.free_surface(one, case.radius) for one in (case.charge, other)))
+        surface = compare.surface_difference(*(free_surface(one, case.radius) for one in (case.charge, other)))
         return rows + [("height of the free surface, simulation less the other",
                         f"{1e3 * surface.mean:+.2g} mm, deviating by {1e3 * surface.deviation:.2g} mm")]
     except (RuntimeError, ValueError) as error:

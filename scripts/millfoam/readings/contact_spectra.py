@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from .contacts import contact_interval, contact_steps, read_contacts, read_materials
-from .dem_tracks import read_timestep
+from ..files.contact_dumps import contact_interval, contact_steps, read_materials
+from ..files.dumps import read_timestep
+from .contacts import read_contacts
 
 HERTZ_DURATION = 2.943  # of a contact, over its largest overlap / its speed at first touch
 PARTS = ("damping", "friction", "rolling", "spring")

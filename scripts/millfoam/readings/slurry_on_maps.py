@@ -1,46 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read off maps of the slurry, averaged over axis and time (millfoam.mill_plots.mean_flow, millfoam.slurry): toe and
-shoulder, the pool in front of the charge, the way along the axis.
+"""What is read off maps of the slurry, averaged over axis and time (SlurryMap): toe and shoulder, the pool in front of the
+charge, the way along the axis.
 
 x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense. z runs from the feed end to the
 discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import label, map_coordinates
 
-from .slurry_shape import LEVEL, bin_centres, shell_angle, toe_and_shoulder, weighted_percentile
-from .solids import CLOCKWISE
+from .means import weighted_percentile
+from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
 
 BED = 0.1  # solidity above which a pixel belongs to the charge
 RANGE = (5, 95)  # per cent of the slurry between which an axial velocity's range is told
 
 
-@dataclass
-class SlurryMap:
-    """Slurry averaged over axis and time on the pixels of a box about the mill.
-
-    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave) that is
-    slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the mean over time is of,
-    in words; sense: the mill's."""
-    x: np.ndarray
-    y: np.ndarray
-    share: np.ndarray
-    velocity: np.ndarray
-    source: str = field(kw_only=True)
-    sense: float = field(default=CLOCKWISE, kw_only=True)
-
-    def centres(self):
-        """Centres of the pixels: x [nx], y [ny] (m)."""
-        return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
-
-    def pixel(self):
-        """A pixel's area, m2."""
-        return float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
-
-    def angles(self):
-        """Of the pixels [ny, nx], degrees."""
-        return shell_angle(*np.meshgrid(*self.centres()), self.sense)
+def pixel_angles(slurry):
+    """Angles of a SlurryMap's pixels [ny, nx], degrees."""
+    return shell_angle(*np.meshgrid(*slurry.centres()), slurry.sense)
 
 
 def slurry_ends(slurry, radius, wall):
@@ -120,7 +98,7 @@ def axial_flow(slurry, toe, shoulder):
     either side of the direction midway between both. RuntimeError if there is no slurry on one of them."""
     velocity = axial_velocity(slurry)
     middle = toe + (shoulder - toe) % 360 / 2
-    rising = (slurry.angles() - middle + 180) % 360 - 180 > 0
+    rising = (pixel_angles(slurry) - middle + 180) % 360 - 180 > 0
     halves = []
     for name, half in (("toe", ~rising), ("shoulder", rising)):
         chosen = half & np.isfinite(velocity)

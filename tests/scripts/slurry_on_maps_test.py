@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from millfoam.slurry_maps import SlurryMap, axial_flow, pool, slurry_ends
-from millfoam.solids import ANTICLOCKWISE
+from millfoam.files.slurry_file import SlurryMap
+from millfoam.files.solids_file import ANTICLOCKWISE
+from millfoam.readings.slurry_on_maps import axial_flow, pixel_angles, pool, slurry_ends
 
 RADIUS, WALL, PIXELS = 0.15, 0.01, 150
 
@@ -39,7 +40,7 @@ class Ends(unittest.TestCase):
         mirrored = replace(slurry_map(tilted(-35)), sense=ANTICLOCKWISE)
         here = slurry_map(tilted(35))
         np.testing.assert_allclose(slurry_ends(mirrored, RADIUS, WALL), slurry_ends(here, RADIUS, WALL), atol=1e-6)
-        np.testing.assert_allclose(mirrored.angles()[:, ::-1], here.angles(), atol=1e-9)
+        np.testing.assert_allclose(pixel_angles(mirrored)[:, ::-1], pixel_angles(here), atol=1e-9)
 
     def test_there_are_none_without_slurry(self):
         self.assertTrue(np.isnan(slurry_ends(slurry_map(lambda x, y: 0 * x), RADIUS, WALL)).all())

@@ -1,46 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slurry of a mill's run by successive blocks of time: toe and shoulder, way along the axis, with standard errors. From
-the tables and slurry.h5 of function objects, else from the written times."""
+"""The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, way along the axis, with standard errors.
+From the tables and slurry.h5 of function objects, else from the written times."""
 import copy
 from dataclasses import dataclass
 
 import h5py
 import numpy as np
 
-from . import slurry_maps
+from ..files.slurry_file import read_slurry_map
+from . import slurry_on_maps
 from .axial import AxialSeries, axial_series
-from .mill_plots import TimesMap, mean_flow, mean_of_times
-from .slurry import read_slurry_map
+from .maps_of_times import TimesMap, mean_flow, mean_of_times
+from .means import BLOCKS, Mean, angle_mean, block_mean
 
-BLOCKS = 5  # of the averaged time, for errors
 RING = 1.5  # heights of a lifter from the shell to the circle on which the slurry is read: what lifters carry is beyond
-
-
-@dataclass(frozen=True)
-class Mean:
-    """A mean over time and its standard error; NaN where there are no two blocks."""
-    value: float
-    error: float = 0.0
-
-    def __sub__(self, other):
-        return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
-
-    def told(self, unit, scale=1.0, form=".1f"):
-        return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
-
-
-def block_mean(values):
-    """Mean of readings [n] of successive blocks of time."""
-    values = np.asarray(values, dtype=float)
-    return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else np.nan)
-
-
-def series_mean(values, blocks=BLOCKS):
-    """Mean of a series [times, …] by as many blocks of successive times: value [...] and standard error [...]."""
-    split = np.array_split(np.asarray(values, dtype=float), min(blocks, len(values)))
-    parts = np.array([np.mean(part, axis=0) for part in split])
-    error = parts.std(axis=0, ddof=1) / np.sqrt(len(parts)) if len(parts) > 1 else np.full(parts.shape[1:], np.nan)
-    return np.mean(values, axis=0), error
 
 
 @dataclass(frozen=True)
@@ -65,33 +38,20 @@ def ring_depth(lifter_height):
     return RING * lifter_height
 
 
-def angle_mean(angles):
-    """block_mean of angles [n] (degrees), which may stand on either side of 180; from -180 to 180."""
-    about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
-    found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
-    return Mean(float((found.value + about + 180) % 360 - 180), found.error)
-
-
 def slurry_way(maps, radius, lifter_height):
-    """Way of slurry_maps.SlurryMap of successive blocks of time. RuntimeError where slurry has no ends on the circle."""
-    ends = [slurry_maps.slurry_ends(one, radius, ring_depth(lifter_height)) for one in maps]
-    ways = [slurry_maps.axial_flow(one, *both) for one, both in zip(maps, ends)]
+    """Way of SlurryMap of successive blocks of time. RuntimeError where slurry has no ends on the circle."""
+    ends = [slurry_on_maps.slurry_ends(one, radius, ring_depth(lifter_height)) for one in maps]
+    ways = [slurry_on_maps.axial_flow(one, *both) for one, both in zip(maps, ends)]
     angles = [angle_mean(one) for one in zip(*ends)]
     return Way(*angles, *(block_mean([getattr(way, half).mean for way in ways]) for half in ("toe", "shoulder")))
 
 
 def mean_slurry(case, maps):
-    """SlurryMap of the averaged time of a report.sources.MillCase, of whose blocks there are `maps`."""
+    """SlurryMap of the averaged time of a MillCase, of whose blocks there are `maps`."""
     if all(isinstance(one, TimesMap) for one in maps):
         return mean_of_times(maps)
     return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
                            np.sign(case.omega))
-
-
-def humps_at_ends(humps, z):
-    """How many axial.Humps stand at an end of the slices z [n] (m): the profile has no hump there that it tells."""
-    slack = 0.1 * (z[1] - z[0])
-    return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
 
 
 def blocks_of(count):
@@ -100,7 +60,7 @@ def blocks_of(count):
 
 
 def slurry_blocks(case):
-    """slurry_maps.SlurryMap of successive parts of the averaged time of a report.sources.MillCase: of slurry.h5's windows that
+    """SlurryMap of successive parts of the averaged time of a MillCase: of slurry.h5's windows that
     lie in it, or of the written times. RuntimeError where there are none."""
     begin, end = case.flow.time0 + case.begin, case.flow.time0 + case.last
     if case.slurry:

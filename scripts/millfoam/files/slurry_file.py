@@ -1,11 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads slurry.h5, a flow's slurry on voxels (layout: averaging/README.md)."""
-from dataclasses import dataclass
+"""Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry on voxels (layout:
+averaging/README.md)."""
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from .slurry_maps import SlurryMap
-from .solids import CLOCKWISE, open_hdf5
+from .solids_file import CLOCKWISE, open_hdf5
+
+
+@dataclass
+class SlurryMap:
+    """Slurry averaged over axis and time on the pixels of a box about the mill.
+
+    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave) that is
+    slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the mean over time is of,
+    in words; sense: the mill's."""
+    x: np.ndarray
+    y: np.ndarray
+    share: np.ndarray
+    velocity: np.ndarray
+    source: str = field(kw_only=True)
+    sense: float = field(default=CLOCKWISE, kw_only=True)
+
+    def centres(self):
+        """Centres of the pixels: x [nx], y [ny] (m)."""
+        return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+
+    def pixel(self):
+        """A pixel's area, m2."""
+        return float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
 
 
 @dataclass
