@@ -16,10 +16,10 @@ import time
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+matplotlib.use("Agg")
 
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT / "cases" / "mills" / "mill_12cm"

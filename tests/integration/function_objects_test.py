@@ -198,7 +198,6 @@ class FedMill(unittest.TestCase):
             with self.subTest(new):
                 self.assertIn(words, self.refused(pattern, new))
 
-
     def test_balls_before_the_inlet_take_nothing_from_the_feed(self):
         case = self.folder / "balls"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", "0.0*"))

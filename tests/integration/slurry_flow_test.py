@@ -113,7 +113,6 @@ class Ranks(SlurryTest):
             scale = np.abs(one[name]).max()
             np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-7 * scale, err_msg=name)
 
-
     def test_nor_do_they_on_a_mesh_that_turns_through_a_bed(self):
         one, two = (self.run_case(ranks, PILE, motion=rotating_mesh(3)) for ranks in (1, 2))
         for name in ("U", "p_rgh", "alpha.slurry", "phi"):

@@ -6,8 +6,6 @@ import argparse
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -18,6 +16,8 @@ from millfoam.plots import mill_plots
 from millfoam.readings.axial import axial_profile, discharge, fit_gaussians, humps_at_ends, slurry_volumes
 from millfoam.readings.slurry_on_maps import axial_flow, axial_velocity, slurry_ends
 from millfoam.readings.slurry_over_time import RING, ring_depth
+
+matplotlib.use("Agg")
 
 
 def plot_profile(profile, fits, path):

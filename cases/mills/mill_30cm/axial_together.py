@@ -7,14 +7,14 @@ import argparse
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.files.written_times import MillFlow
 from millfoam.plots import mill_plots
 from millfoam.readings.slurry_on_maps import axial_velocity
+
+matplotlib.use("Agg")
 
 LIMIT = 30  # of the maps' colours, mm/s
 

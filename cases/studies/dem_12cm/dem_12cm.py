@@ -13,8 +13,6 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
@@ -27,6 +25,8 @@ from millfoam.run import RunError, run
 from millstudies import other_readings, published_mills
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import Setting, run_name
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"

@@ -12,12 +12,12 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import matrix, mill, run_name
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",

@@ -11,10 +11,10 @@ import sys
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+matplotlib.use("Agg")
 
 SOLIDITIES = (0.0, 0.15, 0.3, 0.5, 0.6)
 REYNOLDS = (0.1, 10.0, 100.0, 1000.0)

@@ -12,8 +12,6 @@ import sys
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -23,6 +21,8 @@ from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
 from millfoam.readings.slurry_in_cells import read_shape
 from millstudies.mill_runs import COARSE, MILL, Setting, make_runs
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law

@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -21,6 +19,8 @@ from millfoam.files.written_times import MillFlow
 from millfoam.readings.slurry_in_cells import read_shape
 from millstudies.convergence import judge
 from millstudies.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 RUNS = HERE.parent / "mill_drag_comparison" / "runs"

@@ -7,8 +7,6 @@ import csv
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -16,6 +14,8 @@ from millfoam.readings.compare import difference
 from millstudies.dry_runs import make_dry_run
 from millstudies.mill_runs import MILL, resolved
 from millstudies.published_mills import averages
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 MODULI = (1e7, 1e8, 1e9)

@@ -15,17 +15,18 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import brentq
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
-from flow_curve import regularised
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
+from flow_curve import regularised  # noqa: E402
+
+matplotlib.use("Agg")
 
 # Viscous enough to be steady soon
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 1.0, 0.1

@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -21,6 +19,8 @@ from flow_curve import regularised
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 # Slurry with 30 % solids by mass
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014

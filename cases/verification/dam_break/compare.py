@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -19,6 +17,8 @@ from scipy.optimize import minimize_scalar
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 WIDTH = 2.25 * 0.0254  # of the column, m

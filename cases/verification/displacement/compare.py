@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 WIDTH, HEIGHT, COLUMNS, LAYERS = 0.016, 0.4, 4, 100
 LAYER = HEIGHT / LAYERS

@@ -17,8 +17,6 @@ from functools import cached_property
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -26,6 +24,8 @@ from scipy.integrate import solve_ivp
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 SLURRY, AIR = 1000.0, 1.2  # kg/m3

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 DENSITY, VISCOSITY, DIAMETER = 1000.0, 1e-3, 5e-3
 BOXES = {"8 m": 1.0, "8 cm": 0.01}

@@ -14,8 +14,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -24,6 +22,8 @@ from millfoam.run import run as run_program
 from millfoam.run import set_options, write_parameters
 from mill_slice import FINE, MILL
 from pool_history import largest_speeds
+
+matplotlib.use("Agg")
 
 STILL = 1e-6  # m/s, largest speed of the slurry alone
 CONSERVED = 1e-6  # relative change of the slurry's volume

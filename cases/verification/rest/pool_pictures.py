@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the pools at rest: speeds against time, and maps of the speed with the surface."""
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -10,6 +8,8 @@ from matplotlib.colors import LogNorm
 from scipy.spatial import cKDTree
 
 from millfoam.files import foam
+
+matplotlib.use("Agg")
 
 COLOURS = {"interFoam": "tab:red", "interIsoFoam": "tab:orange", "slurryFoam": "tab:blue"}
 SLOWEST, FASTEST = 1e-5, 10.0  # m/s, of the maps' colours

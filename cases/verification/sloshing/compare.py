@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import curve_fit
@@ -20,6 +18,8 @@ import potential_flow
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)

@@ -16,8 +16,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
@@ -25,6 +23,8 @@ from scipy.integrate import cumulative_trapezoid
 from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 LENGTH, WIDTH = 0.8, 0.1  # m
 SPEED, DENSITY, NU = 0.5, 1000.0, 1e-6  # superficial m/s; kg/m3; m2/s

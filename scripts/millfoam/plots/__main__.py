@@ -5,6 +5,8 @@ import argparse
 import sys
 from pathlib import Path
 
+import matplotlib
+
 from ..files import solids_file
 from ..files.mill import read_mill
 from ..files.written_times import MillFlow
@@ -12,6 +14,7 @@ from . import mill_plots
 
 
 def main():
+    matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
     parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [the mill's flow.averages.start, or half of a flow "

@@ -2,9 +2,6 @@
 """Pictures of a mill: maps of charge and slurry, a strip of frames, an animation."""
 import io
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
