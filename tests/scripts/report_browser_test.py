@@ -8,16 +8,14 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from html import unescape
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "scripts"))
-from report_cases import write_dry, write_flow, write_fluid_only  # noqa: E402
+from report_cases import write_dry, write_flow, write_fluid_only
 
+ROOT = Path(__file__).resolve().parents[2]
 WIDTHS = (1280, 390)
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # Without them a browser asks for a display, a sandbox, a profile and the network
