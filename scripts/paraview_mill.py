@@ -5,9 +5,10 @@
     Macros > Import new macro…                     the same from ParaView's menu, of the folder that ParaView was started in
     pvbatch scripts/paraview_mill.py CASE PICTURE.png     a picture of the last time; without a display behind `xvfb-run -a`
 
-ParaView's own readers are enough: that of OpenFOAM for the case (an empty file CASE/mill.foam tells it where), that of XDMF for
-solids.xdmf and slurry.xdmf. Walls are translucent; the charge is where the solidity is above 0.3, coloured by its speed; the
-slurry's surface is where its share passes 0.5. The averages' times are DEM times: they are shifted to the flow's."""
+ParaView's own readers are enough: that of OpenFOAM for the case (an empty file CASE/mill.foam tells it where), that of
+XDMF for solids.xdmf and slurry.xdmf. Walls are translucent; the charge is where the solidity is above 0.3, coloured by
+its speed; the slurry's surface is where its share passes 0.5. The averages' times are DEM times: they are shifted to
+the flow's."""
 import os
 import sys
 from pathlib import Path

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
+"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get
+wrong."""
 import json
 import resource
 import signal

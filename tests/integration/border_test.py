@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dependencies between the rooms point one way, in C++ and in Python, without cycles; only .H and .C files know OpenFOAM."""
+"""Dependencies between the rooms point one way, in C++ and in Python, without cycles; only .H and .C files know
+OpenFOAM."""
 import tempfile
 import unittest
 from pathlib import Path

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which room may include or import what, and a walk over a source tree that lists what may not be: borders that are crossed,
-cycles of folders and of Python modules, scripts that name a case."""
+"""Which room may include or import what, and a walk over a source tree that lists what may not be: borders that are
+crossed, cycles of folders and of Python modules, scripts that name a case."""
 import re
 from pathlib import Path
 
@@ -47,8 +47,8 @@ def room_of(path):
 
 
 def violations(root):
-    """Sentences, one for each include, import or name (also of OpenFOAM) in the tree that crosses a border the wrong way, and
-    for each cycle of folders or modules but KNOWN_CYCLES."""
+    """Sentences, one for each include, import or name (also of OpenFOAM) in the tree that crosses a border the wrong
+    way, and for each cycle of folders or modules but KNOWN_CYCLES."""
     root = Path(root).resolve()
     cpp, python = cpp_graph(root), python_graph(root)
     result = [sentence for file in cpp for sentence in _check_cpp(root, file)]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""millDem killed, without room on the disk and resumed, on a drum of a few hundred balls; and what it predicts against what the
-run then takes."""
+"""millDem killed, without room on the disk and resumed, on a drum of a few hundred balls; and what it predicts against
+what the run then takes."""
 import fcntl
 import json
 import os
@@ -317,11 +317,13 @@ class DemRun(unittest.TestCase):
 
 
 class Tracer(unittest.TestCase):
-    """Tracers in a charge of 221 balls of 4 mm, nine tenths of its volume, and 177 of 2 mm, against millAverage's map of all.
+    """Tracers in a charge of 221 balls of 4 mm, nine tenths of its volume, and 177 of 2 mm, against millAverage's map
+    of all.
 
-    Differences measured on this drum from 0.5 s on, compare.difference in solidity: all balls of 4 mm 0.010 over one turn as
-    over four, velocities 0.005 and 0.006; all of 2 mm 0.075, as small balls lie elsewhere; one ball of 4 mm, mean of all, 0.163
-    over one turn, 0.130 over two, 0.080 over six, velocities 0.05 and 0.06 over two; of every tenth 0.217 over half a turn."""
+    Differences measured on this drum from 0.5 s on, compare.difference in solidity: all balls of 4 mm 0.010 over one
+    turn as over four, velocities 0.005 and 0.006; all of 2 mm 0.075, as small balls lie elsewhere; one ball of 4 mm,
+    mean of all, 0.163 over one turn, 0.130 over two, 0.080 over six, velocities 0.05 and 0.06 over two; of every tenth
+    0.217 over half a turn."""
     BEGIN, END = 0.5, 1.5
     SIZE, SINGLE = 0.004, slice(None, None, 10)  # m; of the tracks, one by one
 
@@ -359,8 +361,8 @@ class Tracer(unittest.TestCase):
 
     def test_all_balls_of_a_diameter_are_near_the_average_of_all(self):
         self.assertEqual([len(ids) for ids in self.ids.values()], [221, 177])
-        # Three times what was measured: room for another platform's arithmetic, after which balls take other ways, and still a
-        # quarter of what one ball differs by
+        # Three times what was measured: room for another platform's arithmetic, after which balls take other ways, and
+        # still a quarter of what one ball differs by
         found = self.apart(self.tracks(0.004))
         self.assertLess(found.solidity, 0.03)
         self.assertLess(max(found.velocity_x, found.velocity_y), 0.02)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose answers
-are known."""
+"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose
+answers are known."""
 import importlib.util
 import json
 import shutil

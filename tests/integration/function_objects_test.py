@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same after a
-restart and on two ranks, and what cannot be is refused."""
+"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same
+after a restart and on two ranks, and what cannot be is refused."""
 import re
 import shutil
 import tempfile

@@ -16,7 +16,8 @@ def sources(root, *tops):
 
 
 def includes(root, file):
-    """[(name, file that it stands for, or None for headers from elsewhere)] of a C++ source; paths are relative to the root."""
+    """[(name, file that it stands for, or None for headers from elsewhere)] of a C++ source; paths are relative to the
+    root."""
     found = []
     for name in INCLUDE.findall((root / file).read_text()):
         places = ((base / name).resolve() for base in (root, (root / file).parent))
@@ -31,7 +32,8 @@ def python_files(root, *tops):
 
 
 class Modules:
-    """Finds the files that Python's imports stand for: beside the file, in PACKAGES, or wherever one file alone has the name."""
+    """Finds the files that Python's imports stand for: beside the file, in PACKAGES, or wherever one file alone has the
+    name."""
 
     def __init__(self, root, files):
         self.root, self.by_name = root, defaultdict(list)
@@ -78,8 +80,8 @@ def folders(graph):
 
 
 def cycles(graph):
-    """Sets of two nodes or more of a graph {node: nodes} that all lead to each other, by R. Tarjan, SIAM J. Comput. 1 (1972)
-    146."""
+    """Sets of two nodes or more of a graph {node: nodes} that all lead to each other, by R. Tarjan, SIAM J. Comput. 1
+    (1972) 146."""
     index, lowest, stack, found = {}, {}, [], []
 
     def visit(node):

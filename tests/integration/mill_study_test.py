@@ -39,7 +39,8 @@ def keys_of(mill, path=""):
 
 class ToeAndShoulder(unittest.TestCase):
     def ring(self, *arcs):
-        """Share in the ring's bins: 1 within the arcs (begin, end) in degrees, 0 outside, straight over four bins between."""
+        """Share in the ring's bins: 1 within the arcs (begin, end) in degrees, 0 outside, straight over four bins
+        between."""
         angles, share = shell_angles.bin_centres(), 0.0
         for begin, end in arcs:
             from_middle = np.abs((angles - (begin + end) / 2 + 180) % 360 - 180)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The bed that a flow sees: solids between windows, their volume corrected to the ledger's, cells that they do not cover,
-and beds from the dictionary that move, grow and turn."""
+"""The bed that a flow sees: solids between windows, their volume corrected to the ledger's, cells that they do not
+cover, and beds from the dictionary that move, grow and turn."""
 import re
 import unittest
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam goes on after a restart and on two ranks as it would have, and loses nothing: in a closed box with a moving
-bed, on meshes that stand still and turn."""
+"""slurryFoam goes on after a restart and on two ranks as it would have, and loses nothing: in a closed box with a
+moving bed, on meshes that stand still and turn."""
 import re
 import shutil
 import unittest

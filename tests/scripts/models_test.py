@@ -61,15 +61,16 @@ class Surface(unittest.TestCase):
 
     def test_that_asks_for_negative_friction_is_fitted_with_none_and_not_described(self):
         along = np.linspace(-0.7, 0.6, 60)
-        # Bent up at both ends, as no friction bends it; steepest at the axis, as much of the ends' friction and less than none
-        # within would make it
+        # Bent up at both ends, as no friction bends it; steepest at the axis, as much of the ends' friction and less
+        # than none within would make it
         for height in (0.4 * along + 0.3 * along ** 2, 0.4 * np.sin(3 * along)):
             found, rest = fit_free_surface(-along, height, 0.2)
             self.assertGreaterEqual(min(found.internal, found.wall), 0)
             self.assertFalse(describes(found, rest))
 
     def test_number_has_no_dimension(self):
-        # Lengths in cm and times in ms with gravity in cm/ms^2 would give the same: Omega^2 d / g and R / L are pure numbers
+        # Lengths in cm and times in ms with gravity in cm/ms^2 would give the same: Omega^2 d / g and R / L are pure
+        # numbers
         self.assertAlmostEqual(surface_number(6.0, 0.005, 0.15, 0.3), (36 * 0.005 / 9.81) ** 0.25 / 2, places=12)
         self.assertAlmostEqual(surface_number(3.0, 0.02, 0.15, 0.3), surface_number(6.0, 0.005, 0.15, 0.3), places=12)
 

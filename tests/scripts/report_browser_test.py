@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A report and a comparison in a browser, as wide as a desk's screen and as a telephone: nothing is cut off or broken, and the
-report's player plays.
+"""A report and a comparison in a browser, as wide as a desk's screen and as a telephone: nothing is cut off or broken,
+and the report's player plays.
 
-report_browser.html loads the page in a frame of each width and writes what it finds into itself; Chromium prints that."""
+report_browser.html loads the page in a frame of each width and writes what it finds into itself; Chromium prints
+that."""
 import json
 import re
 import shutil

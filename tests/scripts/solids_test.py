@@ -13,7 +13,8 @@ from millfoam.readings.means import with_error
 
 
 def write(path, solidity, speed, complete=1):
-    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed along x."""
+    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed
+    along x."""
     with h5py.File(path, "w") as file:
         file.attrs.update(complete=complete, timestep=1e-5)
         file.create_group("grid").attrs.update(lower=[0, 0, 0], upper=[1, 2, 1], shape=[2, 2, 2])

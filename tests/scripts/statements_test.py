@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up flows."""
+"""Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up
+flows."""
 import importlib.util
 import json
 import tempfile

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One picture of several runs of the 30 cm mill: height of the slurry's centre of mass and p_rgh along the axis out of their
-pictures/axial.csv, and maps of their velocity along the axis where the slurry's share is over a half, averaged from 2 s on (or
-over the second half of a run of 3 s or less)."""
+"""One picture of several runs of the 30 cm mill: height of the slurry's centre of mass and p_rgh along the axis out of
+their pictures/axial.csv, and maps of their velocity along the axis where the slurry's share is over a half, averaged
+from 2 s on (or over the second half of a run of 3 s or less)."""
 import argparse
 from pathlib import Path
 

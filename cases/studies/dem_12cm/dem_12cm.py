@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of the 12 cm mill beside published readings: RMSD of the tangential velocity from a cubic, and of the free surface
-from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a difference comes from.
+"""Dry runs of the 12 cm mill beside published readings: RMSD of the tangential velocity from a cubic, and of the free
+surface from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a
+difference comes from.
 
-Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept, what was
-broken off is resumed; dumps are removed once they are averaged."""
+Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept,
+what was broken off is resumed; dumps are removed once they are averaged."""
 import argparse
 import csv
 import sys
@@ -90,8 +91,8 @@ def asked(case, options):
 
 @dataclass
 class Result:
-    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge), with
-    errors (name -> Reading); the latter two are None where there is nothing to read."""
+    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge),
+    with errors (name -> Reading); the latter two are None where there is nothing to read."""
     case: Case
     folder: Path
     dry: object
@@ -209,8 +210,8 @@ def plot(results, rows, path):
 
 
 def chosen(patterns, known, parser):
-    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches nothing
-    is an error."""
+    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches
+    nothing is an error."""
     for pattern in patterns:
         if pattern != "all" and not any(fnmatchcase(name, pattern) for name in known):
             parser.error(f"no run is named '{pattern}'; --list names them")

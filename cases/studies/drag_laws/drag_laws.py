@@ -3,8 +3,8 @@
 """Tabulates and draws every drag law against Reynolds number, solidity and velocity, and finds where Ergun crosses
 Beetstra at solidity 0.5.
 
-All numbers and ranges come from `millDrag`. Exit code 1 when the crossing is not the one that Malahe's thesis (University
-of Cape Town, 2012, figure 2.8) shows, near Re 50."""
+All numbers and ranges come from `millDrag`. Exit code 1 when the crossing is not the one that Malahe's thesis
+(University of Cape Town, 2012, figure 2.8) shows, near Re 50."""
 import csv
 import subprocess
 import sys
@@ -34,8 +34,8 @@ CROSSING_SOLIDITY, CROSSING_REYNOLDS, CROSSING_FACTOR = 0.5, 50.3, 72.5
 TOLERANCE = 0.05
 
 REFERENCE = "Beetstra"  # the law over which ratios are drawn
-# Colour by family: beds of spheres (warm), single sphere times a function of voidage (green, brown), resolved simulations
-# (blue, violet, grey)
+# Colour by family: beds of spheres (warm), single sphere times a function of voidage (green, brown), resolved
+# simulations (blue, violet, grey)
 STYLES = {
     "Ergun": ("#d62728", "o"), "Fand": ("#ff7f0e", "s"), "KozenyCarman": ("#e377c2", "^"), "Darcy": ("#f2b701", "v"),
     "WenYu": ("#2ca02c", "o"), "ErgunWenYu": ("#8c564b", "s"), "DiFelice": ("#17becf", "^"), "Rong": ("#8fb300", "v"),
@@ -115,7 +115,8 @@ def draw_law(axis, x, y, believed, law):
 
 
 def draw_panels(panels, name, out, title):
-    """Columns of (heading, rows, mark): F above, F over the reference law's below; `name` is the key of the abscissa."""
+    """Columns of (heading, rows, mark): F above, F over the reference law's below; `name` is the key of the
+    abscissa."""
     label = {"Re": "Reynolds number ρ e v d/μ, –", "phi": "solidity φ, –"}[name]
     figure, axes = plt.subplots(2, len(panels), figsize=(4.4 * len(panels), 9.5), sharex=True, sharey="row",
                                 constrained_layout=True)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: where the slurry
-stands, what power it takes, and the particle Reynolds numbers in the bed.
+"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: where the
+slurry stands, what power it takes, and the particle Reynolds numbers in the bed.
 
 Runs are kept in the folder runs/ (millstudies.mill_runs): a run that is whole is not repeated. Exit code 1 when one
 failed; the table and the figure then show the others."""
@@ -40,7 +40,8 @@ def laws():
 
 
 def settings(mesh, prefix):
-    """All runs, the mill case's law and what differs most from it first: names begin with `prefix`; mesh: its settings."""
+    """All runs, the mill case's law and what differs most from it first: names begin with `prefix`; mesh: its
+    settings."""
     changes = {REFERENCE: (), NO_DRAG: ("flow.multiplier=0",),
                **{law: (f"flow.law={law}",) for law in laws() if law != REFERENCE}}
     found = [Setting(prefix + name, flow=(*mesh, *change)) for name, change in changes.items()]

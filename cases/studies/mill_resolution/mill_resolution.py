@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed order
-and error bar of the slurry's height, toe and shoulder.
+"""The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed
+order and error bar of the slurry's height, toe and shoulder.
 
 Runs are kept beside those of mill_drag_comparison, whose dry run they share (millstudies.mill_runs): a
 run that is whole is not repeated. Exit code 1 when one failed; then there is no judgement of what it belongs to."""

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs of the 30 cm mill and of the 12 cm mill's slice to choose from for a comparison, whether they are steady, and verdicts.
+"""Runs of the 30 cm mill and of the 12 cm mill's slice to choose from for a comparison, whether they are steady, and
+verdicts.
 
-Verdicts: `confirmed` and `contradicted` where the difference is more than twice its standard error over time, `undecided` where
-it is not or a run is not steady (see `unsteady`), `not tested` where a run is missing: which one is told. Runs of the 30 cm mill
-count from LATEST on."""
+Verdicts: `confirmed` and `contradicted` where the difference is more than twice its standard error over time,
+`undecided` where it is not or a run is not steady (see `unsteady`), `not tested` where a run is missing: which one is
+told. Runs of the 30 cm mill count from LATEST on."""
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -90,8 +91,8 @@ class Runs:
         return sorted({run.speed for run in self.runs if mill_of(run) == SLICE}) or [50]
 
     def places(self):
-        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared; of the slice those that there
-        are, and where that is one only, beside it what it could be held against."""
+        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared; of the slice those that
+        there are, and where that is one only, beside it what it could be held against."""
         found = [(LARGE, 75, [20, 40])]
         for speed in self.slice_speeds():
             solids = {run.solids for run in self.of(SLICE) if run.speed == speed and run.solids}
@@ -112,10 +113,11 @@ def turn(run):
 
 
 def unsteady(run):
-    """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill, or the
-    height of the slurry's centre of mass differs between its halves by more than two standard errors.
+    """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
+    or the height of the slurry's centre of mass differs between its halves by more than two standard errors.
 
-    The errors are those of HALF_BLOCKS block means within either half: over all of the time the drift itself would count."""
+    The errors are those of HALF_BLOCKS block means within either half: over all of the time the drift itself would
+    count."""
     if not run.series:
         return f"{run.name}: its height over time is not known"
     times, heights = run.series.times, height_over_time(run)

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Beyond these an observed order says more about noise than about the method (Eça & Hoekstra 2014, J Comput Phys 262:104)
+# Beyond these an observed order says more about noise than about the method (Eça & Hoekstra 2014, J Comput Phys
+# 262:104)
 ORDERS = (0.5, 2.0)
 SAFETY = 1.25  # Roache's for three sizes
 
@@ -18,7 +19,8 @@ class Convergence:
 
 
 def observed_order(sizes, values):
-    """p of f = f0 + c h^p through three pairs, finest first; NaN where they are not monotone or p is not in (0.01, 10)."""
+    """p of f = f0 + c h^p through three pairs, finest first; NaN where they are not monotone or p is not in (0.01,
+    10)."""
     (h1, h2, h3), (f1, f2, f3) = sizes, values
     if (f2 - f1) * (f3 - f2) <= 0:
         return np.nan
@@ -38,9 +40,9 @@ def observed_order(sizes, values):
 def judge(sizes, values, asked):
     """Convergence of `values` at `sizes`, and the bar of the value at size `asked`.
 
-    Three sizes, monotone: the limit by Richardson's extrapolation from the two finest with the observed order, held within
-    ORDERS, and the bar SAFETY times the distance to it. Not monotone: no limit, and the bar is the largest difference
-    between two of the values. Two sizes: the same as three with order 1."""
+    Three sizes, monotone: the limit by Richardson's extrapolation from the two finest with the observed order, held
+    within ORDERS, and the bar SAFETY times the distance to it. Not monotone: no limit, and the bar is the largest
+    difference between two of the values. Two sizes: the same as three with order 1."""
     order_of = np.argsort(sizes)
     h, f = np.asarray(sizes, float)[order_of], np.asarray(values, float)[order_of]
     order = observed_order(h, f) if len(h) == 3 else 1.0

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Other ways to read the tangential velocity and the free surface off a map: each changes one choice of readings.charge or
-readings.free_surface, so that a published number that was read in an unknown way can be held against all of them.
+"""Other ways to read the tangential velocity and the free surface off a map: each changes one choice of readings.charge
+or readings.free_surface, so that a published number that was read in an unknown way can be held against all of them.
 
-Each reading is a function (SolidsMap, radius in m) -> root mean square deviation, m/s or m, and raises RuntimeError where the map
-does not have it. Names: VELOCITY and SURFACE."""
+Each reading is a function (SolidsMap, radius in m) -> root mean square deviation, m/s or m, and raises RuntimeError
+where the map does not have it. Names: VELOCITY and SURFACE."""
 import numpy as np
 
 from millfoam.readings.charge import circulation_centre, tangential_profile
@@ -30,15 +30,16 @@ def cubic_deviation(distance, velocity, parameters=0):
 
 
 def turned_line(charge, radius, degrees):
-    """Unit vector from the mill's centre through the centre of circulation, turned anticlockwise by so many degrees [2]."""
+    """Unit vector from the mill's centre through the centre of circulation, turned anticlockwise by so many degrees
+    [2]."""
     x, y = circulation_centre(charge, radius)
     angle = np.arctan2(y, x) + np.radians(degrees)
     return np.array([np.cos(angle), np.sin(angle)])
 
 
 def voxels_on_line(charge, outwards, largest):
-    """Voxels that a line from the mill's centre passes within `largest` (m): rows [n], columns [n] and the distance [n] (m) of
-    their centres from the mill's centre along it, outwards."""
+    """Voxels that a line from the mill's centre passes within `largest` (m): rows [n], columns [n] and the distance [n]
+    (m) of their centres from the mill's centre along it, outwards."""
     x, y = charge.centres()
     steps = np.arange(0, largest, (x[1] - x[0]) / 50)
     cells = np.column_stack([np.floor((steps * outwards[k] - edges[0]) / (edges[1] - edges[0])).astype(int)
@@ -52,8 +53,8 @@ def voxels_on_line(charge, outwards, largest):
 
 
 def by_voxel(charge, radius, *, begin=None, wall=WALL, degrees=0.0, parameters=0):
-    """RMSD (m/s) of the cubic through the velocities of the voxels on the line, one point each, from the free surface (or where
-    the solidity comes to FIRST_BALLS of the largest, for `begin` 0) to `wall` (m) from the shell."""
+    """RMSD (m/s) of the cubic through the velocities of the voxels on the line, one point each, from the free surface
+    (or where the solidity comes to FIRST_BALLS of the largest, for `begin` 0) to `wall` (m) from the shell."""
     outwards = turned_line(charge, radius, degrees)
     rows, columns, distance = voxels_on_line(charge, outwards, radius - wall)
     solidity = np.nan_to_num(charge.solidity)
@@ -65,8 +66,8 @@ def by_voxel(charge, radius, *, begin=None, wall=WALL, degrees=0.0, parameters=0
 
 
 def column_tops(charge, radius, share, wall=WALL):
-    """Points [n, 2] (m): in each column of voxels the highest one, farther than `wall` (m) from the shell, with a solidity above
-    `share` of the largest, not smoothed."""
+    """Points [n, 2] (m): in each column of voxels the highest one, farther than `wall` (m) from the shell, with a
+    solidity above `share` of the largest, not smoothed."""
     x, y = charge.centres()
     solidity = np.nan_to_num(charge.solidity)
     charged = (solidity > share * solidity.max()) & (np.hypot(*np.meshgrid(x, y)) < radius - wall)
@@ -81,8 +82,8 @@ def points_deviation(points, radius):
 
 
 def shorter_logistic(points, radius, places, offset=True):
-    """RMSD (m) of points' y [n, 2] from the best logistic with a step at one of the places [m] (radii), with or without d: of
-    each width and place, a and d are linear least squares."""
+    """RMSD (m) of points' y [n, 2] from the best logistic with a step at one of the places [m] (radii), with or without
+    d: of each width and place, a and d are linear least squares."""
     x, y = points.T / radius
     step = 1 / (1 + np.exp(np.clip(-WIDTHS[:, None, None] * (x - np.asarray(places)[:, None]), -500, 500)))
     if offset:
@@ -134,8 +135,8 @@ SURFACE = {
 
 
 def mean_of_windows(reading, maps, radius, most=10):
-    """Mean of a reading of single SolidsMap, at most so many evenly among them: what averages as short as a window would show.
-    NaN where none of them has it."""
+    """Mean of a reading of single SolidsMap, at most so many evenly among them: what averages as short as a window
+    would show. NaN where none of them has it."""
     chosen = np.unique(np.linspace(0, len(maps) - 1, most).round().astype(int))
     found = []
     for index in chosen:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dry runs of the published matrix, as studies make them: settings, their mills, their averages.
 
-M. Malahe, MSc thesis, University of Cape Town, 2012: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds."""
+M. Malahe, MSc thesis, University of Cape Town, 2012: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2
+speeds."""
 import csv
 from dataclasses import dataclass
 

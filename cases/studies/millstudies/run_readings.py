@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mill's run says about its slurry, as far as published statements are about it: surface, profile and way along the
-axis, particle Reynolds numbers."""
+"""What a mill's run says about its slurry, as far as published statements are about it: surface, profile and way along
+the axis, particle Reynolds numbers."""
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,9 +18,9 @@ CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 
 @dataclass
 class Surface:
-    """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight line
-    through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the charge, if there
-    is one."""
+    """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight
+    line through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the
+    charge, if there is one."""
     tilt: Mean
     deviation: Mean
     charge_tilt: float = None
@@ -28,12 +28,13 @@ class Surface:
 
 @dataclass
 class RunReadings:
-    """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without balls;
-    slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill has two ends.
+    """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
+    balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
+    has two ends.
 
-    What it says, None where it does not: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity along the
-    axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's volume at each (m3);
-    failures, sentences of what could not be read."""
+    What it says, None where it does not: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
+    along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
+    volume at each (m3); failures, sentences of what could not be read."""
     name: str
     diameter: float
     speed: int
@@ -50,10 +51,12 @@ class RunReadings:
 
 
 def surface_line(slurry, radius, inner):
-    """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free surface of a
-    slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond. RuntimeError if there is none.
+    """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free
+    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond.
+    RuntimeError if there is none.
 
-    The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing of it."""
+    The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing
+    of it."""
     centres_x, centres_y = slurry.centres()
     within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
     pool = slurry_on_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
@@ -70,7 +73,8 @@ def surface_line(slurry, radius, inner):
 
 
 def charge_tilt(charge, radius, span):
-    """Tilt (degrees, the left side up positive) of the straight line through a SolidsMap's free surface over a span of x (m)."""
+    """Tilt (degrees, the left side up positive) of the straight line through a SolidsMap's free surface over a span of
+    x (m)."""
     x, y = free_surface(charge, radius).points.T
     chosen = (x >= span[0]) & (x <= span[1])
     if chosen.sum() < 5:

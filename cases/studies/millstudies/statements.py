@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) compared with runs of the 30 cm mill,
-and what does not lie along the axis also with the 12 cm mill's slice: each gives verdicts (see compared_runs) with the numbers
-that say so. Tilts, numbers of humps and shares that are compared with a limit are taken as they are; their errors are told."""
+"""Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) compared with runs of the 30
+cm mill, and what does not lie along the axis also with the 12 cm mill's slice: each gives verdicts (see compared_runs)
+with the numbers that say so. Tilts, numbers of humps and shares that are compared with a limit are taken as they are;
+their errors are told."""
 import numpy as np
 from scipy.signal import find_peaks
 
@@ -38,8 +39,8 @@ def flat_without_balls(runs):
 
 
 def maxima(z, height, error):
-    """Places (m) of a profile's maxima, those at its ends too, that stand out: by more than a tenth of its range, and three times
-    the error of the difference of two of its heights [n] (m), whose standard errors are `error` (m)."""
+    """Places (m) of a profile's maxima, those at its ends too, that stand out: by more than a tenth of its range, and
+    three times the error of the difference of two of its heights [n] (m), whose standard errors are `error` (m)."""
     padded = np.concatenate([[height.min() - 1], height, [height.min() - 1]])
     return z[find_peaks(padded, prominence=max(3 * np.sqrt(2) * error, 0.1 * np.ptp(height)))[0] - 1]
 
@@ -128,8 +129,8 @@ def concentration_raises(runs):
 
 
 def drag_raises(runs):
-    """Ergun/Wen-Yu puts the slurry slightly higher than Beetstra, by less with 40 % slurry than with 20 %; in the slice with
-    each slurry that there is, and by less with the thickest than with the thinnest."""
+    """Ergun/Wen-Yu puts the slurry slightly higher than Beetstra, by less with 40 % slurry than with 20 %; in the slice
+    with each slurry that there is, and by less with the thickest than with the thinnest."""
     def judge(beetstra, ergun):
         rise = height(ergun) - height(beetstra)
         slight = abs(rise.value) <= SLIGHTLY * ergun.diameter
@@ -147,8 +148,8 @@ def drag_raises(runs):
 
 
 def drag_difference_shrinks(runs, four):
-    """Verdict on the difference between the heights with both laws: four Which, both laws with the thin slurry, then with the
-    thick one."""
+    """Verdict on the difference between the heights with both laws: four Which, both laws with the thin slurry, then
+    with the thick one."""
     thin, thick = (which.solids for which in (four[0], four[2]))
     statement = f"that difference shrinks from {thin} % to {thick} % slurry"
     found = [runs.find(which) for which in four]
@@ -162,8 +163,8 @@ def drag_difference_shrinks(runs, four):
 
 
 def reynolds_below(runs):
-    """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit that is published for
-    some concentrations."""
+    """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit that is
+    published for some concentrations."""
     found = []
     for solids, limit in REYNOLDS.items():
         statement = f"particle Reynolds numbers are mostly under {limit} for {solids} % slurry"
@@ -193,7 +194,8 @@ def median(values, weights):
 
 
 def drop(run):
-    """Fall of p_rgh in the slurry from feed to discharge (Pa): of the straight line through all slices, over their way."""
+    """Fall of p_rgh in the slurry from feed to discharge (Pa): of the straight line through all slices, over their
+    way."""
     series = run.series
     slopes = [np.polyfit(series.z[known], line[known], 1)[0]
               for line, known in zip(series.pressure, np.isfinite(series.pressure)) if known.sum() > 1]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the thesis' statements about slurry against runs of the 30 cm mill and of the 12 cm mill's slice: a table on the
-screen, statements.csv and statements.md."""
+"""Holds the thesis' statements about slurry against runs of the 30 cm mill and of the 12 cm mill's slice: a table on
+the screen, statements.csv and statements.md."""
 import argparse
 import csv
 import sys
@@ -49,7 +49,8 @@ def refuse_multiplied(case):
 
 
 def read_cases(folders):
-    """RunReadings of the folders that hold a run, and a message for each of the others and for what could not be read."""
+    """RunReadings of the folders that hold a run, and a message for each of the others and for what could not be
+    read."""
     runs, messages = [], []
     for folder in folders:
         try:

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bingham slurry between an inner cylinder that turns and an outer one at rest, against the closed form.
 
-With the torque 2 pi T per length the shear stress is T/r^2. Where it is above the yield stress, up to r0 = sqrt(T/tau0),
-the slurry shears; beyond, it rests. Its angular velocity is
+With the torque 2 pi T per length the shear stress is T/r^2. Where it is above the yield stress, up to r0 =
+sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
 
     w(r) = tau0/(2 mu) [(r0/r)^2 - 1 - 2 ln(r0/r)]        for r < r0, else 0
 
-(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) With both regularisations, and with softer plugs: the error has to go down
-with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
+(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) With both regularisations, and with softer plugs: the error has to go
+down with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -54,7 +54,8 @@ OMEGA = exact(INNER) / INNER
 
 
 def regularised_profile(r, regularisation, stiffness):
-    """Tangential speed, m/s, of the regularised slurry: the torque for which the outer cylinder rests, by quadrature."""
+    """Tangential speed, m/s, of the regularised slurry: the torque for which the outer cylinder rests, by
+    quadrature."""
     points = np.linspace(INNER, OUTER, 1001)
     ratio = stiffness * STIFFEST[regularisation]
 
@@ -71,7 +72,8 @@ def regularised_profile(r, regularisation, stiffness):
 
 @dataclass
 class Flow:
-    """Mean tangential speed u (m/s) of each ring of cells at its radius r (m), and what is compared with the closed form."""
+    """Mean tangential speed u (m/s) of each ring of cells at its radius r (m), and what is compared with the closed
+    form."""
     regularisation: str
     stiffness: float  # of the plug, over the stiffest
     r: np.ndarray

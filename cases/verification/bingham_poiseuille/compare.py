@@ -3,9 +3,10 @@
 """Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, against the closed form.
 
 With the plates at y = -h and h, force per volume G, yield stress tau0 and plastic viscosity mu, the slurry moves as a
-plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); beside it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu)
-(Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). With slurryFoam also softer plugs: the error has to go down with the
-regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
+plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); beside it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu) (Bird,
+Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). With slurryFoam also softer plugs: the error has
+to go down with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one
+misses."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -37,8 +38,8 @@ TOLERANCE = {"slurryFoam": 0.01, "interFoam": 0.02}
 # Steady to this change of the largest speed over the last tenth of the run
 STEADY = 1e-4
 END = 90.0  # s
-# interFoam's runs whose largest viscosity times step over density and cell squared was 361 were steady, with 3600 they were
-# not; here it is 330.
+# interFoam's runs whose largest viscosity times step over density and cell squared was 361 were steady, with 3600 they
+# were not; here it is 330.
 STEP = {"slurryFoam": 0.1, "interFoam": 0.018}
 
 

@@ -52,7 +52,8 @@ def run(setting, case, here):
 
 @dataclass
 class SpinUp:
-    """The full cylinder at the written times (s): tangential velocity of its cells (m/s, [time, cell]) at their radii (m)."""
+    """The full cylinder at the written times (s): tangential velocity of its cells (m/s, [time, cell]) at their radii
+    (m)."""
     time: np.ndarray
     radius: np.ndarray
     speed: np.ndarray
@@ -94,7 +95,8 @@ def spin_up(case):
 
 @dataclass
 class Surface:
-    """Columns of the half-full cylinder: means of r^2 over their cross-sections (m2), heights of the surface (m, [time, column])."""
+    """Columns of the half-full cylinder: means of r^2 over their cross-sections (m2), heights of the surface (m, [time,
+    column])."""
     time: np.ndarray
     r2: np.ndarray
     area: np.ndarray

@@ -7,9 +7,9 @@ With superficial speed U and surface at z, both fluids in the column move as one
     M dU/dt = G(z) - f(U) - b,   dz/dt = -U/e at the surface
 
 M is the inertia (density times length over voidage), G gravity's and the ends' pressure, f the drag law's, b the
-difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the bed,
-an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the bed
-drains freely at its lower end, of h + L. Exit code 1 when a run misses the tolerance."""
+difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the
+bed, an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the
+bed drains freely at its lower end, of h + L. Exit code 1 when a run misses the tolerance."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -37,7 +37,8 @@ HEAD_LEFT = 0.1  # share of the first head down to which an exponential is fitte
 
 @dataclass
 class Column:
-    """A column with a bed between two heights (m) and, at its lower end, the pressure of a tailwater of a height (m)."""
+    """A column with a bed between two heights (m) and, at its lower end, the pressure of a tailwater of a height
+    (m)."""
     name: str
     law: str
     solidity: float

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A smooth drum that drags viscous slurry along: on a mesh that turns with it, and on one at rest whose wall has its velocity.
+"""A smooth drum that drags viscous slurry along: on a mesh that turns with it, and on one at rest whose wall has its
+velocity.
 
-Both are the same flow, so the surface has to stand at the same height, within half a cell, and the slurry's volume has to
-stay. Compared whenever the drum has turned by a quarter, where the cells of both meshes lie upon each other. Exit code 1
-when something misses."""
+Both are the same flow, so the surface has to stand at the same height, within half a cell, and the slurry's volume has
+to stay. Compared whenever the drum has turned by a quarter, where the cells of both meshes lie upon each other. Exit
+code 1 when something misses."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -25,8 +26,8 @@ matplotlib.use("Agg")
 
 @dataclass(frozen=True)
 class Extent:
-    """How long and how finely: quarters of a turn, those of them (the last ones) in which the surface has its shape and is
-    judged, size of the cells (m), largest time-step (s)."""
+    """How long and how finely: quarters of a turn, those of them (the last ones) in which the surface has its shape and
+    is judged, size of the cells (m), largest time-step (s)."""
     quarters: int
     late: int
     cell: float
@@ -41,7 +42,8 @@ CONSERVED = 1e-8
 
 @dataclass
 class Drum:
-    """One frame's flow after each quarter: centres [cell, 2] (m) and slurry shares; the drum's radius and cell size, m."""
+    """One frame's flow after each quarter: centres [cell, 2] (m) and slurry shares; the drum's radius and cell size,
+    m."""
     time: list
     centre: list
     share: list
@@ -51,7 +53,8 @@ class Drum:
     cell: float
 
     def surface(self, number, x):
-        """Height of the surface after a quarter at the places x, m: the first fall of the share below a half above the pool's floor."""
+        """Height of the surface after a quarter at the places x, m: the first fall of the share below a half above the
+        pool's floor."""
         share = LinearNDInterpolator(self.centre[number], self.share[number])
         y = np.linspace(-self.radius, self.radius, 1201)
         result = np.full(len(x), np.nan)

@@ -4,7 +4,8 @@
 
 Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
 surface tension, with and without a bed of balls at rest, with the mesh standing still and with the mesh turning inside
-walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 when slurryFoam misses what it must hold."""
+walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 when slurryFoam misses
+what it must hold."""
 import argparse
 import shutil
 import sys
@@ -35,8 +36,8 @@ MESHES = {
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
 QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
-# Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as averages
-# on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
+# Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as
+# averages on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
 BED_SIDES, BED_ENDS, BED_EDGE = (-0.5, 0.4), (-0.4, 0.35), 0.275
 BED_SOLIDITY = 0.5
 FULL = 1.0  # m: a level above every mesh
@@ -89,7 +90,8 @@ def build(run, case, here, end):
 
 
 def kept(run, case, here, end):
-    """History that an earlier run left, or None: it must have reached the end and be newer than its solver and inputs."""
+    """History that an earlier run left, or None: it must have reached the end and be newer than its solver and
+    inputs."""
     left = case / "history.csv"
     program = shutil.which(SOLVERS[run.solver])
     if not left.is_file() or not program:

@@ -91,7 +91,8 @@ def judge(histories, end):
 
 
 def report(histories, end, out):
-    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that missed."""
+    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that
+    missed."""
     judged, missed = judge(histories, end)
     text = "\n".join(table(histories, end) + [""] + judged)
     print(text)

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface at rest that a mesh turns past: without gravity nothing moves, and what is left is the transport of the slurry.
+"""A surface at rest that a mesh turns past: without gravity nothing moves, and what is left is the transport of the
+slurry.
 
-After one turn every cell is where it was. What its share of slurry has changed by, summed up over the surface, is how far
-the transport has moved the surface: geometric (slurryFoam, interIsoFoam) against compressive MULES (interFoam). Writes
-transport.txt; exit code 1 when slurryFoam moves it by more than half of what interFoam does, or loses slurry."""
+After one turn every cell is where it was. What its share of slurry has changed by, summed up over the surface, is how
+far the transport has moved the surface: geometric (slurryFoam, interIsoFoam) against compressive MULES (interFoam).
+Writes transport.txt; exit code 1 when slurryFoam moves it by more than half of what interFoam does, or loses slurry."""
 import argparse
 import math
 import re
@@ -37,8 +38,8 @@ def perform(mesh, solver, work, here):
 
 
 def measure(case, name):
-    """(mean displacement of the surface in m, relative change of the slurry's volume, cells that hold the surface before and
-    after)."""
+    """(mean displacement of the surface in m, relative change of the slurry's volume, cells that hold the surface
+    before and after)."""
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
     times = foam.times(case)

@@ -24,7 +24,8 @@ matplotlib.use("Agg")
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
-# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see README.
+# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see
+# README.
 WIDTH, HEIGHT, DEPTH, CELLS = 0.2, 0.16, 0.0875, (30, 64)
 BOX_AMPLITUDE = 0.003
 # Round section, half full. The mesh is turned so that no line of its cells lies in the surface.
@@ -198,7 +199,8 @@ def perform(run, work, here):
 def report(histories, out):
     """Writes and prints the table; the number of lines that missed."""
     lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
-    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps it
+    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps
+    # it
     reference = {history.run.room: history.fit[1] for history in histories
                  if history.run.solver == "interFoam" and not history.run.turning}
     missed = 0

@@ -6,9 +6,9 @@ With superficial velocity U along x and voidage e(x), u = U/e and
 
     p(x) + rho u(x)^2/2 + integral of beta u/e dx = const,
 
-with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a sharp
-edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on slanted
-ones through whose columns the sharp edge runs. Exit code 1 when a run misses."""
+with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
+sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on
+slanted ones through whose columns the sharp edge runs. Exit code 1 when a run misses."""
 import itertools
 import shutil
 import sys
@@ -34,8 +34,8 @@ MESHES = ("aligned", "wavy", "slanted")
 CELLS = (16, 32, 64, 128)  # along the duct
 EDGE_CELLS = 64
 END, WRITE_INTERVAL = 8.0, 0.4  # s
-# Of both errors' rms. Cells along skewed walls are of first order (0.94 found, the others 1.76) and their share falls with
-# their size: that is an order of 1.5 in the limit, 1.48 found.
+# Of both errors' rms. Cells along skewed walls are of first order (0.94 found, the others 1.76) and their share falls
+# with their size: that is an order of 1.5 in the limit, 1.48 found.
 LEAST_ORDER = 1.45
 VISCOUS = 1e-4  # errors below are those of the slurry's viscosity, which the closed form leaves out
 JUMP_TOLERANCE = 0.01
@@ -155,7 +155,8 @@ def measure(mesh, bed, cells, case):
 
 
 def orders(flows):
-    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where there are two.
+    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
+    there are two.
 
     None where the coarser error is already the viscosity's."""
     found = {}

@@ -19,8 +19,8 @@ BALL_COLUMNS = {"id": "id", "type": "type", "position": ("x", "y", "z"), "veloci
 
 @dataclass
 class Materials:
-    """What the deck says of the atom types, the last of which is the wall's: youngs_modulus [n] (Pa), poisson_ratio [n],
-    restitution [n, n], friction [n, n]; density of the balls (kg/m^3)."""
+    """What the deck says of the atom types, the last of which is the wall's: youngs_modulus [n] (Pa), poisson_ratio
+    [n], restitution [n, n], friction [n, n]; density of the balls (kg/m^3)."""
     youngs_modulus: np.ndarray
     poisson_ratio: np.ndarray
     restitution: np.ndarray
@@ -48,10 +48,11 @@ def read_materials(deck):
 
 
 def read_table(path, columns):
-    """A LIGGGHTS dump as ({key: values [m], or [m, n] for n columns}, the box's periods [3] (m), inf where it has walls).
+    """A LIGGGHTS dump as ({key: values [m], or [m, n] for n columns}, the box's periods [3] (m), inf where it has
+    walls).
 
-    columns: for each key the number of a compute's column, or a column's name, or a tuple of these. RuntimeError naming the file,
-    the line and what was expected."""
+    columns: for each key the number of a compute's column, or a column's name, or a tuple of these. RuntimeError naming
+    the file, the line and what was expected."""
     lines = Path(path).read_text().splitlines()
     if len(lines) < 9 or not lines[8].startswith("ITEM: ") or not lines[3].isdigit() or len(lines) != 9 + int(lines[3]):
         expected = lines[3] if len(lines) > 3 else "?"

@@ -9,12 +9,14 @@ COLUMNS, VELOCITIES = ("x_m", "y_m", "solidity"), ("vx", "vy")
 
 
 def read_measured(path, like):
-    """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes over.
+    """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes
+    over.
 
-    path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s; both empty where no
-    velocity was measured, both columns missing where none was at all), in any order and among others, blanks around names and
-    numbers or not. Voxels may be missing: their solidity and velocity are NaN. ValueError, naming file, line, column and value, for a missing column, what is no number, a solidity beyond 0
-    to 1, a place that is no voxel's centre, and a voxel told twice."""
+    path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s; both empty where
+    no velocity was measured, both columns missing where none was at all), in any order and among others, blanks around
+    names and numbers or not. Voxels may be missing: their solidity and velocity are NaN. ValueError, naming file, line,
+    column and value, for a missing column, what is no number, a solidity beyond 0 to 1, a place that is no voxel's
+    centre, and a voxel told twice."""
     solidity, velocity = np.full(like.solidity.shape, np.nan), np.full(like.velocity.shape, np.nan)
     # Spreadsheets put a mark before UTF-8
     with open(path, newline="", encoding="utf-8-sig") as file:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its stages."""
+"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its
+stages."""
 from functools import cached_property
 from pathlib import Path
 

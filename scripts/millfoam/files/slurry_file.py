@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry on voxels (layout:
-averaging/README.md)."""
+"""Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry on voxels
+(layout: averaging/README.md)."""
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,9 +12,9 @@ from .solids_file import CLOCKWISE, open_hdf5
 class SlurryMap:
     """Slurry averaged over axis and time on the pixels of a box about the mill.
 
-    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave) that is
-    slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the mean over time is of,
-    in words; sense: the mill's."""
+    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave)
+    that is slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the
+    mean over time is of, in words; sense: the mill's."""
     x: np.ndarray
     y: np.ndarray
     share: np.ndarray
@@ -35,8 +35,8 @@ class SlurryMap:
 class VoxelMap(SlurryMap):
     """SlurryMap on the box's x-y voxels.
 
-    inside [ny, nx], the share of the column within the mill; holdup [ny, nx], of the mill's space that is slurry; pressure
-    [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
+    inside [ny, nx], the share of the column within the mill; holdup [ny, nx], of the mill's space that is slurry;
+    pressure [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
     inside: np.ndarray
     holdup: np.ndarray
     pressure: np.ndarray
@@ -51,9 +51,9 @@ class VoxelMap(SlurryMap):
 
 
 def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
-    """VoxelMap of a slurry.h5: mean over the axis, by the layers of voxels with their middle before z = length (m), and over the
-    windows that lie in [begin, end) of DEM time; of all that the file's own mean over the run takes where no times are given.
-    sense: the mill's. RuntimeError for a file that is not whole or times without a window."""
+    """VoxelMap of a slurry.h5: mean over the axis, by the layers of voxels with their middle before z = length (m), and
+    over the windows that lie in [begin, end) of DEM time; of all that the file's own mean over the run takes where no
+    times are given. sense: the mill's. RuntimeError for a file that is not whole or times without a window."""
     with open_hdf5(path) as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; let the flow run to its end")
@@ -80,7 +80,8 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
 
 
 def _over_axis(means, inside_of, lengths, layers, edges, span, sense):
-    """The VoxelMap of sums over the chosen layers of (group, row) pairs of an open file, weighted by their lengths (s)."""
+    """The VoxelMap of sums over the chosen layers of (group, row) pairs of an open file, weighted by their lengths
+    (s)."""
     room = slurry = fluid = flux = head = 0.0
     for (group, row), inside, seconds in zip(means, inside_of, lengths):
         part = seconds * inside[layers]

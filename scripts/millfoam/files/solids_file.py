@@ -40,7 +40,8 @@ class SolidsMap:
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
     def balls(self):
-        """Share of each column's volume, within the mill or not, that balls fill [ny, nx]; nought where that is not known."""
+        """Share of each column's volume, within the mill or not, that balls fill [ny, nx]; nought where that is not
+        known."""
         return np.nan_to_num(self.solidity) * self.inside
 
     def flux(self):
@@ -54,8 +55,8 @@ class SolidsMap:
 
 
 def _map(edges, inside, balls, flux, begin, end, faint, sense):
-    """SolidsMap out of means of the room within the walls, of the balls' volume in it [ny, nx], and of their flux [ny, nx, 3];
-    no velocity up to a solidity of `faint`."""
+    """SolidsMap out of means of the room within the walls, of the balls' volume in it [ny, nx], and of their flux [ny,
+    nx, 3]; no velocity up to a solidity of `faint`."""
     with np.errstate(invalid="ignore", divide="ignore"):
         velocity = np.where(balls[..., None] > faint, flux / balls[..., None], np.nan)
         solidity = np.where(inside > 0, balls / inside, 0.0)
@@ -63,9 +64,9 @@ def _map(edges, inside, balls, flux, begin, end, faint, sense):
 
 
 def read_windows(path, begin=-np.inf, end=np.inf):
-    """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of time;
-    velocity is weighted by solidity; clockwise unless the file tells another angular velocity. RuntimeError if the file is not
-    complete or there is no such window."""
+    """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of
+    time; velocity is weighted by solidity; clockwise unless the file tells another angular velocity. RuntimeError if
+    the file is not complete or there is no such window."""
     with open_hdf5(path) as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; average the dumps again")
@@ -95,8 +96,8 @@ def mean_map(maps):
 
 
 def span_of_flow(first, last, begin, end):
-    """DEM times (s) over which the charge of a flow from `begin` to `end` is averaged, of a record from `first` to `last`: the
-    same, or the whole record where the flow outlasts it, which is then held or repeated."""
+    """DEM times (s) over which the charge of a flow from `begin` to `end` is averaged, of a record from `first` to
+    `last`: the same, or the whole record where the flow outlasts it, which is then held or repeated."""
     return (begin, end) if end <= last * (1 + 1e-9) and begin >= first else (first, last)
 
 

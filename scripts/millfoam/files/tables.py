@@ -11,8 +11,8 @@ class TableError(RuntimeError):
 
 
 def _read_file(path):
-    """When the file was begun (s since 1970; its modification where it does not say), words of its last comment line and its
-    rows. A last line without an end is what a killed flow was writing: it is left out."""
+    """When the file was begun (s since 1970; its modification where it does not say), words of its last comment line
+    and its rows. A last line without an end is what a killed flow was writing: it is left out."""
     begun, names, rows = path.stat().st_mtime, [], []
     for number, line in enumerate(path.read_text().split("\n")[:-1], start=1):
         if line.startswith("#"):
@@ -32,8 +32,8 @@ def _read_file(path):
 def read_table(case, name, file=None):
     """Column names and rows [times, columns] of a function object's table, the time (s) in the first column.
 
-    A flow that went on after it was broken off wrote further files: from a file's first time on, its rows replace those of the
-    files that were begun before it. TableError where there is none, or the files' columns differ."""
+    A flow that went on after it was broken off wrote further files: from a file's first time on, its rows replace those
+    of the files that were begun before it. TableError where there is none, or the files' columns differ."""
     file = file or name
     folder = Path(case) / "postProcessing" / name
     found = [path for path in folder.glob(f"*/{file}*.dat") if re.fullmatch(rf"{re.escape(file)}(_[\d.e+-]+)?", path.stem)]

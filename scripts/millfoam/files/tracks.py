@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tracks of single balls: of tracers from text files, and out of the dumps of a dry run (layout: dem_driver/README.md)."""
+"""Tracks of single balls: of tracers from text files, and out of the dumps of a dry run (layout:
+dem_driver/README.md)."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,9 +28,10 @@ class Trajectory:
 
 
 def read_trajectory(path, time_unit=1.0, length_unit=1.0):
-    """Trajectory from a text file of lines t, x, y, z, parted by commas or blanks; empty lines, lines that begin with #, and one
-    line of names at the top are skipped. Units: in s and m. RuntimeError naming file, line and value for a wrong number of
-    columns, a word that is no number or not finite, time that does not increase, or fewer than two points."""
+    """Trajectory from a text file of lines t, x, y, z, parted by commas or blanks; empty lines, lines that begin with
+    #, and one line of names at the top are skipped. Units: in s and m. RuntimeError naming file, line and value for a
+    wrong number of columns, a word that is no number or not finite, time that does not increase, or fewer than two
+    points."""
     rows = []
     with open(path) as file:
         for number, line in enumerate(file, 1):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predictions of a mill's stages: trials on this machine, and what is calibrated on earlier runs (scripts/README.md, "What it
-will take")."""
+"""Predictions of a mill's stages: trials on this machine, and what is calibrated on earlier runs (scripts/README.md,
+"What it will take")."""
 import math
 import tempfile
 from dataclasses import dataclass

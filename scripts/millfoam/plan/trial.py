@@ -107,8 +107,8 @@ def try_mesh(folder, mill):
 
 
 def shorten(folder, largest_step):
-    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row at
-    the end of each step."""
+    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row
+    at the end of each step."""
     with open(folder / "system" / "controlDict", "a") as control:
         control.write(f"endTime {LARGEST_STEPS * largest_step:.9g};\n"
                       'functions { trial { type abort; libs ("libutilityFunctionObjects.so"); '

@@ -32,9 +32,9 @@ def _arrows(axis, charge):
 
 
 def charge_figure(charge, readings, radius, outline=None):
-    """Figure of a SolidsMap with its Charge (readings.charge.read_charge) in a mill of `radius` (m): solidity, velocities,
-    outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through it, free surface
-    with its logistic, toe and shoulder."""
+    """Figure of a SolidsMap with its Charge (readings.charge.read_charge) in a mill of `radius` (m): solidity,
+    velocities, outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through
+    it, free surface with its logistic, toe and shoulder."""
     figure, axis = plt.subplots(figsize=(5.2, 5.1), layout="constrained")
     figure.get_layout_engine().set(rect=(0, 0.14, 1, 0.86))
     figure.colorbar(_draw(axis, charge, readings, radius, outline), ax=axis, label="solidity, –", shrink=0.9)
@@ -71,7 +71,8 @@ def _draw(axis, charge, readings, radius, outline):
 
 
 def tangential_figure(profile):
-    """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the distance."""
+    """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the
+    distance."""
     figure, axes = plt.subplots(3, 1, figsize=(5.4, 6.2), sharex=True, constrained_layout=True,
                                 gridspec_kw={"height_ratios": (2, 1, 1.3)})
     distance = 1e3 * profile.distance

@@ -19,7 +19,8 @@ def draw_mill(axis, flow, time):
 
 
 def draw_outline(axis, outline, radius, omega):
-    """A mill's outline [n, 2] (m), None for the circle of its `radius` (m), and an arrow for its sense at `omega` (rad/s)."""
+    """A mill's outline [n, 2] (m), None for the circle of its `radius` (m), and an arrow for its sense at `omega`
+    (rad/s)."""
     outline = circle(radius) if outline is None else outline
     axis.plot(*(1e3 * outline.T), color="0.15", lw=1.2)
     draw_sense(axis, radius, omega)
@@ -145,8 +146,8 @@ def frame_figures(flow, frames):
 
 
 def charge_figures(charges, radius, omega, outline_at):
-    """One figure for each SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), on the same page;
-    outline_at(time in s): its outline [n, 2] (m), or None."""
+    """One figure for each SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), on the same
+    page; outline_at(time in s): its outline [n, 2] (m), or None."""
     def draw(axis, charge):
         solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
         image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
@@ -158,8 +159,8 @@ def charge_figures(charges, radius, omega, outline_at):
 
 
 def redrawn_figures(things, draw, shrink, label):
-    """One figure that is drawn anew for each of `things` by draw(axis, thing), which gives what its colour bar shows. The
-    places on the page are found once, for the first of them: that takes longer than to draw."""
+    """One figure that is drawn anew for each of `things` by draw(axis, thing), which gives what its colour bar shows.
+    The places on the page are found once, for the first of them: that takes longer than to draw."""
     figure, axis = plt.subplots(figsize=(5.4, 4.6), layout="constrained")
     for number, thing in enumerate(things):
         axis.clear()

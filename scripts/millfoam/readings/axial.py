@@ -11,8 +11,8 @@ from ..files.flow_record import read_flow_record
 
 @dataclass
 class AxialProfile:
-    """Means over time of axial slices [n] of the mill (without pulp lifters): z (m), height of the slurry's centre of mass
-    above the axis (m) and its standard deviation over time, hold-up (m3), p_rgh weighted by slurry (Pa)."""
+    """Means over time of axial slices [n] of the mill (without pulp lifters): z (m), height of the slurry's centre of
+    mass above the axis (m) and its standard deviation over time, hold-up (m3), p_rgh weighted by slurry (Pa)."""
     z: np.ndarray
     height: np.ndarray
     height_spread: np.ndarray
@@ -22,8 +22,8 @@ class AxialProfile:
 
 @dataclass
 class Humps:
-    """height = base + sum of Gaussians, in order of place: places z, heights above the base, widths (standard deviations)
-    [count] and base (m); rmsd: root mean square of what is left (m)."""
+    """height = base + sum of Gaussians, in order of place: places z, heights above the base, widths (standard
+    deviations) [count] and base (m); rmsd: root mean square of what is left (m)."""
     places: tuple
     heights: tuple
     widths: tuple
@@ -42,8 +42,9 @@ class Humps:
 
 @dataclass
 class AxialSeries:
-    """Axial slices [n] of the mill (without pulp lifters) against time: z (m); times [times] (s); height of the slurry's centre
-    of mass above the axis (m), hold-up (m3) and p_rgh weighted by slurry (Pa), each [times, n], NaN in slices without slurry."""
+    """Axial slices [n] of the mill (without pulp lifters) against time: z (m); times [times] (s); height of the
+    slurry's centre of mass above the axis (m), hold-up (m3) and p_rgh weighted by slurry (Pa), each [times, n], NaN in
+    slices without slurry."""
     z: np.ndarray
     times: np.ndarray
     height: np.ndarray
@@ -83,7 +84,8 @@ def axial_profile(flow, begin):
 
 
 def drop(profile):
-    """Fall of p_rgh in the slurry of an AxialProfile from its first to its last slice, by a straight line through all, Pa."""
+    """Fall of p_rgh in the slurry of an AxialProfile from its first to its last slice, by a straight line through all,
+    Pa."""
     known = np.isfinite(profile.pressure)
     return float(-(profile.z[-1] - profile.z[0]) * np.polyfit(profile.z[known], profile.pressure[known], 1)[0])
 
@@ -97,8 +99,8 @@ def gaussians(z, base, *humps):
 def fit_gaussians(z, height, count):
     """Humps of a profile: the best least-squares fit of `count` Gaussians from many first guesses of their places.
 
-    z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of its
-    length, and no less than half of the way between two slices: a narrower hump would stand between them unseen.
+    z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of
+    its length, and no less than half of the way between two slices: a narrower hump would stand between them unseen.
     ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
     z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
     if len(z) < 1 + 3 * count:
@@ -132,8 +134,8 @@ def humps_at_ends(humps, z):
 
 
 def slurry_volumes(case):
-    """Times (s) and volumes of slurry (m3) at the ends of the steps [steps] of a case's flow, its restarts joined. RuntimeError if
-    slurryFoam left no steps."""
+    """Times (s) and volumes of slurry (m3) at the ends of the steps [steps] of a case's flow, its restarts joined.
+    RuntimeError if slurryFoam left no steps."""
     steps = read_flow_record(case).steps
     if steps is None:
         raise RuntimeError(f"{case}: no postProcessing/flow/START/steps.csv; expected a flow by slurryFoam")

@@ -12,9 +12,9 @@ BIN = 0.01  # of the histogram of solidity differences
 
 @dataclass
 class Difference:
-    """Of two maps on the same voxels: mean |solidity A - B| / 0.634 over the mill's inside; means of |vx A - B| and |vy A - B|
-    weighted by both solidities' mean, over the mean of the two largest speeds, NaN where no voxel has both velocities. `missing`
-    voxels within the mill, of which one of the maps does not know the solidity, are left out."""
+    """Of two maps on the same voxels: mean |solidity A - B| / 0.634 over the mill's inside; means of |vx A - B| and |vy
+    A - B| weighted by both solidities' mean, over the mean of the two largest speeds, NaN where no voxel has both
+    velocities. `missing` voxels within the mill, of which one of the maps does not know the solidity, are left out."""
     solidity: float
     velocity_x: float
     velocity_y: float
@@ -23,8 +23,8 @@ class Difference:
 
 @dataclass
 class DifferenceMaps:
-    """A - B, voxel by voxel: x, y: voxel edges (m); solidity [ny, nx]; velocity_x, velocity_y [ny, nx] (m/s), NaN where one of
-    the maps has no balls; all are NaN outside the mill and where a map misses a voxel.
+    """A - B, voxel by voxel: x, y: voxel edges (m); solidity [ny, nx]; velocity_x, velocity_y [ny, nx] (m/s), NaN where
+    one of the maps has no balls; all are NaN outside the mill and where a map misses a voxel.
 
     shares [bins]: share of the mill's known inside whose solidity difference is between edges [bins + 1]."""
     x: np.ndarray
@@ -38,8 +38,8 @@ class DifferenceMaps:
 
 @dataclass
 class SurfaceDifference:
-    """Of the heights of two free surfaces, y_A - y_B, evenly over the x (m) from `begin` to `end` where both exist and are known:
-    mean and standard deviation (m)."""
+    """Of the heights of two free surfaces, y_A - y_B, evenly over the x (m) from `begin` to `end` where both exist and
+    are known: mean and standard deviation (m)."""
     mean: float
     deviation: float
     begin: float
@@ -55,7 +55,8 @@ class Comparison:
 
 
 def _known(a, b):
-    """Room within the mill that both SolidsMap know [ny, nx], and the number of voxels within it that one of them misses."""
+    """Room within the mill that both SolidsMap know [ny, nx], and the number of voxels within it that one of them
+    misses."""
     if a.solidity.shape != b.solidity.shape or not (np.allclose(a.x, b.x) and np.allclose(a.y, b.y)):
         raise ValueError(f"maps of {a.solidity.shape} and {b.solidity.shape} voxels; expected the same voxels")
     inside = (a.inside + b.inside) / 2
@@ -78,7 +79,8 @@ def difference(a, b):
 
 
 def difference_maps(a, b, bin_width=BIN):
-    """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ. bin_width: of the histogram, solidity."""
+    """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ. bin_width: of the histogram,
+    solidity."""
     inside, _ = _known(a, b)
     solidity, velocity_x, velocity_y = (np.where(inside > 0, values, np.nan) for values in (
         a.solidity - b.solidity, *np.moveaxis((a.velocity - b.velocity)[..., :2], -1, 0)))
@@ -104,7 +106,7 @@ def surface_difference(a, b, points=200):
 
 
 def compare(a, b, radius, bin_width=BIN):
-    """Comparison of two SolidsMap on the same voxels of a mill of `radius` (m): ValueError where the voxels differ, RuntimeError
-    where one of them has no free surface."""
+    """Comparison of two SolidsMap on the same voxels of a mill of `radius` (m): ValueError where the voxels differ,
+    RuntimeError where one of them has no free surface."""
     surfaces = (free_surface(one, radius) for one in (a, b))
     return Comparison(difference(a, b), surface_difference(*surfaces), difference_maps(a, b, bin_width))

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectra of the energy of a charge's contacts: collisions and dissipated power, by class of balls and by energy.
 
-What the interval between the contacts' dumps limits: a contact is a collision when its pair was not in touch at the dump before.
-Pairs that part and meet again within an interval count once. A touch shorter than the interval is seen with the probability
-duration / interval, so that one that is gone at the next dump counts interval / duration times, with the duration of a Hertz
-contact of its energy. The energy is that at the dump: between the energy at first touch and, at the end of the touch, e^2 of it.
-Powers need no such weights: they are means over the dumps, which see every contact as long as it lasts."""
+What the interval between the contacts' dumps limits: a contact is a collision when its pair was not in touch at the
+dump before. Pairs that part and meet again within an interval count once. A touch shorter than the interval is seen
+with the probability duration / interval, so that one that is gone at the next dump counts interval / duration times,
+with the duration of a Hertz contact of its energy. The energy is that at the dump: between the energy at first touch
+and, at the end of the touch, e^2 of it. Powers need no such weights: they are means over the dumps, which see every
+contact as long as it lasts."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,12 +24,12 @@ PARTS = ("damping", "friction", "rolling", "spring")
 class Spectra:
     """edges [n] (J): bins of energy are below the first, between two, and above the last, so that nothing is lost.
 
-    classes: diameters (m), ascending, the first 0 for the wall; collisions [c, c, n + 1] (1/s): of a ball of class i <= j
-    with one of class j, by energy at first touch; power: {part: [c, c, n + 1]} (W) by the energy of the relative motion at the
-    contact, 1/2 m* (approach^2 + slip^2): damping, of the normal dampers; friction, of the tangential forces, by sliding and
-    tangential damping, and what the tangential springs hold for a while; rolling, of rolling friction; spring, into the normal
-    springs, whose mean over a long time is nought. sliding: share of the friction at contacts at Coulomb's limit. dumps: their
-    number; interval (s): between them."""
+    classes: diameters (m), ascending, the first 0 for the wall; collisions [c, c, n + 1] (1/s): of a ball of class i <=
+    j with one of class j, by energy at first touch; power: {part: [c, c, n + 1]} (W) by the energy of the relative
+    motion at the contact, 1/2 m* (approach^2 + slip^2): damping, of the normal dampers; friction, of the tangential
+    forces, by sliding and tangential damping, and what the tangential springs hold for a while; rolling, of rolling
+    friction; spring, into the normal springs, whose mean over a long time is nought. sliding: share of the friction at
+    contacts at Coulomb's limit. dumps: their number; interval (s): between them."""
     edges: np.ndarray
     classes: np.ndarray
     collisions: np.ndarray
@@ -120,14 +121,15 @@ def _codes(key):
 
 
 def hertz_duration(mass, stiffness, energy):
-    """Duration (s) of an undamped Hertz contact with the force stiffness x overlap^1.5 (N/m^1.5), from its reduced mass (kg) and
-    energy (J): 2.943 d / v with the largest overlap d = (5 energy / (2 stiffness))^(2/5) and v = sqrt(2 energy / mass)."""
+    """Duration (s) of an undamped Hertz contact with the force stiffness x overlap^1.5 (N/m^1.5), from its reduced mass
+    (kg) and energy (J): 2.943 d / v with the largest overlap d = (5 energy / (2 stiffness))^(2/5) and v = sqrt(2 energy
+    / mass)."""
     return HERTZ_DURATION * (2.5 * energy / stiffness) ** 0.4 / np.sqrt(2 * energy / mass)
 
 
 def power_to_dissipate(folder, begin=0.0, end=np.inf):
-    """Mean of the drive's power in DIR/dumps/energy.csv from `begin` to `end` (s) less what the charge's kinetic energy of
-    translation and potential energy gain, W: what contacts must take, but for the small energy of spin."""
+    """Mean of the drive's power in DIR/dumps/energy.csv from `begin` to `end` (s) less what the charge's kinetic energy
+    of translation and potential energy gain, W: what contacts must take, but for the small energy of spin."""
     table = np.genfromtxt(Path(folder) / "dumps" / "energy.csv", delimiter=",", names=True)
     table = table[(table["time_s"] >= begin) & (table["time_s"] <= end)]
     if len(table) < 2:

@@ -14,14 +14,15 @@ from ..files.contact_dumps import BALL_COLUMNS, PAIR_COLUMNS, WALL_COLUMNS, read
 class Contacts:
     """The contacts of one instant [m], of two balls or of a ball and the wall.
 
-    key [m, 2]: the ball's id and the other's, the smaller first, or the ball's and -1 - the wall's number; diameters [m, 2] (m),
-    the smaller first, 0 for a wall; reduced_mass (kg), the ball's own at a wall; approach: speed at which the centres near each
-    other, or the ball and the wall's point (m/s); slip: speed of the surfaces past each other (m/s); normal, tangential: forces
-    (N), the normal one positive where it pushes apart; overlap (m); stiffness: k of the normal spring's force k overlap^1.5.
+    key [m, 2]: the ball's id and the other's, the smaller first, or the ball's and -1 - the wall's number; diameters
+    [m, 2] (m), the smaller first, 0 for a wall; reduced_mass (kg), the ball's own at a wall; approach: speed at which
+    the centres near each other, or the ball and the wall's point (m/s); slip: speed of the surfaces past each other
+    (m/s); normal, tangential: forces (N), the normal one positive where it pushes apart; overlap (m); stiffness: k of
+    the normal spring's force k overlap^1.5.
 
-    Powers that the contact takes from the balls and the drive (W): damping, of the normal damper; spring, into the normal
-    spring, which gives it back; friction, of the tangential force: sliding, tangential damper and tangential spring; rolling, of
-    the rolling torque. sliding: whether the tangential force is at Coulomb's limit."""
+    Powers that the contact takes from the balls and the drive (W): damping, of the normal damper; spring, into the
+    normal spring, which gives it back; friction, of the tangential force: sliding, tangential damper and tangential
+    spring; rolling, of the rolling torque. sliding: whether the tangential force is at Coulomb's limit."""
     key: np.ndarray
     diameters: np.ndarray
     reduced_mass: np.ndarray
@@ -46,8 +47,8 @@ class Contacts:
         return 2 / 5 * self.stiffness * self.overlap ** 2.5
 
     def normal_energy(self):
-        """Energy [m] (J) of the motion along the normal, with that of the spring: from first touch on it falls, by what damping
-        takes, from 1/2 m v^2 to e^2 times as much."""
+        """Energy [m] (J) of the motion along the normal, with that of the spring: from first touch on it falls, by what
+        damping takes, from 1/2 m v^2 to e^2 times as much."""
         return self.reduced_mass * self.approach ** 2 / 2 + self.elastic_energy()
 
 
@@ -105,8 +106,8 @@ def wall_contacts(balls, walls, ball, materials):
 
 
 def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass, types, materials):
-    """Contacts from the motion of the first body against the second: of the centres (`move`), of the surfaces (`past`), and
-    their difference of spin (all [m, 3]); radius, mass: effective ones."""
+    """Contacts from the motion of the first body against the second: of the centres (`move`), of the surfaces (`past`),
+    and their difference of spin (all [m, 3]); radius, mass: effective ones."""
     push = np.sum(table["force"] * normal, axis=1)
     tangential = table["force"] - push[:, None] * normal
     approach = -np.sum(move * normal, axis=1)
@@ -126,10 +127,11 @@ def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass
 def tangential_forces(dumped, past, limit, damper):
     """Tangential forces [m, 3] (N) as they acted, and which contacts slide [m], from those that were dumped.
 
-    past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide without its
-    damper, and then shortens its spring to the limit. When it computes the force anew for the dump, it finds the spring within
-    the limit and adds the damper, so that the force is too large: here that is taken off again. The limit itself differs by the
-    half step between the two velocities, so that a spring within 2 % of it is taken for a sliding one."""
+    past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide
+    without its damper, and then shortens its spring to the limit. When it computes the force anew for the dump, it
+    finds the spring within the limit and adds the damper, so that the force is too large: here that is taken off again.
+    The limit itself differs by the half step between the two velocities, so that a spring within 2 % of it is taken for
+    a sliding one."""
     size = np.linalg.norm(dumped, axis=1)
     at_limit = np.abs(size - limit) <= 1e-6 * limit
     spring = np.where(at_limit[:, None], dumped, dumped + damper[:, None] * past)

@@ -30,7 +30,8 @@ def mean_of_times(maps):
 
 
 def mean_flow(flow, begin):
-    """TimesMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the share."""
+    """TimesMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the
+    share."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     chosen = [(time, path) for time, path in flow.frames if time >= begin - 1e-9]
     share, momentum = 0.0, 0.0

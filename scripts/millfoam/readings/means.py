@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Means over time with their standard errors, from blocks of successive times or windows; means and percentiles by weight."""
+"""Means over time with their standard errors, from blocks of successive times or windows; means and percentiles by
+weight."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,8 +46,9 @@ def angle_mean(angles):
 
 @dataclass
 class Reading:
-    """value of the mean over all windows, a number or an array, and its standard error, from as many `blocks` of windows; on
-    `failed` further blocks there was nothing to read. The error is NaN if it could be read on fewer than two."""
+    """value of the mean over all windows, a number or an array, and its standard error, from as many `blocks` of
+    windows; on `failed` further blocks there was nothing to read. The error is NaN if it could be read on fewer than
+    two."""
     value: np.ndarray
     error: np.ndarray
     blocks: int
@@ -56,12 +58,12 @@ class Reading:
 def with_error(reading, maps, blocks=8):
     """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
 
-    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is nothing to
-    read. What it raises for the mean of all windows is passed on.
-    maps: as read_windows gives them; they are cut into at most `blocks` equal blocks of successive windows (what is left over
-    goes to the first ones), each block is averaged and read, and the error is the readings' standard deviation over the root of
-    their number. That holds as far as blocks are longer than what the charge remembers, about a turn of the charge.
-    Method of batch means: A. M. Law, Simulation Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
+    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is
+    nothing to read. What it raises for the mean of all windows is passed on. maps: as read_windows gives them; they are
+    cut into at most `blocks` equal blocks of successive windows (what is left over goes to the first ones), each block
+    is averaged and read, and the error is the readings' standard deviation over the root of their number. That holds as
+    far as blocks are longer than what the charge remembers, about a turn of the charge. Method of batch means: A. M.
+    Law, Simulation Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
     if len(maps) < 2 or blocks < 2:
         raise ValueError(f"{len(maps)} windows in {blocks} blocks: an error over time needs at least two of each")
     value = np.asarray(reading(mean_map(maps)), dtype=float)
@@ -79,7 +81,8 @@ def with_error(reading, maps, blocks=8):
 
 
 def time_mean(times, values, begin):
-    """Mean of values [times] from `begin` (s) on, each standing for the time since the one before; NaN if there are none."""
+    """Mean of values [times] from `begin` (s) on, each standing for the time since the one before; NaN if there are
+    none."""
     times = np.asarray(times)
     steps = np.diff(times, prepend=2 * times[0] - times[1] if len(times) > 1 else times[0] - 1)
     late = times >= begin

@@ -14,8 +14,8 @@ POOR = 0.03  # of the radius that a fit may leave and still describe a surface
 class FreeSurface:
     """Free surface of a charge, lengths in units of the mill's radius, x to the right and y up.
 
-    internal, wall: coefficients mu_i and mu_w; number: Lambda; clockwise: the mill's sense; height: y at x = 0; filling: share
-    of the circle's area below the surface; x, y [n]: points from shell to shell."""
+    internal, wall: coefficients mu_i and mu_w; number: Lambda; clockwise: the mill's sense; height: y at x = 0;
+    filling: share of the circle's area below the surface; x, y [n]: points from shell to shell."""
     internal: float
     wall: float
     number: float
@@ -27,17 +27,19 @@ class FreeSurface:
 
 
 def surface_number(angular_velocity, diameter, radius, length):
-    """Lambda = (Omega^2 d / g)^(1/4) R / L: thickness of the flowing layer over the distance of the ends, at the axis. SI."""
+    """Lambda = (Omega^2 d / g)^(1/4) R / L: thickness of the flowing layer over the distance of the ends, at the axis.
+    SI."""
     return (angular_velocity ** 2 * diameter / GRAVITY) ** 0.25 * radius / length
 
 
 def free_surface(internal, wall, number, filling=None, height=None, clockwise=True, points=201):
-    """FreeSurface of Taberlet, Richard & Hinch, Phys. Rev. E 73 (2006) 050301: dy/dx = mu_i + mu_w Lambda sqrt(1 - x^2 - y^2)
-    where the mill lifts its charge on the right (anticlockwise); for a clockwise mill it is mirrored.
+    """FreeSurface of Taberlet, Richard & Hinch, Phys. Rev. E 73 (2006) 050301: dy/dx = mu_i + mu_w Lambda sqrt(1 - x^2
+    - y^2) where the mill lifts its charge on the right (anticlockwise); for a clockwise mill it is mirrored.
 
-    Either filling, above 0 and below 1, of which the height follows, or the height at x = 0 in (-1, 1). The ends' friction takes
-    the place of a term that grows with the flowing layer, whose thickness follows from its flow, Omega (R^2 - r^2) / 2, at a
-    shear rate sqrt(g/d). ValueError for other values, or a surface that does not go from shell to shell."""
+    Either filling, above 0 and below 1, of which the height follows, or the height at x = 0 in (-1, 1). The ends'
+    friction takes the place of a term that grows with the flowing layer, whose thickness follows from its flow, Omega
+    (R^2 - r^2) / 2, at a shear rate sqrt(g/d). ValueError for other values, or a surface that does not go from shell to
+    shell."""
     if (filling is None) == (height is None):
         raise ValueError("filling and height: expected one of them")
     if filling is not None and not 0 < filling < 1 or height is not None and not -1 < height < 1:
@@ -53,7 +55,8 @@ def free_surface(internal, wall, number, filling=None, height=None, clockwise=Tr
 
 
 def _branches(internal, wall, number, height):
-    """The surface from (0, height) to the shell on the left and on the right, as solutions of solve_ivp, and the filling."""
+    """The surface from (0, height) to the shell on the left and on the right, as solutions of solve_ivp, and the
+    filling."""
     def slope(x, state):
         steep = internal + wall * number * np.sqrt(max(0.0, 1 - x ** 2 - state[0] ** 2))
         # The second is the area that the ray from the axis sweeps
@@ -74,9 +77,9 @@ def _branches(internal, wall, number, height):
 
 
 def fit_free_surface(x, y, number, filling=None, clockwise=True):
-    """FreeSurface whose mu_i and mu_w are fitted to points x, y [n] (units of the radius) of a free surface, n > 2, and the root
-    mean square of what is left in y: (FreeSurface, float). With a filling the height follows from it, otherwise it is fitted.
-    Friction is not negative: a surface that asks for that is fitted with none."""
+    """FreeSurface whose mu_i and mu_w are fitted to points x, y [n] (units of the radius) of a free surface, n > 2, and
+    the root mean square of what is left in y: (FreeSurface, float). With a filling the height follows from it,
+    otherwise it is fitted. Friction is not negative: a surface that asks for that is fitted with none."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if x.shape != y.shape or len(x) < 3 or not np.all(x ** 2 + y ** 2 < 1):
         raise ValueError(f"points x {x.shape}, y {y.shape}; expected 3 or more within the mill")
@@ -103,14 +106,15 @@ def fit_free_surface(x, y, number, filling=None, clockwise=True):
 
 
 def describes(surface, rmsd):
-    """Whether a fitted FreeSurface describes what it was fitted to: friction above its bound of nought, a small rest."""
+    """Whether a fitted FreeSurface describes what it was fitted to: friction above its bound of nought, a small
+    rest."""
     return min(surface.internal, surface.wall) > 1e-3 and rmsd <= POOR
 
 
 @dataclass
 class Charge:
-    """The porous charge that slurry flows through along the axis (SI): radius and length of the mill; porosity e; diameter of the
-    balls d (Sauter mean of a mixture); tortuosity factor C_T, 5 as a rule."""
+    """The porous charge that slurry flows through along the axis (SI): radius and length of the mill; porosity e;
+    diameter of the balls d (Sauter mean of a mixture); tortuosity factor C_T, 5 as a rule."""
     radius: float
     length: float
     porosity: float
@@ -132,17 +136,18 @@ class Charge:
 
 
 def slurry_depth(charge, z, flow, discharge_depth, viscosity, density):
-    """Depth h (m) of slurry at z (m, 0 at the feed end) in Moys' model: h^2.5 = h_L^2.5 + 2.5 B Q (L - z), that is Darcy's law
-    Q = -A(h) (rho g K / mu) dh/dz. flow Q (m^3/s); discharge_depth h_L (m) at z = L. ValueError for negative ones."""
+    """Depth h (m) of slurry at z (m, 0 at the feed end) in Moys' model: h^2.5 = h_L^2.5 + 2.5 B Q (L - z), that is
+    Darcy's law Q = -A(h) (rho g K / mu) dh/dz. flow Q (m^3/s); discharge_depth h_L (m) at z = L. ValueError for
+    negative ones."""
     _check(flow, discharge_depth)
     drop = 2.5 * charge.resistance(viscosity, density) * flow * (charge.length - np.asarray(z, dtype=float))
     return (discharge_depth ** 2.5 + drop) ** 0.4
 
 
 def slurry_hold_up(charge, flow, discharge_depth, viscosity, density):
-    """Volume (m^3) of slurry in the charge's pores in Moys' model, the integral of e A(h) over the mill's length:
-    e pi sqrt(R) [(h_L^2.5 + 2.5 B Q L)^1.6 - h_L^4] / (8 B Q), evaluated without cancellation down to Q = 0, where it is
-    e A(h_L) L. Arguments as of `slurry_depth`."""
+    """Volume (m^3) of slurry in the charge's pores in Moys' model, the integral of e A(h) over the mill's length: e pi
+    sqrt(R) [(h_L^2.5 + 2.5 B Q L)^1.6 - h_L^4] / (8 B Q), evaluated without cancellation down to Q = 0, where it is e
+    A(h_L) L. Arguments as of `slurry_depth`."""
     _check(flow, discharge_depth)
     drop = 2.5 * charge.resistance(viscosity, density) * flow * charge.length
     least = discharge_depth ** 2.5

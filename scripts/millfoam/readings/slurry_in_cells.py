@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off the cells of a flow's
-written times.
+"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off the cells of a
+flow's written times.
 
 Angles: see shell_angles."""
 from dataclasses import dataclass

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read off maps of the slurry, averaged over axis and time (SlurryMap): toe and shoulder, the pool in front of the
-charge, the way along the axis.
+"""What is read off maps of the slurry, averaged over axis and time (SlurryMap): toe and shoulder, the pool in front of
+the charge, the way along the axis.
 
-x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense. z runs from the feed end to the
-discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
+x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense. z runs from the feed
+end to the discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,9 +22,9 @@ def pixel_angles(slurry):
 
 
 def slurry_ends(slurry, radius, wall):
-    """Toe and shoulder of a SlurryMap's slurry (degrees): where its share passes 0.5 on the circle `wall` (m) from the shell,
-    at both ends of the arc with most slurry; NaN if there is none or no end. A `wall` at the lifters' tips keeps out of the
-    reading what they carry over the top."""
+    """Toe and shoulder of a SlurryMap's slurry (degrees): where its share passes 0.5 on the circle `wall` (m) from the
+    shell, at both ends of the arc with most slurry; NaN if there is none or no end. A `wall` at the lifters' tips keeps
+    out of the reading what they carry over the top."""
     angle, (x, y) = np.radians(bin_centres()), slurry.centres()
     place = [(-(radius - wall) * np.cos(angle) - y[0]) / (y[1] - y[0]),
              (slurry.sense * (radius - wall) * np.sin(angle) - x[0]) / (x[1] - x[0])]
@@ -36,9 +36,9 @@ def slurry_ends(slurry, radius, wall):
 
 @dataclass
 class Pool:
-    """Slurry in front of the charge: where [ny, nx], its pixels; area (m2), the slurry's volume per length; level (m), the
-    height of its surface: the median over its columns of pixels of their upper edges; deviation (m) of these edges from their
-    mean, small where the surface is flat. Without a pool area is 0 and level and deviation are NaN."""
+    """Slurry in front of the charge: where [ny, nx], its pixels; area (m2), the slurry's volume per length; level (m),
+    the height of its surface: the median over its columns of pixels of their upper edges; deviation (m) of these edges
+    from their mean, small where the surface is flat. Without a pool area is 0 and level and deviation are NaN."""
     where: np.ndarray
     area: float
     level: float
@@ -48,9 +48,9 @@ class Pool:
 def pool(slurry, solidity):
     """Pool of a SlurryMap beside a charge of `solidity` [ny, nx] on the same pixels.
 
-    It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and a
-    solidity of at most 0.1: slurry that stands clear of the charge, not what fills its pores. Without balls it is all slurry.
-    Films that are thinner in the mean than half a pixel do not appear. ValueError if the shapes differ."""
+    It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and
+    a solidity of at most 0.1: slurry that stands clear of the charge, not what fills its pores. Without balls it is all
+    slurry. Films that are thinner in the mean than half a pixel do not appear. ValueError if the shapes differ."""
     if solidity.shape != slurry.share.shape:
         raise ValueError(f"solidity of {solidity.shape} pixels beside slurry of {slurry.share.shape}; expected the same")
     share = np.nan_to_num(slurry.share)
@@ -66,8 +66,8 @@ def pool(slurry, solidity):
 
 @dataclass
 class HalfFlow:
-    """Velocity along the axis (m/s, towards the discharge positive) of half of the slurry: mean, and lowest and highest of 90 %
-    of it, weighted by the share."""
+    """Velocity along the axis (m/s, towards the discharge positive) of half of the slurry: mean, and lowest and highest
+    of 90 % of it, weighted by the share."""
     mean: float
     lowest: float
     highest: float
@@ -75,8 +75,8 @@ class HalfFlow:
 
 @dataclass
 class AxialFlow:
-    """Of the slurry's way along the axis: velocity [ny, nx] (m/s), NaN where its share is at most 0.5; of its halves at the
-    toe and at the shoulder, on either side of the line from the mill's centre at `middle` degrees."""
+    """Of the slurry's way along the axis: velocity [ny, nx] (m/s), NaN where its share is at most 0.5; of its halves at
+    the toe and at the shoulder, on either side of the line from the mill's centre at `middle` degrees."""
     velocity: np.ndarray
     middle: float
     toe: HalfFlow
@@ -94,8 +94,9 @@ def axial_velocity(slurry):
 
 
 def axial_flow(slurry, toe, shoulder):
-    """AxialFlow of a SlurryMap whose slurry reaches from `toe` to `shoulder` (degrees, as slurry_ends gives them): halves are on
-    either side of the direction midway between both. RuntimeError if there is no slurry on one of them."""
+    """AxialFlow of a SlurryMap whose slurry reaches from `toe` to `shoulder` (degrees, as slurry_ends gives them):
+    halves are on either side of the direction midway between both. RuntimeError if there is no slurry on one of
+    them."""
     velocity = axial_velocity(slurry)
     middle = toe + (shoulder - toe) % 360 / 2
     rising = (pixel_angles(slurry) - middle + 180) % 360 - 180 > 0

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, way along the axis, with standard errors.
-From the tables and slurry.h5 of function objects, else from the written times."""
+"""The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, way along the axis, with standard
+errors. From the tables and slurry.h5 of function objects, else from the written times."""
 import copy
 from dataclasses import dataclass
 
@@ -27,8 +27,8 @@ class Way:
 
     @property
     def circulates(self):
-        """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where that is
-        within two standard errors."""
+        """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where
+        that is within two standard errors."""
         signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value)) for half in (self.toe, self.shoulder)]
         return "yes" if signs == [1, -1] else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
 

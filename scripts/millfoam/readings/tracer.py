@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Residence time, solidity and velocity of a charge from the tracks of tracers, as of positron emission particle tracking.
+"""Residence time, solidity and velocity of a charge from the tracks of tracers, as of positron emission particle
+tracking.
 
-In a steady, ergodic charge the share of its time that one ball spends in a voxel is the share of the charge's volume that is
-there: solidity = share x volume of the charge / volume of the voxel (Parker et al., Nucl. Instrum. Methods A 392 (1997) 421;
-Wildman et al., Phys. Rev. E 62 (2000) 3826). It is where balls' centres are: balls themselves reach half a diameter further.
+In a steady, ergodic charge the share of its time that one ball spends in a voxel is the share of the charge's volume
+that is there: solidity = share x volume of the charge / volume of the voxel (Parker et al., Nucl. Instrum. Methods A
+392 (1997) 421; Wildman et al., Phys. Rev. E 62 (2000) 3826). It is where balls' centres are: balls themselves reach
+half a diameter further.
 
-How many tracers that takes: in the 30 cm mill at 75 % of critical speed, 3 s, voxels of 9 mm, balls of 5 mm, compare.difference
-in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100, 0.022 for 300 and 0.017 for 600:
-it falls about as one over the root of their number. That balls reach further than their centres is no more than 0.001 of it."""
+How many tracers that takes: in the 30 cm mill at 75 % of critical speed, 3 s, voxels of 9 mm, balls of 5 mm,
+compare.difference in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100,
+0.022 for 300 and 0.017 for 600: it falls about as one over the root of their number. That balls reach further than
+their centres is no more than 0.001 of it."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,9 +23,9 @@ from ..files.tracks import Trajectory
 class TracerMap(SolidsMap):
     """A SolidsMap from tracers, comparable with one from a simulation by compare.difference; and what is behind it.
 
-    z: voxel edges [nz + 1] (m); residence [nz, ny, nx]: share of all tracers' time; solidity_3d [nz, ny, nx]; velocity_3d
-    [nz, ny, nx, 3] (m/s), NaN where no tracer was; outside: share of the time that was spent outside the voxels, which the
-    solidity lacks; tracers: their number."""
+    z: voxel edges [nz + 1] (m); residence [nz, ny, nx]: share of all tracers' time; solidity_3d [nz, ny, nx];
+    velocity_3d [nz, ny, nx, 3] (m/s), NaN where no tracer was; outside: share of the time that was spent outside the
+    voxels, which the solidity lacks; tracers: their number."""
     z: np.ndarray
     residence: np.ndarray
     solidity_3d: np.ndarray
@@ -32,9 +35,9 @@ class TracerMap(SolidsMap):
 
 
 def velocities(track, points=3):
-    """Velocity [n, 3] (m/s) at a track's points: derivative of the polynomial through the 3 or 5 points nearest in order, the
-    point in their middle but at the ends (Lagrange; Berrut & Trefethen, SIAM Review 46 (2004) 501, eqs 9.4, 9.5). Exact for
-    polynomials of degree 2 or 4, whatever the times."""
+    """Velocity [n, 3] (m/s) at a track's points: derivative of the polynomial through the 3 or 5 points nearest in
+    order, the point in their middle but at the ends (Lagrange; Berrut & Trefethen, SIAM Review 46 (2004) 501, eqs 9.4,
+    9.5). Exact for polynomials of degree 2 or 4, whatever the times."""
     count = len(track.time)
     if points not in (3, 5) or count < points:
         raise ValueError(f"{points}-point differentiation of {count} points; expected 3 or 5, and as many points or more")
@@ -54,8 +57,8 @@ def velocities(track, points=3):
 def cut_at_planes(track, edges):
     """Cuts the straight lines between a track's points at every plane of the voxels that they cross.
 
-    edges: three ascending arrays, the voxels' planes across x, y and z (m). Returns for every piece: the line it belongs to
-    [m], and where on it, from 0 to 1, it begins and ends [m], [m]."""
+    edges: three ascending arrays, the voxels' planes across x, y and z (m). Returns for every piece: the line it
+    belongs to [m], and where on it, from 0 to 1, it begins and ends [m], [m]."""
     start, move = track.position[:-1], np.diff(track.position, axis=0)
     lines = [np.repeat(np.arange(len(start)), 2)]
     places = [np.tile([0.0, 1.0], len(start))]
@@ -74,11 +77,12 @@ def cut_at_planes(track, edges):
 
 
 def residence(track, edges, velocity, periodic=False):
-    """Time [nz, ny, nx] (s) that a tracer spends in each voxel, the integral of its velocity over that time [nz, ny, nx, 3] (m),
-    and the time that it spends outside (s).
+    """Time [nz, ny, nx] (s) that a tracer spends in each voxel, the integral of its velocity over that time [nz, ny,
+    nx, 3] (m), and the time that it spends outside (s).
 
-    The track is straight between its points, and so is its velocity [n, 3] (m/s) over time: both integrals are exact for that.
-    periodic: z is of a periodic slice, from the first edge to the last, and the track may go on beyond them."""
+    The track is straight between its points, and so is its velocity [n, 3] (m/s) over time: both integrals are exact
+    for that. periodic: z is of a periodic slice, from the first edge to the last, and the track may go on beyond
+    them."""
     edges = [np.asarray(planes, dtype=float) for planes in edges]
     shape = tuple(len(planes) - 1 for planes in reversed(edges))
     if periodic:
@@ -111,9 +115,9 @@ def _repeated(edges, positions):
 def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=False, sense=CLOCKWISE):
     """TracerMap of one track or several.
 
-    edges: voxel edges x [nx + 1], y [ny + 1], z [nz + 1] (m); charge_volume: of all balls, without the pores (m^3); inside
-    [nz, ny, nx]: share of each voxel within the mill's walls, 1 if not given; points: of the differentiation, see `velocities`;
-    periodic: see `residence`; sense: the mill's. ValueError where these do not fit."""
+    edges: voxel edges x [nx + 1], y [ny + 1], z [nz + 1] (m); charge_volume: of all balls, without the pores (m^3);
+    inside [nz, ny, nx]: share of each voxel within the mill's walls, 1 if not given; points: of the differentiation,
+    see `velocities`; periodic: see `residence`; sense: the mill's. ValueError where these do not fit."""
     tracks = [tracks] if isinstance(tracks, Trajectory) else list(tracks)
     shape = tuple(len(planes) - 1 for planes in reversed(edges))
     inside = np.ones(shape) if inside is None else np.asarray(inside, dtype=float)
