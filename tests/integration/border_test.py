@@ -72,7 +72,8 @@ class MadeUpTree(Tree):
         self.assert_refused("averaging/a.cpp", '"meshing/mill.hpp"', "averaging must not know meshing")
 
     def test_averaging_must_not_include_dem_driver(self):
-        self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"', "averaging/tools must not know dem_driver")
+        self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"',
+                            "averaging/tools must not know dem_driver")
 
     def test_averaging_must_not_include_drag(self):
         self.assert_refused("averaging/a.hpp", '"openfoam_module/drag/drag_laws.hpp"', "openfoam_module/drag")
@@ -129,7 +130,7 @@ class MadeUpTree(Tree):
         self.write("averaging/b/other.hpp", '#include "../c/one.hpp"\n')
         self.write("averaging/c/one.hpp", '#include "averaging/a/one.hpp"\n')
         self.assert_one("averaging/a, averaging/b, averaging/c: folders use each other",
-                          "averaging/b/other.hpp uses averaging/c/one.hpp")
+                        "averaging/b/other.hpp uses averaging/c/one.hpp")
 
 
 class MadeUpPackage(Tree):
@@ -165,7 +166,8 @@ class MadeUpPackage(Tree):
 
     def test_scripts_know_no_cases_and_no_tests(self):
         self.write("tests/scripts/made_up_cases.py", "")
-        for line, room in (("from millstudies.runs import run", "cases/studies"), ("import made_up_cases", "tests/scripts")):
+        for line, room in (("from millstudies.runs import run", "cases/studies"),
+                           ("import made_up_cases", "tests/scripts")):
             self.assert_imports("scripts/millfoam/report/one.py", line, f"must not know {room}")
 
     def test_cases_know_the_package_and_their_own_kind(self):

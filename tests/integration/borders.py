@@ -7,7 +7,8 @@ from pathlib import Path
 from import_graph import Modules, cycles, folders, includes, python_files, sources
 
 PACKAGE = "scripts/millfoam"
-FILES, READINGS, PLOTS, REPORT, PLAN = (f"{PACKAGE}/{part}" for part in ("files", "readings", "plots", "report", "plan"))
+FILES, READINGS, PLOTS, REPORT, PLAN = (f"{PACKAGE}/{part}"
+                                        for part in ("files", "readings", "plots", "report", "plan"))
 WHOLE_PACKAGE = {PACKAGE, FILES, READINGS, PLOTS, REPORT, PLAN}
 # Room (folder, the longest match counts) -> rooms that its sources may use besides itself.
 MAY_USE = {
@@ -56,7 +57,8 @@ def violations(root):
     result += [_folder_sentence(found, cpp) for found in folder_cycles(cpp) if found not in KNOWN_CYCLES]
     result += [_folder_sentence(found, python) for found in folder_cycles(python)]
     result += [f"{', '.join(sorted(map(str, found)))}: modules import each other" for found in cycles(python)]
-    return result + [sentence for file in sorted((root / "scripts").rglob("*")) for sentence in _cases_named(root, file)]
+    return result + [sentence for file in sorted((root / "scripts").rglob("*"))
+                     for sentence in _cases_named(root, file)]
 
 
 def cpp_graph(root):

@@ -48,7 +48,8 @@ class Runs(FolderTest):
     def drum(self, duration, *changes):
         """The drum's Mill, averaged over its second part."""
         (self.folder / "drum.yaml").write_text(MILL)
-        return resolved(self.folder / "drum.yaml", (f"dem.duration={duration}", averages(6, duration / 2, duration / 2), *changes))
+        return resolved(self.folder / "drum.yaml",
+                        (f"dem.duration={duration}", averages(6, duration / 2, duration / 2), *changes))
 
     def test_a_run_is_made_once_and_its_dumps_go(self):
         mill = self.drum(0.2)
@@ -173,7 +174,8 @@ class Readings12cm(FolderTest):
     def test_patterns_choose_and_all_are_those_without_a_variant(self):
         parser = SimpleNamespace(error=mock.Mock(side_effect=KeyError))
         self.assertEqual(len(self.study.chosen(["all"], self.cases, parser)), 12)
-        self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)), 1 + len(self.study.VARIANTS))
+        self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)),
+                         1 + len(self.study.VARIANTS))
         with self.assertRaises(KeyError):
             self.study.chosen(["nothing"], self.cases, parser)
         self.assertIn("no run is named 'nothing'", parser.error.call_args.args[0])
@@ -199,7 +201,8 @@ class Difference(unittest.TestCase):
     def map(self, solidity, velocity):
         edges = np.linspace(-1, 1, 5)
         shape = (4, 4)
-        return SolidsMap(edges, edges, np.ones(shape), np.full(shape, solidity), np.broadcast_to(velocity, (*shape, 3)).copy(), 0, 1)
+        return SolidsMap(edges, edges, np.ones(shape), np.full(shape, solidity),
+                         np.broadcast_to(velocity, (*shape, 3)).copy(), 0, 1)
 
     def test_a_map_is_not_apart_from_itself(self):
         one = self.map(0.5, (1.0, 0.5, 0))
@@ -265,7 +268,8 @@ class HalfWritten(FolderTest):
         script = "set -eu -o pipefail\n" + functions[begin:functions.index("\nparallel() {")] + "drop_half_written\n"
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir() if path.name[0].isdigit())
+        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir()
+                                  if path.name[0].isdigit())
                 for processor in (0, 1)}
 
     def test_a_time_that_a_rank_wrote_half_goes_from_all_ranks(self):

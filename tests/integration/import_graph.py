@@ -12,7 +12,8 @@ PACKAGES = ("scripts", "cases/studies")  # folders of packages, which are on Pyt
 
 def sources(root, *tops):
     """C++ sources (relative paths) below the folders `tops` of a tree, sorted."""
-    return [path.relative_to(root) for top in tops for path in sorted((root / top).rglob("*")) if path.suffix in SOURCES]
+    return [path.relative_to(root) for top in tops for path in sorted((root / top).rglob("*"))
+            if path.suffix in SOURCES]
 
 
 def includes(root, file):

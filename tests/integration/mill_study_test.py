@@ -20,7 +20,8 @@ from millstudies.mill_runs import Setting
 
 TILT = 25.0  # of a pool's surface, degrees: it stands higher on the rising side
 TIMES = (0.1, 0.2, 0.3)
-FIELD = "FoamFile {{ version 2.0; format ascii; class vol{kind}Field; }}\ninternalField nonuniform List<{item}> {count}\n(\n{rows}\n);\n"
+FIELD = ("FoamFile {{ version 2.0; format ascii; class vol{kind}Field; }}\n"
+         "internalField nonuniform List<{item}> {count}\n(\n{rows}\n);\n")
 
 
 def write_field(path, values):
@@ -122,11 +123,13 @@ class TiltedPool(unittest.TestCase):
         self.assertAlmostEqual(self.shape.numbers["torque"][0] / expected, 1, delta=2e-3)
 
     def test_slurry_on_the_rising_side_takes_power(self):
-        self.assertAlmostEqual(self.shape.numbers["power"][0] / (self.shape.numbers["torque"][0] * self.flow.omega / 0.024), 1)
-        self.assertGreater(self.shape.numbers["power"][0], 0)
+        torque, power = (self.shape.numbers[name][0] for name in ("torque", "power"))
+        self.assertAlmostEqual(power / (torque * self.flow.omega / 0.024), 1)
+        self.assertGreater(power, 0)
 
     def test_reynolds_number_is_that_of_the_slip(self):
-        np.testing.assert_allclose(self.shape.reynolds_percentiles((5, 50, 95)), 1239 * 0.6 * 0.1 * 0.005 / 0.0014, rtol=1e-9)
+        np.testing.assert_allclose(self.shape.reynolds_percentiles((5, 50, 95)), 1239 * 0.6 * 0.1 * 0.005 / 0.0014,
+                                   rtol=1e-9)
 
     def test_share_map_is_a_tilted_half(self):
         wet = self.shape.share[np.isfinite(self.shape.share)]
@@ -209,7 +212,8 @@ class MadeOnce(unittest.TestCase):
         for setting in (Setting("one"), Setting("coarse", flow=mill_runs.COARSE)):
             self.made(setting)
             beds.append(run(self.case, "foamDictionary", "constant/bedProperties", "-keywords").split())
-        self.assertEqual((self.case_of("one") / "solids.h5").resolve(), (self.case_of("coarse") / "solids.h5").resolve())
+        self.assertEqual((self.case_of("one") / "solids.h5").resolve(),
+                         (self.case_of("coarse") / "solids.h5").resolve())
         self.assertIn("fingerprint", beds[0])
         self.assertEqual([line for line in beds[0] if line not in beds[1]], ["fingerprint"])
 
@@ -221,8 +225,9 @@ class MadeOnce(unittest.TestCase):
         limits = {f"flow.{key}" for key in mill_runs.LIMITS}
         changed = {key for key in plain if plain[key] != other.get(key)}
         # The mesh's cells and layers set the usual voxels and slices of the flow's averages
-        self.assertEqual(changed, {"resolution.cell_size", "resolution.layers", "flow.law", "flow.multiplier", "flow.slices",
-                                   "flow.averages.voxel_size", *limits})
+        self.assertEqual(changed,
+                         {"resolution.cell_size", "resolution.layers", "flow.law", "flow.multiplier", "flow.slices",
+                          "flow.averages.voxel_size", *limits})
         self.assertEqual(plain.keys(), other.keys())
         for key in limits:
             self.assertAlmostEqual(other[key], plain[key] / 2)
@@ -231,7 +236,8 @@ class MadeOnce(unittest.TestCase):
         folder = mill_runs.ROOT / "cases" / "studies"
         drag, resolution = (load(folder / name / f"{name}.py") for name in ("mill_drag_comparison", "mill_resolution"))
         for mesh, prefix, cells in (((), "", 0.003), (mill_runs.COARSE, "coarse_", 0.0045)):
-            settings = {one.name: one for one in [*drag.settings(mesh, prefix), *resolution.study(bool(prefix))[0].values()]}
+            settings = {one.name: one
+                        for one in [*drag.settings(mesh, prefix), *resolution.study(bool(prefix))[0].values()]}
             mills = {name: mill_runs.resolved(mill_runs.MILL, (*mill_runs.BASE, *one.averages, *one.flow))
                      for name, one in settings.items()}
             self.assertEqual(len({mill.fingerprint["flow"] for mill in mills.values()}), len(mills))

@@ -242,7 +242,7 @@ class OneChange(MillTest):
         mill["charge"] = {"fill": 0.15, "diameter": 0.035}
         mill["speed"] = {"fraction_of_critical": 0.7, "sense": "anticlockwise"}
         mill["materials"] = {"ball": dict(HARD), "wall": dict(HARD), "ball_ball": dict(CONTACT),
-                           "ball_wall": dict(CONTACT)}
+                             "ball_wall": dict(CONTACT)}
         mill["resolution"] = {"cell_size": 0.05, "layers": 2}
         mill["flow"]["start"] = {"fill": 1}
         mill["averages"]["voxel_size"] = 0.04

@@ -18,7 +18,8 @@ MILL = Path(__file__).resolve().parents[2] / "scripts" / "mill_case"
 BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005;"
          " velocity (0.3 0.3 0); moves yes; }")
 # Reaches into the walls wherever the box has turned to; as soft as the cells that pass through its edge.
-PILE = "block { box (-1 -1 -1) (1 0.05 1); edge 0.03; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; velocity (0.1 0 0); }"
+PILE = ("block { box (-1 -1 -1) (1 0.05 1); edge 0.03; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; "
+        "velocity (0.1 0 0); }")
 
 
 class Restart(SlurryTest):

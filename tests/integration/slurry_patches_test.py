@@ -18,8 +18,8 @@ NEWTONIAN = "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity;
 
 class ColumnTest(SlurryTest):
     def column(self, *, level, across=2, **options):
-        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across), level=lambda x: level + 0 * x,
-                                **options)
+        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across),
+                                level=lambda x: level + 0 * x, **options)
         for side in ("left", "right", "back", "front"):
             case.at_patch(side, U=SLIP)
         return case

@@ -84,14 +84,15 @@ class Surface(unittest.TestCase):
 class HoldUp(unittest.TestCase):
     def test_is_the_integral_of_the_pores_cross_section_over_the_length(self):
         for flow, depth in ((5e-7, 0.02), (1e-5, 0.02), (1e-4, 0.02), (1e-4, 0.0), (1e-3, 0.05)):
-            integral = quad(lambda z: 0.4 * CHARGE.cross_section(slurry_depth(CHARGE, z, flow, depth, **SLURRY)), 0, 0.3,
-                            epsrel=1e-12)[0]
+            integral = quad(lambda z: 0.4 * CHARGE.cross_section(slurry_depth(CHARGE, z, flow, depth, **SLURRY)), 0,
+                            0.3, epsrel=1e-12)[0]
             self.assertAlmostEqual(slurry_hold_up(CHARGE, flow, depth, **SLURRY) / integral, 1, places=9)
 
     def test_is_the_printed_formula_where_that_does_not_cancel(self):
         flow, depth = 2e-4, 0.03
         b = CHARGE.resistance(**SLURRY)
-        printed = 0.4 * np.pi * np.sqrt(0.15) * ((depth ** 2.5 + 2.5 * b * flow * 0.3) ** 1.6 - depth ** 4) / (8 * b * flow)
+        feed_end = (depth ** 2.5 + 2.5 * b * flow * 0.3) ** 1.6
+        printed = 0.4 * np.pi * np.sqrt(0.15) * (feed_end - depth ** 4) / (8 * b * flow)
         self.assertAlmostEqual(slurry_hold_up(CHARGE, flow, depth, **SLURRY) / printed, 1, places=12)
 
     def test_without_flow_is_that_of_a_flat_pool_and_no_flow_is_reached_smoothly(self):

@@ -44,8 +44,8 @@ class Installed(unittest.TestCase):
         shutil.copytree(SCRIPTS / "millfoam", source / "millfoam", ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(SCRIPTS / "pyproject.toml", source)
         subprocess.run([sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "--quiet", "--no-deps",
-                        "--no-index", "--no-build-isolation", "--root-user-action", "ignore", "--target", cls.site, source],
-                       check=True)
+                        "--no-index", "--no-build-isolation", "--root-user-action", "ignore", "--target", cls.site,
+                        source], check=True)
 
     def python(self, *arguments):
         """What Python prints that knows the installed package and none of this tree."""
@@ -60,7 +60,8 @@ class Installed(unittest.TestCase):
         place, version, *names = self.python(WHAT_IS_THERE).split()
         self.assertEqual(Path(place), self.site / "millfoam" / "__init__.py")
         self.assertEqual(set(names), {name for name in modules() if not name.startswith(LEFT_OUT)})
-        self.assertEqual(version, re.search(r"project\(millFoam VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1])
+        self.assertEqual(version,
+                         re.search(r"project\(millFoam VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1])
 
     def test_makes_a_report(self):
         case = write_dry(self.folder / "dry", "Somewhere else")

@@ -24,7 +24,8 @@ class Damaged(Case):
         # What takes the time and reads no file
         for name in ("charge.charge_with_errors", "models.fit_free_surface"):
             self.enterContext(mock.patch(f"millfoam.readings.{name}", side_effect=RuntimeError("left out")))
-        self.enterContext(mock.patch("millfoam.readings.free_surface.fit_logistic", return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
+        self.enterContext(mock.patch("millfoam.readings.free_surface.fit_logistic",
+                                     return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
 
     def outcome(self, folder):
         try:

@@ -72,7 +72,8 @@ class Errors(unittest.TestCase):
 
     def test_of_independent_windows_is_that_of_their_mean(self):
         random = np.random.default_rng(3)
-        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)), blocks=20)
+        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)),
+                           blocks=20)
         self.assertAlmostEqual(float(found.error), 0.05 / np.sqrt(400), delta=0.2 * 0.05 / np.sqrt(400))
 
     def test_blocks_without_the_reading_are_counted_and_left_out(self):

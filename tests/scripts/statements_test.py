@@ -36,7 +36,8 @@ def series(profile=-0.05, pressure=0.0, noise=1e-4):
 
 def run(speed=75, law=None, solids=20, last=5.0, **read):
     """A run of the 30 cm mill, steady if nothing else is told."""
-    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, **{"series": series(), **read})
+    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True,
+                       **{"series": series(), **read})
 
 
 def a_slice(law=None, solids=30, last=5.0, **read):
@@ -56,7 +57,8 @@ class Flat(unittest.TestCase):
 
     def test_is_judged_by_tilt_and_deviation(self):
         for tilt, deviation, verdict in ((2, 0.003, CONFIRMED), (12, 0.003, CONTRADICTED), (2, 0.02, CONTRADICTED)):
-            self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)), [NOT_TESTED, verdict])
+            self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)),
+                             [NOT_TESTED, verdict])
 
     def test_a_run_that_is_short_or_missing_is_told(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
@@ -160,7 +162,8 @@ class WithBalls(unittest.TestCase):
             one.reynolds = np.array([50.0, 400.0]), np.array([3.0, 1.0])
             found = statements.reynolds_below(Runs([one]))
             self.assertEqual({each.verdict for each in found}, {NOT_TESTED})
-            self.assertRegex(found[-1].figure, "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
+            self.assertRegex(found[-1].figure,
+                             "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
 
     def test_a_pressure_drop_must_be_one_and_clearly_larger(self):
         def runs(beetstra, ergun):
@@ -177,7 +180,8 @@ class WithBalls(unittest.TestCase):
         self.assertAlmostEqual(found.value, 200 * (Z[-1] - Z[0]))
 
     def test_slurry_circulates_there_and_back(self):
-        for toe, shoulder, verdict in ((0.01, -0.01, CONFIRMED), (0.01, 0.01, CONTRADICTED), (0.01, -0.0005, UNDECIDED)):
+        for toe, shoulder, verdict in ((0.01, -0.01, CONFIRMED), (0.01, 0.01, CONTRADICTED),
+                                       (0.01, -0.0005, UNDECIDED)):
             one = run(law="Beetstra", toe=Mean(toe, 1e-3), shoulder=Mean(shoulder, 1e-3))
             self.assertEqual(verdicts_of(statements.circulation, one), [verdict])
 
@@ -225,7 +229,8 @@ class Steady(unittest.TestCase):
         self.assertIn("not steady: run_75_Beetstra_20: its height drifts", found.figure)
 
     def test_what_is_not_known_to_be_steady_is_undecided(self):
-        self.assertEqual(self.judged(run(law="Beetstra", series=None, surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
+        self.assertEqual(self.judged(run(law="Beetstra", series=None,
+                                         surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
                          UNDECIDED)
 
     def test_a_slice_is_read_with_its_series(self):
@@ -307,7 +312,8 @@ class Reading(unittest.TestCase):
             with h5py.File(path, "w") as file:
                 file["window/begin"] = 1 + 0.05 * np.arange(12)
                 file["window/end"] = 1.05 + 0.05 * np.arange(12)
-            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path, flow=SimpleNamespace(time0=1.0))
+            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path,
+                                   flow=SimpleNamespace(time0=1.0))
             list(slurry_over_time.slurry_blocks(case))
             parts = [call.args[1:3] for call in read.call_args_list]
             np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])
@@ -324,8 +330,10 @@ class Reading(unittest.TestCase):
 
     def test_tables_of_function_objects_are_taken_from_the_beginning_of_the_averages_on(self):
         times = np.array([1.0, 2.0, 3.0])
-        tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]], "p_rgh": [[9, 9], [5, 0], [7, 8]]}
-        case = SimpleNamespace(begin=2.0, axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
+        tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]],
+                  "p_rgh": [[9, 9], [5, 0], [7, 8]]}
+        case = SimpleNamespace(begin=2.0,
+                               axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
         found = slurry_over_time.read_series(case)
         np.testing.assert_array_equal(found.times, [2, 3])
         np.testing.assert_array_equal(found.height, [[-1, np.nan], [-3, -4]])

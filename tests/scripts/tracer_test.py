@@ -51,7 +51,8 @@ class Residence(unittest.TestCase):
         index = np.floor(fine * 4).astype(int)
         np.add.at(counted, (index[:, 2], index[:, 1], index[:, 0]), 2 / 400000)
         np.testing.assert_allclose(time, counted, atol=1e-5)
-        np.testing.assert_allclose(path[time > 0] / time[time > 0][:, None], np.tile((end - begin) / 2, (np.sum(time > 0), 1)))
+        np.testing.assert_allclose(path[time > 0] / time[time > 0][:, None],
+                                   np.tile((end - begin) / 2, (np.sum(time > 0), 1)))
 
     def test_of_a_tracer_that_speeds_up_is_weighted_with_its_velocity_in_each_voxel(self):
         track = Trajectory([0, 1], [[0, 0.5, 0.5], [0.5, 0.5, 0.5]])
@@ -184,8 +185,9 @@ class InTheReport(unittest.TestCase):
             measurements.refuse_outside("a.csv", self.orbit(1), self.EDGES, periodic)
             with self.assertRaises(RuntimeError) as caught:
                 measurements.refuse_outside("a.csv", self.orbit(1000), self.EDGES, periodic)
-            for part in ("a.csv: 100 % of its time is outside", "from x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels "
-                         "from x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
+            for part in ("a.csv: 100 % of its time is outside",
+                         "from x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels from "
+                         "x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
                 self.assertIn(part, str(caught.exception))
 
     def test_a_track_that_leaves_for_less_than_half_of_its_time_is_taken(self):

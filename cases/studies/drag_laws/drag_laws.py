@@ -50,7 +50,8 @@ def mill_drag(**options):
     for name, value in options.items():
         words.append(f"--{name}")
         if value is not True:
-            words.append(",".join(f"{number:.12g}" for number in value) if np.iterable(value) and not isinstance(value, str)
+            words.append(",".join(f"{number:.12g}" for number in value) if np.iterable(value)
+                         and not isinstance(value, str)
                          else str(value))
     table = subprocess.run(words, check=True, capture_output=True, text=True).stdout
     text = ("law", "reference")
@@ -173,7 +174,8 @@ def study_solidity(limits, folder):
     rows = marked(mill_drag(phi=SOLIDITY_AXIS, re=REYNOLDS), limits)
     write(rows, folder / "factor_solidity.csv")
     panels = [(f"Re = {re:g}", [row for row in rows if row["Re"] == re], None) for re in REYNOLDS]
-    draw_panels(panels, "phi", folder / "factor_solidity.png", "Force on a ball of a bed over Stokes's, F, against solidity")
+    draw_panels(panels, "phi", folder / "factor_solidity.png",
+                "Force on a ball of a bed over Stokes's, F, against solidity")
 
 
 def study_gradient(limits, folder):
@@ -213,9 +215,11 @@ def judge(found):
     """Whether the crossing is the expected one, and a sentence about it."""
     expected = f"expected Re {CROSSING_REYNOLDS}, F {CROSSING_FACTOR}"
     if found is None:
-        return False, f"Ergun and Beetstra do not cross exactly once at solidity {CROSSING_SOLIDITY}; {expected}: MISSED"
+        where = f"at solidity {CROSSING_SOLIDITY}"
+        return False, f"Ergun and Beetstra do not cross exactly once {where}; {expected}: MISSED"
     good = all(abs(a - b) <= TOLERANCE for a, b in zip(found, (CROSSING_REYNOLDS, CROSSING_FACTOR)))
-    return good, (f"Ergun crosses Beetstra at solidity {CROSSING_SOLIDITY}: Re {found[0]:.3f}, F {found[1]:.3f}; {expected}"
+    return good, (f"Ergun crosses Beetstra at solidity {CROSSING_SOLIDITY}: Re {found[0]:.3f}, F {found[1]:.3f}; "
+                  f"{expected}"
                   + ("" if good else ": MISSED"))
 
 

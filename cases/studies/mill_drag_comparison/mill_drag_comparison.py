@@ -83,8 +83,8 @@ def write_tables(rows, failures, title):
         lines.append(f"{row['run']:<13}" + "".join(f"{cell:>16}" for cell in cells)
                      + "".join(f"{row[f'Re {percent} %']:8.0f}" for percent in PERCENTS)
                      + f"{row['steps']:7d}{row['time, s']:9.0f}")
-    lines.append("±: half of the difference between the means over the two halves of the time averaged over. Angles from straight "
-                 "down, the rising side positive.")
+    lines.append("±: half of the difference between the means over the two halves of the time averaged over. Angles "
+                 "from straight down, the rising side positive.")
     lines += [f"FAILED: {failure}" for failure in failures]
     print("\n".join(lines))
     (HERE / "mill_drag_comparison.txt").write_text("\n".join(lines) + "\n")

@@ -111,7 +111,8 @@ VELOCITY = {
     "voxel by voxel, over the degrees of freedom": lambda charge, radius: by_voxel(charge, radius, parameters=4),
     "voxel by voxel, to the shell": lambda charge, radius: by_voxel(charge, radius, wall=0),
     "voxel by voxel, from the first balls": lambda charge, radius: by_voxel(charge, radius, begin=0),
-    "voxel by voxel, from the first balls to the shell": lambda charge, radius: by_voxel(charge, radius, begin=0, wall=0),
+    "voxel by voxel, from the first balls to the shell": lambda charge, radius: by_voxel(
+        charge, radius, begin=0, wall=0),
     f"the same, line {TURN:g} degrees anticlockwise": lambda charge, radius: by_voxel(
         charge, radius, begin=0, wall=0, degrees=TURN),
     f"the same, line {TURN:g} degrees clockwise": lambda charge, radius: by_voxel(
@@ -122,7 +123,8 @@ SURFACE = {
     "not smoothed": lambda charge, radius: free_surface(charge, radius, smoothing=0).rmsd,
     "with the wall part": lambda charge, radius: free_surface(charge, radius, wall=0).rmsd,
     "highest voxel of each column": lambda charge, radius: points_deviation(column_tops(charge, radius, 0.5), radius),
-    "the same, with the wall part": lambda charge, radius: points_deviation(column_tops(charge, radius, 0.5, wall=0), radius),
+    "the same, with the wall part": lambda charge, radius: points_deviation(
+        column_tops(charge, radius, 0.5, wall=0), radius),
     "highest voxel of each column that has balls": lambda charge, radius: points_deviation(
         column_tops(charge, radius, FIRST_BALLS), radius),
     "logistic with its step at the mill's centre (b = 1)": lambda charge, radius: shorter_logistic(

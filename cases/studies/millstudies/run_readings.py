@@ -65,8 +65,8 @@ def surface_line(slurry, radius, inner):
     step = slurry.y[1] - slurry.y[0]
     free = np.hypot(centres_x[columns], centres_y[tops] + step) < inner
     if free.sum() < 5:
-        raise RuntimeError(f"no free surface of the slurry within {1e3 * inner:.0f} mm of the axis: {free.sum()} columns have "
-                           "one; expected 5 or more")
+        raise RuntimeError(f"no free surface of the slurry within {1e3 * inner:.0f} mm of the axis: {free.sum()} "
+                           "columns have one; expected 5 or more")
     x, y = centres_x[columns][free], centres_y[tops][free] + step / 2
     slope, height = np.polyfit(x, y, 1)
     return float(-np.degrees(np.arctan(slope))), float(np.std(y - slope * x - height)), (x.min(), x.max())
@@ -78,7 +78,8 @@ def charge_tilt(charge, radius, span):
     x, y = free_surface(charge, radius).points.T
     chosen = (x >= span[0]) & (x <= span[1])
     if chosen.sum() < 5:
-        raise RuntimeError(f"the charge's surface does not stand over x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} mm")
+        raise RuntimeError(f"the charge's surface does not stand over x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
+                           "mm")
     return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
 
 

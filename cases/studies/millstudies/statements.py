@@ -10,15 +10,17 @@ from millfoam.readings.axial import fit_gaussians
 from millfoam.readings.means import Mean, series_mean
 from millfoam.readings.slurry_over_time import read_series
 
-from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign, height,
-                            judged, sign, unread)
+from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
+                            height, judged, sign, unread)
 from .run_readings import read_run
 
-FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02  # of a flat surface, at most: degrees; deviation from its line over the mill's diameter
+# Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
+FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02
 TWICE = (1.5, 2.5)  # what counts as about twice
 SLIGHTLY = 0.03  # of a height, over the mill's diameter
 CLEARLY = 1.1  # ratio of two pressure drops from which one is clearly larger
-REYNOLDS = {20: 150, 40: 90}  # all that is published: solids of the slurry, % by mass -> number that most of it is below
+# All that is published: solids of the slurry, % by mass -> number that most of it is below
+REYNOLDS = {20: 150, 40: 90}
 
 
 def flat_without_balls(runs):
@@ -32,8 +34,8 @@ def flat_without_balls(runs):
             continue
         tilt, deviation = run.surface.tilt, run.surface.deviation.value
         flat = abs(tilt.value) <= FLAT_TILT and deviation <= FLAT_DEVIATION * run.diameter
-        figure = (f"tilt {tilt.told('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} degrees, "
-                  f"{1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
+        figure = (f"tilt {tilt.told('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
+                  f"degrees, {1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
         found.append(Verdict(statement, run.name, *judged(CONFIRMED if flat else CONTRADICTED, figure, run)))
     return found
 
@@ -64,7 +66,8 @@ def humps_without_balls(runs):
         apart[which.speed] = fit.distances[0], len(places) == 2, run
         figure = (f"maxima at {millimetres(places)} mm of {millimetres(run.series.z[[0, -1]])}; two Gaussians at "
                   f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
-        found.append(Verdict(statement, run.name, *judged(CONFIRMED if len(places) == 2 else CONTRADICTED, figure, run)))
+        found.append(Verdict(statement, run.name,
+                             *judged(CONFIRMED if len(places) == 2 else CONTRADICTED, figure, run)))
     return found + [distance_ratio(apart)]
 
 
@@ -102,7 +105,8 @@ def surface_follows(runs):
 
 def lacking(runs):
     """Which run is to be named for each mill of which there is none with balls."""
-    return [which for which in (Which(75, "Beetstra", 20), Which(50, "Beetstra", None, SLICE)) if not runs.of(which.mill)]
+    named = Which(75, "Beetstra", 20), Which(50, "Beetstra", None, SLICE)
+    return [which for which in named if not runs.of(which.mill)]
 
 
 def pair(runs, statement, first, second, judge):
@@ -177,14 +181,16 @@ def reynolds_below(runs):
                 share = run.reynolds[1][run.reynolds[0] < limit].sum() / run.reynolds[1].sum()
                 middle = median(*run.reynolds)
                 figure = f"{100 * share:.0f} % of the slurry in the bed is under {limit}; median {middle:.0f}"
-                found.append(Verdict(statement, run.name, *judged(CONFIRMED if share > 0.5 else CONTRADICTED, figure, run)))
+                found.append(Verdict(statement, run.name,
+                                     *judged(CONFIRMED if share > 0.5 else CONTRADICTED, figure, run)))
             if not tested:
                 which = Which(speed, "Beetstra", solids, mill)
                 found.append(Verdict(statement, mill, NOT_TESTED, runs.missing(which)))
     others = [run for mill in (LARGE, SLICE) for run in runs.of(mill) if run.solids not in REYNOLDS and run.reynolds]
     return found + [Verdict("particle Reynolds numbers are mostly under a limit", run.name, NOT_TESTED,
                             f"none is published for {f'{run.solids} %' if run.solids else 'this'} slurry, for "
-                            f"{' and '.join(map(str, REYNOLDS))} % only; median {median(*run.reynolds):.0f}") for run in others]
+                            f"{' and '.join(map(str, REYNOLDS))} % only; median {median(*run.reynolds):.0f}")
+                    for run in others]
 
 
 def median(values, weights):
@@ -234,8 +240,8 @@ def circulation(runs):
     return found or [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which))]
 
 
-STATEMENTS = (flat_without_balls, humps_without_balls, surface_follows, concentration_raises, drag_raises, reynolds_below,
-              pressure_drops, circulation)
+STATEMENTS = (flat_without_balls, humps_without_balls, surface_follows, concentration_raises, drag_raises,
+              reynolds_below, pressure_drops, circulation)
 
 
 def verdicts(runs):

@@ -35,7 +35,8 @@ def slices_there(runs=LAWS):
 def folders_there():
     """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike; the slices of
     mill_drag_comparison, which share their balls; and mill_12cm."""
-    layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40") for variant in VARIANTS]
+    layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40")
+               for variant in VARIANTS]
               for name in ("runs_33", "runs_9")]
     begun = next((folders for folders in layers if any(map(is_run, folders))), [])
     return [folder for folder in [*begun, *slices_there(), MILLS / "mill_12cm"] if is_run(folder)]
@@ -80,7 +81,8 @@ def write(found, messages, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", type=Path, metavar="CASE",
-                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, mill_drag_comparison's, mill_12cm]")
+                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, mill_drag_comparison's, "
+                             "mill_12cm]")
     parser.add_argument("--output", type=Path, default=HERE, help="folder of the tables [this study's]")
     options = parser.parse_args()
     runs, messages = read_cases(options.cases or folders_there())

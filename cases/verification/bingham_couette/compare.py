@@ -140,25 +140,28 @@ def run(regularisation, stiffness, case, template):
 def converges(flows):
     """Whether the errors go down as the plug gets stiffer, for both regularisations."""
     for name in REGULARISATIONS:
-        errors = [flow.profile_error for flow in sorted(flows, key=lambda flow: flow.stiffness) if flow.regularisation == name]
+        errors = [flow.profile_error for flow in sorted(flows, key=lambda flow: flow.stiffness)
+                  if flow.regularisation == name]
         if np.any(np.diff(errors) >= 0):
             return False
     return True
 
 
 def print_table(flows, out):
-    lines = [f"{'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug width mm':>13} {'error %':>8} "
-             f"{'uneven %':>8} {'drift':>8}",
-             f"{'closed form':<46} {1e3 * (OUTER - EDGE):13.4f}"]
+    lines = [f"{'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug width mm':>13} "
+             f"{'error %':>8} {'uneven %':>8} {'drift':>8}", f"{'closed form':<46} {1e3 * (OUTER - EDGE):13.4f}"]
     for flow in flows:
         lines.append(
-            f"{flow.regularisation:<14} {flow.stiffness:9g} {100 * flow.profile_error:9.3f} {100 * flow.model_error:11.3f} "
-            f"{1e3 * (OUTER - flow.edge):13.4f} {100 * flow.plug_width_error:8.3f} {100 * flow.unevenness:8.3f} {flow.drift:8.1e}"
+            f"{flow.regularisation:<14} {flow.stiffness:9g} {100 * flow.profile_error:9.3f} "
+            f"{100 * flow.model_error:11.3f} {1e3 * (OUTER - flow.edge):13.4f} {100 * flow.plug_width_error:8.3f} "
+            f"{100 * flow.unevenness:8.3f} {flow.drift:8.1e}"
             + ("  MISSED" if flow.misses() else ""))
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
-    lines.append(f"tolerance {100 * TOLERANCE:g} %; steady to {STEADY}; profiles: largest error over the inner cylinder's speed; "
-                 f"stiffness 1: viscosity ratios {', '.join(f'{value:g}' for value in STIFFEST.values())}; softer plugs are held against their own curve alone")
+    lines.append(f"tolerance {100 * TOLERANCE:g} %; steady to {STEADY}; profiles: largest error over the inner "
+                 "cylinder's speed; stiffness 1: viscosity ratios "
+                 f"{', '.join(f'{value:g}' for value in STIFFEST.values())}; softer plugs are compared with "
+                 "their own curve alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -172,7 +175,8 @@ def plot(flows, out):
         label = f"{flow.regularisation}, stiffness {flow.stiffness:g}"
         if flow.stiffness == 1:
             profile.plot(1e3 * flow.r, flow.u, next(markers), ms=4, mfc="none", label=flow.regularisation)
-        error.plot(1e3 * flow.r, 100 * (flow.u - exact(flow.r)) / exact(INNER), "-" if flow.stiffness == 1 else "--", label=label)
+        error.plot(1e3 * flow.r, 100 * (flow.u - exact(flow.r)) / exact(INNER), "-" if flow.stiffness == 1 else "--",
+                   label=label)
     for axis in (profile, error):
         axis.axvspan(1e3 * EDGE, 1e3 * OUTER, color="0.9", label="plug")
         axis.set_xlabel("radius, mm")

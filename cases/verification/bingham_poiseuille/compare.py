@@ -52,7 +52,8 @@ def exact(y):
 def regularised_profile(y, regularisation, stiffness):
     """Speed, m/s, of the regularised slurry at the distances y (m) from the middle, by quadrature of its shear rate."""
     points = np.linspace(0, HALF_GAP, 1001)
-    rate = regularised(DRIVE * points, regularisation, YIELD_STRESS, PLASTIC_VISCOSITY, stiffness * VISCOSITY_RATIO, stiffness * M)
+    rate = regularised(DRIVE * points, regularisation, YIELD_STRESS, PLASTIC_VISCOSITY, stiffness * VISCOSITY_RATIO,
+                       stiffness * M)
     slower = np.concatenate([[0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(points))])
     return slower[-1] - np.interp(np.abs(y), points, slower)
 
@@ -106,8 +107,8 @@ def run(solver, regularisation, stiffness, case, template):
     write_parameters(
         case, solver=PROGRAMS[solver], correctors=3 if solver == "interFoam" else 1, density=DENSITY,
         yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
-        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS, step=STEP[solver],
-        endTime=END, writeInterval=round(END / STEP[solver] / 10))
+        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS,
+        step=STEP[solver], endTime=END, writeInterval=round(END / STEP[solver] / 10))
     run_program(case, "blockMesh")
     run_program(case, PROGRAMS[solver])
     *_, before, last = (path for _, path in foam.times(case))
@@ -129,8 +130,8 @@ def converges(flows):
 
 
 def print_table(flows, out):
-    lines = [f"{'solver':<10} {'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug speed m/s':>14} "
-             f"{'error %':>8} {'plug width mm':>13} {'error %':>8} {'drift':>8}",
+    lines = [f"{'solver':<10} {'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} "
+             f"{'plug speed m/s':>14} {'error %':>8} {'plug width mm':>13} {'error %':>8} {'drift':>8}",
              f"{'closed form':<55} {'':>2} {exact(0.0):13.5f} {'':>8} {2e3 * PLUG * HALF_GAP:13.4f}"]
     for flow in flows:
         lines.append(
@@ -141,8 +142,9 @@ def print_table(flows, out):
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
-    lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness 1: viscosity "
-                 f"ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are held against their own curve alone")
+    lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
+                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are held against their own curve "
+                 "alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -159,7 +161,8 @@ def plot(flows, out):
             continue
         marker, label = next(markers), f"{flow.solver}, {flow.regularisation}"
         profile.plot(flow.u, 1e3 * flow.y, marker, ms=4, mfc="none", label=label)
-        error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, marker + "-", ms=4, mfc="none", label=label)
+        error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, marker + "-", ms=4, mfc="none",
+                   label=label)
     for axis in (profile, error):
         axis.axhspan(-1e3 * PLUG * HALF_GAP, 1e3 * PLUG * HALF_GAP, color="0.9", label="plug")
         axis.set_ylabel("distance from the middle, mm")

@@ -88,8 +88,8 @@ class Column:
 
     def levels(self, times):
         """Of the surface, m, by quadrature."""
-        solution = solve_ivp(self.rates, (0, times[-1]), [START, 0.0], method="LSODA", t_eval=times, rtol=1e-9, atol=1e-12,
-                             max_step=self.end / 500)
+        solution = solve_ivp(self.rates, (0, times[-1]), [START, 0.0], method="LSODA", t_eval=times, rtol=1e-9,
+                             atol=1e-12, max_step=self.end / 500)
         assert solution.success, solution.message
         return solution.y[0]
 
@@ -154,8 +154,8 @@ def write_surface(case):
 def run(column, case, template):
     shutil.copytree(template, case)
     write_parameters(
-        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR, law=column.law,
-        solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
+        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR,
+        law=column.law, solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
         # p_rgh: slurry at the outlet, air at the top; both as if the surface rested at the tailwater's level
         outletPressure=SLURRY * GRAVITY * column.tailwater, topPressure=AIR * GRAVITY * column.tailwater,
         firstStep=column.largest_step / 10, largestStep=column.largest_step, endTime=column.end,
@@ -186,7 +186,8 @@ def print_table(falls, out):
 
 
 def plot(falls, out):
-    figure, axes = plt.subplots(2, len(falls), figsize=(14, 7), sharex="col", height_ratios=(2, 1), constrained_layout=True)
+    figure, axes = plt.subplots(2, len(falls), figsize=(14, 7), sharex="col", height_ratios=(2, 1),
+                                constrained_layout=True)
     for fall, (levels, errors) in zip(falls, axes.T):
         column = fall.column
         time = np.linspace(0, column.end, 400)

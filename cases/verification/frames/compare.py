@@ -36,7 +36,8 @@ class Extent:
 
 WHOLE = Extent(quarters=6, late=3, cell=0.004, step=1e-3)
 QUICK = Extent(quarters=2, late=1, cell=0.006, step=2e-3)
-FRAMES = {"mesh turns": ("dynamicMotionSolverFvMesh", "movingWallVelocity"), "wall velocity": ("staticFvMesh", "rotatingWallVelocity")}
+FRAMES = {"mesh turns": ("dynamicMotionSolverFvMesh", "movingWallVelocity"),
+          "wall velocity": ("staticFvMesh", "rotatingWallVelocity")}
 CONSERVED = 1e-8
 
 
@@ -102,7 +103,8 @@ def measure(case, radius):
 def report(turning, still, extent, out):
     """Writes and prints the table; the number of lines that missed."""
     x = np.linspace(-0.8, 0.8, 65) * still.radius
-    lines = [f"{'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} {'share, mean |diff|':>18} {'u in slurry, rms %':>18}"]
+    lines = [f"{'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} {'share, mean |diff|':>18} "
+             f"{'u in slurry, rms %':>18}"]
     missed = 0
     for number in range(1, extent.quarters + 1):
         height = [drum.surface(number, x) for drum in (turning, still)]
@@ -115,15 +117,17 @@ def report(turning, still, extent, out):
         largest = np.abs(difference).max()
         bad = number > extent.quarters - extent.late and not largest <= still.cell / 2
         missed += bad
-        lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} {1e3 * np.sqrt(np.mean(difference**2)):7.3f} "
-                     f"{1e3 * largest:10.3f} {share.mean():18.4f} {100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
-    lines.append(f"height of the surface where the mesh turns less that where it does not, at |x| <= 0.8 R; allowed in the last {extent.late} quarters: "
-                 f"half a cell, {1e3 * still.cell / 2:.2f} mm")
+        lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} "
+                     f"{1e3 * np.sqrt(np.mean(difference**2)):7.3f} {1e3 * largest:10.3f} {share.mean():18.4f} "
+                     f"{100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
+    lines.append("height of the surface where the mesh turns less that where it does not, at |x| <= 0.8 R; allowed in "
+                 f"the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
     for name, drum in (("mesh turns", turning), ("wall velocity", still)):
         change = np.abs(drum.volume / still.volume[0] - 1).max()
         bad = not change <= CONSERVED
         missed += bad
-        lines.append(f"{name}: slurry {drum.volume[-1]:.10g} m3, largest relative change {change:.1e}" + ("  MISSED" if bad else ""))
+        lines.append(f"{name}: slurry {drum.volume[-1]:.10g} m3, largest relative change {change:.1e}"
+                     + ("  MISSED" if bad else ""))
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed
@@ -137,8 +141,10 @@ def plot(turning, still, extent, out):
         axis.set(title=f"{title}, {drum.time[-1]:.2f} s", aspect="equal", xlabel="mm", ylabel="mm")
     x = np.linspace(-0.8, 0.8, 65) * still.radius
     for number in sorted({1, (extent.quarters + 1) // 2, extent.quarters}):
-        line, = axes[2].plot(1e3 * x, 1e3 * still.surface(number, x), "-", label=f"wall velocity, {still.time[number]:.2f} s")
-        axes[2].plot(1e3 * x, 1e3 * turning.surface(number, x), "o", ms=3, mfc="none", color=line.get_color(), label="mesh turns")
+        line, = axes[2].plot(1e3 * x, 1e3 * still.surface(number, x), "-",
+                             label=f"wall velocity, {still.time[number]:.2f} s")
+        axes[2].plot(1e3 * x, 1e3 * turning.surface(number, x), "o", ms=3, mfc="none", color=line.get_color(),
+                     label="mesh turns")
     axes[2].set(title="Surface", xlabel="x, mm", ylabel="height, mm")
     axes[2].legend(fontsize=8)
     axes[2].grid(alpha=0.3)

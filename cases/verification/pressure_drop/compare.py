@@ -113,7 +113,8 @@ def beds():
     """Every bed of the study."""
     return [
         Bed(solver, box, 8, row["law"], float(row["phi"]), float(row["Re"]), first, cells, float(row["beta"]))
-        for row in exchange_coefficients() for solver, places in PLACES.items() for first, cells in places for box in BOXES
+        for row in exchange_coefficients() for solver, places in PLACES.items() for first, cells in places
+        for box in BOXES
     ]
 
 

@@ -112,7 +112,8 @@ def plot(fluids, pool, steps, out):
     left.axhline(STILL, color="k", ls="--", label="allowed")
     left.set(title="Slurry alone, at rest", xlabel="time, ms", ylabel="m/s")
     right.semilogy(1e3 * steps[:, 0], steps[:, 1], color="0.7", label="largest of every step")
-    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"), (pool.slurry_rms, "slurry, rms")):
+    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"),
+                          (pool.slurry_rms, "slurry, rms")):
         right.semilogy(1e3 * pool.time[1:], values[1:], "o-", ms=3, label=label)
     right.set(title="Pool under air: spurious speeds", xlabel="time, ms", ylabel="m/s")
     for axis in (left, right):

@@ -78,8 +78,9 @@ def build(run, case, here, end):
         shutil.copy(here / "pool" / "beds" / BEDS[run.solver], case / "constant")
     mill, level, radius, length = MESHES[run.mesh]
     write_parameters(
-        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension, level=FULL if run.filled else level,
-        **bed_parameters(level, radius, length), endTime=end, writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
+        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension,
+        level=FULL if run.filled else level, **bed_parameters(level, radius, length), endTime=end,
+        writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
@@ -129,7 +130,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help=f"a few settings, {QUICK_END} s, interFoam and slurryFoam")
     parser.add_argument("--meshes", nargs="+", choices=MESHES, default=list(MESHES))
     parser.add_argument("--solvers", nargs="+", choices=SOLVERS, default=list(SOLVERS))
-    parser.add_argument("--keep", action="store_true", help="take complete runs of an earlier time, where nothing is newer")
+    parser.add_argument("--keep", action="store_true",
+                        help="take complete runs of an earlier time, where nothing is newer")
     parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_pool", help="folder of the runs")
     parser.add_argument("--out", type=Path, default=Path(__file__).parent, help="folder of the table and pictures")
     parser.add_argument("--jobs", type=int, default=2)
@@ -139,8 +141,8 @@ def main():
     runs = matrix(options.meshes, options.solvers, options.quick)
     for program in sorted({SOLVERS[run.solver] for run in runs}):
         if not shutil.which(program):
-            parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target {program}, "
-                         "then source scripts/env")
+            parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target "
+                         f"{program}, then source scripts/env")
     work.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(options.jobs) as threads:
         histories = dict(zip(runs, threads.map(lambda run: perform(run, work, here, end, options.keep), runs)))

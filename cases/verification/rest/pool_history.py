@@ -84,7 +84,8 @@ def measure(case):
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
     stepped = largest_speeds(case)[:, 0]
-    displaced = (case / "constant" / "bedProperties").is_file()  # interFoam's slurry lies between the balls as if they were not
+    # interFoam's slurry lies between the balls as if they were not
+    displaced = (case / "constant" / "bedProperties").is_file()
     rows = []
     for time, folder in foam.times(case):
         try:

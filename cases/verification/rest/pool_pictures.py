@@ -80,8 +80,8 @@ def draw(axis, case, folder):
 def maps(histories, work, out):
     """The speed in the middle of the axis at the end, with the surface: a row a setting, a column a solver."""
     names, solvers = settings(histories), list(dict.fromkeys(run.solver for run in histories))
-    figure, axes = plt.subplots(len(names), len(solvers), figsize=(3.6 * len(solvers) + 1, 3.4 * len(names)), squeeze=False,
-                                constrained_layout=True)
+    figure, axes = plt.subplots(len(names), len(solvers), figsize=(3.6 * len(solvers) + 1, 3.4 * len(names)),
+                                squeeze=False, constrained_layout=True)
     for axis in axes.flat:
         axis.axis("off")
     for run, history in histories.items():

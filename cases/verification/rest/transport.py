@@ -47,13 +47,15 @@ def measure(case, name):
     _, level, radius, length = pool.MESHES[name]
     surface = 2 * math.sqrt(radius**2 - level**2) * length
     mixed = [np.count_nonzero((alpha > MIXED) & (alpha < 1 - MIXED)) for alpha in (first, last)]
-    return (np.abs(last - first) * volume).sum() / surface, abs((last * volume).sum() / (first * volume).sum() - 1), *mixed
+    changed = abs((last * volume).sum() / (first * volume).sum() - 1)
+    return (np.abs(last - first) * volume).sum() / surface, changed, *mixed
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--meshes", nargs="+", choices=pool.OMEGA, default=list(pool.OMEGA))
-    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport", help="folder of the runs, made anew")
+    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport",
+                        help="folder of the runs, made anew")
     options = parser.parse_args()
     here, work = Path(__file__).parent.resolve(), options.work.resolve()
     lines = [f"{'mesh':<8} {'solver':<13} {'surface moved, mm':>18} {'volume change':>14} {'cells of the surface':>21}"]

@@ -88,7 +88,8 @@ def turn_mesh(case, angle):
     points = np.array([line.strip("()").split() for line in body.splitlines() if line.startswith("(")], dtype=float)
     c, s = np.cos(angle), np.sin(angle)
     points = points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-    path.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*point) for point in points) + "\n)\n")
+    path.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*point) for point in points)
+                    + "\n)\n")
 
 
 def cosine_surface(case):
@@ -115,9 +116,10 @@ def build(run, case, here):
         (case / "constant" / "bedProperties").unlink()
         end, step = run.periods * period, period / STEPS
     write_parameters(
-        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY, endTime=end,
-        writeInterval=end / (run.periods * RECORDS), largestStep=step, correctors=3 if run.solver == "interFoam" else 1,
-        skewCorrectors=0 if run.room == "box" else 1, meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
+        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY,
+        endTime=end, writeInterval=end / (run.periods * RECORDS), largestStep=step,
+        correctors=3 if run.solver == "interFoam" else 1, skewCorrectors=0 if run.room == "box" else 1,
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
         omega=OMEGA, solidity=SOLIDITY, diameter=ball_diameter(drag), width=WIDTH, height=HEIGHT, cellsX=CELLS[0],
         cellsY=CELLS[1], surfaceNormal=f"({-np.sin(TILT):.15g} {np.cos(TILT):.15g} 0)")
     room = here / "box" if run.room == "box" else here.parent / "rest" / "pool" / "ogrid"
@@ -218,9 +220,9 @@ def report(histories, out):
         missed += bad
         lines.append(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
                      f"{history.volume_change:14.1e}" + ("  MISSED" if bad else ""))
-    lines.append(f"rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance from theory's course. "
-                 f"Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than interFoam "
-                 f"where the mesh rests")
+    lines.append("rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance "
+                 f"from theory's course. Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than "
+                 "interFoam where the mesh rests")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed

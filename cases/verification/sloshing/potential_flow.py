@@ -5,7 +5,8 @@ A mode with surface shape f(x) has, in a fluid on either side of the surface, a 
 f/lambda: lambda is the sloshing eigenvalue of that fluid's room. With densities rho, both accelerations and a drag per
 mass gamma u (Darcy's) in each, the pressures at the surface eta = q(t) f(x) balance when
 
-    (rho_s/lambda_s + rho_a/lambda_a) q'' + (gamma_s rho_s/lambda_s + gamma_a rho_a/lambda_a) q' + (rho_s - rho_a) g q = 0
+    (rho_s/lambda_s + rho_a/lambda_a) q'' + (gamma_s rho_s/lambda_s + gamma_a rho_a/lambda_a) q'
+    + (rho_s - rho_a) g q = 0
 
 (Lamb, Hydrodynamics, articles 231 and 257 to 259; Ibrahim 2005, Liquid Sloshing Dynamics, chapter 1.)"""
 from dataclasses import dataclass

@@ -39,7 +39,8 @@ END, WRITE_INTERVAL = 8.0, 0.4  # s
 LEAST_ORDER = 1.45
 VISCOUS = 1e-4  # errors below are those of the slurry's viscosity, which the closed form leaves out
 JUMP_TOLERANCE = 0.01
-STEADY = 1e-4  # change of the pressure over WRITE_INTERVAL, over DYNAMIC; behind sharp edges JUMP_TOLERANCE: eddies drift
+# Change of the pressure over WRITE_INTERVAL, over DYNAMIC; behind sharp edges JUMP_TOLERANCE: eddies drift
+STEADY = 1e-4
 # Well away from the sharp edges, m: before the bed, in it, behind it
 PLATEAUS = ((0.1, 0.2), (0.4, 0.5), (0.68, 0.75))
 
@@ -242,7 +243,8 @@ def main():
     work = fresh_runs(here)
     cells = CELLS[1:2] if options.quick else CELLS
     meshes = ("aligned", "wavy") if options.quick else MESHES
-    wanted = [*itertools.product(("ramps", "drag"), meshes, cells), *itertools.product(("edges",), meshes, (EDGE_CELLS,))]
+    wanted = [*itertools.product(("ramps", "drag"), meshes, cells),
+              *itertools.product(("edges",), meshes, (EDGE_CELLS,))]
     flows = run_jobs(lambda item: run(item[1], item[0], item[2], work, here / "template"), wanted, options.jobs)
     print_table(flows, here / "through_flow.txt")
     plot(flows, here / "through_flow.png")

@@ -43,7 +43,8 @@ def read_materials(deck):
         if name not in found:
             raise RuntimeError(f"{deck}: no {name}, expected a deck of millDem")
     types = len(found["youngsModulus"])
-    return Materials(found["youngsModulus"], found["poissonsRatio"], found["coefficientRestitution"].reshape(types, types),
+    return Materials(found["youngsModulus"], found["poissonsRatio"],
+                     found["coefficientRestitution"].reshape(types, types),
                      found["coefficientFriction"].reshape(types, types), found["density"])
 
 

@@ -32,7 +32,8 @@ def read_measured(path, like):
             place = tuple(_voxel(path, line, column, _number(path, row, line, column), edges)
                           for column, edges in (("y_m", like.y), ("x_m", like.x)))
             if np.isfinite(solidity[place]):
-                raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told before")
+                raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told "
+                                 "before")
             solidity[place] = _number(path, row, line, "solidity", 0, 1)
             if any((row[column] or "").strip() for column in measured):
                 velocity[place] = [*(_number(path, row, line, column) for column in measured), 0]
@@ -59,6 +60,6 @@ def _voxel(path, line, column, value, edges):
     place = (value - edges[0]) / (edges[1] - edges[0]) - 0.5
     index = round(place)
     if abs(place - index) > 0.01 or not 0 <= index < len(edges) - 1:
-        raise ValueError(f"{path}, line {line}, column {column}: {value:g} m is no voxel's centre; expected {len(edges) - 1} "
-                         f"voxels between {edges[0]:g} and {edges[-1]:g} m, as the run's")
+        raise ValueError(f"{path}, line {line}, column {column}: {value:g} m is no voxel's centre; expected "
+                         f"{len(edges) - 1} voxels between {edges[0]:g} and {edges[-1]:g} m, as the run's")
     return index

@@ -47,7 +47,7 @@ class VoxelMap(SlurryMap):
         """Centre (x, y) of the slurry's volume, m."""
         x, y = self.centres()
         volume = self.holdup * self.inside
-        return float((volume.sum(axis=0) * x).sum() / volume.sum()), float((volume.sum(axis=1) * y).sum() / volume.sum())
+        return tuple(float((volume.sum(axis=axis) * at).sum() / volume.sum()) for axis, at in ((0, x), (1, y)))
 
 
 def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
@@ -67,10 +67,11 @@ def read_slurry_map(path, begin=None, end=None, length=np.inf, sense=CLOCKWISE):
             span = tuple(float(file["mean"].attrs[name]) for name in ("begin", "end"))
         else:
             begins, ends = file["window/begin"][:], file["window/end"][:]
-            slack = 1e-6 * file.attrs["window"]
-            chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= (np.inf if end is None else end) + slack))
+            slack, last = 1e-6 * file.attrs["window"], np.inf if end is None else end
+            chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= last + slack))
             if len(chosen) == 0:
-                raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to {ends[-1]} s")
+                raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to "
+                                   f"{ends[-1]} s")
             means = [(file, window) for window in chosen]
             inside_of, lengths = (grid["insideFraction"][window] for window in chosen), (ends - begins)[chosen]
             span = float(begins[chosen[0]]), float(ends[chosen[-1]])
@@ -94,6 +95,7 @@ def _over_axis(means, inside_of, lengths, layers, edges, span, sense):
     with np.errstate(invalid="ignore", divide="ignore"):
         enough = slurry > 1e-6 * room.max()
         return VoxelMap(*edges, np.where(room > 0.01 * room.max(), slurry / fluid, np.nan),
-                        np.where(enough[..., None], flux / slurry[..., None], np.nan), room / (layers.sum() * np.sum(lengths)),
-                        np.where(room > 0, slurry / room, 0.0), np.where(enough, head / slurry, np.nan), *span,
+                        np.where(enough[..., None], flux / slurry[..., None], np.nan),
+                        room / (layers.sum() * np.sum(lengths)), np.where(room > 0, slurry / room, 0.0),
+                        np.where(enough, head / slurry, np.nan), *span,
                         source="the flow's samples on voxels (slurry.h5)", sense=sense)

@@ -6,7 +6,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0  # sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
+# Sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
+CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: some ball once grazed the voxel
 
 

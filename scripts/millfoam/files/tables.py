@@ -36,7 +36,8 @@ def read_table(case, name, file=None):
     of the files that were begun before it. TableError where there is none, or the files' columns differ."""
     file = file or name
     folder = Path(case) / "postProcessing" / name
-    found = [path for path in folder.glob(f"*/{file}*.dat") if re.fullmatch(rf"{re.escape(file)}(_[\d.e+-]+)?", path.stem)]
+    names = re.compile(rf"{re.escape(file)}(_[\d.e+-]+)?")
+    found = [path for path in folder.glob(f"*/{file}*.dat") if names.fullmatch(path.stem)]
     if not found:
         raise TableError(f"{folder}: no {file}.dat; did the flow run with this function object?")
     files = sorted((*_read_file(path), path) for path in found)

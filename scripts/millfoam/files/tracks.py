@@ -20,7 +20,8 @@ class Trajectory:
     def __post_init__(self):
         self.time, self.position = np.asarray(self.time, dtype=float), np.asarray(self.position, dtype=float)
         if self.position.shape != (len(self.time), 3) or len(self.time) < 2:
-            raise ValueError(f"{len(self.time)} times and positions {self.position.shape}; expected [n] and [n, 3], n > 1")
+            raise ValueError(f"{len(self.time)} times and positions {self.position.shape}; expected [n] and [n, 3], n "
+                             "> 1")
         if not (np.isfinite(self.time).all() and np.isfinite(self.position).all()):
             raise ValueError("a track with values that are not finite")
         if not (np.diff(self.time) > 0).all():
@@ -40,7 +41,8 @@ def read_trajectory(path, time_unit=1.0, length_unit=1.0):
                 continue
             row = _numbers(f"{path}:{number}", words)
             if rows and row[0] <= rows[-1][0]:
-                raise RuntimeError(f"{path}:{number}: time {row[0]:g} after {rows[-1][0]:g}, expected times that increase")
+                raise RuntimeError(f"{path}:{number}: time {row[0]:g} after {rows[-1][0]:g}, expected times that "
+                                   "increase")
             rows.append(row)
     if len(rows) < 2:
         raise RuntimeError(f"{path}: {len(rows)} points, expected 2 or more")

@@ -142,8 +142,8 @@ def try_flow(folder, solver, largest_step, ranks):
         if seconds > TRIAL_TIME and steps >= FEWEST_STEPS:
             (folder / "stop").touch()
     cost = run_measured(folder, *program, log="log.flow", watch=watch, ranks=ranks)
-    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk, step_time(seen),
-                     cost.memory)
+    return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk,
+                     step_time(seen), cost.memory)
 
 
 def steps_done(folder):

@@ -17,8 +17,9 @@ def main():
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
-    parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [the mill's flow.averages.start, or half of a flow "
-                             "that does not reach beyond it]")
+    parser.add_argument("--begin", type=float,
+                        help="flow time from which averages are taken, s [the mill's flow.averages.start, or half of a "
+                             "flow that does not reach beyond it]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]
@@ -57,7 +58,8 @@ def read_charge(path, flow, begin):
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
         return None
-    span = solids_file.span_of_flow(*solids_file.recorded_span(path), flow.time0 + begin, flow.time0 + flow.frames[-1][0])
+    span = solids_file.span_of_flow(*solids_file.recorded_span(path), flow.time0 + begin,
+                                    flow.time0 + flow.frames[-1][0])
     return solids_file.read_map(path, *span)
 
 

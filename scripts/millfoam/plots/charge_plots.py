@@ -59,13 +59,16 @@ def _draw(axis, charge, readings, radius, outline):
     outwards = np.array(readings.centre) / np.hypot(*readings.centre)
     axis.plot(*(1e3 * outwards[:, None] * profile.distance[[0, -1]]), color=GREEN, lw=1.2, ls="-.")
     axis.plot(*(1e3 * surface.points.T), color=BLUE, lw=2.2,
-              label=_signed(f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° (triangle)"))
+              label=_signed(f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° "
+                            "(triangle)"))
     x = np.linspace(*np.sort(surface.points[:, 0])[[0, -1]], 200)
-    axis.plot(1e3 * x, 1e3 * surface.fitted(x), color="k", lw=1.4, ls="--", label=f"logistic, RMSD {1e3 * surface.rmsd:.2g} mm")
+    axis.plot(1e3 * x, 1e3 * surface.fitted(x), color="k", lw=1.4, ls="--",
+              label=f"logistic, RMSD {1e3 * surface.rmsd:.2g} mm")
     axis.plot(*(1e3 * surface.points[0]), "s", color=BLUE, mec="w", ms=8)
     axis.plot(*(1e3 * surface.points[-1]), "^", color=BLUE, mec="w", ms=9)
-    axis.plot(*(1e3 * np.array(readings.centre)), "o", color=GREEN, mec="w", ms=9, ls="-.",
-              label=_signed("centre of circulation ({:.1f}, {:.1f}) mm and line".format(*1e3 * np.array(readings.centre))))
+    x, y = 1e3 * np.array(readings.centre)
+    axis.plot(x, y, "o", color=GREEN, mec="w", ms=9, ls="-.",
+              label=_signed(f"centre of circulation ({x:.1f}, {y:.1f}) mm and line"))
     axis.set_title(f"DEM time {charge.begin:.3g} to {charge.end:.3g} s", fontsize=10, loc="left")
     return image
 

@@ -43,8 +43,8 @@ def _arrows(axis, x, y, velocity, speed):
     known = np.isfinite(velocity[..., 0]) & (speed > 0)
     unit = velocity[..., :2] / np.where(known, speed, 1)[..., None]
     xx, yy = np.meshgrid(x, y)
-    axis.quiver(1e3 * xx[known], 1e3 * yy[known], unit[known][:, 0], unit[known][:, 1], color="k", scale=22, width=0.006,
-                headwidth=4, pivot="mid", alpha=0.75)
+    axis.quiver(1e3 * xx[known], 1e3 * yy[known], unit[known][:, 0], unit[known][:, 1], color="k", scale=22,
+                width=0.006, headwidth=4, pivot="mid", alpha=0.75)
 
 
 def plot_maps(flow, solids, begin, out):
@@ -66,7 +66,8 @@ def plot_maps(flow, solids, begin, out):
         image = axis.pcolormesh(ex, ey, values, cmap=colours, vmin=limits[0], vmax=limits[1], shading="flat")
         figure.colorbar(image, ax=axis, shrink=0.85)
         axis.set_title(title)
-    _arrows(axes[0, 1], *solids.centres(), np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
+    _arrows(axes[0, 1], *solids.centres(), np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan),
+            ball_speed)
     thin = slice(4, None, 9)
     _arrows(axes[1, 1], *(centres[thin] for centres in slurry.centres()),
             np.where((slurry.share > 0.3)[..., None], slurry.velocity, np.nan)[thin, thin], slurry_speed[thin, thin])

@@ -93,7 +93,8 @@ def drop(profile):
 def gaussians(z, base, *humps):
     """base + the sum of height exp(-((z - place)/width)^2 / 2); humps: height, place, width of each in turn."""
     z = np.asarray(z, dtype=float)
-    return base + sum(height * np.exp(-((z - place) / width) ** 2 / 2) for height, place, width in np.reshape(humps, (-1, 3)))
+    return base + sum(height * np.exp(-((z - place) / width) ** 2 / 2)
+                      for height, place, width in np.reshape(humps, (-1, 3)))
 
 
 def fit_gaussians(z, height, count):

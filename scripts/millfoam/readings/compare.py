@@ -95,8 +95,8 @@ def surface_difference(a, b, points=200):
     """SurfaceDifference of two FreeSurface; RuntimeError if they stand over no common x."""
     begin, end = max(np.nanmin(one.points[:, 0]) for one in (a, b)), min(np.nanmax(one.points[:, 0]) for one in (a, b))
     if begin >= end:
-        raise RuntimeError(f"the free surfaces do not stand over each other: one begins at x = {1e3 * begin:.1f} mm, the other "
-                           f"ends at {1e3 * end:.1f} mm")
+        raise RuntimeError(f"the free surfaces do not stand over each other: one begins at x = {1e3 * begin:.1f} mm, "
+                           f"the other ends at {1e3 * end:.1f} mm")
     x = np.linspace(begin, end, points + 2)[1:-1]
     apart = a.height(x) - b.height(x)
     apart = apart[np.isfinite(apart)]

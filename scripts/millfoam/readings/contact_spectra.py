@@ -83,7 +83,8 @@ def spectra(records, interval, edges):
         records_counted = (dumps - 2) * interval if part == "collisions" else dumps
         fields[part][np.searchsorted(classes, first), np.searchsorted(classes, second)] = counts / records_counted
     collisions, friction = fields.pop("collisions"), fields["friction"].sum() * dumps
-    return Spectra(edges, classes, collisions, fields, float(sliding / friction) if friction else np.nan, dumps, interval)
+    return Spectra(edges, classes, collisions, fields, float(sliding / friction) if friction else np.nan, dumps,
+                   interval)
 
 
 def _collect(collected, contacts, energy, weights, edges):
@@ -109,7 +110,8 @@ def _collect_collisions(collected, window, interval, edges):
     contacts = window[1]
     energy = contacts.normal_energy()
     brief = ~np.isin(now, after)
-    weight = np.where(brief, np.maximum(1.0, interval / hertz_duration(contacts.reduced_mass, contacts.stiffness, energy)), 1.0)
+    duration = hertz_duration(contacts.reduced_mass, contacts.stiffness, energy)
+    weight = np.where(brief, np.maximum(1.0, interval / duration), 1.0)
     chosen = np.zeros(len(now), dtype=bool)
     chosen[new] = True
     _collect(collected, contacts, energy, {"collisions": np.where(chosen, weight, 0.0)}, edges)
@@ -133,7 +135,8 @@ def power_to_dissipate(folder, begin=0.0, end=np.inf):
     table = np.genfromtxt(Path(folder) / "dumps" / "energy.csv", delimiter=",", names=True)
     table = table[(table["time_s"] >= begin) & (table["time_s"] <= end)]
     if len(table) < 2:
-        raise RuntimeError(f"{folder}/dumps/energy.csv: {len(table)} records from {begin} to {end} s, expected 2 or more")
+        raise RuntimeError(f"{folder}/dumps/energy.csv: {len(table)} records from {begin} to {end} s, expected 2 or "
+                           "more")
     stored = table["kinetic_J"] + table["potential_J"]
     # The power of a record is the mean over the time before it
     return float(table["power_W"][1:].mean() - (stored[-1] - stored[0]) / (table["time_s"][-1] - table["time_s"][0]))

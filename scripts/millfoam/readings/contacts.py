@@ -60,14 +60,16 @@ def read_contacts(folder, step, materials):
     balls = {key: values[order] for key, values in balls.items()}
     pairs, _ = read_table(folder / f"pairs.{step}.txt", PAIR_COLUMNS)
     walls, _ = read_table(folder / f"walls.{step}.txt", WALL_COLUMNS)
-    first, second, ball = (_index(folder, step, balls["id"], ids) for ids in (pairs["ball"], pairs["other"], walls["ball"]))
+    first, second, ball = (_index(folder, step, balls["id"], ids)
+                           for ids in (pairs["ball"], pairs["other"], walls["ball"]))
     return ball_contacts(balls, pairs, first, second, periods, materials), wall_contacts(balls, walls, ball, materials)
 
 
 def _index(folder, step, ids, wanted):
     index = np.minimum(np.searchsorted(ids, wanted), len(ids) - 1)
     if not np.array_equal(ids[index], wanted):
-        raise RuntimeError(f"{folder}/balls.{step}.txt: no ball {wanted[ids[index] != wanted][0]:g}, which is in contact")
+        raise RuntimeError(f"{folder}/balls.{step}.txt: no ball {wanted[ids[index] != wanted][0]:g}, which is in "
+                           "contact")
     return index
 
 
@@ -100,8 +102,8 @@ def wall_contacts(balls, walls, ball, materials):
     past = move - np.cross(arm[:, None] * spin, normal)
     types = balls["type"][ball].astype(int) - 1
     key = np.stack([walls["ball"], -1 - walls["mesh"]], axis=1).astype(int)
-    return _contacts(walls, normal, arm, move, past, spin, key, np.stack([np.zeros_like(radius), 2 * radius], axis=1), radius,
-                     4 / 3 * np.pi * materials.density * radius ** 3,
+    return _contacts(walls, normal, arm, move, past, spin, key, np.stack([np.zeros_like(radius), 2 * radius], axis=1),
+                     radius, 4 / 3 * np.pi * materials.density * radius ** 3,
                      [types, np.full_like(types, len(materials.youngs_modulus) - 1)], materials)
 
 
@@ -119,9 +121,9 @@ def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass
     damper = _tangential_damping(radius, mass, table["overlap"], types, materials)
     tangential, sliding = tangential_forces(tangential, past, materials.friction[first, second] * np.abs(push), damper)
     elastic = stiffness * table["overlap"] ** 1.5
-    return Contacts(key, diameters, mass, approach, np.linalg.norm(past, axis=1), push, np.linalg.norm(tangential, axis=1),
-                    table["overlap"], stiffness, (push - elastic) * approach, elastic * approach,
-                    -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), sliding)
+    return Contacts(key, diameters, mass, approach, np.linalg.norm(past, axis=1), push,
+                    np.linalg.norm(tangential, axis=1), table["overlap"], stiffness, (push - elastic) * approach,
+                    elastic * approach, -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), sliding)
 
 
 def tangential_forces(dumped, past, limit, damper):
@@ -149,6 +151,7 @@ def _modulus(compliances, types):
 def _tangential_damping(radius, mass, overlap, types, materials):
     """-2 sqrt(5/6) beta sqrt(k_t m), k_t = 8 G* sqrt(R overlap), in N s/m."""
     ratio = materials.poisson_ratio
-    stiffness = 8 * np.sqrt(radius * overlap) * _modulus(2 * (2 - ratio) * (1 + ratio) / materials.youngs_modulus, types)
+    modulus = _modulus(2 * (2 - ratio) * (1 + ratio) / materials.youngs_modulus, types)
+    stiffness = 8 * np.sqrt(radius * overlap) * modulus
     loss = np.log(materials.restitution[types[0], types[1]])
     return -2 * np.sqrt(5 / 6) * loss / np.hypot(loss, np.pi) * np.sqrt(stiffness * mass)

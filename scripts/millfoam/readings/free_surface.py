@@ -14,7 +14,8 @@ from scipy.optimize import curve_fit
 
 from .shell_angles import shell_angle
 
-SMOOTHING = 0.05  # standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
+# Standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
+SMOOTHING = 0.05
 EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
 WALL = 0.008  # what is nearer to the shell is between or at lifters, m
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
@@ -149,11 +150,13 @@ def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
     lines = (_evenly(piece, POINTS) for piece in pieces)
     points = max((np.where(is_known(charge, line, margin)[:, None], line, np.nan) for line in lines), key=_length)
     if np.isnan(points).any() and _length(points) < KNOWN * radius:
-        raise RuntimeError(f"free surface not known: {1e3 * _length(points):.0f} mm of it are farther than {1e3 * margin:.1f} mm "
-                           f"from voxels that the map misses; expected {1e3 * KNOWN * radius:.0f} mm or more")
+        raise RuntimeError(f"free surface not known: {1e3 * _length(points):.0f} mm of it are farther than "
+                           f"{1e3 * margin:.1f} mm from voxels that the map misses; expected "
+                           f"{1e3 * KNOWN * radius:.0f} mm or more")
     # On the way from the shoulder to the toe the charge is on the right in a clockwise mill, on the left in another
     along = np.gradient(points, axis=0)
-    inwards = -charge.sense * np.column_stack([along[:, 1], -along[:, 0]]) / np.linalg.norm(along, axis=1, keepdims=True)
+    across = np.column_stack([along[:, 1], -along[:, 0]])
+    inwards = -charge.sense * across / np.linalg.norm(along, axis=1, keepdims=True)
     step = SMOOTHING * radius / 2
     told = np.isfinite(inwards).all(axis=1)
     ahead, behind = (at_points(charge, solidity, (points + way * inwards)[told]) for way in (step, -step))

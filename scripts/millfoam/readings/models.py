@@ -45,7 +45,8 @@ def free_surface(internal, wall, number, filling=None, height=None, clockwise=Tr
     if filling is not None and not 0 < filling < 1 or height is not None and not -1 < height < 1:
         raise ValueError(f"filling {filling}, height {height}; expected a filling in (0, 1) or a height in (-1, 1)")
     if height is None:
-        height = brentq(lambda trial: _branches(internal, wall, number, trial)[2] - filling, -1 + 1e-9, 1 - 1e-9, xtol=1e-12)
+        height = brentq(lambda trial: _branches(internal, wall, number, trial)[2] - filling, -1 + 1e-9, 1 - 1e-9,
+                        xtol=1e-12)
     left, right, share = _branches(internal, wall, number, height)
     x = np.linspace(left.t[-1], right.t[-1], points)
     y = np.where(x < 0, left.sol(np.minimum(x, 0))[0], right.sol(np.maximum(x, 0))[0])
@@ -93,7 +94,8 @@ def fit_free_surface(x, y, number, filling=None, clockwise=True):
     def misfit(unknowns):
         found = surface(unknowns)
         # Points beyond the model's own shell points are held against the straight line with the slope that it has there
-        beyond = np.where(along < found.x[0], along - found.x[0], np.where(along > found.x[-1], along - found.x[-1], 0.0))
+        beyond = np.where(along < found.x[0], along - found.x[0],
+                          np.where(along > found.x[-1], along - found.x[-1], 0.0))
         return np.interp(along, found.x, found.y) + found.internal * beyond - y
 
     start = [max(slope, 0.05), 0.05] + ([np.clip(height, -0.99, 0.99)] if filling is None else [])

@@ -30,7 +30,8 @@ def slurry_ends(slurry, radius, wall):
              (slurry.sense * (radius - wall) * np.sin(angle) - x[0]) / (x[1] - x[0])]
     # Beside pixels outside the mill the mean is over those inside
     known = np.isfinite(slurry.share).astype(float)
-    share, weight = (map_coordinates(values, place, order=1, mode="nearest") for values in (np.nan_to_num(slurry.share), known))
+    share, weight = (map_coordinates(values, place, order=1, mode="nearest")
+                     for values in (np.nan_to_num(slurry.share), known))
     return tuple(float(end) for end in toe_and_shoulder(np.where(weight > 0, share / np.maximum(weight, 1e-9), 0)))
 
 
@@ -52,7 +53,8 @@ def pool(slurry, solidity):
     a solidity of at most 0.1: slurry that stands clear of the charge, not what fills its pores. Without balls it is all
     slurry. Films that are thinner in the mean than half a pixel do not appear. ValueError if the shapes differ."""
     if solidity.shape != slurry.share.shape:
-        raise ValueError(f"solidity of {solidity.shape} pixels beside slurry of {slurry.share.shape}; expected the same")
+        raise ValueError(f"solidity of {solidity.shape} pixels beside slurry of {slurry.share.shape}; expected the "
+                         "same")
     share = np.nan_to_num(slurry.share)
     regions, count = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
     if count == 0:
@@ -104,7 +106,8 @@ def axial_flow(slurry, toe, shoulder):
     for name, half in (("toe", ~rising), ("shoulder", rising)):
         chosen = half & np.isfinite(velocity)
         if not chosen.any():
-            raise RuntimeError(f"no slurry on the half of the {name}: it reaches from {toe:.0f} to {shoulder:.0f} degrees")
+            raise RuntimeError(f"no slurry on the half of the {name}: it reaches from {toe:.0f} to {shoulder:.0f} "
+                               "degrees")
         values, weights = velocity[chosen], slurry.share[chosen]
         lowest, highest = map(float, weighted_percentile(values, weights, RANGE))
         halves.append(HalfFlow(float(np.average(values, weights=weights)), lowest, highest))

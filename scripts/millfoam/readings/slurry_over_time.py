@@ -29,7 +29,8 @@ class Way:
     def circulates(self):
         """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where
         that is within two standard errors."""
-        signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value)) for half in (self.toe, self.shoulder)]
+        signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value))
+                 for half in (self.toe, self.shoulder)]
         return "yes" if signs == [1, -1] else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
 
 
@@ -68,10 +69,11 @@ def slurry_blocks(case):
             begins, ends = file["window/begin"][:], file["window/end"][:]
         late = np.flatnonzero((begins >= begin - 1e-6) & (ends <= end + 1e-6))
         if len(late) == 0:
-            raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; there are {begins[0]:g} to "
-                               f"{ends[-1]:g} s")
+            raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; there are "
+                               f"{begins[0]:g} to {ends[-1]:g} s")
         for part in blocks_of(len(late)):
-            yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length, np.sign(case.omega))
+            yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length,
+                                  np.sign(case.omega))
         return
     frames = [frame for frame in case.flow.frames if frame[0] >= max(case.begin, 1e-9) - 1e-9]
     for part in blocks_of(len(frames)):

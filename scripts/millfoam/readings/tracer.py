@@ -40,7 +40,8 @@ def velocities(track, points=3):
     9.5). Exact for polynomials of degree 2 or 4, whatever the times."""
     count = len(track.time)
     if points not in (3, 5) or count < points:
-        raise ValueError(f"{points}-point differentiation of {count} points; expected 3 or 5, and as many points or more")
+        raise ValueError(f"{points}-point differentiation of {count} points; expected 3 or 5, and as many points or "
+                         "more")
     first = np.clip(np.arange(count) - points // 2, 0, count - points)
     stencil = first[:, None] + np.arange(points)
     own = np.arange(count) - first
@@ -122,8 +123,8 @@ def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=Fal
     shape = tuple(len(planes) - 1 for planes in reversed(edges))
     inside = np.ones(shape) if inside is None else np.asarray(inside, dtype=float)
     if not tracks or not charge_volume > 0 or inside.shape != shape:
-        raise ValueError(f"{len(tracks)} tracks, charge of {charge_volume} m3, inside {inside.shape}; expected 1 or more, "
-                         f"above 0, {shape}")
+        raise ValueError(f"{len(tracks)} tracks, charge of {charge_volume} m3, inside {inside.shape}; expected 1 or "
+                         f"more, above 0, {shape}")
     time, path, outside = np.zeros(shape), np.zeros((*shape, 3)), 0.0
     for track in tracks:
         parts = residence(track, edges, velocities(track, points), periodic)
@@ -136,5 +137,6 @@ def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=Fal
         solid_2d = np.where(room.sum(axis=0) > 0, time.sum(axis=0) / total * charge_volume / room.sum(axis=0), 0.0)
         velocity, velocity_2d = path / time[..., None], path.sum(axis=0) / time.sum(axis=0)[..., None]
     share = room.sum(axis=0) / ((z[-1] - z[0]) * np.diff(y)[:, None] * np.diff(x))
-    return TracerMap(x, y, share, solid_2d, velocity_2d, min(t.time[0] for t in tracks), max(t.time[-1] for t in tracks),
-                     z, time / total, solid, velocity, outside / total, len(tracks), sense=sense)
+    return TracerMap(x, y, share, solid_2d, velocity_2d, min(t.time[0] for t in tracks),
+                     max(t.time[-1] for t in tracks), z, time / total, solid, velocity, outside / total, len(tracks),
+                     sense=sense)
