@@ -4,6 +4,7 @@
 Files and columns: dem_driver/README.md."""
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -28,10 +29,10 @@ class Materials:
     density: float
 
 
-def read_materials(deck):
+def read_materials(deck: Path | str) -> Materials:
     """Materials of a run's deck, DIR/dem/in.mill; RuntimeError naming the property that it lacks."""
     text = Path(deck).read_text()
-    found = {}
+    found: dict[str, Any] = {}
     for line in text.splitlines():
         words = line.split()
         if words[:1] == ["fix"] and words[3:4] == ["property/global"]:
@@ -48,7 +49,7 @@ def read_materials(deck):
                      found["coefficientFriction"].reshape(types, types), found["density"])
 
 
-def read_table(path, columns):
+def read_table(path: Path | str, columns: dict[str, Any]) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """A LIGGGHTS dump as ({key: values [m], or [m, n] for n columns}, the box's periods [3] (m), inf where it has
     walls).
 
@@ -73,7 +74,7 @@ def read_table(path, columns):
     return chosen, np.where(periodic, box[:, 1] - box[:, 0], np.inf)
 
 
-def _numbers(path, lines, columns):
+def _numbers(path: Path | str, lines: list[str], columns: int) -> np.ndarray:
     for number, line in enumerate(lines, 10):
         if line.count(" ") + 1 < columns or len(line.split()) != columns:
             raise RuntimeError(f"{path}:{number}: '{line}', expected {columns} numbers")
@@ -83,12 +84,12 @@ def _numbers(path, lines, columns):
         raise RuntimeError(f"{path}: {error}, expected numbers only") from error
 
 
-def contact_steps(folder):
+def contact_steps(folder: Path | str) -> list[int]:
     """Steps of the contact dumps of a case DIR; RuntimeError where there are none."""
     return [step for step, _ in numbered_dumps(Path(folder) / "contacts", "pairs")]
 
 
-def contact_interval(folder):
+def contact_interval(folder: Path | str) -> float:
     """Time between two contact dumps of a case DIR, s."""
     steps = contact_steps(folder)
     if len(steps) < 2 or len(set(np.diff(steps))) != 1:

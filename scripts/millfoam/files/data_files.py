@@ -4,6 +4,7 @@ name."""
 import json
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ class DataError(RuntimeError):
     """A file of numbers that cannot be read; the message names the file, the place in it and what was expected."""
 
 
-def read_text(path):
+def read_text(path: Path | str) -> str:
     """Text of a file in UTF-8; DataError where it is not there or is in another encoding."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
@@ -22,7 +23,7 @@ def read_text(path):
         raise DataError(f"{path}: {error.strerror or error}") from None
 
 
-def read_json(path, kind):
+def read_json(path: Path | str, kind: str) -> dict[str, Any]:
     """Content of a JSON file of the format millfoam-`kind`; DataError naming what is wrong with it."""
     try:
         content = json.loads(read_text(path))
@@ -37,7 +38,7 @@ def read_json(path, kind):
     return content
 
 
-def entry(content, path, *keys):
+def entry(content: Any, path: Path | str, *keys: str) -> Any:
     """content[key][key]…; DataError naming `path` and the first key that is not there."""
     for depth, key in enumerate(keys):
         if not isinstance(content, dict) or key not in content:
@@ -46,7 +47,7 @@ def entry(content, path, *keys):
     return content
 
 
-def number(content, path, *keys):
+def number(content: Any, path: Path | str, *keys: str) -> float:
     """The number content[key]…, NaN for null; DataError naming `path` and the key where there is none."""
     value = entry(content, path, *keys)
     if value is None:
@@ -56,7 +57,7 @@ def number(content, path, *keys):
     return value
 
 
-def read_csv(path):
+def read_csv(path: Path | str) -> dict[str, np.ndarray]:
     """Columns of a CSV file, name -> values [rows]. A last line without an end is what a killed program was writing:
     it is left out. DataError naming the line that is no row of numbers."""
     lines = read_text(path).split("\n")[:-1]

@@ -3,6 +3,7 @@
 each start."""
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,21 +14,21 @@ from .data_files import DataError, read_csv, read_json
 class FlowRecord:
     """Of a flow, its restarts joined. steps: column -> values over the steps, or None; summaries: [(path, content)]
     of the starts in order of time."""
-    steps: dict
-    summaries: list
+    steps: dict[str, np.ndarray] | None
+    summaries: list[tuple[Path, dict[str, Any]]]
 
     @property
-    def last(self):
+    def last(self) -> dict[str, Any]:
         """Summary of the last start; an empty one where none was written."""
         return self.summaries[-1][1] if self.summaries else {}
 
     @property
-    def complete(self):
+    def complete(self) -> bool | None:
         """Whether the last start came to its end; None where no summary tells it."""
         return self.last.get("complete")
 
 
-def starts(folder):
+def starts(folder: Path | str) -> list[tuple[float, Path]]:
     """[(start, folder)] in order of time of what is in CASE/postProcessing/flow."""
     found = []
     for place in (Path(folder) / "postProcessing" / "flow").glob("*"):
@@ -38,7 +39,7 @@ def starts(folder):
     return sorted(found)
 
 
-def joined(parts):
+def joined(parts: list[tuple[float, dict[str, np.ndarray]]]) -> dict[str, np.ndarray]:
     """Columns of steps out of [(start time, columns)] in order of time: steps of an earlier start that end after a
     later one's start were computed again, and are left out. DataError where columns differ."""
     names = list(parts[0][1])
@@ -52,7 +53,7 @@ def joined(parts):
     return dict(zip(names, rows.T))
 
 
-def read_flow_record(folder):
+def read_flow_record(folder: Path | str) -> FlowRecord:
     """FlowRecord of a case's folder, empty where slurryFoam left nothing; DataError for a file that cannot be read."""
     found = starts(folder)
     parts = [(start, read_csv(place / "steps.csv")) for start, place in found if (place / "steps.csv").is_file()]

@@ -11,7 +11,7 @@ class FoamError(RuntimeError):
     """A case that cannot be read; the message names the file and the reason."""
 
 
-def times(case):
+def times(case: Path | str) -> list[tuple[float, Path]]:
     """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out. FoamError
     where the case is no folder."""
     if not Path(case).is_dir():
@@ -23,7 +23,7 @@ def times(case):
     return sorted(found)
 
 
-def _body(path):
+def _body(path: Path | str) -> str:
     path = Path(path)
     if not path.is_file():
         raise FoamError(f"{path}: no such file")
@@ -36,14 +36,14 @@ def _body(path):
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
 
 
-def _numbers(text, path):
+def _numbers(text: str, path: Path | str) -> np.ndarray:
     try:
         return np.array(text.replace("(", " ").replace(")", " ").split(), dtype=float)
     except ValueError as error:
         raise FoamError(f"{path}: {error}") from None
 
 
-def read_field(path, cells=None):
+def read_field(path: Path | str, cells: int | None = None) -> np.ndarray:
     """Internal field of a vol*Field: array [cells] or [cells, components].
 
     A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
@@ -69,7 +69,7 @@ def read_field(path, cells=None):
     return field
 
 
-def _list(path):
+def _list(path: Path | str) -> tuple[int, str]:
     """Text between the outer brackets of a mesh file, and the count before it."""
     text = _body(path).partition("}")[2]
     head, end = re.search(r"(\d+)\s*\(", text), text.rfind(")")
@@ -89,16 +89,16 @@ class Patch:
 class Mesh:
     """A polyMesh: points [n, 3] in m, faces as lists of point numbers, owner [faces], neighbour [internal faces]."""
     points: np.ndarray
-    faces: list
+    faces: list[np.ndarray]
     owner: np.ndarray
     neighbour: np.ndarray
-    patches: dict
+    patches: dict[str, Patch]
 
     @property
-    def cells(self):
+    def cells(self) -> int:
         return int(self.owner.max()) + 1
 
-    def centres_and_volumes(self):
+    def centres_and_volumes(self) -> tuple[np.ndarray, np.ndarray]:
         """Cell centres [cells, 3] (m) and volumes [cells] (m^3), by the pyramids over each cell's faces."""
         centre, area = self._face_geometry()
         estimate = np.zeros((self.cells, 3))
@@ -116,7 +116,7 @@ class Mesh:
             np.add.at(moment, cell, pyramid[:, None] * (0.75 * centre[faces] + 0.25 * estimate[cell]))
         return moment / volume[:, None], volume
 
-    def _face_geometry(self):
+    def _face_geometry(self) -> tuple[np.ndarray, np.ndarray]:
         """Centres [faces, 3] (m) and area vectors [faces, 3] (m^2): faces with equally many corners are taken
         together."""
         centre, area = np.empty((len(self.faces), 3)), np.empty((len(self.faces), 3))
@@ -134,7 +134,7 @@ class Mesh:
         return centre, area
 
 
-def read_mesh(case, time=None):
+def read_mesh(case: Path | str, time: Path | str | None = None) -> Mesh:
     """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
     folder = Path(case) / "constant" / "polyMesh"
     moved = Path(time) / "polyMesh" / "points" if time else None
@@ -147,7 +147,7 @@ def read_mesh(case, time=None):
     return Mesh(points, faces, owner, neighbour, read_patches(folder / "boundary"))
 
 
-def _numbers_of(path, each=1):
+def _numbers_of(path: Path | str, each: int = 1) -> np.ndarray:
     """The numbers of a mesh file's list with so many of them in an entry; FoamError where some are missing."""
     count, text = _list(path)
     values = _numbers(text, path)
@@ -156,20 +156,21 @@ def _numbers_of(path, each=1):
     return values
 
 
-def read_patches(path):
+def read_patches(path: Path | str) -> dict[str, Patch]:
     """Patches of a polyMesh/boundary file: name -> Patch; FoamError where some are missing."""
     count, text = _list(path)
     patches = {}
     for name, entries in re.findall(r"(\w+)\s*\{([^{}]*startFace[^{}]*)\}", text):
-        start = int(re.search(r"startFace\s+(\d+)", entries).group(1))
-        size = int(re.search(r"nFaces\s+(\d+)", entries).group(1))
-        patches[name] = Patch(start, size)
+        start, size = (re.search(rf"{key}\s+(\d+)", entries) for key in ("startFace", "nFaces"))
+        if not start or not size:
+            raise FoamError(f"{path}: patch {name} lacks startFace or nFaces")
+        patches[name] = Patch(int(start.group(1)), int(size.group(1)))
     if len(patches) != count:
         raise FoamError(f"{path}: {len(patches)} patches for a count of {count}; the file is cut short")
     return patches
 
 
-def read_dictionary(path):
+def read_dictionary(path: Path | str) -> dict[str, str]:
     """Flat `key value;` entries of a dictionary file: name -> text; sub-dictionaries are left out."""
     text = re.sub(r"FoamFile\s*\{[^}]*\}", "", _body(path))
     return dict(re.findall(r"^\s*(\w+)\s+([^;{}]+);", text, flags=re.M))

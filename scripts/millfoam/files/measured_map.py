@@ -2,13 +2,16 @@
 """Reads a measured map of the charge from a CSV file."""
 import csv
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+
+from .solids_file import SolidsMap
 
 COLUMNS, VELOCITIES = ("x_m", "y_m", "solidity"), ("vx", "vy")
 
 
-def read_measured(path, like):
+def read_measured(path: Path | str, like: SolidsMap) -> SolidsMap:
     """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes
     over.
 
@@ -42,7 +45,8 @@ def read_measured(path, like):
     return replace(like, solidity=solidity, velocity=velocity)
 
 
-def _number(path, row, line, column, lowest=-np.inf, highest=np.inf):
+def _number(path: Path | str, row: dict[str, str], line: int, column: str, lowest: float = -np.inf,
+            highest: float = np.inf) -> float:
     """A cell of a CSV as a number within limits."""
     text = (row[column] or "").strip()
     try:
@@ -55,7 +59,7 @@ def _number(path, row, line, column, lowest=-np.inf, highest=np.inf):
     return value
 
 
-def _voxel(path, line, column, value, edges):
+def _voxel(path: Path | str, line: int, column: str, value: float, edges: np.ndarray) -> int:
     """Number of the voxel with a centre at `value` (m), within a hundredth of its width."""
     place = (value - edges[0]) / (edges[1] - edges[0]) - 0.5
     index = round(place)

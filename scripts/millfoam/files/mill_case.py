@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its
 stages."""
+from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
@@ -15,6 +17,7 @@ from .flow_record import FlowRecord, read_flow_record
 from .foam import times
 from .mill import NoMill, read_mill
 from .outline import lifter_outline
+from .solids_file import SolidsMap
 from .written_times import MillFlow
 
 CUT = 0.01  # of a flow's duration: what it may lack of it
@@ -27,10 +30,10 @@ class MillCase:
     of a flow that was cut short before. A dry run is averaged from the same time of its own, or from when it is
     steady. unusable: what is there but cannot be used, in words."""
 
-    def __init__(self, folder, begin=None):
+    def __init__(self, folder: Path | str, begin: float | None = None) -> None:
         self.folder = Path(folder)
         self.asked_begin = begin
-        self.unusable = []
+        self.unusable: list[str] = []
         self.mill = read_mill(self.folder)
         if self.flow is None and self.solids is None and self.dry is None:
             raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, "
@@ -45,63 +48,63 @@ class MillCase:
                                f"{last:g} s")
 
     @property
-    def name(self):
+    def name(self) -> str:
         return self.folder.resolve().name
 
     @property
-    def title(self):
+    def title(self) -> str:
         return self.mill.title or self.name
 
     @property
-    def radius(self):
+    def radius(self) -> float:
         return self.mill.radius
 
     @property
-    def length(self):
+    def length(self) -> float:
         return self.mill.length
 
     @property
-    def is_slice(self):
+    def is_slice(self) -> bool:
         return self.mill.is_slice
 
     @property
-    def lifter_height(self):
+    def lifter_height(self) -> float:
         """m; 0 for a smooth drum."""
         return self.mill.lifters[1]
 
     @property
-    def omega(self):
+    def omega(self) -> float:
         """Angular speed about z, right-handed, rad/s."""
         return self.mill.omega
 
     @cached_property
-    def turn(self):
+    def turn(self) -> float:
         """Time of a turn of the mill, s."""
         return self.mill.turn
 
     @cached_property
-    def has_balls(self):
+    def has_balls(self) -> bool:
         """Whether the charge is in the flow, or there is no flow."""
         return bool(not self.flow or self.law or self.flow.displaced)
 
     @cached_property
-    def outline(self):
+    def outline(self) -> np.ndarray:
         """The mill's outline [n, 2] (m) at the end of the averaged time."""
         if self.flow:
             return self.flow.turned(self.flow.outline(), self.last)
         return self.outline_at(self.charge_span[1] if self.solids else 0)
 
-    def outline_at(self, time):
+    def outline_at(self, time: float) -> np.ndarray:
         """The outline [n, 2] (m) at DEM time `time` (s): lifter 1 stands at +x at time 0."""
         return lifter_outline(self.radius, *self.mill.lifters, self.omega * time)
 
-    def json(self, path, kind):
+    def json(self, path: Path, kind: str) -> dict[str, Any] | None:
         """Content of a JSON file millfoam-`kind`, or None; one that cannot be read is told in `unusable`."""
         if not path.is_file():
             return None
         return self._told(lambda: read_json(path, kind))
 
-    def _told(self, read, none=None):
+    def _told(self, read: Callable[[], Any], none: Any = None) -> Any:
         """What read() gives; `none`, and the error's text in `unusable`, if it raises one."""
         try:
             return read()
@@ -114,7 +117,7 @@ class MillCase:
     # The charge
 
     @cached_property
-    def solids(self):
+    def solids(self) -> Path | None:
         """solids.h5, with links followed, where it is whole and of a box's voxels."""
         path = self.folder / "solids.h5"
         if not self._whole(path, "average the dumps again (millAverage)"):
@@ -125,7 +128,7 @@ class MillCase:
                 return None
         return path.resolve()
 
-    def _whole(self, path, advice):
+    def _whole(self, path: Path, advice: str) -> bool:
         """Whether a file of averages is there and whole."""
         if not path.is_file():
             return False
@@ -140,48 +143,48 @@ class MillCase:
         return False
 
     @cached_property
-    def charge_folders(self):
+    def charge_folders(self) -> list[Path]:
         """Folders in which the charge may have been made: the case's, and that of solids.h5 where that is a link."""
         return list(dict.fromkeys([self.folder.resolve()] + ([self.solids.parent] if self.solids else [])))
 
     @cached_property
-    def dry(self):
+    def dry(self) -> Path | None:
         """The folder dumps/ of the dry run's results."""
         return next((place / "dumps" for place in self.charge_folders if (place / "dumps" / "results.json").is_file()
                      and self.json(place / "dumps" / "results.json", "charge")), None)
 
     @cached_property
-    def results(self):
+    def results(self) -> dict[str, Any] | None:
         """results.json of the dry run."""
         return self.json(self.dry / "results.json", "charge") if self.dry else None
 
-    def result(self, *keys):
+    def result(self, *keys: str) -> float:
         """A number of results.json, NaN for null; DataError where there is none."""
         return number(self.results, self.dry / "results.json", *keys)
 
     @cached_property
-    def energy(self):
+    def energy(self) -> dict[str, np.ndarray] | None:
         """energy.csv of the dry run: column -> values over its records."""
         return self._columns("energy.csv")
 
     @cached_property
-    def overlaps(self):
+    def overlaps(self) -> dict[str, np.ndarray] | None:
         """overlaps.csv: overlap_m, contacts of balls and with walls."""
         return self._columns("overlaps.csv")
 
-    def _columns(self, name):
+    def _columns(self, name: str) -> dict[str, np.ndarray] | None:
         path = self.dry / name if self.dry else None
         found = self._told(lambda: read_csv(path)) if path and path.is_file() else None
         return found if found and len(next(iter(found.values()))) > 1 else None
 
     @cached_property
-    def solids_span(self):
+    def solids_span(self) -> tuple[float, float]:
         """DEM times that solids.h5 covers, s."""
         with h5py.File(self.solids) as file:
             return float(file["window/begin"][0]), float(file["window/end"][-1])
 
     @cached_property
-    def charge_span(self):
+    def charge_span(self) -> tuple[float, float]:
         """DEM times between which the charge is averaged, s."""
         first, last = self.solids_span
         if self.flow:
@@ -192,23 +195,23 @@ class MillCase:
         return min(max(first, steady), (first + last) / 2), last
 
     @cached_property
-    def charge_windows(self):
+    def charge_windows(self) -> list[SolidsMap]:
         """SolidsMap of each window of charge_span."""
         return solids_file.read_windows(self.solids, *self.charge_span) if self.solids else []
 
     @cached_property
-    def charge(self):
+    def charge(self) -> SolidsMap | None:
         """SolidsMap of the charge over charge_span."""
         return solids_file.mean_map(self.charge_windows) if self.solids else None
 
     @cached_property
-    def contacts(self):
+    def contacts(self) -> Path | None:
         """The folder that holds the dry run's contacts/ beside its dumps/, or None."""
         folder = self.dry.parent if self.dry else None
         return folder if folder and any((folder / "contacts").glob("pairs.*.txt")) else None
 
     @cached_property
-    def contact_times(self):
+    def contact_times(self) -> list[float]:
         """DEM times of the dumps of contacts, s."""
         timestep = read_timestep(self.contacts / "dumps")
         return [step * timestep for step in contact_steps(self.contacts)]
@@ -216,7 +219,7 @@ class MillCase:
     # The flow
 
     @cached_property
-    def flow(self):
+    def flow(self) -> MillFlow | None:
         # millMesh writes the mill's mesh and numbers for a dry run too
         record = self.folder / "postProcessing" / "flow"
         if not (times(self.folder) or any(self.folder.glob("processor*")) or record.is_dir()):
@@ -228,27 +231,27 @@ class MillCase:
             return None
 
     @cached_property
-    def record(self):
+    def record(self) -> FlowRecord:
         """FlowRecord of the flow's steps and summaries, empty where there is none."""
         return self._told(lambda: read_flow_record(self.folder), FlowRecord(None, []))
 
     @cached_property
-    def last(self):
+    def last(self) -> float:
         """Flow time of the last written fields, s."""
         return self.flow.frames[-1][0]
 
     @cached_property
-    def duration(self):
+    def duration(self) -> float:
         """Time that the flow was to last, s; NaN where the mill does not tell it."""
         return float(self.mill.flow("duration_s") or np.nan)
 
     @cached_property
-    def is_cut_short(self):
+    def is_cut_short(self) -> bool:
         """Whether the flow has not come to the end that the mill asks for."""
         return self.record.complete is False or self.last < (1 - CUT) * self.duration
 
     @cached_property
-    def begin(self):
+    def begin(self) -> float:
         """Flow time from which averages are taken, s: of a flow that has less than half of what was to be averaged,
         its half."""
         if self.asked_begin is not None:
@@ -260,28 +263,28 @@ class MillCase:
         return start if self.last - start > planned / 2 else self.last / 2
 
     @cached_property
-    def load(self):
+    def load(self) -> tuple[float, float] | None:
         """Mean and 95th percentile of the fluid's force on the balls over their weight, or None."""
         return self.flow.load(self.begin) if self.flow else None
 
     @cached_property
-    def balance(self):
+    def balance(self) -> dict[str, np.ndarray] | None:
         """Columns of slurryBalance."""
         return self._table("slurryBalance", lambda: tables.read_columns(self.folder, "slurryBalance"))
 
     @cached_property
-    def is_open(self):
+    def is_open(self) -> bool:
         """Whether slurry is fed or let out: more than round-off."""
         told = self.balance
         through = max(np.abs(told["feed"]).max(), np.abs(told["discharge"]).max()) * np.ptp(told["Time"])
         return through > 1e-6 * told["holdUp"].max()
 
     @property
-    def met_balls(self):
+    def met_balls(self) -> bool:
         """Whether slurryBalance told Reynolds numbers of balls in slurry."""
         return "Re_mean" in self.balance and bool((self.balance["Re_mean"] > 0).any())
 
-    def axial(self, quantity):
+    def axial(self, quantity: str) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
         """Places (m) [slices], times (s) [n] and values [n, slices] of axialProfiles, or None."""
         found = self._table("axialProfiles", lambda: tables.read_table(self.folder, "axialProfiles", quantity))
         if found is None:
@@ -289,24 +292,24 @@ class MillCase:
         names, rows = found
         return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
 
-    def _table(self, name, read):
+    def _table(self, name: str, read: Callable[[], Any]) -> Any:
         """What read() gives of a function object's table; None without a flow and, told where there are such tables,
         if it cannot be read."""
         return self._told(read) if self.flow and (self.folder / "postProcessing" / name).is_dir() else None
 
     @cached_property
-    def slurry(self):
+    def slurry(self) -> Path | None:
         """slurry.h5, where it is whole."""
         path = self.folder / "slurry.h5"
         return path if self._whole(path, "let the flow run to its end (voxelAverages.H)") else None
 
     @property
-    def feed(self):
+    def feed(self) -> float | None:
         """Feed rate, m3/s, or None."""
         return self.mill.flow("feed_m3_s") or None
 
     @cached_property
-    def law(self):
+    def law(self) -> str | None:
         """The drag law's name, or None without balls or flow: what the solver tells, else what the mill asks for."""
         if not self.flow:
             return None

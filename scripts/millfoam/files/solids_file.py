@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads solids.h5, the averaged charge (layout: averaging/README.md), whole or window by window."""
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -11,7 +12,7 @@ CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: some ball once grazed the voxel
 
 
-def open_hdf5(path):
+def open_hdf5(path: Path | str) -> h5py.File:
     """An HDF5 file to read; RuntimeError naming it where it is missing, cut short or none."""
     try:
         return h5py.File(path, "r")
@@ -36,35 +37,36 @@ class SolidsMap:
     end: float
     sense: float = field(default=CLOCKWISE, kw_only=True)
 
-    def centres(self):
+    def centres(self) -> tuple[np.ndarray, np.ndarray]:
         """Centres of the voxels: x [nx], y [ny] (m)."""
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
-    def balls(self):
+    def balls(self) -> np.ndarray:
         """Share of each column's volume, within the mill or not, that balls fill [ny, nx]; nought where that is not
         known."""
         return np.nan_to_num(self.solidity) * self.inside
 
-    def flux(self):
+    def flux(self) -> np.ndarray:
         """Balls' volume flux over the voxels' area [ny, nx, 3] (m/s); nought where there are no balls."""
         return self.balls()[..., None] * np.nan_to_num(self.velocity)
 
-    def centroid(self):
+    def centroid(self) -> tuple[float, float]:
         """Centre (x, y) of the balls' volume, m."""
         (x, y), balls = self.centres(), self.balls()
         return float((balls.sum(axis=0) * x).sum() / balls.sum()), float((balls.sum(axis=1) * y).sum() / balls.sum())
 
 
-def _map(edges, inside, balls, flux, begin, end, faint, sense):
+def _map(edges: Sequence[np.ndarray], inside: np.ndarray, balls: np.ndarray, flux: np.ndarray, begin: float, end: float,
+         faint: float, sense: float) -> SolidsMap:
     """SolidsMap out of means of the room within the walls, of the balls' volume in it [ny, nx], and of their flux [ny,
     nx, 3]; no velocity up to a solidity of `faint`."""
     with np.errstate(invalid="ignore", divide="ignore"):
         velocity = np.where(balls[..., None] > faint, flux / balls[..., None], np.nan)
         solidity = np.where(inside > 0, balls / inside, 0.0)
-    return SolidsMap(*edges, inside, solidity, velocity, float(begin), float(end), sense=sense)
+    return SolidsMap(edges[0], edges[1], inside, solidity, velocity, float(begin), float(end), sense=sense)
 
 
-def read_windows(path, begin=-np.inf, end=np.inf):
+def read_windows(path: Path | str, begin: float = -np.inf, end: float = np.inf) -> list[SolidsMap]:
     """Mean over the axis of each window that touches [begin, end) of DEM time (s): a list of SolidsMap in order of
     time; velocity is weighted by solidity; clockwise unless the file tells another angular velocity. RuntimeError if
     the file is not complete or there is no such window."""
@@ -89,25 +91,25 @@ def read_windows(path, begin=-np.inf, end=np.inf):
     return maps
 
 
-def mean_map(maps):
+def mean_map(maps: Sequence[SolidsMap]) -> SolidsMap:
     """Mean of SolidsMap of equally long windows on the same voxels; velocity is weighted by solidity."""
-    inside, balls, flux = (sum(parts) / len(maps) for parts in (
+    inside, balls, flux = (np.asarray(sum(parts)) / len(maps) for parts in (
         [one.inside for one in maps], [one.balls() for one in maps], [one.flux() for one in maps]))
     return _map((maps[0].x, maps[0].y), inside, balls, flux, maps[0].begin, maps[-1].end, FAINT, maps[0].sense)
 
 
-def span_of_flow(first, last, begin, end):
+def span_of_flow(first: float, last: float, begin: float, end: float) -> tuple[float, float]:
     """DEM times (s) over which the charge of a flow from `begin` to `end` is averaged, of a record from `first` to
     `last`: the same, or the whole record where the flow outlasts it, which is then held or repeated."""
     return (begin, end) if end <= last * (1 + 1e-9) and begin >= first else (first, last)
 
 
-def recorded_span(path):
+def recorded_span(path: Path | str) -> tuple[float, float]:
     """DEM times at which the first window of a solids.h5 begins and the last one ends, s."""
     with open_hdf5(path) as file:
         return float(file["window/begin"][0]), float(file["window/end"][-1])
 
 
-def read_map(path, begin=-np.inf, end=np.inf):
+def read_map(path: Path | str, begin: float = -np.inf, end: float = np.inf) -> SolidsMap:
     """Mean over axis and time of the windows that touch [begin, end) of DEM time (s), see read_windows."""
     return mean_map(read_windows(path, begin, end))

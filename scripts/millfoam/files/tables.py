@@ -10,7 +10,7 @@ class TableError(RuntimeError):
     """A table that cannot be read; the message names the file, the line and the reason."""
 
 
-def _read_file(path):
+def _read_file(path: Path) -> tuple[float, list[str], list[list[float]]]:
     """When the file was begun (s since 1970; its modification where it does not say), words of its last comment line
     and its rows. A last line without an end is what a killed flow was writing: it is left out."""
     begun, names, rows = path.stat().st_mtime, [], []
@@ -29,19 +29,20 @@ def _read_file(path):
     return begun, names, rows
 
 
-def read_table(case, name, file=None):
+def read_table(case: Path | str, name: str, file: str | None = None) -> tuple[list[str], np.ndarray]:
     """Column names and rows [times, columns] of a function object's table, the time (s) in the first column.
 
     A flow that went on after it was broken off wrote further files: from a file's first time on, its rows replace those
     of the files that were begun before it. TableError where there is none, or the files' columns differ."""
     file = file or name
     folder = Path(case) / "postProcessing" / name
-    names = re.compile(rf"{re.escape(file)}(_[\d.e+-]+)?")
-    found = [path for path in folder.glob(f"*/{file}*.dat") if names.fullmatch(path.stem)]
+    stem = re.compile(rf"{re.escape(file)}(_[\d.e+-]+)?")
+    found = [path for path in folder.glob(f"*/{file}*.dat") if stem.fullmatch(path.stem)]
     if not found:
         raise TableError(f"{folder}: no {file}.dat; did the flow run with this function object?")
     files = sorted((*_read_file(path), path) for path in found)
-    names, rows = files[0][1], []
+    names = files[0][1]
+    rows: list[list[float]] = []
     for _, columns, later, path in files:
         if columns != names:
             raise TableError(f"{path}: its columns are not those of {files[0][3]}")
@@ -52,7 +53,7 @@ def read_table(case, name, file=None):
     return names, np.array(rows)
 
 
-def read_columns(case, name):
+def read_columns(case: Path | str, name: str) -> dict[str, np.ndarray]:
     """The same as a dictionary: column name -> values [times]; names without their units, `holdUp` for `holdUp_m3`."""
     names, rows = read_table(case, name)
     return {re.sub(r"_(s|m|m3|m3/s|m/s|Nm|W|Pa)$", "", column): rows[:, k] for k, column in enumerate(names)}

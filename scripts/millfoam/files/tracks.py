@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tracks of single balls: of tracers from text files, and out of the dumps of a dry run (layout:
 dem_driver/README.md)."""
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,7 +18,7 @@ class Trajectory:
     time: np.ndarray
     position: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.time, self.position = np.asarray(self.time, dtype=float), np.asarray(self.position, dtype=float)
         if self.position.shape != (len(self.time), 3) or len(self.time) < 2:
             raise ValueError(f"{len(self.time)} times and positions {self.position.shape}; expected [n] and [n, 3], n "
@@ -28,12 +29,12 @@ class Trajectory:
             raise ValueError(f"time does not increase after {self.time[np.argmax(np.diff(self.time) <= 0)]} s")
 
 
-def read_trajectory(path, time_unit=1.0, length_unit=1.0):
+def read_trajectory(path: Path | str, time_unit: float = 1.0, length_unit: float = 1.0) -> Trajectory:
     """Trajectory from a text file of lines t, x, y, z, parted by commas or blanks; empty lines, lines that begin with
     #, and one line of names at the top are skipped. Units: in s and m. RuntimeError naming file, line and value for a
     wrong number of columns, a word that is no number or not finite, time that does not increase, or fewer than two
     points."""
-    rows = []
+    rows: list[list[float]] = []
     with open(path) as file:
         for number, line in enumerate(file, 1):
             words = line.replace(",", " ").split()
@@ -50,7 +51,7 @@ def read_trajectory(path, time_unit=1.0, length_unit=1.0):
     return Trajectory(table[:, 0] * time_unit, table[:, 1:] * length_unit)
 
 
-def _is_number(word):
+def _is_number(word: str) -> bool:
     try:
         float(word)
     except ValueError:
@@ -58,7 +59,7 @@ def _is_number(word):
     return True
 
 
-def _numbers(where, words):
+def _numbers(where: str, words: list[str]) -> list[float]:
     if len(words) != 4:
         raise RuntimeError(f"{where}: {len(words)} columns, expected 4: t, x, y, z")
     for word in words:
@@ -67,7 +68,8 @@ def _numbers(where, words):
     return [float(word) for word in words]
 
 
-def read_tracks(dumps, ids, begin=0.0, end=np.inf):
+def read_tracks(dumps: Path | str, ids: Iterable[int], begin: float = 0.0,
+                end: float = np.inf) -> dict[int, Trajectory]:
     """Tracks of the balls with these ids in the dumps from `begin` to `end` (DEM time, s): {id: Trajectory}.
 
     dumps: the folder DIR/dumps of a run that is whole. Every dump is read once; only the lines of the balls asked for
@@ -91,7 +93,7 @@ def read_tracks(dumps, ids, begin=0.0, end=np.inf):
     return {int(ball): Trajectory(time, positions[:, column]) for column, ball in enumerate(wanted)}
 
 
-def balls_of_dump(path, wanted):
+def balls_of_dump(path: Path | str, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions [len(wanted), 3] (m) of the balls `wanted` (ids, ascending) in one dump, and the box's periods [3],
     inf where it has walls."""
     data = Path(path).read_bytes()
@@ -110,7 +112,7 @@ def balls_of_dump(path, wanted):
     return table[:, [names.index(name) for name in POSITION]], periods
 
 
-def _header(path, data):
+def _header(path: Path | str, data: bytes) -> tuple[list[str], np.ndarray, int]:
     """Names of the columns, periods of the box (m) and where the first ball's line begins."""
     mark = data.find(b"ITEM: ATOMS")
     start = data.find(b"\n", mark) + 1
@@ -125,7 +127,7 @@ def _header(path, data):
     return names, np.where(periodic, bounds[:, 1] - bounds[:, 0], np.inf), start
 
 
-def _leading_numbers(text, starts):
+def _leading_numbers(text: np.ndarray, starts: np.ndarray) -> np.ndarray:
     """The whole numbers that begin at `starts` of a text [bytes], each up to the first character that is no digit."""
     numbers = np.zeros(len(starts), dtype=np.int64)
     digits = np.ones(len(starts), dtype=bool)

@@ -16,7 +16,7 @@ from . import foam
 class MillFlow:
     """The flow in case directory `case`; `frames` are its written times [(s, Path)], the initial one included."""
 
-    def __init__(self, case):
+    def __init__(self, case: Path | str) -> None:
         self.case = Path(case)
         path = self.case / "constant" / "millProperties"
         properties = foam.read_dictionary(path)
@@ -39,19 +39,19 @@ class MillFlow:
         self.chamber = self.centres[:, 2] < self.length
         self.column_volume = np.bincount(self.column, self.volumes * self.chamber)
         self._tree = cKDTree(self.column_centres)
-        self._outline = None
-        self._pixels = {}
+        self._outline: np.ndarray | None = None
+        self._pixels: dict[tuple, np.ndarray] = {}
 
-    def turned(self, points, time):
+    def turned(self, points: np.ndarray, time: float) -> np.ndarray:
         """x-y points [n, 2] of the mesh at flow time 0, where they are at `time`."""
         c, s = np.cos(self.omega * time), np.sin(self.omega * time)
         return points @ np.array([[c, s], [-s, c]])
 
-    def field(self, name, path):
+    def field(self, name: str, path: Path) -> np.ndarray:
         """A field of a written time as [cells] or [cells, components]."""
         return foam.read_field(path / name, self.mesh.cells)
 
-    def over_axis(self, values, weights=1.0):
+    def over_axis(self, values: np.ndarray, weights: np.ndarray | float = 1.0) -> np.ndarray:
         """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these vanish."""
         weight = self.volumes * self.chamber * weights
         total = np.bincount(self.column, weight)
@@ -59,24 +59,24 @@ class MillFlow:
             return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total,
                             np.nan)
 
-    def _end_faces(self):
+    def _end_faces(self) -> np.ndarray:
         """Numbers of the feed end's faces, those of an inlet in it too."""
         patches = [self.mesh.patches[name] for name in ("feedEnd", "inlet") if name in self.mesh.patches]
         return np.concatenate([np.arange(patch.start, patch.start + patch.size) for patch in patches])
 
-    def end_wall(self):
+    def end_wall(self) -> tuple[np.ndarray, np.ndarray]:
         """Quads of the feed end: [faces, 4, 2] (m) at flow time 0, and each one's column [faces]."""
         numbers = self._end_faces()
         quads = self.mesh.points[np.array([self.mesh.faces[face] for face in numbers])][:, :, :2]
         return quads, self.column[self.mesh.owner[numbers]]
 
-    def outline(self):
+    def outline(self) -> np.ndarray:
         """The mill's inner outline, shell and lifters, as a closed polygon [n + 1, 2] (m) at flow time 0."""
         if self._outline is None:
             self._outline = self._find_outline()
         return self._outline
 
-    def _find_outline(self):
+    def _find_outline(self) -> np.ndarray:
         following = {}
         edges = [(face[i], face[(i + 1) % 4]) for face in (self.mesh.faces[number] for number in self._end_faces())
                  for i in range(4)]
@@ -89,7 +89,7 @@ class MillFlow:
             loop.append(following[loop[-1]])
         return self.mesh.points[loop][:, :2]
 
-    def on_grid(self, column_values, time, x, y):
+    def on_grid(self, column_values: np.ndarray, time: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Column values [columns] at pixels x [nx], y [ny] (m, lab frame) at `time`: [ny, nx], NaN outside the mill."""
         # Maps ask for several fields on the same pixels at the same times
         key = (time, len(x), x[0], x[-1], len(y), y[0], y[-1])
@@ -97,7 +97,7 @@ class MillFlow:
             self._pixels[key] = self._columns_of(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), time)
         return np.append(column_values, np.nan)[self._pixels[key]].reshape(len(y), len(x))
 
-    def _columns_of(self, points, time):
+    def _columns_of(self, points: np.ndarray, time: float) -> np.ndarray:
         """Column in which each point [n, 2] (m, lab frame) is at `time`; one beyond the last where it is outside the
         mill."""
         back = self.turned(points, -time)
@@ -106,33 +106,31 @@ class MillFlow:
         columns[inside] = self._tree.query(back[inside])[1]
         return columns
 
-    def slurry(self, path):
+    def slurry(self, path: Path) -> np.ndarray:
         """Volume of slurry in each cell [cells] at a written time, m^3: its share of what the balls leave of the cell,
         where they displace it. Of the initial time, written before the flow knew its balls, this cannot be told."""
         volume = self.field("alpha.slurry", path) * self.volumes
         return volume * (1 - self.field("solidity", path)) if self.displaced else volume
 
-    def slurry_volumes(self):
+    def slurry_volumes(self) -> tuple[float, float]:
         """Volume of slurry at the first and the last written time that have it, m^3."""
         first = next(path for _, path in self.frames if not self.displaced or (path / "solidity").is_file())
-        return tuple(float(self.slurry(path).sum()) for path in (first, self.frames[-1][1]))
+        return float(self.slurry(first).sum()), float(self.slurry(self.frames[-1][1]).sum())
 
-    def load(self, begin):
+    def load(self, begin: float) -> tuple[float, float] | None:
         """Force of the fluid on the balls over their weight, at the written times from `begin` (s) on: its mean and its
         95th percentile over the balls' volume, or None where the flow did not tell it."""
-        ratios, balls = [], []
-        for time, path in self.frames:
-            if time >= begin - 1e-9 and (path / "forceOverWeight").is_file():
-                ratios.append(self.field("forceOverWeight", path))
-                balls.append(self.field("solidity", path) * self.volumes)
-        if not ratios:
+        paths = [path for time, path in self.frames
+                 if time >= begin - 1e-9 and (path / "forceOverWeight").is_file()]
+        if not paths:
             return None
-        ratios, balls = np.concatenate(ratios), np.concatenate(balls)
+        ratios = np.concatenate([self.field("forceOverWeight", path) for path in paths])
+        balls = np.concatenate([self.field("solidity", path) * self.volumes for path in paths])
         order = np.argsort(ratios)
         share = np.cumsum(balls[order]) / balls.sum()
         return float(np.average(ratios, weights=balls)), float(ratios[order][np.searchsorted(share, 0.95)])
 
-    def slurry_centroid(self, time, path):
+    def slurry_centroid(self, time: float, path: Path) -> tuple[float, float]:
         """Centre (x, y) of the slurry's volume at a written time, m."""
         weight = self.slurry(path)
         centre = (weight[:, None] * self.turned(self.centres[:, :2], time)).sum(axis=0) / weight.sum()

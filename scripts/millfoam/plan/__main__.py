@@ -9,18 +9,21 @@ import argparse
 import json
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from ..files.data_files import DataError
-from ..files.mill import NoMill, read_mill
+from ..files.mill import Mill, NoMill, read_mill
 from ..run import RunError
-from .stages import make_stages, total
+from .stages import FlowPlan, Stage, make_stages, total
+from .trial import MeshTrial
 
 BUSY = 0.4  # load per core above which others are told to be at work
 SHORT = 10.0  # s; times below are not told exactly
 
 
-def time_text(seconds):
+def time_text(seconds: float) -> str:
     """Time in words: `< 10 s`, `25 s`, `12 min`, `3.4 h`."""
     if seconds < SHORT:
         return f"< {SHORT:.0f} s"
@@ -29,14 +32,14 @@ def time_text(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-def size_text(size):
+def size_text(size: float) -> str:
     """Bytes in words: `< 1 MB`, `25 MB`, `1.9 GB`."""
     if size < 1e6:
         return "< 1 MB"
     return f"{size / 1e6:.0f} MB" if size < 1e9 else f"{size / 1e9:.1f} GB"
 
 
-def table(stages):
+def table(stages: Sequence[Stage]) -> list[str]:
     """Lines of the table of Stages, with their total."""
     rows = [("stage", "time", "disk", "memory", "from")]
     rows += [(one.name, time_text(one.time), size_text(one.disk), size_text(one.memory), one.source)
@@ -44,9 +47,10 @@ def table(stages):
     return [f"{row[0]:20} {row[1]:>8} {row[2]:>9} {row[3]:>9}   {row[4]}".rstrip() for row in rows]
 
 
-def write_plan(path, mill, ranks, charge, stages, plan, mesh):
+def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: Sequence[Stage], plan: FlowPlan,
+               mesh: MeshTrial) -> None:
     """Writes plan.json: the Stages as numbers, and what the flow's are made of."""
-    def numbers(one):
+    def numbers(one: Stage) -> dict[str, Any]:
         return {"time_s": one.time, "disk_bytes": round(one.disk), "memory_bytes": round(one.memory)}
     content = {"format": "millfoam-plan", "program": "plan", "tools": mill.content.get("program"),
                "mill": mill.fingerprint, "ranks": ranks, "charge_from": charge, "cells": mesh.cells,
@@ -58,7 +62,7 @@ def write_plan(path, mill, ranks, charge, stages, plan, mesh):
     os.replace(part, path)
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(prog="plan", description="time, disk and memory of every stage of a mill's case")
     parser.add_argument("folder", help="with the resolved mill, mill.json")
     parser.add_argument("-np", dest="ranks", type=int, default=1, metavar="N", help="number of processes")
@@ -78,7 +82,7 @@ def main():
     print("\n".join(table(stages)))
     print(f"The flow: {mesh.cells} cells, about {plan.steps} steps of {1e3 * plan.time_step:.3g} ms, "
           f"{plan.written_times} written times, on {options.ranks} process{'es' if options.ranks > 1 else ''}")
-    cores = os.cpu_count()
+    cores = os.cpu_count() or 1
     if before > BUSY * cores:
         print(f"Other programs were at work (load {before:.1f} on {cores} cores): a free machine takes less time")
     if options.charge:

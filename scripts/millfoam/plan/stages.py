@@ -3,11 +3,14 @@
 "What it will take")."""
 import math
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ..files.data_files import entry, number
-from .trial import Cost, try_charge, try_flow, try_mesh
+from ..files.mill import Mill
+from .trial import Cost, FlowTrial, MeshTrial, try_charge, try_flow, try_mesh
 
 GRAVITY = 9.81
 
@@ -44,11 +47,11 @@ class FlowPlan:
     windows: int
 
 
-def flow_number(mill, *keys):
+def flow_number(mill: Mill, *keys: str) -> float:
     return mill.derived("flow", *keys)
 
 
-def typical_time_step(mill, cell):
+def typical_time_step(mill: Mill, cell: float) -> float:
     """Time-step in s at which a flow through cells of that size (m, across the mill) will go for most of its time.
 
     The largest one allowed, or those at which slurry that falls through the mill, U = sqrt(2 g D + (omega R)^2),
@@ -62,7 +65,7 @@ def typical_time_step(mill, cell):
     return smallest * sum((limit / smallest) ** -8 for limit in limits) ** (-1 / 8)
 
 
-def plan_flow(mill, mesh):
+def plan_flow(mill: Mill, mesh: MeshTrial) -> FlowPlan:
     """FlowPlan of a Mill on a MeshTrial's mesh. Written times are met exactly, which shortens steps."""
     cell = math.sqrt(mesh.volume / mill.length / mesh.cells_in_section)
     time_step = typical_time_step(mill, cell)
@@ -73,13 +76,14 @@ def plan_flow(mill, mesh):
     return FlowPlan(time_step, *(math.ceil(count - 1e-6) for count in (steps, written_times, windows)))
 
 
-def charge_stage(dem):
+def charge_stage(dem: dict[str, Any]) -> Stage:
     """Stage of the dry run from millDem's plan."""
     keys = ("wall_time_s", "disk_bytes", "memory_bytes")
-    return Stage("charge", *(number(dem, "dem_plan.json", key) for key in keys), "trial of the dry run")
+    time, disk, memory = (number(dem, "dem_plan.json", key) for key in keys)
+    return Stage("charge", time, disk, memory, "trial of the dry run")
 
 
-def average_stage(mill, dem):
+def average_stage(mill: Mill, dem: dict[str, Any]) -> Stage:
     """Stage of the averages: a ball's record takes about as long as a ball's step of the dry run.
 
     Where the averages start once the charge is steady, that is the second half of the dry run at the latest: that
@@ -95,7 +99,7 @@ def average_stage(mill, dem):
                  "rate of the dry run's trial")
 
 
-def flow_stage(mill, mesh, trial, plan, ranks):
+def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ranks: int) -> Stage:
     """Stage of the flow with its reconstruction."""
     balls = mill.flow("balls")
     step = trial.step_time * (STEP_WITH_BALLS if balls else STEP_WITHOUT)
@@ -109,13 +113,13 @@ def flow_stage(mill, mesh, trial, plan, ranks):
                  "trial of the flow's first steps")
 
 
-def pictures_stage(plan):
+def pictures_stage(plan: FlowPlan) -> Stage:
     """Stage of the pictures and the report."""
     return Stage("pictures and report", PICTURES_TIME + FRAME_TIME * min(FRAMES, plan.written_times), PICTURES_DISK,
                  PYTHON_MEMORY, "earlier runs")
 
 
-def make_stages(mill, ranks, charge=None):
+def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list[Stage], FlowPlan, MeshTrial]:
     """All Stages of a Mill's case and its FlowPlan and MeshTrial; trials are made in a temporary folder.
 
     charge: folder of the case that the charge is taken from; its stages are not told then. RunError with a tool's own
@@ -139,7 +143,7 @@ def make_stages(mill, ranks, charge=None):
     return stages, plan, mesh
 
 
-def total(stages):
+def total(stages: Sequence[Stage]) -> Stage:
     """Stage of all: sums of time and disk, the largest memory."""
     return Stage("total", sum(one.time for one in stages), sum(one.disk for one in stages),
                  max(one.memory for one in stages), "")

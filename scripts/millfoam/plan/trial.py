@@ -4,8 +4,10 @@ import os
 import shutil
 import subprocess
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ..files.data_files import number, read_json
 from ..run import RunError
@@ -47,18 +49,19 @@ class FlowTrial:
     memory: float
 
 
-def disk(*paths):
+def disk(*paths: Path) -> float:
     """Bytes of all files in folders."""
     return float(sum(file.stat().st_size for path in paths for file in Path(path).rglob("*") if file.is_file()))
 
 
-def run_measured(folder, *command, log="log", watch=None, ranks=1):
+def run_measured(folder: Path | str, *command: Any, log: str = "log", watch: Callable[[float], None] | None = None,
+                 ranks: int = 1) -> Cost:
     """Runs a command in a folder and returns its Cost. RunError with the command's own words where it fails.
 
     log: file in the folder that receives what it prints. watch(seconds): called now and then while it runs."""
     environment = {**os.environ, "PWD": str(Path(folder).resolve()), "MILLFOAM_NP": str(ranks)}
-    begun, log = time.monotonic(), Path(folder) / log
-    with open(log, "w") as out:
+    begun, place = time.monotonic(), Path(folder) / log
+    with open(place, "w") as out:
         child = subprocess.Popen([str(word) for word in command], cwd=folder, env=environment, stdout=out,
                                  stderr=subprocess.STDOUT)
     try:
@@ -73,11 +76,11 @@ def run_measured(folder, *command, log="log", watch=None, ranks=1):
         raise
     child.returncode = os.waitstatus_to_exitcode(code)
     if child.returncode:
-        raise RunError(told_by(command[0], log))
+        raise RunError(told_by(command[0], place))
     return Cost(time.monotonic() - begun, 1024.0 * resources.ru_maxrss)
 
 
-def told_by(program, log):
+def told_by(program: str, log: Path) -> str:
     """A tool's own sentence of error, or where there is none the end of what it printed."""
     lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
     for place, line in enumerate(lines):
@@ -86,14 +89,14 @@ def told_by(program, log):
     return "\n".join([f"{program} failed; it printed last:", *lines[-15:]])
 
 
-def try_charge(folder, mill, ranks):
+def try_charge(folder: Path | str, mill: Path | str, ranks: int) -> dict[str, Any]:
     """Content of millDem's plan of a mill.json: time, disk and memory of the dry run from a trial of half a minute."""
     file = Path(folder) / "dem_plan.json"
     run_measured(folder, "millDem", "plan", mill, "-np", ranks, "--json", file)
     return read_json(file, "dem-plan")
 
 
-def try_mesh(folder, mill):
+def try_mesh(folder: Path | str, mill: Path | str) -> MeshTrial:
     """Makes `folder` a case of the mill without balls, with its mesh, and returns its MeshTrial."""
     folder = Path(folder)
     for part in ("0.orig", "constant", "system"):
@@ -106,7 +109,7 @@ def try_mesh(folder, mill):
                      mesh_disk=disk(folder / "constant"))
 
 
-def shorten(folder, largest_step):
+def shorten(folder: Path, largest_step: float) -> None:
     """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row
     at the end of each step."""
     with open(folder / "system" / "controlDict", "a") as control:
@@ -117,36 +120,36 @@ def shorten(folder, largest_step):
                       'log no; } }\n')
 
 
-def try_flow(folder, solver, largest_step, ranks):
+def try_flow(folder: Path | str, solver: str, largest_step: float, ranks: int) -> FlowTrial:
     """FlowTrial of a mill's case whose mesh try_mesh made. largest_step: of the time, s."""
-    folder = Path(folder)
+    case = Path(folder)
     program = ["slurryFoam"]
     if solver == "interFoam":
         program = ["millInterFoam"]
-        shutil.copytree(TEMPLATE / "interFoam", folder, dirs_exist_ok=True)
-        (folder / "constant" / "fvOptions").unlink()
-    (folder / "constant" / "bedProperties").unlink()
-    shorten(folder, largest_step)
-    shutil.copytree(folder / "0.orig", folder / "0")
-    start = [run_measured(folder, "slurryStart", ranks=ranks)]
+        shutil.copytree(TEMPLATE / "interFoam", case, dirs_exist_ok=True)
+        (case / "constant" / "fvOptions").unlink()
+    (case / "constant" / "bedProperties").unlink()
+    shorten(case, largest_step)
+    shutil.copytree(case / "0.orig", case / "0")
+    start = [run_measured(case, "slurryStart", ranks=ranks)]
     if ranks > 1:
-        start.append(run_measured(folder, "decomposePar", "-force", ranks=ranks))
-        program = ["mpirun", "-np", ranks, *program, "-parallel"]
-    start_disk = disk(folder / "0", *folder.glob("processor*"))
-    seen = []
+        start.append(run_measured(case, "decomposePar", "-force", ranks=ranks))
+        program = ["mpirun", "-np", str(ranks), *program, "-parallel"]
+    start_disk = disk(case / "0", *case.glob("processor*"))
+    seen: list[float] = []
 
-    def watch(seconds):
-        steps = steps_done(folder)
+    def watch(seconds: float) -> None:
+        steps = steps_done(case)
         if steps > len(seen):
             seen.extend([seconds] * (steps - len(seen)))
         if seconds > TRIAL_TIME and steps >= FEWEST_STEPS:
-            (folder / "stop").touch()
-    cost = run_measured(folder, *program, log="log.flow", watch=watch, ranks=ranks)
+            (case / "stop").touch()
+    cost = run_measured(case, *program, log="log.flow", watch=watch, ranks=ranks)
     return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk,
                      step_time(seen), cost.memory)
 
 
-def steps_done(folder):
+def steps_done(folder: Path) -> int:
     """Number of steps that the trial of a flow has made."""
     table = folder / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
     if not table.is_file():
@@ -155,7 +158,7 @@ def steps_done(folder):
         return sum(line.endswith("\n") and not line.startswith("#") for line in lines)
 
 
-def step_time(seen):
+def step_time(seen: Sequence[float]) -> float:
     """Mean time in s of a step after the first ones; seen: when the end of each step was seen. RunError where there are
     too few steps."""
     if len(seen) < 2:

@@ -9,11 +9,12 @@ import matplotlib
 
 from ..files import solids_file
 from ..files.mill import read_mill
+from ..files.solids_file import SolidsMap
 from ..files.written_times import MillFlow
 from . import mill_plots
 
 
-def main():
+def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
@@ -47,13 +48,13 @@ def main():
         print(folder / name)
 
 
-def usual_begin(case, last):
+def usual_begin(case: Path, last: float) -> float:
     """Flow time (s) from which averages are taken: the mill's, or half of a flow that ends before it."""
     start = read_mill(case).flow("averages_start_s") if (case / "mill.json").is_file() else None
     return start if start is not None and start < last else last / 2
 
 
-def read_charge(path, flow, begin):
+def read_charge(path: Path, flow: MillFlow, begin: float) -> SolidsMap | None:
     """SolidsMap of the charge while the flow is averaged, or None, told, where there is no solids.h5."""
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
@@ -63,7 +64,7 @@ def read_charge(path, flow, begin):
     return solids_file.read_map(path, *span)
 
 
-def summary(flow, charge, begin):
+def summary(flow: MillFlow, charge: SolidsMap | None, begin: float) -> None:
     """Sense of rotation, centroids, and the slurry's volume at begin and end."""
     print("the mill turns " + ("clockwise: its rising side is x < 0" if flow.omega < 0 else
                                "anticlockwise: its rising side is x > 0"))

@@ -2,19 +2,24 @@
 """Pictures of what is read off the charge: its map with the readings, and the tangential velocity along the line."""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
 
+from ..files.solids_file import SolidsMap
+from ..readings.charge import Charge, TangentialProfile
 from .mill_plots import draw_outline
 
 BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
 ARROWS = 17  # across the mill
 
 
-def _signed(words):
+def _signed(words: str) -> str:
     """Words with minus signs."""
     return words.replace("-", "−")
 
 
-def _arrows(axis, charge):
+def _arrows(axis: Axes, charge: SolidsMap) -> None:
     """Mean velocity where the charge is, every few voxels, with a key."""
     x, y = charge.centres()
     step = max(1, round(len(x) / ARROWS))
@@ -31,7 +36,7 @@ def _arrows(axis, charge):
     axis.quiverkey(arrows, 0.9, 1.03, key, f"{key:g} m/s", labelpos="W", coordinates="axes")
 
 
-def charge_figure(charge, readings, radius, outline=None):
+def charge_figure(charge: SolidsMap, readings: Charge, radius: float, outline: np.ndarray | None = None) -> Figure:
     """Figure of a SolidsMap with its Charge (readings.charge.read_charge) in a mill of `radius` (m): solidity,
     velocities, outline [n, 2] (m; without it the shell's circle) and sense, centre of circulation and the line through
     it, free surface with its logistic, toe and shoulder."""
@@ -43,14 +48,14 @@ def charge_figure(charge, readings, radius, outline=None):
     return figure
 
 
-def draw_charge(axis, charge, readings, radius):
+def draw_charge(axis: Axes, charge: SolidsMap, readings: Charge, radius: float) -> QuadMesh:
     """What charge_figure shows, on an axis; returns the solidity's image, for a colour bar."""
     image = _draw(axis, charge, readings, radius, None)
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
     return image
 
 
-def _draw(axis, charge, readings, radius, outline):
+def _draw(axis: Axes, charge: SolidsMap, readings: Charge, radius: float, outline: np.ndarray | None) -> QuadMesh:
     solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
     image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap="YlOrBr", vmin=0, vmax=0.65)
     draw_outline(axis, outline, radius, charge.sense)
@@ -61,7 +66,8 @@ def _draw(axis, charge, readings, radius, outline):
     axis.plot(*(1e3 * surface.points.T), color=BLUE, lw=2.2,
               label=_signed(f"free surface, shoulder {readings.shoulder:.0f}° (square) to toe {readings.toe:.0f}° "
                             "(triangle)"))
-    x = np.linspace(*np.sort(surface.points[:, 0])[[0, -1]], 200)
+    left, right = np.sort(surface.points[:, 0])[[0, -1]]
+    x = np.linspace(left, right, 200)
     axis.plot(1e3 * x, 1e3 * surface.fitted(x), color="k", lw=1.4, ls="--",
               label=f"logistic, RMSD {1e3 * surface.rmsd:.2g} mm")
     axis.plot(*(1e3 * surface.points[0]), "s", color=BLUE, mec="w", ms=8)
@@ -73,7 +79,7 @@ def _draw(axis, charge, readings, radius, outline):
     return image
 
 
-def tangential_figure(profile):
+def tangential_figure(profile: TangentialProfile) -> Figure:
     """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the
     distance."""
     figure, axes = plt.subplots(3, 1, figsize=(5.4, 6.2), sharex=True, constrained_layout=True,

@@ -1,24 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of a mill: maps of charge and slurry, a strip of frames, an animation."""
 import io
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TypeVar
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import PolyCollection
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection, QuadMesh
+from matplotlib.figure import Figure
 from PIL import Image
 
 from ..files.outline import circle
+from ..files.solids_file import SolidsMap
+from ..files.written_times import MillFlow
 from ..readings.maps_of_times import PIXELS, mean_flow, mean_load
 
+Thing = TypeVar("Thing")
 SLURRY, SPEED, SOLIDITY = "Blues", "viridis", "YlOrBr"
 
 
-def draw_mill(axis, flow, time):
+def draw_mill(axis: Axes, flow: MillFlow, time: float) -> None:
     """The mill's outline at flow time `time` and an arrow for its sense of rotation; axes in mm."""
     draw_outline(axis, flow.turned(flow.outline(), time), flow.radius, flow.omega)
 
 
-def draw_outline(axis, outline, radius, omega):
+def draw_outline(axis: Axes, outline: np.ndarray | None, radius: float, omega: float) -> None:
     """A mill's outline [n, 2] (m), None for the circle of its `radius` (m), and an arrow for its sense at `omega`
     (rad/s)."""
     outline = circle(radius) if outline is None else outline
@@ -26,7 +35,7 @@ def draw_outline(axis, outline, radius, omega):
     draw_sense(axis, radius, omega)
 
 
-def draw_sense(axis, radius, omega):
+def draw_sense(axis: Axes, radius: float, omega: float) -> None:
     """An arrow for the sense of rotation at `omega` (rad/s) of a mill of `radius` (m), and the axes' limits in mm."""
     radius = 1e3 * radius
     start = np.radians(60 if omega < 0 else 30)
@@ -38,7 +47,7 @@ def draw_sense(axis, radius, omega):
     axis.set(xlim=(-limit, limit), ylim=(-limit, limit), aspect="equal", xlabel="x, mm", ylabel="y, mm")
 
 
-def _arrows(axis, x, y, velocity, speed):
+def _arrows(axis: Axes, x: np.ndarray, y: np.ndarray, velocity: np.ndarray, speed: np.ndarray) -> None:
     """Arrows of equal length, a few across the mill, where the velocity is known."""
     known = np.isfinite(velocity[..., 0]) & (speed > 0)
     unit = velocity[..., :2] / np.where(known, speed, 1)[..., None]
@@ -47,7 +56,7 @@ def _arrows(axis, x, y, velocity, speed):
                 width=0.006, headwidth=4, pivot="mid", alpha=0.75)
 
 
-def plot_maps(flow, solids, begin, out):
+def plot_maps(flow: MillFlow, solids: SolidsMap, begin: float, out: Path | str) -> None:
     """Four maps, averaged over the axis: solidity, balls' speed, slurry share, slurry speed."""
     slurry = mean_flow(flow, begin)
     ball_speed = np.linalg.norm(solids.velocity[..., :2], axis=-1)
@@ -66,10 +75,10 @@ def plot_maps(flow, solids, begin, out):
         image = axis.pcolormesh(ex, ey, values, cmap=colours, vmin=limits[0], vmax=limits[1], shading="flat")
         figure.colorbar(image, ax=axis, shrink=0.85)
         axis.set_title(title)
-    _arrows(axes[0, 1], *solids.centres(), np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan),
-            ball_speed)
-    thin = slice(4, None, 9)
-    _arrows(axes[1, 1], *(centres[thin] for centres in slurry.centres()),
+    x, y = solids.centres()
+    _arrows(axes[0, 1], x, y, np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
+    (x, y), thin = slurry.centres(), slice(4, None, 9)
+    _arrows(axes[1, 1], x[thin], y[thin],
             np.where((slurry.share > 0.3)[..., None], slurry.velocity, np.nan)[thin, thin], slurry_speed[thin, thin])
     last = flow.frames[-1][0]
     for axis in axes.flat:
@@ -80,10 +89,13 @@ def plot_maps(flow, solids, begin, out):
     plt.close(figure)
 
 
-def load_figure(flow, begin):
-    """Map of the one-way verdict: where the fluid's force on the balls nears their weight."""
-    x, y, ratio = mean_load(flow, begin)
-    mean, high = flow.load(begin)
+def load_figure(flow: MillFlow, begin: float) -> Figure:
+    """Map of the one-way verdict: where the fluid's force on the balls nears their weight. RuntimeError where the flow
+    did not tell that force."""
+    load = flow.load(begin)
+    if load is None:
+        raise RuntimeError(f"{flow.case}: no forceOverWeight from {begin:g} s on")
+    (mean, high), (x, y, ratio) = load, mean_load(flow, begin)
     edges = np.linspace(-1e3 * flow.radius, 1e3 * flow.radius, PIXELS + 1)
     figure, axis = plt.subplots(figsize=(6.4, 5.4), constrained_layout=True)
     image = axis.pcolormesh(edges, edges, ratio, cmap="magma_r", vmin=0, vmax=max(1, np.nanpercentile(ratio, 99)))
@@ -96,13 +108,14 @@ def load_figure(flow, begin):
     return figure
 
 
-def save(figure, out, dpi=110):
+def save(figure: Figure, out: Path | str, dpi: int = 110) -> None:
     """Writes a figure to a file and closes it."""
     figure.savefig(out, dpi=dpi)
     plt.close(figure)
 
 
-def draw_frame(axis, flow, time, path, quads, columns):
+def draw_frame(axis: Axes, flow: MillFlow, time: float, path: Path, quads: np.ndarray,
+               columns: np.ndarray) -> PolyCollection:
     """Slurry share over the axis at one time, with the charge's edge (solidity 0.2) where the flow felt one."""
     alpha = flow.over_axis(flow.field("alpha.slurry", path))
     turned = 1e3 * flow.turned(quads.reshape(-1, 2), time).reshape(quads.shape)
@@ -120,14 +133,15 @@ def draw_frame(axis, flow, time, path, quads, columns):
     return patches
 
 
-def plot_strip(flow, out, count=6):
+def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
     """`count` frames of the slurry, equally spaced in time."""
     quads, columns = flow.end_wall()
     numbers = np.unique(np.linspace(0, len(flow.frames) - 1, count).round().astype(int))
     rows = (len(numbers) + 2) // 3
     figure, axes = plt.subplots(rows, 3, figsize=(12.5, 4.2 * rows), constrained_layout=True, squeeze=False)
     for axis, number in zip(axes.flat, numbers):
-        patches = draw_frame(axis, flow, *flow.frames[number], quads, columns)
+        time, path = flow.frames[number]
+        patches = draw_frame(axis, flow, time, path, quads, columns)
     for axis in axes.flat[len(numbers):]:
         axis.set_visible(False)
     figure.colorbar(patches, ax=axes, shrink=0.6, label="slurry share over the axis, –  (orange: charge, solidity 0.2)")
@@ -135,21 +149,23 @@ def plot_strip(flow, out, count=6):
     plt.close(figure)
 
 
-def frame_figures(flow, frames):
+def frame_figures(flow: MillFlow, frames: Iterable[tuple[float, Path]]) -> Iterator[Figure]:
     """One figure for each of `frames` (time in s, folder) of the slurry, on the same page: to be saved one after the
     other."""
-    ends = flow.end_wall()
+    quads, columns = flow.end_wall()
 
-    def draw(axis, frame):
-        return draw_frame(axis, flow, *frame, *ends)
+    def draw(axis: Axes, frame: tuple[float, Path]) -> PolyCollection:
+        time, path = frame
+        return draw_frame(axis, flow, time, path, quads, columns)
 
     return redrawn_figures(frames, draw, 0.8, "slurry share over the axis, –")
 
 
-def charge_figures(charges, radius, omega, outline_at):
+def charge_figures(charges: Iterable[SolidsMap], radius: float, omega: float,
+                   outline_at: Callable[[float], np.ndarray | None]) -> Iterator[Figure]:
     """One figure for each SolidsMap's solidity in a mill of `radius` (m) that turns at `omega` (rad/s), on the same
     page; outline_at(time in s): its outline [n, 2] (m), or None."""
-    def draw(axis, charge):
+    def draw(axis: Axes, charge: SolidsMap) -> QuadMesh:
         solidity = np.where(charge.inside > 0.01, charge.solidity, np.nan)
         image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, solidity, cmap=SOLIDITY, vmin=0, vmax=0.65)
         draw_outline(axis, outline_at(charge.end), radius, omega)
@@ -159,7 +175,8 @@ def charge_figures(charges, radius, omega, outline_at):
     return redrawn_figures(charges, draw, 0.85, "solidity over the axis, –")
 
 
-def redrawn_figures(things, draw, shrink, label):
+def redrawn_figures(things: Iterable[Thing], draw: Callable[[Axes, Thing], ScalarMappable], shrink: float,
+                    label: str) -> Iterator[Figure]:
     """One figure that is drawn anew for each of `things` by draw(axis, thing), which gives what its colour bar shows.
     The places on the page are found once, for the first of them: that takes longer than to draw."""
     figure, axis = plt.subplots(figsize=(5.4, 4.6), layout="constrained")
@@ -174,7 +191,7 @@ def redrawn_figures(things, draw, shrink, label):
     plt.close(figure)
 
 
-def animate(flow, out, most=60):
+def animate(flow: MillFlow, out: Path | str, most: int = 60) -> None:
     """The frames, at most so many of them and equally spaced, as an endless GIF."""
     frames = [flow.frames[k] for k in np.unique(np.linspace(0, len(flow.frames) - 1, most).astype(int))]
     pictures = []

@@ -2,11 +2,14 @@
 """Along the axis of a mill: height of the slurry's centre of mass, hold-up and head by slices; humps; discharge."""
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import curve_fit
 
 from ..files.flow_record import read_flow_record
+from ..files.written_times import MillFlow
 
 
 @dataclass
@@ -24,18 +27,18 @@ class AxialProfile:
 class Humps:
     """height = base + sum of Gaussians, in order of place: places z, heights above the base, widths (standard
     deviations) [count] and base (m); rmsd: root mean square of what is left (m)."""
-    places: tuple
-    heights: tuple
-    widths: tuple
+    places: tuple[float, ...]
+    heights: tuple[float, ...]
+    widths: tuple[float, ...]
     base: float
     rmsd: float
 
     @property
-    def distances(self):
+    def distances(self) -> tuple[float, ...]:
         """Between each peak and the next, m [count - 1]."""
         return tuple(b - a for a, b in zip(self.places, self.places[1:]))
 
-    def fitted(self, z):
+    def fitted(self, z: np.ndarray) -> np.ndarray:
         """The fit's height at z (m), m."""
         return gaussians(z, self.base, *np.ravel(np.transpose((self.heights, self.places, self.widths))))
 
@@ -52,7 +55,7 @@ class AxialSeries:
     pressure: np.ndarray
 
 
-def axial_series(flow, begin):
+def axial_series(flow: MillFlow, begin: float) -> AxialSeries:
     """AxialSeries of a MillFlow's written times from flow time `begin` (s) on."""
     z, layer = np.unique(np.round(flow.centres[flow.chamber, 2], 7), return_inverse=True)
     times, heights, holdups, pressures = [], [], [], []
@@ -72,32 +75,32 @@ def axial_series(flow, begin):
     return AxialSeries(z, *map(np.array, (times, heights, holdups, pressures)))
 
 
-def mean_profile(series):
+def mean_profile(series: AxialSeries) -> AxialProfile:
     """AxialProfile of an AxialSeries: means over its times, of slices where and when they hold slurry."""
     return AxialProfile(series.z, np.nanmean(series.height, axis=0), np.nanstd(series.height, axis=0),
                         np.mean(series.holdup, axis=0), np.nanmean(series.pressure, axis=0))
 
 
-def axial_profile(flow, begin):
+def axial_profile(flow: MillFlow, begin: float) -> AxialProfile:
     """AxialProfile of a MillFlow from flow time `begin` (s) on, by its written times."""
     return mean_profile(axial_series(flow, begin))
 
 
-def drop(profile):
+def drop(profile: AxialProfile) -> float:
     """Fall of p_rgh in the slurry of an AxialProfile from its first to its last slice, by a straight line through all,
     Pa."""
     known = np.isfinite(profile.pressure)
     return float(-(profile.z[-1] - profile.z[0]) * np.polyfit(profile.z[known], profile.pressure[known], 1)[0])
 
 
-def gaussians(z, base, *humps):
+def gaussians(z: ArrayLike, base: float, *humps: float) -> np.ndarray:
     """base + the sum of height exp(-((z - place)/width)^2 / 2); humps: height, place, width of each in turn."""
     z = np.asarray(z, dtype=float)
     return base + sum(height * np.exp(-((z - place) / width) ** 2 / 2)
                       for height, place, width in np.reshape(humps, (-1, 3)))
 
 
-def fit_gaussians(z, height, count):
+def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
     """Humps of a profile: the best least-squares fit of `count` Gaussians from many first guesses of their places.
 
     z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of
@@ -128,13 +131,13 @@ def fit_gaussians(z, height, count):
     return Humps(places, heights, widths, float(best[1][0]), best[0])
 
 
-def humps_at_ends(humps, z):
+def humps_at_ends(humps: Humps, z: np.ndarray) -> int:
     """How many axial.Humps stand at an end of the slices z [n] (m): the profile has no hump there that it tells."""
     slack = 0.1 * (z[1] - z[0])
     return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
 
 
-def slurry_volumes(case):
+def slurry_volumes(case: Path | str) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) and volumes of slurry (m3) at the ends of the steps [steps] of a case's flow, its restarts joined.
     RuntimeError if slurryFoam left no steps."""
     steps = read_flow_record(case).steps
@@ -143,7 +146,7 @@ def slurry_volumes(case):
     return steps["time_s"], steps["slurry_m3"]
 
 
-def discharge(times, volumes, feed, begin):
+def discharge(times: np.ndarray, volumes: np.ndarray, feed: float, begin: float) -> float:
     """Mean discharge (m3/s) from `begin` (s) to the last time: what was fed (m3/s) less what was kept."""
     chosen = times >= begin
     if chosen.sum() < 2:

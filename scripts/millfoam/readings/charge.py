@@ -7,21 +7,24 @@ x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is 
 Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
 positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError where the map does not have
 it."""
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.fft import dstn, idstn
 
+from ..files.solids_file import SolidsMap
 from .free_surface import (EDGE, SMOOTHING, WALL, FreeSurface, along_the_shell, at_points, free_surface, smoothed,
                            toe_and_shoulder)
-from .means import with_error
+from .means import Reading, with_error
 from .shell_angles import shell_angle
 
 TURNING = 0.3  # least share of circulation in the charge's motion about its centre
 POINTS = 100  # along the line through the centre of circulation
 
 
-def stream_function(charge):
+def stream_function(charge: SolidsMap) -> np.ndarray:
     """Of the charge's volume flux F = phi u: psi [ny, nx] (m2/s), least where the charge turns clockwise round a
     point.
 
@@ -37,12 +40,12 @@ def stream_function(charge):
     return idstn(transformed, type=1)[1:-1, 1:-1]
 
 
-def _moving(charge):
+def _moving(charge: SolidsMap) -> np.ndarray:
     """Share of each column's volume that balls of known velocity fill [ny, nx]."""
     return np.where(np.isfinite(charge.velocity[..., 0]), charge.balls(), 0.0)
 
 
-def _stagnation_point(charge, guess, width):
+def _stagnation_point(charge: SolidsMap, guess: np.ndarray, width: float) -> np.ndarray:
     """Where the velocity vanishes near a guess [2]: of u = u0 + G (x - guess) fitted with the balls' volume and a
     Gaussian of `width` (m) as weights, again and again round the point found, until that stays."""
     xx, yy = np.meshgrid(*charge.centres())
@@ -58,15 +61,16 @@ def _stagnation_point(charge, guess, width):
             break
         step = np.linalg.solve(gradient, -fit[0])
         # No further than the fit has seen
-        point = point + step * min(1, 2 * width / max(np.linalg.norm(step), 1e-300))
-        if np.linalg.norm(step) < 1e-5 * width:
+        length = float(np.linalg.norm(step))
+        point = point + step * min(1, 2 * width / max(length, 1e-300))
+        if length < 1e-5 * width:
             return point
     raise RuntimeError(f"no centre of circulation: the velocity does not turn round a point near x = "
                        f"{1e3 * guess[0]:.1f} mm, "
                        f"y = {1e3 * guess[1]:.1f} mm")
 
 
-def circulation_centre(charge, radius):
+def circulation_centre(charge: SolidsMap, radius: float) -> tuple[float, float]:
     """Centre of circulation (x, y) of a SolidsMap's charge (m): where its mean velocity vanishes, between the rising
     and the falling stream.
 
@@ -93,7 +97,7 @@ def circulation_centre(charge, radius):
     return float(centre[0]), float(centre[1])
 
 
-def _stay_inside(charge, radius, solidity, place):
+def _stay_inside(charge: SolidsMap, radius: float, solidity: np.ndarray, place: np.ndarray) -> None:
     """RuntimeError if the smoothed solidity [ny, nx] at a place (x, y) (m) in a mill of `radius` (m) is not that of
     the charge's inside."""
     phi, edge = at_points(charge, solidity, place[None])[0], EDGE * solidity.max()
@@ -124,12 +128,12 @@ class TangentialProfile:
     rmsd: float
     shear_rate: np.ndarray
 
-    def fitted(self, distance):
+    def fitted(self, distance: ArrayLike) -> np.ndarray:
         """The cubic at a distance (m) from the mill's centre, m/s."""
-        return np.polyval(self.coefficients, distance)
+        return np.polyval(self.coefficients, np.asarray(distance, dtype=float))
 
 
-def tangential_profile(charge, radius, wall=WALL):
+def tangential_profile(charge: SolidsMap, radius: float, wall: float = WALL) -> TangentialProfile:
     """TangentialProfile of a SolidsMap's charge in a mill of `radius` (m). Where the charge covers the mill's centre,
     the line begins there. Velocities between voxels are flux over solidity, each taken bilinearly."""
     centre = np.array(circulation_centre(charge, radius))
@@ -155,31 +159,35 @@ def tangential_profile(charge, radius, wall=WALL):
     coefficients = np.polyfit(distance, velocity, 3)
     rmsd = float(np.sqrt(np.mean((np.polyval(coefficients, distance) - velocity) ** 2)))
     shear = np.polyval(np.polyder(coefficients), distance)
-    return TangentialProfile(float(shell_angle(*centre, charge.sense)), distance, velocity, coefficients, rmsd, shear)
+    angle = float(shell_angle(centre[0], centre[1], charge.sense))
+    return TangentialProfile(angle, distance, velocity, coefficients, rmsd, shear)
 
 
 @dataclass
 class Charge:
     """All that is read off a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface,
     profile."""
-    centre: tuple
+    centre: tuple[float, float]
     toe: float
     shoulder: float
     surface: FreeSurface
     tangential: TangentialProfile
 
 
-def read_charge(charge, radius, wall=WALL):
+def read_charge(charge: SolidsMap, radius: float, wall: float = WALL) -> Charge:
     """Charge of a SolidsMap in a mill of `radius` (m), at least `wall` (m) from the shell."""
-    return Charge(circulation_centre(charge, radius), *toe_and_shoulder(charge, radius, wall),
-                  free_surface(charge, radius, wall), tangential_profile(charge, radius, wall))
+    centre = circulation_centre(charge, radius)
+    toe, shoulder = toe_and_shoulder(charge, radius, wall)
+    return Charge(centre, toe, shoulder, free_surface(charge, radius, wall), tangential_profile(charge, radius, wall))
 
 
-def charge_with_errors(maps, radius, wall=WALL, blocks=8):
+def charge_with_errors(maps: Sequence[SolidsMap], radius: float, wall: float = WALL,
+                       blocks: int = 8) -> dict[str, Reading]:
     """Readings with standard errors over time (means.with_error), of SolidsMap of successive windows: name ->
     Reading of centre (x, y), ends (toe, shoulder), surface_rmsd and tangential_rmsd."""
-    readings = {"centre": lambda one: circulation_centre(one, radius),
-                "ends": lambda one: toe_and_shoulder(one, radius, wall),
-                "surface_rmsd": lambda one: free_surface(one, radius, wall).rmsd,
-                "tangential_rmsd": lambda one: tangential_profile(one, radius, wall).rmsd}
+    readings: dict[str, Callable[[SolidsMap], ArrayLike]] = {
+        "centre": lambda one: circulation_centre(one, radius),
+        "ends": lambda one: toe_and_shoulder(one, radius, wall),
+        "surface_rmsd": lambda one: free_surface(one, radius, wall).rmsd,
+        "tangential_rmsd": lambda one: tangential_profile(one, radius, wall).rmsd}
     return {name: with_error(reading, maps, blocks) for name, reading in readings.items()}

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .free_surface import free_surface
+from ..files.solids_file import SolidsMap
+from .free_surface import FreeSurface, free_surface
 
 CLOSEST = 0.634  # solidity that differences are normed by: random close packing
 BIN = 0.01  # of the histogram of solidity differences
@@ -54,7 +55,7 @@ class Comparison:
     maps: DifferenceMaps
 
 
-def _known(a, b):
+def _known(a: SolidsMap, b: SolidsMap) -> tuple[np.ndarray, int]:
     """Room within the mill that both SolidsMap know [ny, nx], and the number of voxels within it that one of them
     misses."""
     if a.solidity.shape != b.solidity.shape or not (np.allclose(a.x, b.x) and np.allclose(a.y, b.y)):
@@ -64,7 +65,7 @@ def _known(a, b):
     return np.where(both, inside, 0.0), int(np.sum(~both & (np.maximum(a.inside, b.inside) > 0)))
 
 
-def difference(a, b):
+def difference(a: SolidsMap, b: SolidsMap) -> Difference:
     """Difference of two SolidsMap on the same voxels; ValueError where these differ."""
     inside, missing = _known(a, b)
     solidity = np.sum(inside * np.abs(np.nan_to_num(a.solidity - b.solidity))) / np.sum(inside) / CLOSEST
@@ -78,7 +79,7 @@ def difference(a, b):
     return Difference(float(solidity), float(mean[0]), float(mean[1]), missing)
 
 
-def difference_maps(a, b, bin_width=BIN):
+def difference_maps(a: SolidsMap, b: SolidsMap, bin_width: float = BIN) -> DifferenceMaps:
     """DifferenceMaps of two SolidsMap on the same voxels; ValueError where these differ. bin_width: of the histogram,
     solidity."""
     inside, _ = _known(a, b)
@@ -91,7 +92,7 @@ def difference_maps(a, b, bin_width=BIN):
     return DifferenceMaps(a.x, a.y, solidity, velocity_x, velocity_y, shares / inside.sum(), edges)
 
 
-def surface_difference(a, b, points=200):
+def surface_difference(a: FreeSurface, b: FreeSurface, points: int = 200) -> SurfaceDifference:
     """SurfaceDifference of two FreeSurface; RuntimeError if they stand over no common x."""
     begin, end = max(np.nanmin(one.points[:, 0]) for one in (a, b)), min(np.nanmax(one.points[:, 0]) for one in (a, b))
     if begin >= end:
@@ -105,8 +106,8 @@ def surface_difference(a, b, points=200):
     return SurfaceDifference(float(apart.mean()), float(apart.std()), float(begin), float(end))
 
 
-def compare(a, b, radius, bin_width=BIN):
+def compare(a: SolidsMap, b: SolidsMap, radius: float, bin_width: float = BIN) -> Comparison:
     """Comparison of two SolidsMap on the same voxels of a mill of `radius` (m): ValueError where the voxels differ,
     RuntimeError where one of them has no free surface."""
-    surfaces = (free_surface(one, radius) for one in (a, b))
-    return Comparison(difference(a, b), surface_difference(*surfaces), difference_maps(a, b, bin_width))
+    surface = surface_difference(free_surface(a, radius), free_surface(b, radius))
+    return Comparison(difference(a, b), surface, difference_maps(a, b, bin_width))

@@ -7,14 +7,17 @@ with the probability duration / interval, so that one that is gone at the next d
 with the duration of a Hertz contact of its energy. The energy is that at the dump: between the energy at first touch
 and, at the end of the touch, e^2 of it. Powers need no such weights: they are means over the dumps, which see every
 contact as long as it lasts."""
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..files.contact_dumps import contact_interval, contact_steps, read_materials
 from ..files.dumps import read_timestep
-from .contacts import read_contacts
+from .contacts import Contacts, read_contacts
 
 HERTZ_DURATION = 2.943  # of a contact, over its largest overlap / its speed at first touch
 PARTS = ("damping", "friction", "rolling", "spring")
@@ -33,26 +36,27 @@ class Spectra:
     edges: np.ndarray
     classes: np.ndarray
     collisions: np.ndarray
-    power: dict
+    power: dict[str, np.ndarray]
     sliding: float
     dumps: int
     interval: float
 
-    def dissipation(self):
+    def dissipation(self) -> np.ndarray:
         """Power [c, c, n + 1] (W) of damping, friction and rolling friction."""
-        return sum(self.power[part] for part in PARTS if part != "spring")
+        return np.asarray(sum(self.power[part] for part in PARTS if part != "spring"))
 
-    def total_power(self):
+    def total_power(self) -> float:
         """What all contacts take, W: in a steady state the drive's power, whatever the springs hold for a while."""
         return float(sum(self.power[part].sum() for part in PARTS))
 
 
-def energy_edges(lowest=1e-12, highest=1e-2, per_decade=5):
+def energy_edges(lowest: float = 1e-12, highest: float = 1e-2, per_decade: int = 5) -> np.ndarray:
     """Edges of bins equally wide in the logarithm of energy, J."""
     return np.logspace(np.log10(lowest), np.log10(highest), round(np.log10(highest / lowest) * per_decade) + 1)
 
 
-def read_spectra(folder, begin=0.0, end=np.inf, edges=None):
+def read_spectra(folder: Path | str, begin: float = 0.0, end: float = np.inf,
+                 edges: ArrayLike | None = None) -> Spectra:
     """Spectra of the contacts that a run wrote into DIR/contacts from `begin` to `end` (DEM time, s); folder: DIR.
 
     RuntimeError for fewer than three dumps in that time."""
@@ -65,9 +69,11 @@ def read_spectra(folder, begin=0.0, end=np.inf, edges=None):
     return spectra((read_contacts(folder, step, materials) for step in steps), interval, edges)
 
 
-def spectra(records, interval, edges):
+def spectra(records: Iterable[tuple[Contacts, Contacts]], interval: float, edges: np.ndarray) -> Spectra:
     """Spectra of successive records, pairs (Contacts of balls, Contacts at walls) `interval` (s) apart."""
-    collected, window, sliding, dumps = {}, [], 0.0, 0
+    collected: dict[tuple, np.ndarray] = {}
+    window: list[tuple[Contacts, Contacts]] = []
+    sliding, dumps = 0.0, 0
     for record in records:
         dumps += 1
         window = [*window[-2:], record]
@@ -77,7 +83,7 @@ def spectra(records, interval, edges):
             _collect(collected, contacts, motion, {part: getattr(contacts, part) for part in PARTS}, edges)
             if len(window) == 3:
                 _collect_collisions(collected, [moment[kind] for moment in window], interval, edges)
-    classes = np.unique([0.0] + [diameter for _, *pair in collected for diameter in pair])
+    classes = np.unique(np.array([0.0] + [diameter for _, *pair in collected for diameter in pair]))
     fields = {part: np.zeros((len(classes), len(classes), len(edges) + 1)) for part in (*PARTS, "collisions")}
     for (part, first, second), counts in collected.items():
         records_counted = (dumps - 2) * interval if part == "collisions" else dumps
@@ -87,7 +93,8 @@ def spectra(records, interval, edges):
                    interval)
 
 
-def _collect(collected, contacts, energy, weights, edges):
+def _collect(collected: dict[tuple, np.ndarray], contacts: Contacts, energy: np.ndarray, weights: dict[str, np.ndarray],
+             edges: np.ndarray) -> None:
     """Adds weights {part: [m]} to the bins of energy [m] of their classes: collected[part, diameter, diameter]."""
     # To a nanometre: the dumps' radii carry nine digits
     nanometres = np.rint(1e9 * contacts.diameters).astype(np.int64)
@@ -101,7 +108,8 @@ def _collect(collected, contacts, energy, weights, edges):
             collected[key] = collected.get(key, 0.0) + np.bincount(bins[chosen], weight[chosen], len(edges) + 1)
 
 
-def _collect_collisions(collected, window, interval, edges):
+def _collect_collisions(collected: dict[tuple, np.ndarray], window: Sequence[Contacts], interval: float,
+                        edges: np.ndarray) -> None:
     """Contacts of the middle one of three moments that the first did not have, weighted as the sampling asks."""
     before, now, after = (_codes(contacts.key) for contacts in window)
     new = np.flatnonzero(~np.isin(now, before))
@@ -117,22 +125,22 @@ def _collect_collisions(collected, window, interval, edges):
     _collect(collected, contacts, energy, {"collisions": np.where(chosen, weight, 0.0)}, edges)
 
 
-def _codes(key):
+def _codes(key: np.ndarray) -> np.ndarray:
     """One number for each pair of ids."""
     return key[:, 0] * (1 << 32) + key[:, 1]
 
 
-def hertz_duration(mass, stiffness, energy):
+def hertz_duration(mass: np.ndarray, stiffness: np.ndarray, energy: np.ndarray) -> np.ndarray:
     """Duration (s) of an undamped Hertz contact with the force stiffness x overlap^1.5 (N/m^1.5), from its reduced mass
     (kg) and energy (J): 2.943 d / v with the largest overlap d = (5 energy / (2 stiffness))^(2/5) and v = sqrt(2 energy
     / mass)."""
     return HERTZ_DURATION * (2.5 * energy / stiffness) ** 0.4 / np.sqrt(2 * energy / mass)
 
 
-def power_to_dissipate(folder, begin=0.0, end=np.inf):
+def power_to_dissipate(folder: Path | str, begin: float = 0.0, end: float = np.inf) -> float:
     """Mean of the drive's power in DIR/dumps/energy.csv from `begin` to `end` (s) less what the charge's kinetic energy
     of translation and potential energy gain, W: what contacts must take, but for the small energy of spin."""
-    table = np.genfromtxt(Path(folder) / "dumps" / "energy.csv", delimiter=",", names=True)
+    table: Any = np.genfromtxt(Path(folder) / "dumps" / "energy.csv", delimiter=",", names=True)
     table = table[(table["time_s"] >= begin) & (table["time_s"] <= end)]
     if len(table) < 2:
         raise RuntimeError(f"{folder}/dumps/energy.csv: {len(table)} records from {begin} to {end} s, expected 2 or "

@@ -2,12 +2,15 @@
 """Contacts of a dry run that wrote them (`dem.contact_interval`): relative motion, forces and powers of every contact.
 
 Laws of force: dem_driver/README.md."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ..files.contact_dumps import BALL_COLUMNS, PAIR_COLUMNS, WALL_COLUMNS, read_table
+from ..files.contact_dumps import BALL_COLUMNS, PAIR_COLUMNS, WALL_COLUMNS, Materials, read_table
+
+Table = dict[str, np.ndarray]  # of a contact dump: column -> values
 
 
 @dataclass
@@ -38,21 +41,21 @@ class Contacts:
     rolling: np.ndarray
     sliding: np.ndarray
 
-    def power(self):
+    def power(self) -> np.ndarray:
         """Power [m] (W) that each contact takes in all."""
         return self.damping + self.spring + self.friction + self.rolling
 
-    def elastic_energy(self):
+    def elastic_energy(self) -> np.ndarray:
         """Energy [m] (J) of each normal spring."""
         return 2 / 5 * self.stiffness * self.overlap ** 2.5
 
-    def normal_energy(self):
+    def normal_energy(self) -> np.ndarray:
         """Energy [m] (J) of the motion along the normal, with that of the spring: from first touch on it falls, by what
         damping takes, from 1/2 m v^2 to e^2 times as much."""
         return self.reduced_mass * self.approach ** 2 / 2 + self.elastic_energy()
 
 
-def read_contacts(folder, step, materials):
+def read_contacts(folder: Path | str, step: int, materials: Materials) -> tuple[Contacts, Contacts]:
     """Contacts of two balls, and of balls and the wall, at a step of a case DIR: (Contacts, Contacts)."""
     folder = Path(folder) / "contacts"
     balls, periods = read_table(folder / f"balls.{step}.txt", BALL_COLUMNS)
@@ -65,7 +68,7 @@ def read_contacts(folder, step, materials):
     return ball_contacts(balls, pairs, first, second, periods, materials), wall_contacts(balls, walls, ball, materials)
 
 
-def _index(folder, step, ids, wanted):
+def _index(folder: Path, step: int, ids: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     index = np.minimum(np.searchsorted(ids, wanted), len(ids) - 1)
     if not np.array_equal(ids[index], wanted):
         raise RuntimeError(f"{folder}/balls.{step}.txt: no ball {wanted[ids[index] != wanted][0]:g}, which is in "
@@ -73,7 +76,8 @@ def _index(folder, step, ids, wanted):
     return index
 
 
-def ball_contacts(balls, pairs, first, second, periods, materials):
+def ball_contacts(balls: Table, pairs: Table, first: np.ndarray, second: np.ndarray, periods: np.ndarray,
+                  materials: Materials) -> Contacts:
     """Contacts of balls `first` [m] and `second` [m] (indices into the table of balls); periods [3] (m) of the box."""
     apart = balls["position"][first] - balls["position"][second]
     turns = np.where(np.isfinite(periods), np.round(apart / np.where(np.isfinite(periods), periods, 1.0)), 0.0)
@@ -92,7 +96,7 @@ def ball_contacts(balls, pairs, first, second, periods, materials):
                      mass[0] * mass[1] / (mass[0] + mass[1]), types, materials)
 
 
-def wall_contacts(balls, walls, ball, materials):
+def wall_contacts(balls: Table, walls: Table, ball: np.ndarray, materials: Materials) -> Contacts:
     """Contacts of the wall and the balls `ball` [m] (indices into the table of balls)."""
     apart = walls["centre"] - walls["point"]
     normal = apart / np.linalg.norm(apart, axis=1)[:, None]
@@ -107,7 +111,9 @@ def wall_contacts(balls, walls, ball, materials):
                      [types, np.full_like(types, len(materials.youngs_modulus) - 1)], materials)
 
 
-def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass, types, materials):
+def _contacts(table: Table, normal: np.ndarray, arm: np.ndarray, move: np.ndarray, past: np.ndarray, spin: np.ndarray,
+              key: np.ndarray, diameters: np.ndarray, radius: np.ndarray, mass: np.ndarray, types: Sequence[np.ndarray],
+              materials: Materials) -> Contacts:
     """Contacts from the motion of the first body against the second: of the centres (`move`), of the surfaces (`past`),
     and their difference of spin (all [m, 3]); radius, mass: effective ones."""
     push = np.sum(table["force"] * normal, axis=1)
@@ -126,7 +132,8 @@ def _contacts(table, normal, arm, move, past, spin, key, diameters, radius, mass
                     elastic * approach, -np.sum(tangential * past, axis=1), -np.sum(rolling * spin, axis=1), sliding)
 
 
-def tangential_forces(dumped, past, limit, damper):
+def tangential_forces(dumped: np.ndarray, past: np.ndarray, limit: np.ndarray,
+                      damper: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tangential forces [m, 3] (N) as they acted, and which contacts slide [m], from those that were dumped.
 
     past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide
@@ -143,12 +150,13 @@ def tangential_forces(dumped, past, limit, damper):
     return np.where(sliding[:, None], shortened, dumped), sliding
 
 
-def _modulus(compliances, types):
+def _modulus(compliances: np.ndarray, types: Sequence[np.ndarray]) -> np.ndarray:
     """Modulus (Pa) of two bodies in series, from the compliances of the atom types (1/Pa)."""
     return 1 / (compliances[types[0]] + compliances[types[1]])
 
 
-def _tangential_damping(radius, mass, overlap, types, materials):
+def _tangential_damping(radius: np.ndarray, mass: np.ndarray, overlap: np.ndarray, types: Sequence[np.ndarray],
+                        materials: Materials) -> np.ndarray:
     """-2 sqrt(5/6) beta sqrt(k_t m), k_t = 8 G* sqrt(R overlap), in N s/m."""
     ratio = materials.poisson_ratio
     modulus = _modulus(2 * (2 - ratio) * (1 + ratio) / materials.youngs_modulus, types)

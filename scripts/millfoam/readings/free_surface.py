@@ -9,9 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from contourpy import contour_generator
+from numpy.typing import ArrayLike
 from scipy.ndimage import gaussian_filter, map_coordinates
 from scipy.optimize import curve_fit
 
+from ..files.solids_file import SolidsMap
 from .shell_angles import shell_angle
 
 # Standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
@@ -24,7 +26,7 @@ ALL_ROUND = 0.95  # share of the shell that a centrifuging charge covers
 KNOWN = 0.5  # length of the free surface that must be known where a map misses voxels, of the mill's radius
 
 
-def smoothed(charge, radius, smoothing=SMOOTHING):
+def smoothed(charge: SolidsMap, radius: float, smoothing: float = SMOOTHING) -> np.ndarray:
     """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and room are smoothed
     apart, so that the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is
     no charge."""
@@ -37,14 +39,14 @@ def smoothed(charge, radius, smoothing=SMOOTHING):
     return solidity
 
 
-def at_points(charge, values, points):
+def at_points(charge: SolidsMap, values: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Values [ny, nx] on a map's voxels, bilinearly at points [n, 2] (m); beyond the outermost centres, theirs."""
     x, y = charge.centres()
     place = [(points[:, 1] - y[0]) / (y[1] - y[0]), (points[:, 0] - x[0]) / (x[1] - x[0])]
     return map_coordinates(values, place, order=1, mode="nearest")
 
 
-def along_the_shell(charge, radius, solidity, wall=WALL):
+def along_the_shell(charge: SolidsMap, radius: float, solidity: np.ndarray, wall: float = WALL) -> str:
     """In words, how much of the shell of a mill of `radius` (m) the charge covers: only one that lies along all of it
     centrifuges.
 
@@ -60,7 +62,7 @@ def along_the_shell(charge, radius, solidity, wall=WALL):
     return f"the charge covers {100 * covered:.0f} % of the shell: it is too thin, or too loose, for this reading"
 
 
-def logistic(x, a, b, c, d):
+def logistic(x: np.ndarray, a: float, b: float, c: float, d: float) -> np.ndarray:
     """The generalised logistic a/(1 + b exp(-c x)) + d."""
     return a / (1 + b * np.exp(-c * x)) + d
 
@@ -73,14 +75,14 @@ class FreeSurface:
     parameters: a (m), b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean
     square of what the points' y differ from it by; NaN where what is known of the surface has no logistic."""
     points: np.ndarray
-    parameters: tuple
+    parameters: tuple[float, ...]
     rmsd: float
 
-    def fitted(self, x):
+    def fitted(self, x: ArrayLike) -> np.ndarray:
         """The logistic at x (m), m."""
         return logistic(np.asarray(x, dtype=float), *self.parameters)
 
-    def height(self, x):
+    def height(self, x: ArrayLike) -> np.ndarray:
         """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN
         beside it and where it is not known."""
         x = np.atleast_1d(np.asarray(x, dtype=float))
@@ -92,14 +94,14 @@ class FreeSurface:
         return np.where(np.isfinite(top), top, np.nan)
 
 
-def _to_circle(inner, outer, largest):
+def _to_circle(inner: np.ndarray, outer: np.ndarray, largest: float) -> np.ndarray:
     """Where the straight way from a point [2] within the circle of radius `largest` to one beyond it crosses it."""
     way = outer - inner
     square, offset = way @ way, inner @ way
     return inner + (np.sqrt(offset**2 + square * (largest**2 - inner @ inner)) - offset) / square * way
 
 
-def pieces_within(line, largest):
+def pieces_within(line: np.ndarray, largest: float) -> list[np.ndarray]:
     """Pieces [n, 2] of a polyline [m, 2] within a circle of radius `largest`, each with both its ends on the circle."""
     within = np.hypot(*line.T) < largest
     if np.array_equal(line[0], line[-1]) and not within.all():
@@ -114,13 +116,13 @@ def pieces_within(line, largest):
                             _to_circle(line[j], line[j + 1], largest)[None]]) for i, j in zip(enter, leave)]
 
 
-def _evenly(line, count):
+def _evenly(line: np.ndarray, count: int) -> np.ndarray:
     """`count` points [count, 2] equally far along a polyline [n, 2]."""
     way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     return np.column_stack([np.interp(np.linspace(0, way[-1], count), way, values) for values in line.T])
 
 
-def is_known(charge, points, margin):
+def is_known(charge: SolidsMap, points: np.ndarray, margin: float) -> np.ndarray:
     """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill whose solidity the map
     misses [n]."""
     rows, columns = np.nonzero(~np.isfinite(charge.solidity) & (charge.inside > 0))
@@ -129,12 +131,12 @@ def is_known(charge, points, margin):
     return np.all(np.hypot(*beside) > margin, axis=1)
 
 
-def _length(line):
+def _length(line: np.ndarray) -> float:
     """Length of a polyline [n, 2] without its pieces from or to NaN."""
     return np.nansum(np.linalg.norm(np.diff(line, axis=0), axis=1))
 
 
-def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
+def surface_points(charge: SolidsMap, radius: float, wall: float = WALL, smoothing: float = SMOOTHING) -> np.ndarray:
     """The free surface's points [POINTS, 2] (m) from shoulder to toe, NaN where it is not known, see free_surface."""
     solidity = smoothed(charge, radius, smoothing)
     lines = contour_generator(*charge.centres(), solidity).lines(EDGE * solidity.max())
@@ -163,7 +165,7 @@ def surface_points(charge, radius, wall=WALL, smoothing=SMOOTHING):
     return points if np.mean(ahead - behind) > 0 else points[::-1]
 
 
-def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
+def free_surface(charge: SolidsMap, radius: float, wall: float = WALL, smoothing: float = SMOOTHING) -> FreeSurface:
     """FreeSurface of a SolidsMap's charge in a mill of `radius` (m).
 
     The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity
@@ -176,7 +178,7 @@ def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
     points = surface_points(charge, radius, wall, smoothing)
     known = np.isfinite(points[:, 0])
     try:
-        parameters, rmsd = fit_logistic(*points[known].T, radius)
+        parameters, rmsd = fit_logistic(points[known, 0], points[known, 1], radius)
     except RuntimeError:
         if known.all():
             raise
@@ -184,7 +186,7 @@ def free_surface(charge, radius, wall=WALL, smoothing=SMOOTHING):
     return FreeSurface(points, parameters, rmsd)
 
 
-def fit_logistic(x, y, scale):
+def fit_logistic(x: np.ndarray, y: np.ndarray, scale: float) -> tuple[tuple[float, ...], float]:
     """Parameters (a, b, c, d) of the logistic through points x, y [n] (m), and its RMSD (m): the best of three
     least-squares fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up
     to ten of them.
@@ -193,7 +195,7 @@ def fit_logistic(x, y, scale):
     that are linear least squares. RuntimeError if none comes to an end."""
     x, y = x / scale, y / scale
 
-    def step(x, a, place, c, d):
+    def step(x: np.ndarray, a: float, place: float, c: float, d: float) -> np.ndarray:
         return logistic(x, a, np.exp(c * place), c, d)
 
     starts = []
@@ -215,11 +217,11 @@ def fit_logistic(x, y, scale):
     return (float(a * scale), float(np.exp(c * place)), float(c / scale), float(d * scale)), float(rmsd * scale)
 
 
-def toe_and_shoulder(charge, radius, wall=WALL):
+def toe_and_shoulder(charge: SolidsMap, radius: float, wall: float = WALL) -> tuple[float, ...]:
     """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the
     points at which the free surface meets the circle `wall` (m) from the shell."""
     points = surface_points(charge, radius, wall)
     for end, name in ((-1, "toe"), (0, "shoulder")):
         if np.isnan(points[end]).any():
             raise RuntimeError(f"free surface not known at the {name}: voxels there are missing")
-    return tuple(float(shell_angle(*points[end], charge.sense)) for end in (-1, 0))
+    return tuple(float(shell_angle(points[end, 0], points[end, 1], charge.sense)) for end in (-1, 0))

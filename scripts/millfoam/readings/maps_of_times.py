@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps of a flow's written times: means over axis and time on the pixels of a box about the mill, in the lab frame."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..files.slurry_file import SlurryMap
+from ..files.written_times import MillFlow
 
 PIXELS = 130
 
@@ -16,9 +18,9 @@ class TimesMap(SlurryMap):
     times: int
 
 
-def mean_of_times(maps):
+def mean_of_times(maps: Sequence[TimesMap]) -> TimesMap:
     """TimesMap of the times of several, on the same pixels."""
-    seen = sum(one.seen for one in maps)
+    seen = np.asarray(sum(one.seen for one in maps))
     held = [np.nan_to_num(one.share) * one.seen for one in maps]
     known = [np.where(np.isfinite(one.velocity), part[..., None], 0) for one, part in zip(maps, held)]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -29,13 +31,12 @@ def mean_of_times(maps):
                     source=f"the {times} written times", sense=maps[0].sense)
 
 
-def mean_flow(flow, begin):
+def mean_flow(flow: MillFlow, begin: float) -> TimesMap:
     """TimesMap of a flow, averaged over axis and time from `begin` (s) on a lab-frame grid, velocity weighted by the
     share."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     chosen = [(time, path) for time, path in flow.frames if time >= begin - 1e-9]
-    share, momentum = 0.0, 0.0
-    seen = 0.0
+    seen, share, momentum = np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS, 3))
     for time, path in chosen:
         alpha = np.clip(flow.field("alpha.slurry", path), 0, 1)
         velocity = flow.field("U", path)
@@ -56,11 +57,11 @@ def mean_flow(flow, begin):
                     sense=np.sign(flow.omega))
 
 
-def mean_load(flow, begin):
+def mean_load(flow: MillFlow, begin: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Force of the fluid on the balls over their weight, weighted by the balls' volume over axis and time from `begin`
     (s), on a lab-frame grid: x, y, ratio [ny, nx]; NaN where the balls fill less than 2 % in the mean."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
-    weighted, solidity, frames = 0.0, 0.0, 0
+    weighted, solidity, frames = np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS)), 0
     for time, path in flow.frames:
         if time >= begin - 1e-9:
             phi = flow.field("solidity", path)

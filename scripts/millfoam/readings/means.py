@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Means over time with their standard errors, from blocks of successive times or windows; means and percentiles by
 weight."""
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..files.solids_file import mean_map
+from ..files.solids_file import SolidsMap, mean_map
 
 BLOCKS = 5  # of the averaged time, for errors
 
@@ -16,28 +18,28 @@ class Mean:
     value: float
     error: float = 0.0
 
-    def __sub__(self, other):
+    def __sub__(self, other: "Mean") -> "Mean":
         return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
 
-    def told(self, unit, scale=1.0, form=".1f"):
+    def told(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
 
 
-def block_mean(values):
+def block_mean(values: ArrayLike) -> Mean:
     """Mean of readings [n] of successive blocks of time."""
     values = np.asarray(values, dtype=float)
     return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else np.nan)
 
 
-def series_mean(values, blocks=BLOCKS):
+def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
     """Mean of a series [times, …] by as many blocks of successive times: value [...] and standard error [...]."""
-    split = np.array_split(np.asarray(values, dtype=float), min(blocks, len(values)))
-    parts = np.array([np.mean(part, axis=0) for part in split])
+    values = np.asarray(values, dtype=float)
+    parts = np.array([np.mean(part, axis=0) for part in np.array_split(values, min(blocks, len(values)))])
     error = parts.std(axis=0, ddof=1) / np.sqrt(len(parts)) if len(parts) > 1 else np.full(parts.shape[1:], np.nan)
     return np.mean(values, axis=0), error
 
 
-def angle_mean(angles):
+def angle_mean(angles: ArrayLike) -> Mean:
     """block_mean of angles [n] (degrees), which may stand on either side of 180; from -180 to 180."""
     about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
     found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
@@ -55,7 +57,7 @@ class Reading:
     failed: int
 
 
-def with_error(reading, maps, blocks=8):
+def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsMap], blocks: int = 8) -> Reading:
     """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
 
     reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is
@@ -80,7 +82,7 @@ def with_error(reading, maps, blocks=8):
     return Reading(value, error, len(found), len(parts) - len(found))
 
 
-def time_mean(times, values, begin):
+def time_mean(times: ArrayLike, values: ArrayLike, begin: float) -> float:
     """Mean of values [times] from `begin` (s) on, each standing for the time since the one before; NaN if there are
     none."""
     times = np.asarray(times)
@@ -89,7 +91,7 @@ def time_mean(times, values, begin):
     return float(np.average(np.asarray(values)[late], weights=steps[late])) if late.any() else np.nan
 
 
-def weighted_percentile(values, weights, percents):
+def weighted_percentile(values: np.ndarray, weights: np.ndarray, percents: ArrayLike) -> np.ndarray:
     """Values below which these percents of the weight lie."""
     order = np.argsort(values)
     below = np.cumsum(weights[order]) - weights[order] / 2

@@ -9,25 +9,25 @@ BIN = 3.0  # of the ring along the lifters' tips, degrees
 LEVEL = 0.5  # slurry's share of the fluid at its surface
 
 
-def shell_angle(x, y, omega):
+def shell_angle(x: np.ndarray, y: np.ndarray, omega: float) -> np.ndarray:
     """Angle from straight down, degrees in [-180, 180), positive on the rising side of a mill of speed omega
     (rad/s)."""
     return (np.degrees(np.arctan2(np.sign(omega) * x, -y)) + 180) % 360 - 180
 
 
-def bin_centres():
+def bin_centres() -> np.ndarray:
     """Of the ring's bins, degrees."""
     return np.arange(-180 + BIN / 2, 180, BIN)
 
 
-def crossing(angles, share, inside, outside):
+def crossing(angles: np.ndarray, share: np.ndarray, inside: int, outside: int) -> float:
     """Angle at which the share, straight between the two bins, is LEVEL."""
     part = (share[inside] - LEVEL) / (share[inside] - share[outside])
     way = (angles[outside] - angles[inside] + 180) % 360 - 180
     return (angles[inside] + part * way + 180) % 360 - 180
 
 
-def toe_and_shoulder(share):
+def toe_and_shoulder(share: np.ndarray) -> tuple[float, float]:
     """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins
     [bins].
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.ndimage import label, map_coordinates
 
+from ..files.slurry_file import SlurryMap
 from .means import weighted_percentile
 from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
 
@@ -16,12 +17,13 @@ BED = 0.1  # solidity above which a pixel belongs to the charge
 RANGE = (5, 95)  # per cent of the slurry between which an axial velocity's range is told
 
 
-def pixel_angles(slurry):
+def pixel_angles(slurry: SlurryMap) -> np.ndarray:
     """Angles of a SlurryMap's pixels [ny, nx], degrees."""
-    return shell_angle(*np.meshgrid(*slurry.centres()), slurry.sense)
+    x, y = np.meshgrid(*slurry.centres())
+    return shell_angle(x, y, slurry.sense)
 
 
-def slurry_ends(slurry, radius, wall):
+def slurry_ends(slurry: SlurryMap, radius: float, wall: float) -> tuple[float, ...]:
     """Toe and shoulder of a SlurryMap's slurry (degrees): where its share passes 0.5 on the circle `wall` (m) from the
     shell, at both ends of the arc with most slurry; NaN if there is none or no end. A `wall` at the lifters' tips keeps
     out of the reading what they carry over the top."""
@@ -46,7 +48,7 @@ class Pool:
     deviation: float
 
 
-def pool(slurry, solidity):
+def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
     """Pool of a SlurryMap beside a charge of `solidity` [ny, nx] on the same pixels.
 
     It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and
@@ -85,17 +87,17 @@ class AxialFlow:
     shoulder: HalfFlow
 
     @property
-    def circulates(self):
+    def circulates(self) -> bool:
         """Whether slurry goes to the discharge at the toe and back at the shoulder, in the mean."""
         return self.toe.mean > 0 > self.shoulder.mean
 
 
-def axial_velocity(slurry):
+def axial_velocity(slurry: SlurryMap) -> np.ndarray:
     """A SlurryMap's velocity along the axis [ny, nx] (m/s) where its share is above 0.5, NaN elsewhere."""
     return np.where(np.nan_to_num(slurry.share) > LEVEL, slurry.velocity[..., 2], np.nan)
 
 
-def axial_flow(slurry, toe, shoulder):
+def axial_flow(slurry: SlurryMap, toe: float, shoulder: float) -> AxialFlow:
     """AxialFlow of a SlurryMap whose slurry reaches from `toe` to `shoulder` (degrees, as slurry_ends gives them):
     halves are on either side of the direction midway between both. RuntimeError if there is no slurry on one of
     them."""

@@ -2,12 +2,14 @@
 """The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, way along the axis, with standard
 errors. From the tables and slurry.h5 of function objects, else from the written times."""
 import copy
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import h5py
 import numpy as np
 
-from ..files.slurry_file import read_slurry_map
+from ..files.mill_case import MillCase
+from ..files.slurry_file import SlurryMap, read_slurry_map
 from . import slurry_on_maps
 from .axial import AxialSeries, axial_series
 from .maps_of_times import TimesMap, mean_flow, mean_of_times
@@ -26,7 +28,7 @@ class Way:
     shoulder: Mean
 
     @property
-    def circulates(self):
+    def circulates(self) -> str:
         """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where
         that is within two standard errors."""
         signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value))
@@ -34,12 +36,12 @@ class Way:
         return "yes" if signs == [1, -1] else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
 
 
-def ring_depth(lifter_height):
+def ring_depth(lifter_height: float) -> float:
     """From the shell to the circle on which the slurry's toe and shoulder are read, m."""
     return RING * lifter_height
 
 
-def slurry_way(maps, radius, lifter_height):
+def slurry_way(maps: Sequence[SlurryMap], radius: float, lifter_height: float) -> Way:
     """Way of SlurryMap of successive blocks of time. RuntimeError where slurry has no ends on the circle."""
     ends = [slurry_on_maps.slurry_ends(one, radius, ring_depth(lifter_height)) for one in maps]
     ways = [slurry_on_maps.axial_flow(one, *both) for one, both in zip(maps, ends)]
@@ -47,20 +49,21 @@ def slurry_way(maps, radius, lifter_height):
     return Way(*angles, *(block_mean([getattr(way, half).mean for way in ways]) for half in ("toe", "shoulder")))
 
 
-def mean_slurry(case, maps):
+def mean_slurry(case: MillCase, maps: Sequence[SlurryMap]) -> SlurryMap:
     """SlurryMap of the averaged time of a MillCase, of whose blocks there are `maps`."""
-    if all(isinstance(one, TimesMap) for one in maps):
-        return mean_of_times(maps)
+    of_times = [one for one in maps if isinstance(one, TimesMap)]
+    if len(of_times) == len(maps):
+        return mean_of_times(of_times)
     return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
                            np.sign(case.omega))
 
 
-def blocks_of(count):
+def blocks_of(count: int) -> list[np.ndarray]:
     """Numbers of `count` windows or times in a row, in BLOCKS parts as equal as can be, or fewer of one each."""
     return np.array_split(np.arange(count), min(BLOCKS, count))
 
 
-def slurry_blocks(case):
+def slurry_blocks(case: MillCase) -> Iterator[SlurryMap]:
     """SlurryMap of successive parts of the averaged time of a MillCase: of slurry.h5's windows that
     lie in it, or of the written times. RuntimeError where there are none."""
     begin, end = case.flow.time0 + case.begin, case.flow.time0 + case.last
@@ -82,7 +85,7 @@ def slurry_blocks(case):
         yield mean_flow(some, some.frames[0][0])
 
 
-def read_series(case):
+def read_series(case: MillCase) -> AxialSeries:
     """AxialSeries of a MillCase: axialProfiles' tables where they are, else the written times."""
     tables = [case.axial(name) for name in ("height", "holdUp", "p_rgh")]
     if any(table is None for table in tables):

@@ -11,9 +11,11 @@ How many tracers that takes: in the 30 cm mill at 75 % of critical speed, 3 s, v
 compare.difference in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100,
 0.022 for 300 and 0.017 for 600: it falls about as one over the root of their number. That balls reach further than
 their centres is no more than 0.001 of it."""
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..files.solids_file import CLOCKWISE, SolidsMap
 from ..files.tracks import Trajectory
@@ -34,7 +36,7 @@ class TracerMap(SolidsMap):
     tracers: int
 
 
-def velocities(track, points=3):
+def velocities(track: Trajectory, points: int = 3) -> np.ndarray:
     """Velocity [n, 3] (m/s) at a track's points: derivative of the polynomial through the 3 or 5 points nearest in
     order, the point in their middle but at the ends (Lagrange; Berrut & Trefethen, SIAM Review 46 (2004) 501, eqs 9.4,
     9.5). Exact for polynomials of degree 2 or 4, whatever the times."""
@@ -55,7 +57,7 @@ def velocities(track, points=3):
     return np.einsum("np,npd->nd", weights, track.position[stencil])
 
 
-def cut_at_planes(track, edges):
+def cut_at_planes(track: Trajectory, edges: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Cuts the straight lines between a track's points at every plane of the voxels that they cross.
 
     edges: three ascending arrays, the voxels' planes across x, y and z (m). Returns for every piece: the line it
@@ -77,23 +79,24 @@ def cut_at_planes(track, edges):
     return line[1:][same], place[:-1][same], place[1:][same]
 
 
-def residence(track, edges, velocity, periodic=False):
+def residence(track: Trajectory, edges: Sequence[ArrayLike], velocity: np.ndarray,
+              periodic: bool = False) -> tuple[np.ndarray, np.ndarray, float]:
     """Time [nz, ny, nx] (s) that a tracer spends in each voxel, the integral of its velocity over that time [nz, ny,
     nx, 3] (m), and the time that it spends outside (s).
 
     The track is straight between its points, and so is its velocity [n, 3] (m/s) over time: both integrals are exact
     for that. periodic: z is of a periodic slice, from the first edge to the last, and the track may go on beyond
     them."""
-    edges = [np.asarray(planes, dtype=float) for planes in edges]
-    shape = tuple(len(planes) - 1 for planes in reversed(edges))
+    planes = [np.asarray(one, dtype=float) for one in edges]
+    shape = tuple(len(one) - 1 for one in reversed(planes))
     if periodic:
-        edges[2] = _repeated(edges[2], track.position[:, 2])
-    line, begin, end = cut_at_planes(track, edges)
+        planes[2] = _repeated(planes[2], track.position[:, 2])
+    line, begin, end = cut_at_planes(track, planes)
     duration = np.diff(track.time)[line] * (end - begin)
     middle = ((begin + end) / 2)[:, None]
     where = track.position[line] * (1 - middle) + track.position[line + 1] * middle
     mean = velocity[line] * (1 - middle) + velocity[line + 1] * middle
-    index = np.stack([np.searchsorted(edges[axis], where[:, axis], side="right") - 1 for axis in (2, 1, 0)])
+    index = np.stack([np.searchsorted(planes[axis], where[:, axis], side="right") - 1 for axis in (2, 1, 0)])
     if periodic:
         index[0] %= shape[0]
     inside = np.all((index >= 0) & (index < np.array(shape)[:, None]), axis=0)
@@ -104,7 +107,7 @@ def residence(track, edges, velocity, periodic=False):
     return time.reshape(shape), np.stack(path, axis=-1).reshape(*shape, 3), float(duration[~inside].sum())
 
 
-def _repeated(edges, positions):
+def _repeated(edges: np.ndarray, positions: np.ndarray) -> np.ndarray:
     """The edges of a period, repeated as far as the positions reach."""
     period = edges[-1] - edges[0]
     turns = np.floor((np.array([positions.min(), positions.max()]) - edges[0]) / period).astype(int)
@@ -113,14 +116,17 @@ def _repeated(edges, positions):
     return np.concatenate([*copies, [edges[0] + (turns[1] + 1) * period]])
 
 
-def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=False, sense=CLOCKWISE):
+def tracer_map(tracks: Trajectory | Iterable[Trajectory], edges: Sequence[ArrayLike], charge_volume: float,
+               inside: ArrayLike | None = None, points: int = 3, periodic: bool = False,
+               sense: float = CLOCKWISE) -> TracerMap:
     """TracerMap of one track or several.
 
     edges: voxel edges x [nx + 1], y [ny + 1], z [nz + 1] (m); charge_volume: of all balls, without the pores (m^3);
     inside [nz, ny, nx]: share of each voxel within the mill's walls, 1 if not given; points: of the differentiation,
     see `velocities`; periodic: see `residence`; sense: the mill's. ValueError where these do not fit."""
     tracks = [tracks] if isinstance(tracks, Trajectory) else list(tracks)
-    shape = tuple(len(planes) - 1 for planes in reversed(edges))
+    x, y, z = (np.asarray(planes, dtype=float) for planes in edges)
+    shape = len(z) - 1, len(y) - 1, len(x) - 1
     inside = np.ones(shape) if inside is None else np.asarray(inside, dtype=float)
     if not tracks or not charge_volume > 0 or inside.shape != shape:
         raise ValueError(f"{len(tracks)} tracks, charge of {charge_volume} m3, inside {inside.shape}; expected 1 or "
@@ -130,7 +136,6 @@ def tracer_map(tracks, edges, charge_volume, inside=None, points=3, periodic=Fal
         parts = residence(track, edges, velocities(track, points), periodic)
         time, path, outside = time + parts[0], path + parts[1], outside + parts[2]
     total = time.sum() + outside
-    x, y, z = (np.asarray(planes, dtype=float) for planes in edges)
     room = inside * np.diff(z)[:, None, None] * np.diff(y)[:, None] * np.diff(x)
     with np.errstate(invalid="ignore", divide="ignore"):
         solid = np.where(room > 0, time / total * charge_volume / room, 0.0)

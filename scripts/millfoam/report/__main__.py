@@ -14,7 +14,7 @@ import matplotlib
 from .build import compare_cases, report_case
 
 
-def main():
+def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="report", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts the report of a case, or of several beside each other, together."""
 import datetime
+from collections.abc import Sequence
+from pathlib import Path
 
 from ..files.mill_case import MillCase
 from . import comparison, measurements, page
@@ -12,7 +14,8 @@ from .sections import SECTIONS
 FOOT = "Written by millFoam's scripts/report on {:%Y-%m-%d %H:%M}."
 
 
-def report_case(folder, begin=None, measured=None, tracers=()):
+def report_case(folder: Path | str, begin: float | None = None, measured: Path | None = None,
+                tracers: Sequence[Path] = ()) -> str:
     """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks.
     RuntimeError where the folder is none of a case that was run, or a file cannot be read."""
     case = MillCase(folder, begin)
@@ -29,7 +32,7 @@ def report_case(folder, begin=None, measured=None, tracers=()):
                      first_lines(case, found))
 
 
-def compare_cases(folders, begin=None):
+def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> str:
     """HTML text of a comparison of cases' folders, the first being what the others are held against."""
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]

@@ -1,20 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read off a case's maps and tables, once for all sections, and the numbers that are asked for first."""
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
+from ..files.mill import Mill
+from ..files.mill_case import MillCase
 from ..files.slurry_file import SlurryMap
 from ..readings import axial, charge
 from ..readings.axial import humps_at_ends
-from ..readings.means import time_mean
-from ..readings.slurry_over_time import mean_slurry, read_series, slurry_blocks, slurry_way
+from ..readings.means import Reading, time_mean
+from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_blocks, slurry_way
 from .words import millilitres, uncertain
 
+Rows = list[tuple[str, str]]  # of a table: name and text
 FRAME = ("Distances x are positive to the side where the shell falls, on the right of a clockwise mill: they are alike "
          "for both "
          "senses. Maps show the mill as it turns, with x to the right.")
 
 
-def to_falling_side(case, x):
+def to_falling_side(case: MillCase, x: float) -> float:
     """A distance x (m) as it is in the frame of the rotation: positive to the side where the shell falls."""
     return -np.sign(case.omega) * x
 
@@ -23,7 +29,7 @@ class Readings:
     """What is read off a case's maps, once for all sections and comparisons; a reading that failed is its error's
     text."""
 
-    def __init__(self, case):
+    def __init__(self, case: MillCase) -> None:
         self.case = case
         self.charge = self.attempt(lambda: charge.read_charge(case.charge, case.radius)) if case.solids else None
         self.errors = self.attempt(self._errors) if isinstance(self.charge, charge.Charge) else None
@@ -41,18 +47,18 @@ class Readings:
                                                                                  count))
 
     @staticmethod
-    def attempt(read):
+    def attempt(read: Callable[[], Any]) -> Any:
         """What read() gives, or the text of the error that it raises."""
         try:
             return read()
         except (RuntimeError, ValueError) as error:
             return str(error)
 
-    def error(self, name, k=0):
+    def error(self, name: str, k: int = 0) -> float:
         """Standard error of a reading of the charge over time; NaN where it is not known."""
         return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
 
-    def short_blocks(self, slurry=True):
+    def short_blocks(self, slurry: bool = True) -> str:
         """In words, that errors of the charge, and of the slurry if asked for, are lower bounds: where their blocks
         of time are shorter than a turn of the mill. Empty where they are not."""
         case, lengths = self.case, {}
@@ -65,18 +71,18 @@ class Readings:
                 f"{', '.join(short)}."
                 if short else "")
 
-    def _errors(self):
+    def _errors(self) -> dict[str, Reading] | None:
         maps = self.case.charge_windows
         return charge.charge_with_errors(maps, self.case.radius) if len(maps) >= 4 else None
 
-    def _way(self):
+    def _way(self) -> Way:
         """slurry_over_time.Way by blocks of time, or of the mean where one of them tells nothing."""
         try:
             return slurry_way(self.blocks, self.case.radius, self.case.lifter_height)
         except RuntimeError:
             return slurry_way([self.slurry], self.case.radius, self.case.lifter_height)
 
-    def _profile(self):
+    def _profile(self) -> axial.AxialProfile:
         """AxialProfile by the function object's tables, or else by the written times."""
         series = read_series(self.case)
         if len(series.times) == 0:
@@ -84,7 +90,7 @@ class Readings:
         return axial.mean_profile(series)
 
 
-def key_numbers(case, readings):
+def key_numbers(case: MillCase, readings: Readings) -> Rows:
     """Rows (name, text) of the numbers that are asked for first."""
     rows = []
     if case.results:
@@ -103,7 +109,7 @@ def key_numbers(case, readings):
     return rows
 
 
-def humps_told(fit, z):
+def humps_told(fit: axial.Humps, z: np.ndarray) -> str:
     """Distances and RMSD of axial.Humps on slices z (m), and whether they end where the slices do."""
     apart = ", ".join(f"{1e3 * d:.0f}" for d in fit.distances)
     ended = humps_at_ends(fit, z)
@@ -112,7 +118,7 @@ def humps_told(fit, z):
     return f"{apart} mm apart, RMSD {1e3 * fit.rmsd:.2g} mm{words}"
 
 
-def load_numbers(mill):
+def load_numbers(mill: Mill) -> Rows:
     """Rows of what the mill is filled with: what is simulated, and what was asked for where that is more."""
     rows = [("load of balls", f"{100 * mill.load:.3g} %")]
     if mill.fines_share > 0:
@@ -123,7 +129,7 @@ def load_numbers(mill):
     return rows
 
 
-def charge_numbers(readings):
+def charge_numbers(readings: Readings) -> Rows:
     found, error, x = readings.charge, readings.error, to_falling_side(readings.case, readings.charge.centre[0])
     return [("centre of circulation, x to the falling side", uncertain(1e3 * x, 1e3 * error("centre", 0), "mm")),
             ("centre of circulation, y", uncertain(1e3 * found.centre[1], 1e3 * error("centre", 1), "mm")),
@@ -135,7 +141,7 @@ def charge_numbers(readings):
                                                                  "m/s"))]
 
 
-def balance_numbers(case):
+def balance_numbers(case: MillCase) -> Rows:
     told, late = case.balance, case.balance["Time"] >= case.begin
     if not late.any():
         return []

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report that hold a simulated charge against a measurement: a map out of a CSV, or tracks of
 tracers."""
+from collections.abc import Sequence
+from pathlib import Path
+
 import h5py
 import numpy as np
 
 from ..files.measured_map import read_measured
-from ..files.tracks import read_trajectory
+from ..files.mill_case import MillCase
+from ..files.solids_file import SolidsMap
+from ..files.tracks import Trajectory, read_trajectory
 from ..readings import compare, tracer
 from ..readings.free_surface import free_surface
 from . import maps, page
+from .page import Section
 
 MOST_OUTSIDE = 0.5  # of a track's time, outside of the voxels: it is in other units then, or of another place
 ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by the solidity, over the mean of both "
@@ -16,7 +22,7 @@ ABOUT = ("Of solidity: mean |difference| over 0.634; of velocities: weighted by 
          "speeds.")
 
 
-def measured_section(case, path):
+def measured_section(case: MillCase, path: Path) -> Section:
     """(id, heading, cards) of a case's charge against the measured map in a CSV; RuntimeError naming what is wrong in
     it."""
     if not case.solids:
@@ -29,7 +35,7 @@ def measured_section(case, path):
     return "measured", "Against the measurement", cards(case, measured, f"Measured: {path.name}", "measurement")
 
 
-def tracer_section(case, paths):
+def tracer_section(case: MillCase, paths: Sequence[Path]) -> Section:
     """(id, heading, cards) of a case's charge against that of tracers' tracks; RuntimeError naming what is wrong in
     them."""
     if not case.solids:
@@ -51,7 +57,7 @@ def tracer_section(case, paths):
                         "voxel's room: its solidity, if the charge is steady and mixes.")]
 
 
-def read_track(path):
+def read_track(path: Path) -> Trajectory:
     """A track with points enough for a velocity; RuntimeError naming file, line and value."""
     try:
         track = read_trajectory(path)
@@ -62,7 +68,7 @@ def read_track(path):
     return track
 
 
-def refuse_outside(path, track, edges, periodic):
+def refuse_outside(path: Path | str, track: Trajectory, edges: Sequence[np.ndarray], periodic: bool) -> None:
     """RuntimeError naming the file, the track's extent and the voxels' if more than half of its time is outside the
     voxels."""
     _, _, outside = tracer.residence(track, edges, np.zeros_like(track.position), periodic)
@@ -75,12 +81,12 @@ def refuse_outside(path, track, edges, periodic):
                            f"{extent(voxels)} m; expected t in s, x, y and z in m, x and y from the mill's axis")
 
 
-def extent(ends):
+def extent(ends: np.ndarray) -> str:
     """x, y and z from where to where, of [3, 2]."""
     return ", ".join(f"{axis} = {low:.3g} to {high:.3g}" for axis, (low, high) in zip("xyz", ends))
 
 
-def charge_voxels(case):
+def charge_voxels(case: MillCase) -> tuple[list[np.ndarray], np.ndarray | None, bool, float]:
     """Of solids.h5: edges x, y, z (m) of its voxels, their share within the mill [nz, ny, nx] in the mean over time,
     whether they repeat along z, and the balls' volume by the ledger (m3)."""
     with h5py.File(case.solids) as file:
@@ -95,7 +101,7 @@ def charge_voxels(case):
     return [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in range(3)], inside, periodic, volume
 
 
-def cards(case, other, title, name):
+def cards(case: MillCase, other: SolidsMap, title: str, name: str) -> list[str]:
     """Maps of both, their differences, the histogram and the numbers."""
     apart = compare.difference_maps(case.charge, other)
     return [page.picture(maps.solidity_figure(case, case.charge), "Solidity averaged over axis and time.",
@@ -113,7 +119,7 @@ def cards(case, other, title, name):
             page.table(None, difference_rows(case, other, apart), title="Numbers", note=ABOUT)]
 
 
-def velocity_cards(case, apart, name):
+def velocity_cards(case: MillCase, apart: compare.DifferenceMaps, name: str) -> list[str]:
     """Differences of velocity, if the other map has any."""
     return [page.picture(maps.difference_figure(case, apart.x, apart.y, values, f"difference of the velocity's {axis}, "
                                                                                 f"m/s"),
@@ -121,7 +127,7 @@ def velocity_cards(case, apart, name):
             for axis, values in (("x", apart.velocity_x), ("y", apart.velocity_y)) if np.isfinite(values).any()]
 
 
-def difference_rows(case, other, apart):
+def difference_rows(case: MillCase, other: SolidsMap, apart: compare.DifferenceMaps) -> list[tuple[str, str]]:
     """Rows (name, text) of compare's numbers; what the other map does not allow is told."""
     found = compare.difference(case.charge, other)
     known = np.isfinite(found.velocity_x)
@@ -132,7 +138,8 @@ def difference_rows(case, other, apart):
     rows += [("inside the mill with a difference of solidity over 0.1", f"{100 * apart.shares[far].sum():.3g} %"),
              ("voxels in the mill that are not known", str(found.missing))]
     try:
-        surface = compare.surface_difference(*(free_surface(one, case.radius) for one in (case.charge, other)))
+        ours, theirs = (free_surface(one, case.radius) for one in (case.charge, other))
+        surface = compare.surface_difference(ours, theirs)
         return rows + [("height of the free surface, simulation less the other",
                         f"{1e3 * surface.mean:+.2g} mm, deviating by {1e3 * surface.deviation:.2g} mm")]
     except (RuntimeError, ValueError) as error:

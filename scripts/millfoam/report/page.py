@@ -4,40 +4,45 @@ import base64
 import html
 import io
 import re
+from collections.abc import Iterable, Sequence
 from functools import cache
 from importlib.resources import files
 from string import Template
+from typing import Any
 
 import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 from PIL import Image
 
+from .verdict import Check
 from .words import typeset
 
+Section = tuple[str, str, list[str]]  # id, heading, cards
 MARKS = {"holds": "✓ holds", "look": "! look", "fails": "✗ fails", "unknown": "– not told"}
 
 
-def part(name):
+def part(name: str) -> str:
     """Text of a file in html/."""
     return (files(__package__) / "html" / name).read_text(encoding="utf-8")
 
 
 @cache
-def template(name):
+def template(name: str) -> Template:
     """Template of html/NAME.html, in which a line that begins with blanks continues the one above."""
     return Template(re.sub(r"\n +", "", part(f"{name}.html")).removesuffix("\n"))
 
 
-def fill(name, /, **values):
+def fill(name: str, /, **values: Any) -> str:
     """html/NAME.html with these values: HTML, not escaped here."""
     return template(name).substitute(values)
 
 
-def text(words):
+def text(words: str) -> str:
     """Plain text with its numbers typeset, escaped."""
     return html.escape(typeset(words))
 
 
-def encode(figure, dpi=140, colours=256):
+def encode(figure: Figure, dpi: int = 140, colours: int = 256) -> str:
     """A matplotlib figure as a data URL of a PNG with a palette of so many colours."""
     drawn, buffer = io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, dpi=dpi, format="png")
@@ -46,12 +51,12 @@ def encode(figure, dpi=140, colours=256):
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
 
 
-def card_title(title):
+def card_title(title: str | None) -> str:
     """The heading of a card, nothing without a title."""
     return f"<h3>{text(title)}</h3>" if title else ""
 
 
-def picture(figure, caption, *, title=None):
+def picture(figure: Figure, caption: str, *, title: str | None = None) -> str:
     """A card with a figure. The caption, plain text, also tells those who cannot see it what it shows."""
     alt = text(f"{title}: {caption}" if title else caption)
     encoded = encode(figure)
@@ -59,9 +64,10 @@ def picture(figure, caption, *, title=None):
     return fill("picture", title=card_title(title), words=alt, image=encoded, caption=text(caption))
 
 
-def table(head, rows, *, title=None, note=None, wide=False):
+def table(head: Sequence[str] | None, rows: Iterable[Sequence[Any]], *, title: str | None = None,
+          note: str | None = None, wide: bool = False) -> str:
     """A card with a table; cells that are numbers (int, float or (value, format)) stand to the right."""
-    def cell(value):
+    def cell(value: Any) -> str:
         if isinstance(value, tuple):
             return f'<td class="number">{text(format(*value))}</td>'
         if isinstance(value, (int, float)):
@@ -74,7 +80,7 @@ def table(head, rows, *, title=None, note=None, wide=False):
                 note=paragraph(note) if note else "")
 
 
-def verdicts(checks):
+def verdicts(checks: Iterable[Check]) -> str:
     """A card with one line per check (millfoam.report.checks.Check)."""
     lines = []
     for check in checks:
@@ -85,7 +91,7 @@ def verdicts(checks):
     return fill("verdicts", verdicts="".join(lines))
 
 
-def player(figures, caption, *, title=None):
+def player(figures: Iterable[Figure], caption: str, *, title: str | None = None) -> str:
     """A card that shows figures one after the other, with a slider."""
     frames = [encode(figure, dpi=110, colours=96) for figure in figures]
     listed = "[" + ",".join(f'"{frame}"' for frame in frames) + "]"
@@ -93,16 +99,16 @@ def player(figures, caption, *, title=None):
                 frames=listed)
 
 
-def paragraph(words):
+def paragraph(words: str) -> str:
     return f'<p class="note">{text(words)}</p>'
 
 
-def folded(title, content):
+def folded(title: str, content: str) -> str:
     """Preformatted text that opens on a click."""
     return fill("folded", title=text(title), content=html.escape(content))
 
 
-def page(title, subtitle, sections, foot, first=()):
+def page(title: str, subtitle: str, sections: Iterable[Section], foot: str, first: Sequence[str] = ()) -> str:
     """The whole document. sections: (id, heading, [cards]); those without cards are left out. first: sentences that
     stand above the title."""
     shown = [(name, heading, cards) for name, heading, cards in sections if cards]

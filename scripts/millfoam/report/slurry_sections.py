@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report about the slurry: its maps, its way along the axis, its balance, mechanistic models beside
 it."""
+from typing import Any
+
 import numpy as np
 
+from ..files.mill_case import MillCase
 from ..plots import mill_plots
 from ..readings import axial, charge, models, slurry_on_maps
 from ..readings.axial import humps_at_ends
@@ -10,10 +13,11 @@ from ..readings.free_surface import at_points
 from ..readings.means import time_mean
 from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
+from .case_readings import Readings
 from .words import millilitres, uncertain
 
 
-def slurry_section(case, readings):
+def slurry_section(case: MillCase, readings: Readings) -> list[str]:
     if not case.flow:
         return []
     slurry = readings.slurry
@@ -41,7 +45,7 @@ def slurry_section(case, readings):
     return cards + [page.table(None, slurry_rows(case, readings), title="Read off the maps", note=note)]
 
 
-def slurry_rows(case, readings):
+def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
     """Rows (name, text) of toe, shoulder, pool and way along the axis."""
     slurry, way = readings.slurry, readings.way
     if isinstance(way, Way):
@@ -69,7 +73,7 @@ def slurry_rows(case, readings):
     return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
 
 
-def axial_section(case, readings):
+def axial_section(case: MillCase, readings: Readings) -> list[str]:
     if not case.flow or len(getattr(readings.profile, "z", ())) < 3:
         return []
     fits = []
@@ -92,12 +96,12 @@ def axial_section(case, readings):
     return cards
 
 
-def along(case):
+def along(case: MillCase) -> str:
     """What the axis along the mill is called."""
     return "z, mm" if case.is_slice else "z from the feed end, mm"
 
 
-def balance_section(case, _readings):
+def balance_section(case: MillCase, _readings: Readings) -> list[str]:
     if case.balance is None or len(case.balance["Time"]) < 2:
         return []
     through = " and through its openings" if case.is_open and not case.is_slice else ""
@@ -118,7 +122,7 @@ def balance_section(case, _readings):
     return cards
 
 
-def wall_table(case):
+def wall_table(case: MillCase) -> tuple[list[str] | None, list[tuple]]:
     """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest
     slip."""
     told = case.balance
@@ -127,10 +131,10 @@ def wall_table(case):
     walls = list(dict.fromkeys(name.split("_", 1)[1] for name in told
                                if name.startswith(("torque_", "power_")) and name != "torque_all"))
 
-    def cell(name):
+    def cell(name: str) -> tuple[float, str] | str:
         return (time_mean(told["Time"], told[name], case.begin), ".3g") if name in told else "–"
 
-    rows = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
+    rows: list[tuple] = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
     if "torque_all" in told:
         rows.append(("all", cell("torque_all"), cell("power")))
     if "slip_max" in told and case.met_balls:
@@ -139,15 +143,15 @@ def wall_table(case):
     return ["", "torque, N m", "power, W"], rows
 
 
-def models_section(case, readings):
+def models_section(case: MillCase, readings: Readings) -> list[str]:
     """Mechanistic models beside what was found."""
     cards = []
     # The model's wall friction is that of end walls, which a slice does not have
     if isinstance(readings.charge, charge.Charge) and not case.is_slice:
-        points = readings.charge.surface.points / case.radius
+        x, y = readings.charge.surface.points.T / case.radius
         number = models.surface_number(abs(case.omega), case.mill.sauter_diameter, case.radius,
                                        case.mill.whole_length)
-        found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
+        found = readings.attempt(lambda: models.fit_free_surface(x, y, number, clockwise=case.omega < 0))
         if not isinstance(found, str):
             model, rmsd = found
             why = (f"the fit leaves more than {100 * models.POOR:.0f} % of the radius" if rmsd > models.POOR else
@@ -167,7 +171,7 @@ def models_section(case, readings):
     return cards
 
 
-def moys(case, profile):
+def moys(case: MillCase, profile: Any) -> list[str]:
     """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a
     mill with feed, balls and a discharge over a lip."""
     dense = case.charge.solidity[case.charge.solidity > 0.3]
