@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "meshing/materials.hpp"
+#include "meshing/mill_charge.hpp"
 #include "meshing/mill_document.hpp"
 #include "meshing/mill_flow.hpp"
 #include "meshing/mill_geometry.hpp"
-#include "meshing/mill_shape.hpp"
 #include "meshing/openings.hpp"
 #include "meshing/pi.hpp"
 #include "meshing/resolved_mill.hpp"
@@ -17,9 +17,6 @@
 
 namespace millfoam::meshing {
 namespace {
-
-/// Solidity of the closest random packing of equal balls.
-constexpr double closest_packing = 0.64;
 
 /// Where mill.yaml leaves them open: the largest time-step over the Rayleigh time; the time to settle over
 /// that of a fall through the mill's diameter; the turns of the dry run, of which the first brings the charge
@@ -30,103 +27,45 @@ constexpr double usual_settling = 1.6;
 constexpr double usual_dem_turns = 3;
 constexpr double records_per_turn = 500;
 
+/// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
+constexpr double slowest_fraction = 0.001;
+constexpr double fastest_fraction = 3;
+
 double read_angular_velocity(Section& in, const Geometry& geometry) {
+  const double critical = critical_speed(geometry);
+  const double slowest = slowest_fraction * critical;
+  const double fastest = fastest_fraction * critical;
+  const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
+                            " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
+                            " of the critical speed), negative for clockwise",
+                        [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
+  // A fraction that --set gives turns the mill as the file's angular velocity does
+  std::optional<std::string> usual_sense;
+  if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
+    usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
   in.alternatives({"angular_velocity", "fraction_of_critical"});
-  if (in.is_set("angular_velocity")) in.drop("sense");
+  in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
     for (const char* other : {"fraction_of_critical", "sense"}) {
       if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
     }
-    return in.number("angular_velocity", {"an angular velocity in rad/s other than 0, negative for clockwise",
-                                          [](double v) { return v != 0; }});
+    return in.number("angular_velocity", turning);
   }
-  const double fraction =
-      in.number("fraction_of_critical",
-                {"a fraction of the critical speed above 0 and up to 3, 0.75 for 75 % (or the key "
-                 "angular_velocity)",
-                 [](double v) { return v > 0 && v <= 3; }});
-  const double sign = in.choice("sense", {"clockwise", "anticlockwise"}) == "clockwise" ? -1 : 1;
-  return sign * fraction * critical_speed(geometry);
-}
-
-/// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
-/// images.
-Rule ball_diameter(const Geometry& geometry) {
-  const double room = geometry.radius() - geometry.lifters.height;
-  const bool slice_is_short = geometry.length < room;
-  return positive_below("a ball's diameter", std::min(room, geometry.length), " m",
-                        slice_is_short ? "the mill's length" : "the radius inside the lifters");
-}
-
-std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry) {
-  for (const char* other : {"fill", "diameter", "packing"}) {
-    if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
-  }
-  const double share =
-      geometry.length /
-      in.number("reference_length", positive("the length in m that the masses fill"), geometry.length);
-  std::vector<SizeClass> classes;
-  for (const Section& item : in.list("classes", {"diameter", "mass"})) {
-    classes.push_back({item.number("diameter", ball_diameter(geometry)),
-                       item.number("mass", positive("a mass in kg")) * share});
-  }
-  return classes;
-}
-
-std::vector<SizeClass> read_fill(const Section& in, const Geometry& geometry, double density) {
-  if (in.has("reference_length")) in.refuse("reference_length", "it beside classes only, not beside fill");
-  const double fill =
-      in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
-  const double packing = in.number("packing",
-                                   {"the solidity of a resting charge, above 0 and up to 0.74",
-                                    [](double v) { return v > 0 && v <= 0.74; }},
-                                   0.6);
-  return {
-      {in.number("diameter", ball_diameter(geometry)), fill * packing * density * analytic_volume(geometry)}};
-}
-
-Charge read_charge(const Section& in, const Geometry& geometry, double density) {
-  Charge charge;
-  charge.classes = in.has("classes") ? read_classes(in, geometry) : read_fill(in, geometry, density);
-  double volume = 0;
-  double largest = 0;
-  for (const SizeClass& size : charge.classes) {
-    volume += size.mass / density;
-    largest = std::max(largest, size.diameter);
-  }
-  if (volume > closest_packing * analytic_volume(geometry)) {
-    in.refuse(in.has("classes") ? "classes" : "fill",
-              "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
-                  shown(closest_packing * analytic_volume(geometry)) + " m^3");
-  }
-  charge.fines_below =
-      in.number("fines_below",
-                {"a diameter in m of 0 or more and up to the largest ball's, " + shown(largest) + " m",
-                 [=](double v) { return v >= 0 && v <= largest; }},
-                0);
-  const double room = geometry.radius() - geometry.lifters.height;
-  charge.start_radius =
-      in.number("start_radius",
-                {"a length above the largest ball's radius, " + shown(largest / 2) +
-                     " m, and not above the radius inside the lifters, " + shown(room) + " m",
-                 [=](double v) { return v > largest / 2 && v <= room; }},
-                room - largest / 2);
-  const bool plain = geometry.ends == Ends::plain;
-  charge.start_length =
-      in.number("start_length",
-                {plain ? "a length above the largest ball's diameter, " + shown(largest) +
-                             " m, and not above the mill's, " + shown(geometry.length) + " m"
-                       : "a length above 0",
-                 [=](double v) { return plain ? v > largest && v <= geometry.length : v > 0; }},
-                0.98 * geometry.length);
-  return charge;
+  const double fraction = in.number(
+      "fraction_of_critical", {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
+                                   shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity)",
+                               [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+  const Section::Keys senses = {"clockwise", "anticlockwise"};
+  const std::string sense =
+      usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
+  const double sign = sense == "clockwise" ? -1 : 1;
+  return sign * fraction * critical;
 }
 
 Material read_material(const Section& materials, const std::string& key) {
   if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
   const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
-  return {in.number("density", positive("a density in kg/m^3")),
-          in.number("youngs_modulus", positive("a modulus in Pa")),
+  return {in.number("density", density()), in.number("youngs_modulus", youngs_modulus()),
           in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
 }
 
@@ -141,23 +80,23 @@ Contact read_contact(const Section& materials, const std::string& key, const std
   const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
   return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
                                     [](double v) { return v > 0 && v <= 1; }}),
-          in.number("friction", not_negative("a friction coefficient")),
-          in.number("rolling_friction", not_negative("a rolling friction coefficient"))};
+          in.number("friction", friction_coefficient("a friction coefficient")),
+          in.number("rolling_friction", friction_coefficient("a rolling friction coefficient"))};
 }
 
 /// The modulus, or the overlap that it follows from.
-void read_softness(Section& in, Dem& dem) {
+void read_softness(Section& in, const Geometry& geometry, Dem& dem) {
   in.alternatives({"youngs_modulus", "largest_overlap"});
   if (in.has("youngs_modulus")) {
     if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
-    dem.youngs_modulus = in.number("youngs_modulus", positive("a modulus in Pa"));
+    dem.youngs_modulus = in.number("youngs_modulus", youngs_modulus());
   } else {
     dem.largest_overlap = in.number(
         "largest_overlap",
         {"a share of the diameter above 0 and up to 0.15", [](double v) { return v > 0 && v <= 0.15; }},
         default_largest_overlap);
   }
-  dem.soften_below = in.number("soften_below", not_negative("a diameter in m"), 0);
+  dem.soften_below = in.number("soften_below", zero_up_to("a diameter in m", geometry.diameter), 0);
 }
 
 /// Time to fall through the mill's diameter, s.
@@ -167,7 +106,7 @@ double fall_time(const Geometry& geometry) {
 
 Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   Dem dem;
-  read_softness(in, dem);
+  read_softness(in, geometry, dem);
   dem.rayleigh_fraction = in.number(
       "rayleigh_fraction",
       {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
@@ -188,16 +127,18 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   return dem;
 }
 
+/// Honey has 10 Pa s, fresh concrete a yield stress of 1e3 Pa, liquid iron a surface tension of 1.9 N/m.
 Slurry read_slurry(const Section& in) {
-  return {in.number("density", positive("a density in kg/m^3")),
-          in.number("plastic_viscosity", positive("a viscosity in Pa s")),
-          in.number("yield_stress", not_negative("a stress in Pa")),
-          in.number("surface_tension", not_negative("a surface tension in N/m"), 0.07)};
+  return {in.number("density", density()),
+          in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
+          in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
+          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07)};
 }
 
+/// Gases reach a liquid's density and viscosity at the critical point at most.
 Air read_air(const Section& in) {
-  return {in.number("density", positive("a density in kg/m^3"), 1.2),
-          in.number("viscosity", positive("a viscosity in Pa s"), 1.8e-5)};
+  return {in.number("density", positive_up_to("a density in kg/m^3", 1000), 1.2),
+          in.number("viscosity", positive_up_to("a viscosity in Pa s", 0.01), 1.8e-5)};
 }
 
 /// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which

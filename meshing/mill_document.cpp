@@ -105,6 +105,13 @@ std::vector<std::string> names_of(const std::string& path) {
   return names;
 }
 
+/// Where the value of the key stands among those that were read.
+nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
+  nlohmann::ordered_json::json_pointer pointer;
+  for (const std::string& name : names_of(path)) pointer /= name;
+  return pointer;
+}
+
 [[noreturn]] void refuse_change(const std::string& change, const std::string& reason) {
   throw MillError("--set " + change + ": " + reason);
 }
@@ -221,14 +228,20 @@ std::string MillDocument::place(const std::string& path) const {
 }
 
 bool MillDocument::is_changed(const std::string& path) const {
-  const auto inside = changed_.lower_bound(path + '.');
-  return changed_.count(path) > 0 || (inside != changed_.end() && inside->first.rfind(path + '.', 0) == 0);
+  const auto has_inside = [&](char separator) {
+    const auto inside = changed_.lower_bound(path + separator);
+    return inside != changed_.end() && inside->first.rfind(path + separator, 0) == 0;
+  };
+  return changed_.count(path) > 0 || has_inside('.') || has_inside('[');
 }
 
 void MillDocument::record(const std::string& path, const nlohmann::ordered_json& value) {
-  std::string pointer;
-  for (const std::string& name : names_of(path)) pointer += '/' + name;
-  (*keys_)[nlohmann::ordered_json::json_pointer(pointer)] = value;
+  (*keys_)[pointer_to(path)] = value;
+}
+
+void MillDocument::forget(const std::string& path) {
+  const auto pointer = pointer_to(path);
+  if (keys_->contains(pointer)) keys_->at(pointer.parent_pointer()).erase(pointer.back());
 }
 
 const nlohmann::ordered_json& MillDocument::keys() const {

@@ -47,6 +47,8 @@ class MillDocument {
 
   /// Keeps the value of a key that was read; `path` as in "charge.classes[0].mass".
   void record(const std::string& path, const nlohmann::ordered_json& value);
+  /// Takes a key as one that was not read.
+  void forget(const std::string& path);
   const nlohmann::ordered_json& keys() const;
 
  private:

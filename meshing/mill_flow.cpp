@@ -30,8 +30,18 @@ double reach(const Geometry& geometry) {
   return geometry.length + (geometry.pulp_lifters ? geometry.pulp_lifters->depth : 0);
 }
 
-Rule whole_number(const std::string& what) {
-  return {"a whole number of " + what + " from 1 to 10000", [](double v) { return v >= 1 && v <= 1e4; }};
+/// Voxels or slices along an axis, and voxels together, that memory and files can hold.
+constexpr int most_along_axis = 10000;
+constexpr double most_voxels = 1e9;
+/// Factor on the drag, with which balls and slurry move as one.
+constexpr double largest_multiplier = 1000;
+
+void check_number_of_voxels(const Section& in, double across, double along) {
+  const double voxels = across * across * along;
+  if (voxels <= most_voxels) return;
+  const bool counted = in.has("counts");
+  in.refuse(counted ? "counts" : "voxel_size", (counted ? "numbers that give" : "a length that gives") +
+                                                   std::string(" at most 1e9 voxels, not ") + shown(voxels));
 }
 
 /// Voxels across and along the mill, by `voxel_size` or `counts`; an even number across unless counted.
@@ -43,8 +53,9 @@ Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int
   if (in.has("counts")) {
     if (in.has("voxel_size")) in.refuse("voxel_size", "either voxel_size or counts");
     const Section counts = in.section("counts", {"across", "along"});
-    voxels.shape[0] = counts.integer("across", whole_number("voxels across the mill"));
-    voxels.shape[2] = counts.integer("along", whole_number("voxels along the axis"));
+    voxels.shape[0] = counts.integer("across", whole_number("voxels across the mill", 1, most_along_axis));
+    voxels.shape[2] = counts.integer("along", whole_number("voxels along the axis", 1, most_along_axis));
+    check_number_of_voxels(in, voxels.shape[0], voxels.shape[2]);
   } else {
     const double size =
         in.number("voxel_size",
@@ -54,8 +65,9 @@ Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int
                   usual_size);
     voxels.shape[0] = 2 * static_cast<int>(std::ceil(half / size * (1 - 1e-9)));
     half = voxels.shape[0] * size / 2;
-    voxels.shape[2] =
-        usual_along > 0 ? usual_along : std::max(1, static_cast<int>(std::lround(length / size)));
+    const double along = usual_along > 0 ? usual_along : std::max(1.0, std::round(length / size));
+    check_number_of_voxels(in, voxels.shape[0], along);
+    voxels.shape[2] = static_cast<int>(along);
   }
   voxels.shape[1] = voxels.shape[0];
   voxels.lower = {-half, -half, 0};
@@ -89,7 +101,9 @@ FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
   if (in.has("level")) {
     start.level = in.number("level", level);
   } else if (in.has("volume")) {
-    start.volume = in.number("volume", not_negative("a volume in m^3 (of the whole mill)")) *
+    start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",
+                                                  flow_volume(mill.geometry) * mill.whole_length /
+                                                      mill.geometry.length)) *
                    mill.geometry.length / mill.whole_length;
   } else {
     start.volume = pores * in.number("fill",
@@ -129,7 +143,7 @@ void read_drag(const Section& in, Flow& flow) {
   Section::Keys names;
   for (const drag::Law& law : drag::laws()) names.emplace_back(law.name);
   flow.law = in.choice("law", names, "Beetstra");
-  flow.multiplier = in.number("multiplier", not_negative("a factor on the drag"), 1);
+  flow.multiplier = in.number("multiplier", zero_up_to("a factor on the drag", largest_multiplier), 1);
   flow.viscosity = in.choice("viscosity", {"plastic", "pore"}, "plastic");
   flow.polydispersity = in.boolean("polydispersity", false);
 }
@@ -228,12 +242,15 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
   flow.start = read_start(in, slurry, mill);
   check_room(in, flow, mill);
-  const double feed = in.number("feed", not_negative("a feed rate in m^3/s"), 0);
+  const double feed = in.number(
+      "feed",
+      zero_up_to("a feed rate in m^3/s (the mill's volume in a second at most)", flow_volume(mill.geometry)),
+      0);
   if (feed > 0 && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
     in.refuse("feed", "it with geometry.inlet only");
   flow.feed = mill.geometry.inlet ? feed : 0;
   read_steps(in, mill, flow);
-  flow.slices = in.integer("slices", whole_number("slices"), mill.resolution.layers);
+  flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis), mill.resolution.layers);
   flow.averages = read_flow_averages(in, flow, mill);
   return flow;
 }

@@ -14,6 +14,12 @@ namespace {
 
 /// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
 constexpr double most_cells = 1e8;
+/// Cells along a side of a block or of the mill: more make too many together.
+constexpr int most_along_side = 100000;
+/// Lifters or sectors: more are no wider than the balls between them.
+constexpr int most_around = 1000;
+/// Share of holes with which a grate lets next to nothing through.
+constexpr double least_open = 0.001;
 
 /// Where sources do not give them: height of lifters over the mill's radius; radii of the grates over the
 /// radius inside the lifters and over each other; depth of pulp lifters over the mill's diameter; radius
@@ -64,11 +70,10 @@ double read_top_width(const Section& in, const Lifters& lifters, double radius) 
 
 Lifters read_lifters(const Section& in, double radius) {
   Lifters lifters;
-  lifters.count =
-      in.integer("count", {"a whole number of lifters, 0 or more", [](double v) { return v >= 0; }});
+  lifters.count = in.integer("count", whole_number("lifters", 0, most_around));
   if (lifters.count == 0) {
     for (const char* ignored : {"height", "width", "top_width"}) {
-      in.number(ignored, not_negative("a length in m"), 0);
+      in.number(ignored, zero_up_to("a length in m", longest), 0);
     }
     return lifters;
   }
@@ -79,7 +84,8 @@ Lifters read_lifters(const Section& in, double radius) {
   return lifters;
 }
 
-Inlet read_inlet(const Section& in, double room) {
+Inlet read_inlet(Section in, double room) {
+  in.alternatives({"area", "radius"});
   const std::string inside = "the radius inside the lifters";
   if (!in.has("area")) {
     return {in.number("radius", positive_below("a length (or the key area)", room, " m", inside))};
@@ -113,19 +119,22 @@ Grates read_grates(const Section& in, double room) {
   if (grates.outer_radius - grates.inner_radius < same_circle * grates.outer_radius) {
     in.refuse("inner_radius", "a length at least 0.5 % below outer_radius");
   }
-  grates.sectors = in.integer("sectors", at_least_one("sectors"));
+  grates.sectors = in.integer("sectors", whole_number("sectors", 1, most_around));
   grates.sector_share = in.number("sector_share", share("a share of each sector's angle"), 1);
-  grates.open_fraction = in.number("open_fraction", share("a share of holes"), 1);
+  grates.open_fraction = in.number("open_fraction",
+                                   {"a share of holes from " + shown(least_open) + " to 1",
+                                    [](double v) { return v >= least_open && v <= 1; }},
+                                   1);
   return grates;
 }
 
 PulpLifters read_pulp_lifters(const Section& in, const Geometry& geometry, double room) {
   const double grates = geometry.grates->inner_radius;
   PulpLifters pulp;
-  pulp.depth = in.number("depth", positive("a length in m"), usual_pulp_depth * geometry.diameter);
-  pulp.layers = in.integer("layers", {"a whole number of layers, 2 or more (else cells in corners have two "
-                                      "neighbours only)",
-                                      [](double v) { return v >= 2; }});
+  pulp.depth = in.number("depth", length_of_mill(), usual_pulp_depth * geometry.diameter);
+  Rule layers = whole_number("layers", 2, most_along_side);
+  layers.expected += " (with one, cells in corners have two neighbours only)";
+  pulp.layers = in.integer("layers", layers);
   pulp.discharge_radius =
       in.number("discharge_radius", circle(room, grates, "not above the grates' inner radius"),
                 std::max(usual_discharge_ratio * grates, smallest_circle * room));
@@ -152,7 +161,7 @@ void read_openings(const Section& in, Geometry& geometry) {
 }
 
 BlockCounts read_counts(const Section& in, const Geometry& geometry) {
-  const Rule cells = at_least_one("cells");
+  const Rule cells = whole_number("cells", 1, most_along_side);
   BlockCounts counts;
   counts.gap = in.integer("gap", cells);
   if (geometry.lifters.count > 0) {
@@ -165,9 +174,9 @@ BlockCounts read_counts(const Section& in, const Geometry& geometry) {
                          ", a multiple of four above 4");
   }
   const auto bands = opening_circles(geometry).size() + 1;
-  counts.ring = in.integer("ring", {"a whole number of cells, " + std::to_string(bands) +
-                                        " or more (one between each two circles of the openings)",
-                                    [=](double v) { return v >= static_cast<double>(bands); }});
+  Rule ring = whole_number("cells", static_cast<int>(bands), most_along_side);
+  ring.expected += " (at least one between each two circles of the openings)";
+  counts.ring = in.integer("ring", ring);
   return counts;
 }
 
@@ -212,7 +221,7 @@ Resolution read_resolution(const Section& in, const Geometry& geometry) {
         usual_cell * geometry.radius());
     section = analytic_section(geometry) / (resolution.cell_size * resolution.cell_size);
   }
-  resolution.layers = in.integer("layers", at_least_one("layers"),
+  resolution.layers = in.integer("layers", whole_number("layers", 1, most_along_side),
                                  usual_layers(geometry, shell_cell_size(resolution, geometry)));
   const double cells =
       section * (resolution.layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -140,7 +141,8 @@ class Extrusion {
   }
 
   /// The cells in front of the grates or, with pulp lifters, behind them: what resists there turns with the
-  /// mill, as the slurry in a compartment does anyway.
+  /// mill, as the slurry in a compartment does anyway. And all cells of the pulp lifters, which balls do not
+  /// reach.
   void add_zones() {
     if (!geometry_.grates) return;
     mesh_.cell_zones.push_back({"grates", {}});
@@ -149,7 +151,12 @@ class Extrusion {
       if (!openings_.grates[static_cast<std::size_t>(quad)]) continue;
       mesh_.cell_zones.back().members.push_back(layer * quads() + quad);
     }
-    if (geometry_.pulp_lifters) mesh_.face_zones.push_back({"grates", {}});
+    if (!geometry_.pulp_lifters) return;
+    mesh_.face_zones.push_back({"grates", {}});
+    mesh_.cell_zones.push_back(
+        {pulp_lifters_zone, std::vector<int>(static_cast<std::size_t>(quads() * (all_layers_ - layers_)))});
+    auto& behind = mesh_.cell_zones.back().members;
+    std::iota(behind.begin(), behind.end(), quads() * layers_);
   }
 
   void add_inner_faces() {

@@ -7,6 +7,9 @@
 
 namespace millfoam::meshing {
 
+/// Cell zone of the pulp lifters, which balls do not reach.
+inline constexpr const char* pulp_lifters_zone = "pulpLifters";
+
 /// Hexahedra that fill the mill at DEM time 0: its cross-section drawn along z in `layers` equal layers, and
 /// on through the pulp lifters. The patches are, in this order,
 /// - shell, lifters (without faces in a smooth drum), feedEnd (z = 0) and dischargeEnd (z = length); the two
@@ -17,7 +20,8 @@ namespace millfoam::meshing {
 ///   end, then are pairs of faces, one for each side, with points of their own.
 ///
 /// The cell zone `grates` holds the cells in front of the grates. With pulp lifters it holds those behind
-/// them, and the face zone `grates` holds the faces through which alone mill and compartments are joined.
+/// them, the face zone `grates` holds the faces through which alone mill and compartments are joined, and the
+/// cell zone `pulpLifters` holds all cells of the compartments.
 VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers);
 
 }  // namespace millfoam::meshing

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "meshing/mill_mesh.hpp"
 #include "meshing/output_file.hpp"
 #include "meshing/resolved_mill.hpp"
 
@@ -72,6 +73,7 @@ void write_openings(Entries& out, const Mill& mill, const Openings& openings) {
                                           ? geometry.pulp_lifters->depth / geometry.pulp_lifters->layers
                                           : geometry.length / mill.resolution.layers);
   }
+  out.word("emptyZones", geometry.pulp_lifters ? std::string("(") + pulp_lifters_zone + ")" : "()");
   if (geometry.pulp_lifters) {
     out.number("pulpLifterDepth", geometry.pulp_lifters->depth);
     out.number("outletRadius", geometry.pulp_lifters->discharge_radius);

@@ -130,13 +130,22 @@ bool Section::is_set(const std::string& key) const {
 
 void Section::drop(const std::string& key) {
   node_.remove(key);
+  document_->forget(path_of(key));
+}
+
+void Section::displace(const std::string& key, const Keys& others) {
+  if (!is_set(key)) return;
+  for (const std::string& other : others)
+    if (!is_set(other)) drop(other);
 }
 
 void Section::alternatives(const Keys& keys) {
-  const auto set = [&](const std::string& key) { return is_set(key); };
-  if (std::none_of(keys.begin(), keys.end(), set)) return;
-  for (const std::string& key : keys)
-    if (!set(key)) drop(key);
+  for (const std::string& key : keys) displace(key, keys);
+}
+
+void Section::put(const std::string& key, double value) {
+  node_[key] = value;
+  document_->record(path_of(key), value);
 }
 
 bool Section::has(const std::string& key) const {

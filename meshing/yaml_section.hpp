@@ -38,10 +38,15 @@ class Section {
 
   /// Whether --set gave the key, or one inside of it.
   bool is_set(const std::string& key) const;
-  /// Takes the key as not given.
+  /// Takes the key as not given, and its value as not read.
   void drop(const std::string& key);
+  /// Where --set gives the key, it takes the place of these others in the file; others that --set gives too
+  /// stay.
+  void displace(const std::string& key, const Keys& others);
   /// Keys of which one at most is meant: one that --set gives takes the place of the others in the file.
   void alternatives(const Keys& keys);
+  /// Takes a number in the place of the file's.
+  void put(const std::string& key, double value);
 
   bool has(const std::string& key) const;
   /// Whether the key is there with a single word or text, not a map or a list.

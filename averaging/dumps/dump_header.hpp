@@ -20,8 +20,8 @@ struct DumpBox {
 struct DumpHeader {
   std::optional<long long> step;   ///< DEM time-step
   std::optional<long long> count;  ///< of particles
-  std::optional<DumpBox> box;
-  std::string columns;  ///< names, separated by blanks
+  std::optional<DumpBox> box;      ///< nothing when the dump names none
+  std::string columns;             ///< names, separated by blanks
 };
 
 /// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError
@@ -29,7 +29,7 @@ struct DumpHeader {
 /// number of atoms.
 DumpHeader read_header(TextLines& lines);
 
-/// Reads as far as the time-step only.
+/// Reads as far as the time-step only. Throws DumpError as `read_header`.
 long long read_step(TextLines& lines);
 
 /// The error that the text stops before what was expected.

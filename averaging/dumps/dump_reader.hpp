@@ -5,22 +5,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "averaging/dumps/particle.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 
 /// Dumps that cannot be used; the message begins with "file:line:" or the file's name.
 class DumpError : public std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// All balls at one time.
-struct ParticleRecord {
-  long long step = 0;  ///< DEM time-step
-  std::vector<Particle> particles;
-  std::vector<Superquadric> shapes;  ///< [particles], or empty when all are spheres
 };
 
 /// Parses one record in the text layout of LIGGGHTS' and LAMMPS' `dump custom`: the items TIMESTEP, NUMBER OF

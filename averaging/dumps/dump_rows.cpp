@@ -73,7 +73,7 @@ void DumpRows::read(ParticleRecord& record) {
     read_carefully(*line);
     append(lines_.line(), record);
   }
-  if (const auto twins = find_twins(record.particles)) {
+  if (const auto twins = find_duplicates(record.particles)) {
     refuse(first_line + twins->second, "particle " + std::to_string(record.particles[twins->first].id) +
                                            " is there twice, also on line " +
                                            std::to_string(first_line + twins->first));

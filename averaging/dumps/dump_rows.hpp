@@ -51,7 +51,7 @@ class DumpRows {
   Row row_;
 };
 
-/// Reads a whole dump, of one record.
+/// Reads a whole dump, of one record. Throws DumpError as `parse_dump`.
 /// @param bytes  about the length of the text: a damaged count must not reserve more than it can hold
 ParticleRecord read_record(TextLines& lines, std::size_t bytes);
 

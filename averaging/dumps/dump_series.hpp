@@ -9,8 +9,8 @@ namespace millfoam::averaging {
 
 /// One dump of a series.
 struct DumpFile {
-  std::filesystem::path path;
-  long long step = 0;  ///< DEM time-step in its header
+  std::filesystem::path path;  ///< as the pattern gives it
+  long long step = 0;          ///< DEM time-step in its header
 };
 
 /// The dumps that a pattern matches (glob(3): * ? [ ] and ~), in order of their time-steps, read from their

@@ -18,9 +18,10 @@ class TextLines {
 
   /// @param name  of the file, for `place`
   TextLines(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
+  /// @param more  gives the text piece by piece
   TextLines(More more, std::string name) : more_(std::move(more)), name_(std::move(name)) {}
 
-  bool at_end() { return rest_.empty() && !fetch(); }
+  bool at_end() { return rest_.empty() && !fetch(); }  ///< whether no text is left
 
   /// The next line without its line end (LF or CR LF); nothing when the text ends before a line end. It stays
   /// valid until the next call.
@@ -51,6 +52,8 @@ class TextLines {
 
   /// "file:line: " of that line.
   std::string place() const { return place(line_); }
+
+  /// "file:line: " of any line.
   std::string place(std::size_t line) const { return name_ + ':' + std::to_string(line) + ": "; }
 
  private:

@@ -29,7 +29,7 @@ std::optional<long long> doubled_sparse_id(const std::vector<Particle>& particle
 
 }  // namespace
 
-std::optional<std::pair<std::size_t, std::size_t>> find_twins(const std::vector<Particle>& particles) {
+std::optional<std::pair<std::size_t, std::size_t>> find_duplicates(const std::vector<Particle>& particles) {
   if (particles.size() < 2) return std::nullopt;
   long long lowest = particles.front().id, highest = lowest;
   for (const Particle& particle : particles) {

@@ -8,20 +8,9 @@
 
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/mesh/mesh_geometry.hpp"
+#include "averaging/values/voxel_sums.hpp"
 
 namespace millfoam::averaging {
-
-/// Sums over the parts of a flow's cells in each voxel of a grid of n voxels. Those of several meshes (the
-/// parts of a decomposed one) or times may be added up, entry by entry.
-struct VoxelSums {
-  std::size_t components = 1;
-  std::vector<double> volume;  ///< [n] of the cells' parts, m^3
-  std::vector<double> values;  ///< [n][components] sum of volume times value
-  double outside = 0;          ///< volume of the parts beyond the grid, m^3
-
-  VoxelSums(std::size_t voxels, std::size_t components_per_cell)
-      : components(components_per_cell), volume(voxels, 0.0), values(voxels * components_per_cell, 0.0) {}
-};
 
 /// The cells of a flow's mesh as points that carry volume, by which its fields come to a box grid of the lab
 /// frame, however the mesh is turned.
@@ -36,7 +25,7 @@ class CellPoints {
   /// @param divisions  m of an edge of a tetrahedron. Throws std::invalid_argument unless it is 1 to 10.
   explicit CellPoints(const MeshGeometry& mesh, int divisions = 2);
 
-  std::size_t cells() const { return begin_.size() - 1; }
+  std::size_t cells() const { return begin_.size() - 1; }                  ///< number of cells of the mesh
   std::size_t size() const { return tetrahedra_.size() * parts_.size(); }  ///< number of points, at most
 
   /// Adds a field to the sums over voxels; where the grid is periodic its images are one.

@@ -19,6 +19,7 @@ class Error : public std::runtime_error {
 /// Owns one HDF5 identifier and closes it.
 class Handle {
  public:
+  /// HDF5's function that closes this kind of identifier.
   using Close = herr_t (*)(hid_t);
 
   /// Takes over what an HDF5 call returned. Throws Error("cannot " + `action`) when the call had failed.
@@ -37,7 +38,7 @@ class Handle {
     if (id_ >= 0) close_(id_);
   }
 
-  hid_t get() const { return id_; }
+  hid_t get() const { return id_; }  ///< for HDF5's functions; still owned by this object
 
   /// Closes now, so that a failure can be reported. Throws Error("cannot " + `action`).
   void close(const std::string& action) {

@@ -10,9 +10,11 @@
 /// hdf5::Error with the name of the attribute or data set when HDF5 fails.
 namespace millfoam::averaging::hdf5 {
 
+/// A group of a file or group.
 Handle open_group(hid_t parent, const std::string& name);
 Handle create_group(hid_t parent, const std::string& name);
 
+/// Writes a new attribute: a text, or a list of numbers.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 void write_attribute(hid_t object, const std::string& name, const std::vector<double>& values);
 void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
@@ -24,7 +26,7 @@ void write_attribute(hid_t object, const std::string& name, int value);
 /// Gives an attribute that is there a new value.
 void overwrite_attribute(hid_t object, const std::string& name, int value);
 
-/// Text of fixed or of variable length.
+/// A text attribute of fixed or of variable length; throws for another kind.
 std::string read_text_attribute(hid_t object, const std::string& name);
 
 /// Any kind of number, converted; throws unless there are `count` of them.
@@ -58,10 +60,10 @@ bool has(hid_t parent, const std::string& name);
 /// Whether an object has an attribute.
 bool has_attribute(hid_t object, const std::string& name);
 
-/// Dimensions of a data set, slowest first.
+/// Dimensions of a data set, slowest first; throws when there is none of this name.
 std::vector<hsize_t> dimensions(hid_t parent, const std::string& name);
 
-/// Row `index` along the first dimension, flattened in C order.
+/// Row `index` along the first dimension, flattened in C order; throws for one beyond the last.
 std::vector<double> read_row(hid_t parent, const std::string& name, hsize_t index);
 
 /// All values, flattened in C order.

@@ -21,8 +21,8 @@ namespace {
 constexpr const char* slurry_format = "millfoam-slurry";
 constexpr const char* segment_format = "millfoam-slurry-segment";
 
-/// Share of a window by which segments may miss each other: a flow goes on from the name of a time, which is
-/// rounded.
+/// Deposit of a window by which segments may miss each other: a flow goes on from the name of a time, which
+/// is rounded.
 constexpr double gap = 1e-3;
 
 /// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.

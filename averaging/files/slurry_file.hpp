@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "averaging/fields/cell_points.hpp"
 #include "averaging/grids/box_grid.hpp"
+#include "averaging/values/voxel_sums.hpp"
 
 /// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Its layout is listed in
 /// averaging/README.md.

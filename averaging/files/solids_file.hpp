@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "averaging/grids/grid.hpp"
-#include "averaging/statistics/record_sums.hpp"
+#include "averaging/values/ledger.hpp"
+#include "averaging/values/solids_window.hpp"
 
 /// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
 /// class may be used by two threads at once.
@@ -23,44 +24,12 @@ class SolidsFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A span of DEM time [begin, end), s, and the number of records (dumps) averaged in it.
-struct TimeWindow {
-  double begin = 0;
-  double end = 0;
-  long long records = 0;
-  bool starts_late = false;  ///< records are missing at its beginning
-  bool ends_short = false;   ///< or at the end that was asked for
-};
-
-/// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
-struct SolidsWindow {
-  std::vector<double> solidity;    ///< [n] particle volume over cell volume, in [0, 1)
-  std::vector<double> velocity;    ///< [n][3] volume-weighted velocity of the particles in the lab frame, m/s
-  std::vector<double> diameter;    ///< [n] Sauter mean d32 = sum V / sum(V/d), m
-  std::vector<double> diameter43;  ///< [n] d43 = sum(V d) / sum V, m
-  /// [n] share of the cell inside the mill, mean over the window; empty unless walls cut the cells.
-  /// `solidity` is by the volume inside.
-  std::vector<double> inside_fraction;
-};
-
-/// Everything that is stored about one window.
-struct WindowAverage {
-  TimeWindow time;
-  Ledger ledger;  ///< means over the window's records
-  SolidsWindow mean;
-  std::vector<double> number;                ///< [n] of balls, parts counting as parts, mean over the records
-  std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
-  std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
-  std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
-  double balls_per_cell = 0;  ///< mean over the records of balls deposited / cells that hold some of them
-};
-
 /// What holds for the whole file.
 struct SolidsHeader {
   double time0 = 0;                        ///< DEM time at which the first window begins, s
   double timestep = 0;                     ///< of the DEM run, s
   bool whole_run = false;                  ///< one window over the whole run
-  std::string method;                      ///< how balls were shared between cells, in words
+  std::string method;                      ///< how balls were deposited in cells, in words
   std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
   double smoothing = 0;                    ///< width of the diffusion on the mesh, m; 0: none
   std::optional<double> solidity_cap;      ///< above which solids were moved to neighbours
@@ -68,7 +37,7 @@ struct SolidsHeader {
   std::string program;                     ///< that wrote the file, with its version; empty: not known
   std::string mill_charge;    ///< fingerprint of the mill whose charge was averaged; empty: not known
   std::string mill_averages;  ///< fingerprint of the mill and its averages; empty: not known
-  std::string run_id;         ///< of the dry run whose dumps were averaged, `RunNotes`; empty: not known
+  std::string run_id;         ///< of the dry run whose dumps were averaged, `RunMetadata`; empty: not known
   std::optional<double> fines_share;  ///< of the charge's mass: fines, which are no balls; unless known
 };
 
@@ -77,6 +46,7 @@ struct SolidsHeader {
 /// that looks whole. All members throw SolidsFileError.
 class SolidsWriter {
  public:
+  /// Makes `path` + ".part", replacing an older one.
   SolidsWriter(const std::filesystem::path& path, const Grid& grid, const SolidsHeader& header);
   ~SolidsWriter();
   SolidsWriter(const SolidsWriter&) = delete;
@@ -109,7 +79,7 @@ class SolidsReader {
   SolidsReader(SolidsReader&&) noexcept;
   SolidsReader& operator=(SolidsReader&&) noexcept;
 
-  const Grid& grid() const;
+  const Grid& grid() const;                        ///< that the fields live on
   const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
   double time0() const;                            ///< DEM time at which the first window begins, s
   double timestep() const;                         ///< of the DEM run, s

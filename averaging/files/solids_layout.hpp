@@ -9,20 +9,22 @@
 /// share.
 namespace millfoam::averaging::layout {
 
+/// The attribute `format`.
 inline constexpr const char* format = "millfoam-solids";
 
 /// A data set over windows and cells: [window][z][y][x] on a box, [window][cell] on a mesh, see
 /// `field_shape`; of vectors with [3] behind.
 struct Field {
-  const char* name;
-  const char* units;
-  bool vector;
-  /// Where a window keeps it.
+  const char* name;   ///< of the data set
+  const char* units;  ///< its attribute `units`
+  bool vector;        ///< three components per cell
+  /// Where a window keeps it, [cells] or [cells][3].
   const std::vector<double>& (*of)(const WindowAverage&);
 };
 
 using Values = std::vector<double>;
 
+/// The data sets over windows and cells, in the order of the file.
 inline constexpr std::array<Field, 8> fields{{
     {"solidity", "1", false, [](const WindowAverage& w) -> const Values& { return w.mean.solidity; }},
     {"velocity", "m/s", true, [](const WindowAverage& w) -> const Values& { return w.mean.velocity; }},
@@ -44,10 +46,11 @@ inline constexpr Field inside_fraction{
 
 /// A column of /ledger, m^3.
 struct LedgerColumn {
-  const char* name;
-  double Ledger::*value;
+  const char* name;       ///< of the data set
+  double Ledger::*value;  ///< where a ledger keeps it
 };
 
+/// The columns of /ledger, in the order of the file.
 inline constexpr std::array<LedgerColumn, 4> ledger{{{"volume_in", &Ledger::volume_in},
                                                      {"deposited", &Ledger::deposited},
                                                      {"outside", &Ledger::outside},

@@ -28,7 +28,7 @@ class WindowJournal {
   WindowJournal(const WindowJournal&) = delete;
   WindowJournal& operator=(const WindowJournal&) = delete;
 
-  std::size_t rows() const { return rows_; }
+  std::size_t rows() const { return rows_; }  ///< number of windows in it
 
   /// Appends the next window. Every field must have the size of `cells`.
   void append(const WindowAverage& window);

@@ -15,9 +15,9 @@ std::filesystem::path xdmf_path(const std::filesystem::path& solids_file);
 
 /// A data set [window][cells], or of vectors [window][cells][3], as ParaView is to show it.
 struct XdmfField {
-  std::string name;
+  std::string name;      ///< that ParaView shows
   std::string data_set;  ///< its place in the file, without the first slash
-  bool vector = false;
+  bool vector = false;   ///< three components per cell
 };
 
 /// Writes NAME.xdmf beside the file of fields NAME.h5: per window, at `times` (s), the fields per cell of the

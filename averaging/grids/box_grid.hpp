@@ -5,10 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-namespace millfoam::averaging {
+#include "averaging/values/vector3.hpp"
 
-/// Three components along x, y, z: a position in m or a velocity in m/s.
-using Vector3 = std::array<double, 3>;
+namespace millfoam::averaging {
 
 /// Numbers of a voxel along x, y, z, each from 0 to the shape along that axis less one.
 using VoxelIndex = std::array<int, 3>;
@@ -28,11 +27,11 @@ class BoxGrid {
   BoxGrid(const Vector3& lower, const Vector3& upper, const VoxelIndex& shape,
           const std::array<bool, 3>& periodic = {false, false, false});
 
-  const Vector3& lower() const { return lower_; }
-  const Vector3& upper() const { return upper_; }
-  const VoxelIndex& shape() const { return shape_; }
-  const std::array<bool, 3>& periodic() const { return periodic_; }
-  const Vector3& spacing() const { return spacing_; }  ///< edges of a voxel, m
+  const Vector3& lower() const { return lower_; }                    ///< corner, m
+  const Vector3& upper() const { return upper_; }                    ///< corner, m
+  const VoxelIndex& shape() const { return shape_; }                 ///< voxels along x, y, z
+  const std::array<bool, 3>& periodic() const { return periodic_; }  ///< along x, y, z
+  const Vector3& spacing() const { return spacing_; }                ///< edges of a voxel, m
 
   std::size_t size() const;     ///< number of voxels
   double voxel_volume() const;  ///< m^3

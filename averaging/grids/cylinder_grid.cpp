@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

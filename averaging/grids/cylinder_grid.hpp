@@ -25,11 +25,11 @@ class CylinderGrid {
   CylinderGrid(const std::array<double, 2>& radii, const std::array<double, 2>& ends, const VoxelIndex& shape,
                bool periodic_z = false);
 
-  const std::array<double, 2>& radii() const { return radii_; }
-  const std::array<double, 2>& ends() const { return ends_; }
-  const VoxelIndex& shape() const { return shape_; }  ///< along r, theta, z
-  bool periodic_z() const { return periodic_z_; }
-  const Vector3& spacing() const { return spacing_; }  ///< steps of r, theta, z: m, rad, m
+  const std::array<double, 2>& radii() const { return radii_; }  ///< inner and outer, m
+  const std::array<double, 2>& ends() const { return ends_; }    ///< lower and upper z, m
+  const VoxelIndex& shape() const { return shape_; }             ///< along r, theta, z
+  bool periodic_z() const { return periodic_z_; }                ///< whether it repeats along z
+  const Vector3& spacing() const { return spacing_; }            ///< steps of r, theta, z: m, rad, m
 
   std::size_t size() const;                            ///< number of voxels
   double voxel_volume(const VoxelIndex& voxel) const;  ///< m^3

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "averaging/files/solids_file.hpp"
-#include "averaging/grids/grid.hpp"
+#include "averaging/grids/box_grid.hpp"
+#include "averaging/grids/cylinder_grid.hpp"
+#include "averaging/values/solids_window.hpp"
 
 namespace millfoam::averaging {
 
 /// The solids at one point.
 struct LocalSolids {
-  double solidity = 0;
+  double solidity = 0;    ///< volume of particles over volume
   Vector3 velocity{};     ///< of the particles, lab frame, m/s; 0 where there are none
   double diameter = 0;    ///< Sauter mean, m; 0 where there are no particles
   double diameter43 = 0;  ///< m; 0 where there are no particles

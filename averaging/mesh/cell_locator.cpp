@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "averaging/at.hpp"
+#include "averaging/values/as_index.hpp"
 
 namespace millfoam::averaging {
 
@@ -31,7 +31,7 @@ template <typename Place>
 std::vector<int> spatial_order(std::size_t n, Place&& place) {
   std::vector<std::pair<std::uint32_t, int>> keyed;
   keyed.reserve(n);
-  for (int i = 0; at(i) < n; ++i) keyed.emplace_back(morton(place(i)), i);
+  for (int i = 0; as_index(i) < n; ++i) keyed.emplace_back(morton(place(i)), i);
   std::sort(keyed.begin(), keyed.end());
   std::vector<int> order;
   order.reserve(n);
@@ -43,7 +43,7 @@ std::vector<int> order_of_cells(const MeshGeometry& geometry) {
   const Eigen::AlignedBox3d& box = geometry.box();
   const double scale = 1023 / box.sizes().maxCoeff();
   return spatial_order(geometry.cells(), [&](int cell) -> Array3i {
-    return ((geometry.centres()[at(cell)] - box.min()) * scale).cast<int>();
+    return ((geometry.centres()[as_index(cell)] - box.min()) * scale).cast<int>();
   });
 }
 
@@ -63,7 +63,7 @@ struct CellLocator::Filling {
 };
 
 CellLocator::CellLocator(std::shared_ptr<const MeshGeometry> geometry)
-    : geometry_(std::move(geometry)), sides_(*geometry_, order_of_cells(*geometry_)) {
+    : geometry_(std::move(geometry)), containment_(*geometry_, order_of_cells(*geometry_)) {
   lay_grid();
   list_cells();
   voxels_.resize(voxel_begin_.size() - 1);
@@ -78,9 +78,9 @@ CellLocator::CellLocator(std::shared_ptr<const MeshGeometry> geometry)
 
 void CellLocator::lay_grid() {
   const Eigen::AlignedBox3d& box = geometry_->box();
-  const double room = 1e-9 * box.diagonal().norm();
-  lower_ = box.min().array() - room;
-  const Vector3d extent = box.sizes().array() + 2 * room;
+  const double margin = 1e-9 * box.diagonal().norm();
+  lower_ = box.min().array() - margin;
+  const Vector3d extent = box.sizes().array() + 2 * margin;
   const double edge = std::cbrt(extent.prod() / static_cast<double>(geometry_->cells()));
   constexpr double most_along_an_axis = 1e5;
   shape_ = (extent / edge).array().round().max(1).min(most_along_an_axis).cast<int>();
@@ -92,26 +92,27 @@ void CellLocator::list_cells() {
   const Vector3d size = double(1 << deepest) * per_metre_.cwiseInverse();
   const Eigen::Vector3f half = (size / 2 * (1 + 1e-6)).cast<float>();
   std::vector<std::array<int, 2>> found;  // coarse voxel, cell
-  for (int cell = 0; at(cell) < geometry_->cells(); ++cell) {
-    const Eigen::AlignedBox3d& box = geometry_->boxes()[at(cell)];
+  for (int cell = 0; as_index(cell) < geometry_->cells(); ++cell) {
+    const Eigen::AlignedBox3d& box = geometry_->boxes()[as_index(cell)];
     const Array3i low = ((box.min() - lower_).array() / size.array() - 1e-6).cast<int>().max(0);
     const Array3i high = ((box.max() - lower_).array() / size.array() + 1e-6).cast<int>().min(shape_ - 1);
     for (int k = low[2]; k <= high[2]; ++k) {
       for (int j = low[1]; j <= high[1]; ++j) {
         for (int i = low[0]; i <= high[0]; ++i) {
           const Vector3d middle = lower_ + size.cwiseProduct(Vector3d(i + 0.5, j + 0.5, k + 0.5));
-          if (sides_.side_of_box(cell, sides_.local(middle), half) == CellSides::Side::outside) continue;
+          const CellContainment::LocalPoint local = containment_.local(middle);
+          if (containment_.test_box(cell, local, half) == CellContainment::Answer::outside) continue;
           found.push_back({static_cast<int>(index({i, j, k})), cell});
         }
       }
     }
   }
-  voxel_begin_.assign(at(shape_.prod()) + 1, 0);
-  for (const auto& [voxel, cell] : found) ++voxel_begin_[at(voxel) + 1];
+  voxel_begin_.assign(as_index(shape_.prod()) + 1, 0);
+  for (const auto& [voxel, cell] : found) ++voxel_begin_[as_index(voxel) + 1];
   for (std::size_t v = 1; v < voxel_begin_.size(); ++v) voxel_begin_[v] += voxel_begin_[v - 1];
   voxel_cells_.resize(found.size());
   std::vector<int> next(voxel_begin_.begin(), voxel_begin_.end() - 1);
-  for (const auto& [voxel, cell] : found) voxel_cells_[at(next[at(voxel)]++)] = cell;
+  for (const auto& [voxel, cell] : found) voxel_cells_[as_index(next[as_index(voxel)]++)] = cell;
 }
 
 void CellLocator::fill_voxel(const Array3i& voxel) {
@@ -138,14 +139,14 @@ void CellLocator::fill_voxel(const Array3i& voxel) {
 void CellLocator::fill(Filling& filling, const Array3i& corner, int level, const std::vector<int>& cells) {
   const Vector3d half = per_metre_.cwiseInverse() * (double(1 << level) / 2);
   const Vector3d middle = lower_ + corner.cast<double>().matrix().cwiseQuotient(per_metre_) + half;
-  const CellSides::Local local = sides_.local(middle);
+  const CellContainment::LocalPoint local = containment_.local(middle);
   const Eigen::Vector3f reach = (half * (1 + 1e-6)).cast<float>();
   std::vector<int> meeting;
   int code = outside;
   for (const int cell : cells) {
-    const CellSides::Side side = sides_.side_of_box(cell, local, reach);
-    if (side == CellSides::Side::inside) code = cell;
-    if (side == CellSides::Side::unclear) meeting.push_back(cell);
+    const CellContainment::Answer answer = containment_.test_box(cell, local, reach);
+    if (answer == CellContainment::Answer::inside) code = cell;
+    if (answer == CellContainment::Answer::unclear) meeting.push_back(cell);
   }
   const int finest = deepest - filling.depth;
   const bool known = code != outside || meeting.empty();
@@ -170,7 +171,7 @@ void CellLocator::fill(Filling& filling, const Array3i& corner, int level, const
 int CellLocator::list_code(Filling& filling, const std::vector<int>& cells) {
   const int count = static_cast<int>(cells.size());
   for (const int place : filling.lists) {
-    if (lists_[at(place)] != count) continue;
+    if (lists_[as_index(place)] != count) continue;
     if (std::equal(cells.begin(), cells.end(), lists_.begin() + place + 1)) return -2 - place;
   }
   const int place = static_cast<int>(lists_.size());
@@ -181,22 +182,22 @@ int CellLocator::list_code(Filling& filling, const std::vector<int>& cells) {
 }
 
 int CellLocator::choose(const Vector3d& point, int hint, int list) const {
-  const CellSides::Local local = sides_.local(point);
-  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const CellContainment::LocalPoint local = containment_.local(point);
+  if (hint >= 0 && containment_.test(hint, local) == CellContainment::Answer::inside) return hint;
   const int* begin = lists_.data() + list + 1;
   const int* end = begin + begin[-1];
   thread_local std::vector<int> unclear;
   unclear.clear();
   for (const int* cell = begin; cell != end; ++cell) {
     if (*cell == hint) continue;
-    const CellSides::Side side = sides_.side(*cell, local);
-    if (side == CellSides::Side::inside) return *cell;
-    if (side == CellSides::Side::unclear) unclear.push_back(*cell);
+    const CellContainment::Answer answer = containment_.test(*cell, local);
+    if (answer == CellContainment::Answer::inside) return *cell;
+    if (answer == CellContainment::Answer::unclear) unclear.push_back(*cell);
   }
   if (hint >= 0 && std::binary_search(begin, end, hint)) {
     unclear.insert(std::upper_bound(unclear.begin(), unclear.end(), hint), hint);
   }
-  return unclear.empty() ? outside : sides_.settle(*geometry_, point, unclear);
+  return unclear.empty() ? outside : containment_.first_holding(*geometry_, point, unclear);
 }
 
 void CellLocator::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "averaging/mesh/cell_containment.hpp"
 #include "averaging/mesh/cell_search.hpp"
-#include "averaging/mesh/cell_sides.hpp"
 #include "averaging/mesh/mesh_geometry.hpp"
 
 namespace millfoam::averaging {
@@ -21,9 +21,10 @@ namespace millfoam::averaging {
 /// (`hint`).
 class CellLocator : public CellSearch {
  public:
+  /// Prepares the search, in a time that grows as the number of cells.
   explicit CellLocator(std::shared_ptr<const MeshGeometry> geometry);
 
-  const MeshGeometry& geometry() const { return *geometry_; }
+  const MeshGeometry& geometry() const { return *geometry_; }  ///< of the mesh that is searched
 
   int locate(const Eigen::Vector3d& point, int hint = -1) const final {
     const Eigen::Array3d place = (point - lower_).array() * per_metre_.array();
@@ -69,7 +70,7 @@ class CellLocator : public CellSearch {
   int list_code(Filling& filling, const std::vector<int>& cells);
 
   std::shared_ptr<const MeshGeometry> geometry_;
-  CellSides sides_;
+  CellContainment containment_;
   Eigen::Vector3d lower_;
   Eigen::Vector3d per_metre_;  ///< smallest fine voxels per m
   Eigen::Array3d limit_;       ///< the grid's extent in smallest fine voxels

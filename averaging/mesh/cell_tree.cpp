@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "averaging/at.hpp"
+#include "averaging/values/as_index.hpp"
 
 namespace millfoam::averaging {
 
@@ -22,18 +22,18 @@ double half_surface(const Vector3d& size) {
   return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
 }
 
-Array3f as_array(const CellSides::Local& point) {
+Array3f as_array(const CellContainment::LocalPoint& point) {
   return {point.x, point.y, point.z};
 }
 
 }  // namespace
 
-CellTree::CellTree(const MeshGeometry& geometry) : geometry_(geometry), sides_(geometry) {
+CellTree::CellTree(const MeshGeometry& geometry) : geometry_(geometry), containment_(geometry) {
   build();
 }
 
 void CellTree::update() {
-  sides_.update(geometry_);
+  containment_.update(geometry_);
   if (fit() > worn * cost_) build();
 }
 
@@ -54,7 +54,8 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
     nodes_[number].count = static_cast<int>(last - first);
   } else {
     Eigen::AlignedBox3d centres;
-    for (std::size_t i = first; i < last; ++i) centres.extend(geometry_.boxes()[at(order_[i])].center());
+    for (std::size_t i = first; i < last; ++i)
+      centres.extend(geometry_.boxes()[as_index(order_[i])].center());
     Eigen::Index axis = 0;
     centres.sizes().maxCoeff(&axis);
     const std::size_t middle = (first + last) / 2;
@@ -62,8 +63,8 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
     std::nth_element(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
                      begin + static_cast<std::ptrdiff_t>(last), [&](int a, int b) {
                        const auto& boxes = geometry_.boxes();
-                       return boxes[at(a)].min()[axis] + boxes[at(a)].max()[axis] <
-                              boxes[at(b)].min()[axis] + boxes[at(b)].max()[axis];
+                       return boxes[as_index(a)].min()[axis] + boxes[as_index(a)].max()[axis] <
+                              boxes[as_index(b)].min()[axis] + boxes[as_index(b)].max()[axis];
                      });
     build_node(first, middle);
     build_node(middle, last);
@@ -73,11 +74,12 @@ void CellTree::build_node(std::size_t first, std::size_t last) {
 
 void CellTree::fit_leaf(Node& node) const {
   Eigen::AlignedBox3d box;
-  for (int i = node.first; i < node.first + node.count; ++i) box.extend(geometry_.boxes()[at(order_[at(i)])]);
+  for (int i = node.first; i < node.first + node.count; ++i)
+    box.extend(geometry_.boxes()[as_index(order_[as_index(i)])]);
   // More than single precision loses, so that no point on the boundary is missed.
-  const double room = 1e-6 * geometry_.box().diagonal().norm();
-  node.low = as_array(sides_.local(box.min() - Vector3d::Constant(room)));
-  node.high = as_array(sides_.local(box.max() + Vector3d::Constant(room)));
+  const double margin = 1e-6 * geometry_.box().diagonal().norm();
+  node.low = as_array(containment_.local(box.min() - Vector3d::Constant(margin)));
+  node.high = as_array(containment_.local(box.max() + Vector3d::Constant(margin)));
 }
 
 /// Fits all boxes and returns their surface over that of the cells' own boxes.
@@ -90,7 +92,7 @@ double CellTree::fit() {
       fit_leaf(node);
     } else {
       const Node& left = nodes_[n + 1];
-      const Node& right = nodes_[at(left.skip)];
+      const Node& right = nodes_[as_index(left.skip)];
       node.low = left.low.min(right.low);
       node.high = left.high.max(right.high);
     }
@@ -100,40 +102,40 @@ double CellTree::fit() {
 }
 
 int CellTree::locate(const Vector3d& point, int hint) const {
-  const CellSides::Local local = sides_.local(point);
-  if (hint >= 0 && sides_.side(hint, local) == CellSides::Side::inside) return hint;
+  const CellContainment::LocalPoint local = containment_.local(point);
+  if (hint >= 0 && containment_.test(hint, local) == CellContainment::Answer::inside) return hint;
   const Array3f place = as_array(local);
   thread_local std::vector<int> unclear;
   unclear.clear();
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!node.contains(place)) {
-      n = at(node.skip);
+      n = as_index(node.skip);
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i) {
-      const int cell = order_[at(i)];
-      const CellSides::Side side = sides_.side(cell, local);
-      if (side == CellSides::Side::inside) return cell;
-      if (side == CellSides::Side::unclear) unclear.push_back(cell);
+      const int cell = order_[as_index(i)];
+      const CellContainment::Answer answer = containment_.test(cell, local);
+      if (answer == CellContainment::Answer::inside) return cell;
+      if (answer == CellContainment::Answer::unclear) unclear.push_back(cell);
     }
     ++n;
   }
   if (unclear.empty()) return -1;
   std::sort(unclear.begin(), unclear.end());
-  return sides_.settle(geometry_, point, unclear);
+  return containment_.first_holding(geometry_, point, unclear);
 }
 
 void CellTree::candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const {
   cells.clear();
-  const Array3f low = as_array(sides_.local(box.min())), high = as_array(sides_.local(box.max()));
+  const Array3f low = as_array(containment_.local(box.min())), high = as_array(containment_.local(box.max()));
   for (std::size_t n = 0; n < nodes_.size();) {
     const Node& node = nodes_[n];
     if (!((high >= node.low).all() && (low <= node.high).all())) {
-      n = at(node.skip);
+      n = as_index(node.skip);
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i) cells.push_back(order_[at(i)]);
+    for (int i = node.first; i < node.first + node.count; ++i) cells.push_back(order_[as_index(i)]);
     ++n;
   }
 }

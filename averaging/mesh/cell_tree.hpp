@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "averaging/mesh/cell_containment.hpp"
 #include "averaging/mesh/cell_search.hpp"
-#include "averaging/mesh/cell_sides.hpp"
 #include "averaging/mesh/mesh_geometry.hpp"
 
 namespace millfoam::averaging {
@@ -37,7 +37,7 @@ class CellTree : public CellSearch {
  private:
   /// In depth-first order: the first child of a node that is not a leaf comes next.
   struct Node {
-    Eigen::Array3f low;  ///< corners from the origin of `sides_`, rounded outwards
+    Eigen::Array3f low;  ///< corners from the origin of `containment_`, rounded outwards
     Eigen::Array3f high;
     int skip = 0;   ///< the node after all below this one
     int first = 0;  ///< of a leaf: where its cells begin in `order_`
@@ -52,7 +52,7 @@ class CellTree : public CellSearch {
   void fit_leaf(Node& node) const;
 
   const MeshGeometry& geometry_;
-  CellSides sides_;
+  CellContainment containment_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
   double cost_ = 0;  ///< surface of all boxes over that of the cells' boxes when the tree was built

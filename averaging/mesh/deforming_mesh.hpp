@@ -20,7 +20,7 @@ class MeshSeries {
   /// Throws as MeshReader.
   explicit MeshSeries(const std::filesystem::path& path);
 
-  const MeshTopology& topology() const { return reader_.topology(); }
+  const MeshTopology& topology() const { return reader_.topology(); }         ///< the same at all times
   double begin() const { return reader_.time0() + reader_.times().front(); }  ///< DEM time, s
   double end() const { return reader_.time0() + reader_.times().back(); }     ///< DEM time, s
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 
@@ -28,6 +28,19 @@ double cut_off(double radius, double h, double p, double from, double to) {
   return r2 * radius * bent - h * (3 * r2 - h * h) / 2 * angle + h * p * (to - from) / 2;
 }
 
+/// The facet's corners from the foot of the perpendicular from the centre, the first one again at the end.
+/// They are put into one plane through the foot, so that neighbouring edges see one corner.
+std::array<Vector3d, 5> corners_from(const Vector3d& foot, const Facet& facet, const MeshPoints& points) {
+  const auto count = static_cast<std::size_t>(facet.corner_count);
+  std::array<Vector3d, 5> corners;
+  for (std::size_t i = 0; i < count; ++i) {
+    corners[i] = points[static_cast<std::size_t>(facet.corners[i])] - foot;
+    corners[i] -= facet.normal.dot(corners[i]) * facet.normal;
+  }
+  corners[count] = corners[0];
+  return corners;
+}
+
 }  // namespace
 
 FacetCut cut_facet(const Facet& facet, const MeshPoints& points, const Vector3d& centre, double radius) {
@@ -35,13 +48,7 @@ FacetCut cut_facet(const Facet& facet, const MeshPoints& points, const Vector3d&
   if (h >= radius) return {};
   const double reach2 = (radius - h) * (radius + h);
   const auto count = static_cast<std::size_t>(facet.corner_count);
-  const Vector3d foot = centre + height * facet.normal;
-  std::array<Vector3d, 5> corners;
-  for (std::size_t i = 0; i < count; ++i)
-    corners[i] = points[static_cast<std::size_t>(facet.corners[i])] - foot;
-  // The corners are put into one plane through the foot, so that neighbouring edges see one corner.
-  for (std::size_t i = 0; i < count; ++i) corners[i] -= facet.normal.dot(corners[i]) * facet.normal;
-  corners[count] = corners[0];
+  const std::array<Vector3d, 5> corners = corners_from(centre + height * facet.normal, facet, points);
 
   std::array<double, 4> area{}, length2{};
   bool foot_inside = true;

@@ -9,13 +9,14 @@ namespace millfoam::averaging {
 
 /// How a facet cuts a sphere.
 struct FacetCut {
+  /// Whether the facet and the sphere meet, and whether that is certain.
   enum class Kind {
     none,     ///< the facet does not meet the sphere
     clear,    ///< it does, and `beyond` holds
     delicate  ///< it does so near to the sphere's centre that rounding could decide
   };
-  Kind kind = Kind::none;
-  double beyond = 0;  ///< m^3
+  Kind kind = Kind::none;  ///< what is known
+  double beyond = 0;       ///< volume of the sphere beyond the facet, m^3
 };
 
 /// The part of a sphere beyond a facet: of the cone from the sphere's centre over the facet, what is farther

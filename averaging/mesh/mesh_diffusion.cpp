@@ -65,6 +65,19 @@ std::vector<Link> links(const MeshGeometry& mesh, std::optional<double> period) 
   return result;
 }
 
+/// Steps that the diffusion takes, so that no cell gives away more than `largest_part` of its total in one.
+/// @param rate  [cells] part of the total that leaves per unit of width^2
+int count_steps(double width, const std::vector<double>& rate) {
+  const auto fastest = std::max_element(rate.begin(), rate.end());
+  const double steps = std::max(1.0, std::ceil(width * width / 4 * *fastest / largest_part));
+  if (steps <= most_steps) return static_cast<int>(steps);
+  std::ostringstream message;
+  message << "smoothing over " << width << " m takes " << steps << " steps because of the small cell "
+          << fastest - rate.begin() << "; expected at most " << most_steps
+          << ": take a smaller width or a mesh without such cells";
+  throw std::invalid_argument(message.str());
+}
+
 }  // namespace
 
 MeshDiffusion::MeshDiffusion(const MeshGeometry& mesh, double width, std::optional<double> period) {
@@ -81,19 +94,8 @@ MeshDiffusion::MeshDiffusion(const MeshGeometry& mesh, double width, std::option
       ++begin_[cell + 1];
     }
   }
-  const double duration = width * width / 4;
-  const double fastest = *std::max_element(rate.begin(), rate.end());
-  const double steps = std::max(1.0, std::ceil(duration * fastest / largest_part));
-  if (steps > most_steps) {
-    const auto cell = std::max_element(rate.begin(), rate.end()) - rate.begin();
-    std::ostringstream message;
-    message << "smoothing over " << width << " m takes " << steps << " steps because of the small cell "
-            << cell << "; expected at most " << most_steps
-            << ": take a smaller width or a mesh without such cells";
-    throw std::invalid_argument(message.str());
-  }
-  steps_ = static_cast<int>(steps);
-  const double step = duration / steps_;
+  steps_ = count_steps(width, rate);
+  const double step = width * width / 4 / steps_;
 
   for (std::size_t c = 0; c < mesh.cells(); ++c) {
     begin_[c + 1] += begin_[c];

@@ -24,12 +24,13 @@ class MeshDiffusion {
  public:
   /// @param width   bandwidth b, m
   /// @param period  length of the mesh along z where it repeats, m
-  /// Throws std::invalid_argument for a width that is not positive, and as `periodic_faces`.
+  /// Throws std::invalid_argument for a width that is not positive or takes too many steps, and as
+  /// `periodic_faces`.
   MeshDiffusion(const MeshGeometry& mesh, double width, std::optional<double> period = std::nullopt);
 
-  int steps() const { return steps_; }
+  int steps() const { return steps_; }  ///< number of explicit steps
 
-  /// Spreads totals per cell, [cells][components].
+  /// Spreads extensive totals per cell in place, [cells][components].
   void apply(std::vector<double>& totals, std::size_t components) const;
 
  private:

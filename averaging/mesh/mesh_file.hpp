@@ -55,7 +55,7 @@ class MeshReader {
   MeshReader(MeshReader&&) noexcept;
   MeshReader& operator=(MeshReader&&) noexcept;
 
-  const MeshTopology& topology() const;
+  const MeshTopology& topology() const;      ///< faces and cells, the same at all times
   double time0() const;                      ///< DEM time, s, at flow time 0
   const std::vector<double>& times() const;  ///< flow times, s, rising; at least one
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "averaging/at.hpp"
+#include "averaging/values/as_index.hpp"
 
 namespace millfoam::averaging {
 
@@ -64,15 +64,15 @@ MeshGeometry::Lists MeshGeometry::list_by_cell(std::size_t count, OwnerOf&& owne
   Lists lists;
   lists.begin.assign(topology_.cells + 1, 0);
   for (std::size_t item = 0; item < count; ++item) {
-    ++lists.begin[at(owner_of(item)) + 1];
-    if (other_of(item) >= 0) ++lists.begin[at(other_of(item)) + 1];
+    ++lists.begin[as_index(owner_of(item)) + 1];
+    if (other_of(item) >= 0) ++lists.begin[as_index(other_of(item)) + 1];
   }
   for (std::size_t c = 0; c < topology_.cells; ++c) lists.begin[c + 1] += lists.begin[c];
-  lists.items.resize(at(lists.begin.back()));
+  lists.items.resize(as_index(lists.begin.back()));
   std::vector<int> next(lists.begin.begin(), lists.begin.end() - 1);
   for (std::size_t item = 0; item < count; ++item) {
-    lists.items[at(next[at(owner_of(item))]++)] = static_cast<int>(item);
-    if (other_of(item) >= 0) lists.items[at(next[at(other_of(item))]++)] = static_cast<int>(item);
+    lists.items[as_index(next[as_index(owner_of(item))]++)] = static_cast<int>(item);
+    if (other_of(item) >= 0) lists.items[as_index(next[as_index(other_of(item))]++)] = static_cast<int>(item);
   }
   return lists;
 }
@@ -93,8 +93,8 @@ void MeshGeometry::cut_face(std::size_t face, double flat) {
   const int count = topology_.face_begin[face + 1] - topology_.face_begin[face];
   if (count == 3) return add_facet(face, {corner[0], corner[1], corner[2], -1}, 3);
   if (count == 4) {
-    const std::array<Vector3d, 4> p{points_[at(corner[0])], points_[at(corner[1])], points_[at(corner[2])],
-                                    points_[at(corner[3])]};
+    const std::array<Vector3d, 4> p{points_[as_index(corner[0])], points_[as_index(corner[1])],
+                                    points_[as_index(corner[2])], points_[as_index(corner[3])]};
     const double height = warp(p);
     if (height <= flat && is_convex(p)) {
       return add_facet(face, {corner[0], corner[1], corner[2], corner[3]}, 4);
@@ -106,15 +106,16 @@ void MeshGeometry::cut_face(std::size_t face, double flat) {
     }
   }
   Vector3d middle = Vector3d::Zero();
-  for (int i = 0; i < count; ++i) middle += points_[at(corner[i])];
+  for (int i = 0; i < count; ++i) middle += points_[as_index(corner[i])];
   const int centre = static_cast<int>(points_.size());
   points_.emplace_back(middle / count);
   for (int i = 0; i < count; ++i) add_facet(face, {corner[i], corner[(i + 1) % count], centre, -1}, 3);
 }
 
 void MeshGeometry::add_facet(std::size_t face, const std::array<int, 4>& corners, int count) {
-  const Vector3d &a = points_[at(corners[0])], &b = points_[at(corners[1])], &c = points_[at(corners[2])];
-  const Vector3d& last = count == 4 ? points_[at(corners[3])] : c;
+  const Vector3d &a = points_[as_index(corners[0])], &b = points_[as_index(corners[1])],
+                 &c = points_[as_index(corners[2])];
+  const Vector3d& last = count == 4 ? points_[as_index(corners[3])] : c;
   const Vector3d across = count == 4 ? (c - a).cross(last - b) : (b - a).cross(c - a);
   const double length = across.norm();
   // A facet without area bounds nothing.
@@ -133,7 +134,7 @@ void MeshGeometry::measure_cells() {
   volumes_.resize(cells());
   centres_.resize(cells());
   boxes_.resize(cells());
-  for (int cell = 0; at(cell) < cells(); ++cell) measure_cell(cell);
+  for (int cell = 0; as_index(cell) < cells(); ++cell) measure_cell(cell);
 }
 
 void MeshGeometry::measure_cell(int cell) {
@@ -141,18 +142,19 @@ void MeshGeometry::measure_cell(int cell) {
   Vector3d area = Vector3d::Zero(), moment = Vector3d::Zero();
   double volume = 0, area_sum = 0;
   const auto [begin, end] = facets_of(cell);
-  const Vector3d base = begin == end ? Vector3d::Zero() : points_[at(facets_[at(*begin)].corners[0])];
+  const Vector3d base =
+      begin == end ? Vector3d::Zero() : points_[as_index(facets_[as_index(*begin)].corners[0])];
   for (const int* f = begin; f != end; ++f) {
-    const Facet& facet = facets_[at(*f)];
+    const Facet& facet = facets_[as_index(*f)];
     const double sign = facet.owner == cell ? 1 : -1;
-    const Vector3d a = points_[at(facet.corners[0])] - base;
-    box.extend(points_[at(facet.corners[0])]).extend(points_[at(facet.corners[1])]);
+    const Vector3d a = points_[as_index(facet.corners[0])] - base;
+    box.extend(points_[as_index(facet.corners[0])]).extend(points_[as_index(facet.corners[1])]);
     for (int i = 2; i < facet.corner_count; ++i) {
-      const Vector3d b = points_[at(facet.corners[at(i - 1)])] - base;
-      const Vector3d c = points_[at(facet.corners[at(i)])] - base;
+      const Vector3d b = points_[as_index(facet.corners[as_index(i - 1)])] - base;
+      const Vector3d c = points_[as_index(facet.corners[as_index(i)])] - base;
       const Vector3d across = (b - a).cross(c - a);
       const double part = sign * a.dot(across);
-      box.extend(points_[at(facet.corners[at(i)])]);
+      box.extend(points_[as_index(facet.corners[as_index(i)])]);
       area += sign * across;
       area_sum += across.norm();
       volume += part;
@@ -168,9 +170,9 @@ void MeshGeometry::measure_cell(int cell) {
     message << "mesh: cell " << cell << " has the volume " << volume / 6 << " m3, expected a positive one";
     throw std::invalid_argument(message.str());
   }
-  volumes_[at(cell)] = volume / 6;
-  centres_[at(cell)] = base + moment / (4 * volume);
-  boxes_[at(cell)] = box;
+  volumes_[as_index(cell)] = volume / 6;
+  centres_[as_index(cell)] = base + moment / (4 * volume);
+  boxes_[as_index(cell)] = box;
 }
 
 }  // namespace millfoam::averaging

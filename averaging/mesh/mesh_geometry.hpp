@@ -16,8 +16,8 @@ struct Facet {
   std::array<int, 4>
       corners{};         ///< in `MeshGeometry::points`; by the right-hand rule they point out of `owner`
   int corner_count = 3;  ///< 3 or 4
-  int owner = 0;
-  int neighbour = -1;  ///< -1 on the boundary
+  int owner = 0;         ///< the cell out of which the normal points
+  int neighbour = -1;    ///< -1 on the boundary
 
   Eigen::Vector3d normal;  ///< unit vector, out of the owner
   double offset = 0;       ///< the facet's plane is normal . x = offset, m
@@ -41,11 +41,11 @@ class MeshGeometry {
   /// The same mesh with its points at other places. Throws as the constructor.
   void move(const MeshPoints& points);
 
-  const MeshTopology& topology() const { return topology_; }
-  std::size_t cells() const { return topology_.cells; }
+  const MeshTopology& topology() const { return topology_; }  ///< as it was given
+  std::size_t cells() const { return topology_.cells; }       ///< their number
 
-  const MeshPoints& points() const { return points_; }  ///< of the mesh, then the middles of fans, m
-  const std::vector<Facet>& facets() const { return facets_; }
+  const MeshPoints& points() const { return points_; }          ///< of the mesh, then the middles of fans, m
+  const std::vector<Facet>& facets() const { return facets_; }  ///< face by face
   const std::vector<double>& volumes() const { return volumes_; }           ///< [cells], m^3
   const std::vector<Eigen::Vector3d>& centres() const { return centres_; }  ///< [cells], centroids, m
   const std::vector<Eigen::AlignedBox3d>& boxes() const { return boxes_; }  ///< [cells], m

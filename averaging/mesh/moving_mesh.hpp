@@ -34,8 +34,8 @@ class MovingMesh {
 
 /// A mesh with what is prepared to find its cells, for as many threads as there are.
 struct PreparedMesh {
-  std::shared_ptr<const MeshGeometry> geometry;
-  std::shared_ptr<const CellSearch> search;
+  std::shared_ptr<const MeshGeometry> geometry;  ///< shape of the cells
+  std::shared_ptr<const CellSearch> search;      ///< finds the cell of a point
 };
 
 /// Prepares a mesh whose cells keep their shape. Throws as MeshGeometry.

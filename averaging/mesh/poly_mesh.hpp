@@ -11,24 +11,24 @@ namespace millfoam::averaging {
 
 /// Faces of a mesh on one part of its boundary: [first, first + faces).
 struct MeshPatch {
-  std::string name;
-  int first = 0;
-  int faces = 0;
+  std::string name;  ///< the boundary condition's
+  int first = 0;     ///< its first face
+  int faces = 0;     ///< their number
 };
 
 /// How the points of a mesh make faces and the faces make polyhedral cells, in OpenFOAM's order: internal
 /// faces first; a face's normal, by the right-hand rule about its points, points out of its owner.
 struct MeshTopology {
-  std::size_t points = 0;
-  std::size_t cells = 0;
+  std::size_t points = 0;          ///< their number
+  std::size_t cells = 0;           ///< their number
   std::vector<int> face_begin;     ///< [faces + 1] where a face's points begin in face_points
   std::vector<int> face_points;    ///< point numbers of all faces
   std::vector<int> owner;          ///< [faces] cell
   std::vector<int> neighbour;      ///< [internal faces] cell, higher than the owner
   std::vector<MeshPatch> patches;  ///< of the boundary faces, in their order
 
-  std::size_t faces() const { return owner.size(); }
-  std::size_t internal_faces() const { return neighbour.size(); }
+  std::size_t faces() const { return owner.size(); }               ///< number of all faces
+  std::size_t internal_faces() const { return neighbour.size(); }  ///< between two cells
 };
 
 using MeshPoints = std::vector<Eigen::Vector3d>;  ///< [points], m

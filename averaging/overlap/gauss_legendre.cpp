@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -7,8 +7,8 @@ namespace millfoam::averaging {
 
 /// A place in [-1, 1] and what it counts for.
 struct QuadratureNode {
-  double place;
-  double weight;
+  double place;   ///< in [-1, 1]
+  double weight;  ///< all weights add up to 2
 };
 
 /// The rule of n nodes that integrates polynomials up to degree 2n - 1 exactly over [-1, 1]; n at least 1.

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -9,7 +9,7 @@ namespace millfoam::averaging {
 /// The points of an n x n x n lattice that lie in the unit sphere; each stands for 1/N of a sphere's volume,
 /// N being their number. The lattice's coordinates along each axis are (2 i + 1)/n - 1, i = 0 ... n-1.
 ///
-/// Shared between voxels, a sphere's volume is kept exactly; its places are known to the lattice's spacing.
+/// Deposited in voxels, a sphere's volume is kept exactly; its places are known to the lattice's spacing.
 /// The share below a plane across an axis is wrong by up to half of the points of the layer that the plane
 /// meets, 3/(4n) of the sphere's volume in the limit of large n, with no bias over positions:
 ///
@@ -24,8 +24,8 @@ class SphereTemplate {
   /// @param points_per_diameter  n. Throws std::invalid_argument unless it is between 2 and 200.
   explicit SphereTemplate(int points_per_diameter = 12);
 
-  int points_per_diameter() const { return n_; }
-  int size() const { return size_; }  ///< N
+  int points_per_diameter() const { return n_; }  ///< n
+  int size() const { return size_; }              ///< N
 
   /// Coordinate of layer i of the lattice, in radii from the sphere's centre.
   double coordinate(int i) const { return (2.0 * i + 1) / n_ - 1; }
@@ -35,8 +35,8 @@ class SphereTemplate {
 
   /// Layers [begin, end) of the lattice along one axis.
   struct Layers {
-    int begin;
-    int end;
+    int begin;  ///< the first, from 0
+    int end;    ///< the one after the last, at most n
   };
 
   /// Number of the template's points in a block of the lattice, without visiting them.

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "averaging/dumps/particle.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 
@@ -29,7 +29,7 @@ class SuperquadricTemplate {
   /// @param points_per_diameter  of the lattice along each axis, at least 1
   SuperquadricTemplate(const std::array<double, 2>& blockiness, int points_per_diameter);
 
-  const std::vector<Vector3>& points() const { return points_; }
+  const std::vector<Vector3>& points() const { return points_; }  ///< in units of the half axes
 
  private:
   std::vector<Vector3> points_;

@@ -13,9 +13,9 @@
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/checkpoint.hpp"
-#include "averaging/run/job.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/record_worker.hpp"
+#include "averaging/run/run_plan.hpp"
 #include "averaging/run/run_signature.hpp"
 #include "averaging/run/summary_file.hpp"
 #include "averaging/run/window_series.hpp"
@@ -38,27 +38,27 @@ std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
 /// Rank 0's part: the blocks go into the windows, the windows into the files.
 class Collector {
  public:
-  Collector(const AverageRequest& request, const AverageProgress& progress, const Job& job,
+  Collector(const AverageRequest& request, const AverageProgress& progress, const RunPlan& plan,
             const CellSetup& setup)
       : request_(request),
         progress_(progress),
-        job_(job),
+        plan_(plan),
         setup_(setup),
         resume_(request.windows.front().output.string() + ".resume"),
-        signature_(signature(request, job.settings, job.plans, job.dumps)) {
+        signature_(signature(request, plan.settings, plan.series, plan.dumps)) {
     const std::size_t cells = cell_count(setup.grid);
     const std::size_t id = std::hash<std::string>()(signature_);
     const std::optional<Checkpoint> earlier = usable_checkpoint(id, cells);
     // Journals are begun anew only when no note of an earlier run can lead to them.
     if (!earlier) std::filesystem::remove(resume_);
-    for (std::size_t s = 0; s < job.plans.size(); ++s) {
-      series_.emplace_back(request.windows[s].output, job.plans[s], job.settings.timestep, setup.room, cells,
-                           id, earlier ? earlier->rows[s] : 0);
+    for (std::size_t s = 0; s < plan.series.size(); ++s) {
+      series_.emplace_back(request.windows[s].output, plan.series[s], plan.settings.timestep, setup.limits,
+                           cells, id, earlier ? earlier->rows[s] : 0);
       if (earlier) series_.back().restore(earlier->open[s]);
     }
     if (earlier) next_block_ = earlier->next_block;
-    for (std::size_t b = 0; b < job.blocks.size(); ++b) {
-      const std::size_t records = job.blocks[b].last - job.blocks[b].first;
+    for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+      const std::size_t records = plan.blocks[b].last - plan.blocks[b].first;
       total_ += records;
       if (b < next_block_) done_ += records;
     }
@@ -71,7 +71,7 @@ class Collector {
   std::size_t next_block() const { return next_block_; }
 
   void add(const WindowMoments& moments) {
-    const RecordBlock& block = job_.blocks[next_block_++];
+    const RecordBlock& block = plan_.blocks[next_block_++];
     for (WindowSeries& series : series_) series.add(block, moments);
     done_ += block.last - block.first;
     const auto now = std::chrono::steady_clock::now();
@@ -112,7 +112,8 @@ class Collector {
     }
     for (std::size_t s = 0; s < earlier->rows.size(); ++s) {
       const std::filesystem::path journal = WindowSeries::journal_path(request_.windows[s].output);
-      if (WindowJournal::holds(journal, id, cells, !setup_.room.volumes.empty(), earlier->rows[s])) continue;
+      if (WindowJournal::holds(journal, id, cells, !setup_.limits.whole_volumes.empty(), earlier->rows[s]))
+        continue;
       progress_.note("the finished windows in " + journal.string() +
                      " are not those of the unfinished run: starting afresh");
       return std::nullopt;
@@ -132,27 +133,27 @@ class Collector {
 
   SolidsHeader header(std::size_t s) const {
     SolidsHeader header;
-    header.time0 = static_cast<double>(job_.plans[s].windows.front().begin) * job_.settings.timestep;
-    header.timestep = job_.settings.timestep;
+    header.time0 = static_cast<double>(plan_.series[s].windows.front().begin) * plan_.settings.timestep;
+    header.timestep = plan_.settings.timestep;
     header.whole_run = !request_.windows[s].length;
     header.method = setup_.method;
-    header.angular_velocity = job_.settings.angular_velocity;
+    header.angular_velocity = plan_.settings.angular_velocity;
     header.smoothing = setup_.smoothing;
     header.solidity_cap = request_.solidity_cap;
-    header.inside_fractions = !setup_.room.volumes.empty();
+    header.inside_fractions = !setup_.limits.whole_volumes.empty();
     header.program = program();
     header.mill_averages = request_.mill_averages;
-    if (job_.notes) {
-      header.mill_charge = job_.notes->mill_charge;
-      header.run_id = job_.notes->run_id;
-      header.fines_share = job_.notes->fines_share;
+    if (plan_.metadata) {
+      header.mill_charge = plan_.metadata->mill_charge;
+      header.run_id = plan_.metadata->run_id;
+      header.fines_share = plan_.metadata->fines_share;
     }
     return header;
   }
 
   const AverageRequest& request_;
   const AverageProgress& progress_;
-  const Job& job_;
+  const RunPlan& plan_;
   const CellSetup& setup_;
   std::filesystem::path resume_;
   std::string signature_;
@@ -166,25 +167,25 @@ class Collector {
 /// Shares the blocks between the ranks and their threads, and hands the results to `collect` in order.
 class BlockLoop {
  public:
-  BlockLoop(const Job& job, const CellSetup& setup, Team& team, int threads)
-      : job_(job),
+  BlockLoop(const RunPlan& plan, const CellSetup& setup, Communicator& communicator, int threads)
+      : plan_(plan),
         setup_(setup),
-        team_(team),
+        communicator_(communicator),
         threads_(threads > 0 ? threads : omp_get_max_threads()),
-        run_length_(static_cast<std::size_t>(team.from_first(threads_))) {}
+        run_length_(static_cast<std::size_t>(communicator.broadcast(threads_))) {}
 
   /// @param collect  called on rank 0 with the moments of each block from `first` on, in order
   /// Throws what reading, averaging or `collect` threw first.
   void run(std::size_t first, const std::function<void(const WindowMoments&)>& collect) {
-    const std::size_t blocks = job_.blocks.size();
+    const std::size_t blocks = plan_.blocks.size();
 #pragma omp parallel num_threads(threads_)
     {
       std::unique_ptr<RecordWorker> worker;
-      guarded([&] { worker = std::make_unique<RecordWorker>(setup_, job_.dumps, job_.settings.timestep); });
+      guarded([&] { worker = std::make_unique<RecordWorker>(setup_, plan_.dumps, plan_.settings.timestep); });
 #pragma omp for ordered schedule(dynamic, 1)
       for (std::size_t b = first; b < blocks; ++b) {
         const WindowMoments* moments = nullptr;
-        if (owner(b) == team_.rank()) guarded([&] { moments = &worker->process(job_.blocks[b]); });
+        if (owner(b) == communicator_.rank()) guarded([&] { moments = &worker->process(plan_.blocks[b]); });
 #pragma omp ordered
         guarded([&] { deliver(b, moments, collect); });
       }
@@ -195,21 +196,21 @@ class BlockLoop {
  private:
   /// Ranks take turns with as many blocks as they have threads.
   int owner(std::size_t block) const {
-    return static_cast<int>(block / run_length_ % static_cast<std::size_t>(team_.size()));
+    return static_cast<int>(block / run_length_ % static_cast<std::size_t>(communicator_.size()));
   }
 
   void deliver(std::size_t block, const WindowMoments* moments,
                const std::function<void(const WindowMoments&)>& collect) {
-    if (team_.rank() == 0 && moments != nullptr) {
+    if (communicator_.rank() == 0 && moments != nullptr) {
       collect(*moments);
-    } else if (team_.rank() == 0) {
+    } else if (communicator_.rank() == 0) {
       std::vector<double> numbers(WindowMoments::packed_size(cell_count(setup_.grid)));
-      team_.receive(owner(block), numbers);
+      communicator_.receive(owner(block), numbers);
       WindowMoments received(cell_count(setup_.grid));
       received.unpack(numbers);
       collect(received);
     } else if (moments != nullptr) {
-      team_.send(moments->packed());
+      communicator_.send(moments->packed());
     }
   }
 
@@ -233,9 +234,9 @@ class BlockLoop {
     }
   }
 
-  const Job& job_;
+  const RunPlan& plan_;
   const CellSetup& setup_;
-  Team& team_;
+  Communicator& communicator_;
   int threads_;
   std::size_t run_length_;
   bool failed_ = false;
@@ -245,20 +246,22 @@ class BlockLoop {
 }  // namespace
 
 std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,
-                                       Team& team) {
+                                       Communicator& communicator) {
   // A name that cannot be used is refused before the work, not after it.
   for (const WindowsRequest& windows : request.windows) xdmf_path(windows.output);
-  const std::vector<OutputLock> locks = team.rank() == 0 ? lock_outputs(request) : std::vector<OutputLock>{};
-  const Job job = prepare(request, progress);
-  const CellSetup setup = set_up(request, job.settings, progress.note);
+  const std::vector<OutputLock> locks =
+      communicator.rank() == 0 ? lock_outputs(request) : std::vector<OutputLock>{};
+  const RunPlan plan = plan_run(request, progress);
+  const CellSetup setup = set_up(request, plan.settings, progress.note);
 
   std::unique_ptr<Collector> collector;
-  if (team.rank() == 0) {
-    require_fitting_grid(request, job, setup);
-    collector = std::make_unique<Collector>(request, progress, job, setup);
+  if (communicator.rank() == 0) {
+    require_fitting_grid(request, plan, setup);
+    collector = std::make_unique<Collector>(request, progress, plan, setup);
   }
-  const long long first = team.from_first(collector ? static_cast<long long>(collector->next_block()) : 0);
-  BlockLoop loop(job, setup, team, request.threads);
+  const long long first =
+      communicator.broadcast(collector ? static_cast<long long>(collector->next_block()) : 0);
+  BlockLoop loop(plan, setup, communicator, request.threads);
   loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });
   return collector ? collector->finish() : std::vector<SolidsSummary>{};
 }

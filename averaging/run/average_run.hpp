@@ -11,8 +11,8 @@
 
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/grids/cylinder_grid.hpp"
+#include "averaging/run/communicator.hpp"
 #include "averaging/run/solids_summary.hpp"
-#include "averaging/run/team.hpp"
 
 namespace millfoam::averaging {
 
@@ -21,7 +21,7 @@ inline constexpr double usual_smoothing = 2.5;
 
 /// The cells of a mesh file.
 struct MeshRequest {
-  std::filesystem::path file;
+  std::filesystem::path file;       ///< mesh.h5, read by `MeshReader`
   std::vector<std::string> motion;  ///< texts of `parse_motion`; empty: the mill's rotation out of run.json
   bool at_rest = false;             ///< no motion at all
   std::optional<double> period_z;   ///< m; the mesh spans one period along z
@@ -29,38 +29,39 @@ struct MeshRequest {
   double smoothing = 0;             ///< its width, m; 0: `usual_smoothing` Sauter diameters of the first dump
 };
 
-/// How balls are shared between cells.
-enum class SharingMethod {
+/// How balls are deposited in cells.
+enum class DepositionMethod {
   exact,  ///< exact volumes of intersection
   sample  ///< points of a template
 };
 
-/// What balls are shared between.
+/// Where balls are deposited.
 using GridRequest = std::variant<BoxGrid, CylinderGrid, MeshRequest>;
 
 /// A series of windows of one length.
 struct WindowsRequest {
   std::optional<double> length;  ///< s; unless given, one window over the whole run
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< the solids file
 };
 
 /// Everything that `millAverage` is told.
 struct AverageRequest {
+  /// @param cells  where balls are deposited
   explicit AverageRequest(GridRequest cells) : grid(std::move(cells)) {}
 
   std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
   std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.json beside the dumps
-  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
-  GridRequest grid;
-  SharingMethod method = SharingMethod::exact;
+  std::optional<double> angular_velocity;             ///< of the mill about z, rad/s; likewise
+  GridRequest grid;                                   ///< where balls are deposited
+  DepositionMethod method = DepositionMethod::exact;  ///< of spheres; superquadrics are always sampled
   int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics
   std::vector<std::filesystem::path> walls;  ///< STL files, or a mesh file, within which voxels count
-  std::optional<double> solidity_cap;
-  std::vector<WindowsRequest> windows;  ///< all are averaged in one pass over the dumps
-  std::optional<double> start;          ///< DEM time, s
-  std::optional<double> end;            ///< DEM time, s
-  /// Share of the balls' volume that may lie outside the grid in the first record and in the last one. A grid
-  /// that misses more cannot be meant for these balls.
+  std::optional<double> solidity_cap;        ///< largest solidity that may stay in a cell
+  std::vector<WindowsRequest> windows;       ///< all are averaged in one pass over the dumps
+  std::optional<double> start;               ///< DEM time, s
+  std::optional<double> end;                 ///< DEM time, s
+  /// Deposit of the balls' volume that may lie outside the grid in the first record and in the last one. A
+  /// grid that misses more cannot be meant for these balls.
   double largest_outside = 0.5;
   std::string mill_averages;  ///< fingerprint of the mill and its averages, for the file; empty: not known
   int threads = 0;            ///< of this process; 0: as many as OpenMP gives
@@ -86,6 +87,6 @@ struct AverageProgress {
 ///
 /// Throws DumpError, WindowError, SolidsFileError, MeshFileError or std::invalid_argument.
 std::vector<SolidsSummary> average_run(const AverageRequest& request, const AverageProgress& progress,
-                                       Team& team);
+                                       Communicator& communicator);
 
 }  // namespace millfoam::averaging

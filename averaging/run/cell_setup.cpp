@@ -4,17 +4,18 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/deposition/exact_box_deposition.hpp"
+#include "averaging/deposition/exact_cylinder_deposition.hpp"
+#include "averaging/deposition/exact_mesh_deposition.hpp"
+#include "averaging/deposition/sampled_box_deposition.hpp"
+#include "averaging/deposition/sampled_cylinder_deposition.hpp"
+#include "averaging/deposition/sampled_mesh_deposition.hpp"
 #include "averaging/grids/neighbours.hpp"
 #include "averaging/mesh/deforming_mesh.hpp"
 #include "averaging/mesh/mesh_cells.hpp"
 #include "averaging/mesh/mesh_file.hpp"
 #include "averaging/mesh/moving_mesh.hpp"
 #include "averaging/mesh/periodic_faces.hpp"
-#include "averaging/sharing/box_exact.hpp"
-#include "averaging/sharing/box_sampling.hpp"
-#include "averaging/sharing/cylinder_exact.hpp"
-#include "averaging/sharing/cylinder_sampling.hpp"
-#include "averaging/sharing/mesh_sharing.hpp"
 
 namespace millfoam::averaging {
 
@@ -24,7 +25,7 @@ using Note = std::function<void(const std::string&)>;
 
 std::string method_in_words(const AverageRequest& request) {
   const std::string points = std::to_string(request.template_points) + " points along a diameter";
-  return request.method == SharingMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
+  return request.method == DepositionMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
 }
 
 std::string in_words(double number) {
@@ -42,8 +43,9 @@ std::string rotation(double angular_velocity) {
 
 /// One of two classes for the same cells, by the method asked for.
 template <typename Exact, typename Sampling, typename... Arguments>
-std::unique_ptr<CellSharing> by_method(SharingMethod method, Arguments&&... arguments) {
-  if (method == SharingMethod::exact) return std::make_unique<Exact>(std::forward<Arguments>(arguments)...);
+std::unique_ptr<Deposition> by_method(DepositionMethod method, Arguments&&... arguments) {
+  if (method == DepositionMethod::exact)
+    return std::make_unique<Exact>(std::forward<Arguments>(arguments)...);
   return std::make_unique<Sampling>(std::forward<Arguments>(arguments)...);
 }
 
@@ -54,9 +56,9 @@ std::vector<double> voxel_volumes(const Grid& grid) {
 }
 
 /// The walls that cut the voxels, turning with the mill.
-std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
-                                              const AverageRequest& request, const RunSettings& settings,
-                                              const Note& note) {
+std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
+                                                const AverageRequest& request, const RunSettings& settings,
+                                                const Note& note) {
   Surface surface;
   double time = 0;
   if (request.walls.size() == 1 && request.walls[0].extension() == ".h5") {
@@ -82,7 +84,7 @@ std::shared_ptr<const VoxelRoom> moving_walls(const std::variant<BoxGrid, Cylind
   } else if (!settings.angular_velocity) {
     note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
-  return std::make_shared<VoxelRoom>(grid, surface, motion, time);
+  return std::make_shared<MovingWalls>(grid, surface, motion, time);
 }
 
 /// What boxes and cylinders have in common.
@@ -93,23 +95,23 @@ CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const
                   {},      nullptr,
                   nullptr, method_in_words(request),
                   0};
-  setup.room.solidity_cap = request.solidity_cap;
+  setup.limits.solidity_cap = request.solidity_cap;
   if (!request.walls.empty()) {
     setup.walls = moving_walls(grid, request, settings, note);
-    setup.room.volumes = voxel_volumes(setup.grid);
+    setup.limits.whole_volumes = voxel_volumes(setup.grid);
   }
-  if (request.solidity_cap || setup.walls) setup.room.neighbours = neighbours(grid);
+  if (request.solidity_cap || setup.walls) setup.limits.neighbours = neighbours(grid);
   return setup;
 }
 
 CellSetup set_up_cells(const BoxGrid& grid, const AverageRequest& request, const RunSettings& settings,
                        const Note& note) {
-  return set_up_voxels<BoxExact, BoxSampling>(grid, request, settings, note);
+  return set_up_voxels<ExactBoxDeposition, SampledBoxDeposition>(grid, request, settings, note);
 }
 
 CellSetup set_up_cells(const CylinderGrid& grid, const AverageRequest& request, const RunSettings& settings,
                        const Note& note) {
-  return set_up_voxels<CylinderExact, CylinderSampling>(grid, request, settings, note);
+  return set_up_voxels<ExactCylinderDeposition, SampledCylinderDeposition>(grid, request, settings, note);
 }
 
 /// How a mesh that keeps its shape moves, in the words of `parse_motion`; empty at rest.
@@ -183,15 +185,15 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   cells.time = time;
 
   CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0};
-  setup.room.solidity_cap = whole.solidity_cap;
-  if (whole.solidity_cap) setup.room.neighbours = neighbours(mesh->geometry(), request.period_z);
+  setup.limits.solidity_cap = whole.solidity_cap;
+  if (whole.solidity_cap) setup.limits.neighbours = neighbours(mesh->geometry(), request.period_z);
   if (request.smoothed) {
     setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
     setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
     note("smoothing over a width of " + in_words(setup.smoothing) + " m");
   }
-  setup.sharing = by_method<MeshExact, MeshSampling>(whole.method, std::move(mesh), whole.template_points,
-                                                     request.period_z);
+  setup.deposition = by_method<ExactMeshDeposition, SampledMeshDeposition>(
+      whole.method, std::move(mesh), whole.template_points, request.period_z);
   return setup;
 }
 

@@ -6,16 +6,16 @@
 #include <optional>
 #include <string>
 
+#include "averaging/deposition/deposition.hpp"
 #include "averaging/grids/grid.hpp"
 #include "averaging/mesh/mesh_diffusion.hpp"
 #include "averaging/run/average_run.hpp"
-#include "averaging/run/voxel_room.hpp"
-#include "averaging/sharing/cell_sharing.hpp"
 #include "averaging/statistics/window_average.hpp"
+#include "averaging/walls/moving_walls.hpp"
 
 namespace millfoam::averaging {
 
-/// What the notes of the DEM run and the request agree on.
+/// What the DEM run's metadata and the request agree on.
 struct RunSettings {
   double timestep = 0;                     ///< of the DEM run, s
   std::optional<double> angular_velocity;  ///< of the mill about z, right-handed, rad/s
@@ -24,10 +24,10 @@ struct RunSettings {
 
 /// What a request's grid, method and walls come to: prepared once, and shared by all threads.
 struct CellSetup {
-  Grid grid;
-  std::unique_ptr<CellSharing> sharing;  ///< each thread has a clone of it
-  CellRoom room;
-  std::shared_ptr<const VoxelRoom> walls;          ///< null unless walls cut the cells
+  Grid grid;                                       ///< for the solids file
+  std::unique_ptr<Deposition> deposition;          ///< each thread has a clone of it
+  CellLimits limits;                               ///< for `average`
+  std::shared_ptr<const MovingWalls> walls;        ///< null unless walls cut the cells
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed
   std::string method;                              ///< in words, for the solids file
   double smoothing = 0;                            ///< width, m

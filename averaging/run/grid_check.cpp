@@ -72,7 +72,7 @@ double grid_volume(const Grid& grid) {
 std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
                    double largest_outside) {
   RecordSums sums;
-  sum_record(*setup.sharing->clone(), record, time, sums);
+  sum_record(*setup.deposition->clone(), record, time, sums);
   const Ledger& ledger = sums.ledger;
   if (!(ledger.volume_in > 0)) return {};
   std::ostringstream text;

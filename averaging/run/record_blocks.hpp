@@ -10,8 +10,8 @@ namespace millfoam::averaging {
 
 /// Records [first, last) that are averaged in one go by one thread.
 struct RecordBlock {
-  std::size_t first = 0;
-  std::size_t last = 0;
+  std::size_t first = 0;  ///< number of the first record
+  std::size_t last = 0;   ///< number of the one after the last
 };
 
 /// Cuts the records that the plans use into blocks, such that every window of every plan is made of whole

@@ -9,7 +9,7 @@ RecordWorker::RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& 
     : setup_(setup),
       dumps_(dumps),
       timestep_(timestep),
-      sharing_(setup.sharing->clone()),
+      deposition_(setup.deposition->clone()),
       moments_(cell_count(setup.grid)) {}
 
 const WindowMoments& RecordWorker::process(const RecordBlock& block) {
@@ -17,8 +17,8 @@ const WindowMoments& RecordWorker::process(const RecordBlock& block) {
   for (std::size_t r = block.first; r < block.last; ++r) {
     const ParticleRecord record = read_dump(dumps_[r].path);
     const double time = static_cast<double>(record.step) * timestep_;
-    sum_record(*sharing_, record, time, sums_);
-    if (setup_.walls) sums_.cell_volumes = setup_.walls->volumes(time);
+    sum_record(*deposition_, record, time, sums_);
+    if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
     if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
     moments_.add(sums_);
   }

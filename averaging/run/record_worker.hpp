@@ -24,7 +24,7 @@ class RecordWorker {
   const CellSetup& setup_;
   const std::vector<DumpFile>& dumps_;
   double timestep_;
-  std::unique_ptr<CellSharing> sharing_;
+  std::unique_ptr<Deposition> deposition_;
   RecordSums sums_;
   WindowMoments moments_;
 };

@@ -11,33 +11,36 @@ namespace millfoam::averaging {
 
 /// What a user should know of a window before trusting it.
 struct WindowSummary {
-  TimeWindow time;
-  Ledger ledger;
-  double balls_per_cell = 0;  ///< mean number of balls in a cell that holds some
-  std::size_t occupied_cells = 0;
-  std::size_t small_cells = 0;  ///< of the occupied ones: smaller than a ball of their Sauter diameter
-  double occupied_volume = 0;   ///< of the occupied cells, m^3
-  double ball_density = 0;      ///< balls of the Sauter diameter per volume of the occupied cells, 1/m^3
-  double mean_solidity = 0;     ///< over the occupied cells
-  double largest_solidity = 0;  ///< of any cell
+  TimeWindow time;                 ///< begin and end, s, and records
+  Ledger ledger;                   ///< means over the records, m^3
+  double balls_per_cell = 0;       ///< mean number of balls in a cell that holds some
+  std::size_t occupied_cells = 0;  ///< with balls in them
+  std::size_t small_cells = 0;     ///< of the occupied ones: smaller than a ball of their Sauter diameter
+  double occupied_volume = 0;      ///< of the occupied cells, m^3
+  double ball_density = 0;         ///< balls of the Sauter diameter per volume of the occupied cells, 1/m^3
+  double mean_solidity = 0;        ///< over the occupied cells
+  double largest_solidity = 0;     ///< of any cell
 };
 
 /// A solids file in numbers.
 struct SolidsSummary {
-  std::filesystem::path file;
-  SolidsHeader header;
-  std::string grid;  ///< kind: box, cylinder or cells
+  std::filesystem::path file;  ///< the solids file
+  SolidsHeader header;         ///< what holds for all windows
+  std::string grid;            ///< kind: box, cylinder or cells
   std::vector<std::size_t>
       shape;  ///< nx ny nz of a box, nr ntheta nz of a cylinder, number of cells of a mesh
-  std::vector<WindowSummary> windows;
+  std::vector<WindowSummary> windows;  ///< in order of time
 };
 
 /// A sentence on what the numbers of a solids file call for.
 struct Remark {
   bool warning = false;  ///< a flow through these solids fails or is wrong; else advice
-  std::string sentence;
+  std::string sentence;  ///< for the user
 };
 
+/// Of one window.
+/// @param balls_per_cell  mean number of balls in a cell that holds some
+/// @param fields          over the cells of `grid`
 WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
                         const SolidsWindow& fields);
 

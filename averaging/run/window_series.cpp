@@ -10,13 +10,13 @@
 namespace millfoam::averaging {
 
 WindowSeries::WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep,
-                           const CellRoom& room, std::size_t cells, std::size_t id, std::size_t rows)
+                           const CellLimits& limits, std::size_t cells, std::size_t id, std::size_t rows)
     : output_(output),
       plan_(std::move(plan)),
       timestep_(timestep),
-      room_(room),
+      limits_(limits),
       open_(cells),
-      journal_(journal_path(output), id, cells, !room.volumes.empty(), rows) {}
+      journal_(journal_path(output), id, cells, !limits.whole_volumes.empty(), rows) {}
 
 std::filesystem::path WindowSeries::journal_path(const std::filesystem::path& output) {
   return output.string() + ".journal";
@@ -40,7 +40,7 @@ void WindowSeries::add(const RecordBlock& block, const WindowMoments& moments) {
 
 WindowAverage WindowSeries::average_of_window(double begin) const {
   try {
-    return average(open_, room_);
+    return average(open_, limits_);
   } catch (const std::runtime_error& error) {
     std::ostringstream message;
     message << "window from " << begin << " s: " << error.what();

@@ -17,27 +17,30 @@ class WindowSeries {
   /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
   /// @param id      of the run, for the journal
   /// @param rows    finished windows of an earlier run that was killed
-  /// @param room    for `average`; must outlive the series
-  WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep, const CellRoom& room,
-               std::size_t cells, std::size_t id, std::size_t rows);
+  /// @param limits  for `average`; must outlive the series
+  WindowSeries(const std::filesystem::path& output, WindowPlan plan, double timestep,
+               const CellLimits& limits, std::size_t cells, std::size_t id, std::size_t rows);
 
-  /// Adds a block: the next one, or one that no window of this series holds.
+  /// Adds a block: the next one, or one that no window of this series holds. Throws SolidsFileError, and as
+  /// `average` with the time of the window.
   void add(const RecordBlock& block, const WindowMoments& moments);
 
-  std::size_t finished() const { return journal_.rows(); }
-  const WindowMoments& open_window() const { return open_; }
+  std::size_t finished() const { return journal_.rows(); }    ///< number of closed windows
+  const WindowMoments& open_window() const { return open_; }  ///< the one under way
+  /// Takes up the window under way of an earlier run, `WindowMoments::packed`.
   void restore(const std::vector<double>& packed) { open_.unpack(packed); }
 
   /// Waits until the finished windows are on the disk.
   void sync() { journal_.sync(); }
 
-  /// Writes the solids file and its .xdmf, calling `each` with every window.
+  /// Writes the solids file and its .xdmf, calling `each` with every window. Throws SolidsFileError.
   void write(const Grid& grid, const SolidsHeader& header,
              const std::function<void(const WindowAverage&)>& each) const;
 
   /// Removes the journal.
   void forget() const;
 
+  /// The journal of an output.
   static std::filesystem::path journal_path(const std::filesystem::path& output);
 
  private:
@@ -46,7 +49,7 @@ class WindowSeries {
   std::filesystem::path output_;
   WindowPlan plan_;
   double timestep_;
-  const CellRoom& room_;
+  const CellLimits& limits_;
   WindowMoments open_;
   WindowJournal journal_;
 };

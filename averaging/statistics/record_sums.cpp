@@ -5,60 +5,52 @@
 #include <cmath>
 
 #include "averaging/overlap/superquadric.hpp"
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
-/// Adds the shares of one particle and returns their volume.
-double add_shares(const Particle& particle, double diameter, double particle_volume,
-                  const std::vector<Share>& shares, RecordSums& sums) {
+/// Adds the deposits of one particle and returns their volume, m^3.
+double add_deposits(const Particle& particle, double diameter, double particle_volume,
+                    const std::vector<Deposit>& deposits, RecordSums& sums) {
   const Vector3& v = particle.velocity;
   const double speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   double deposited = 0;
-  for (const Share& share : shares) {
-    double* const cell = &sums.values[share.cell * RecordSums::columns];
-    cell[RecordSums::volume] += share.volume;
-    for (std::size_t a = 0; a < 3; ++a) cell[RecordSums::momentum + a] += share.volume * v[a];
-    cell[RecordSums::volume_over_diameter] += share.volume / diameter;
-    cell[RecordSums::volume_times_diameter] += share.volume * diameter;
-    cell[RecordSums::volume_times_speed2] += share.volume * speed2;
-    cell[RecordSums::balls] += share.volume / particle_volume;
-    deposited += share.volume;
+  for (const Deposit& deposit : deposits) {
+    double* const cell = &sums.values[deposit.cell * RecordSums::columns];
+    cell[RecordSums::volume] += deposit.volume;
+    for (std::size_t a = 0; a < 3; ++a) cell[RecordSums::momentum + a] += deposit.volume * v[a];
+    cell[RecordSums::volume_over_diameter] += deposit.volume / diameter;
+    cell[RecordSums::volume_times_diameter] += deposit.volume * diameter;
+    cell[RecordSums::volume_times_speed2] += deposit.volume * speed2;
+    cell[RecordSums::balls] += deposit.volume / particle_volume;
+    deposited += deposit.volume;
   }
   return deposited;
 }
 
 }  // namespace
 
-Ledger& operator+=(Ledger& ledger, const Ledger& other) {
-  ledger.volume_in += other.volume_in;
-  ledger.deposited += other.deposited;
-  ledger.outside += other.outside;
-  ledger.clipped += other.clipped;
-  return ledger;
-}
-
-void sum_record(CellSharing& sharing, const ParticleRecord& record, double time, RecordSums& sums) {
+void sum_record(Deposition& deposition, const ParticleRecord& record, double time, RecordSums& sums) {
   assert(record.shapes.empty() || record.shapes.size() == record.particles.size());
-  sharing.begin_record(time);
-  sums.cell_volumes = sharing.volumes();
+  deposition.begin_record(time);
+  sums.cell_volumes = deposition.volumes();
   sums.values.assign(sums.cell_volumes.size() * RecordSums::columns, 0.0);
   sums.ledger = {};
-  std::vector<Share> shares;
+  std::vector<Deposit> deposits;
   for (std::size_t p = 0; p < record.particles.size(); ++p) {
     const Particle& particle = record.particles[p];
     double diameter = 2 * particle.radius;
     double particle_volume = pi / 6 * diameter * diameter * diameter;
     if (record.shapes.empty()) {
-      sharing.share(particle, shares);
+      deposition.deposit(particle, deposits);
     } else {
       particle_volume = superquadric_volume(record.shapes[p]);
       diameter = volume_equivalent_diameter(record.shapes[p]);
-      sharing.share(particle, record.shapes[p], shares);
+      deposition.deposit(particle, record.shapes[p], deposits);
     }
-    const double deposited = add_shares(particle, diameter, particle_volume, shares, sums);
+    const double deposited = add_deposits(particle, diameter, particle_volume, deposits, sums);
     sums.ledger.volume_in += particle_volume;
     sums.ledger.deposited += deposited;
     // A ball wholly inside is deposited to rounding, which is no loss.

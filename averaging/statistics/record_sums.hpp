@@ -3,20 +3,11 @@
 
 #include <vector>
 
-#include "averaging/dumps/dump_reader.hpp"
-#include "averaging/sharing/cell_sharing.hpp"
+#include "averaging/deposition/deposition.hpp"
+#include "averaging/values/ledger.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
-
-/// Where the particles' volume went, m^3: volume_in = deposited + outside.
-struct Ledger {
-  double volume_in = 0;  ///< of all particles
-  double deposited = 0;  ///< in the grid's cells
-  double outside = 0;    ///< beyond the grid
-  double clipped = 0;    ///< of the deposited: moved to neighbours, from within walls or above a cap
-};
-
-Ledger& operator+=(Ledger& ledger, const Ledger& other);
 
 /// Sums over the particles of one record, per cell of a grid of n cells. V is the part of a particle's volume
 /// in the cell, d the diameter of the sphere of the particle's volume, v its velocity.
@@ -33,16 +24,17 @@ struct RecordSums {
   };
 
   std::vector<double> values;        ///< [n][columns]
-  std::vector<double> cell_volumes;  ///< [n] room for balls and fluid in the cell at this time, m^3
-  Ledger ledger;
+  std::vector<double> cell_volumes;  ///< [n] inside the mill, for balls and fluid, at this time, m^3
+  Ledger ledger;                     ///< of the record, m^3
 
-  std::size_t cells() const { return cell_volumes.size(); }
+  std::size_t cells() const { return cell_volumes.size(); }  ///< their number
+  /// The entry of a cell and Column.
   double at(std::size_t cell, std::size_t column) const { return values[cell * columns + column]; }
   double& at(std::size_t cell, std::size_t column) { return values[cell * columns + column]; }
 };
 
-/// Shares all particles of a record between the cells at a DEM time, s. `sums` is overwritten; its storage is
-/// used again.
-void sum_record(CellSharing& sharing, const ParticleRecord& record, double time, RecordSums& sums);
+/// Deposits all particles of a record in the cells at a DEM time, s. `sums` is overwritten; its storage is
+/// used again. Throws as `Deposition`.
+void sum_record(Deposition& deposition, const ParticleRecord& record, double time, RecordSums& sums);
 
 }  // namespace millfoam::averaging

@@ -24,18 +24,18 @@ struct WindowRequest {
 
 /// One window [begin, end) in time-steps and the records in it, as numbers into the list of records.
 struct WindowSpan {
-  long long begin = 0;
-  long long end = 0;
-  std::size_t first_record = 0;
-  std::size_t records = 0;
-  bool starts_late = false;  ///< a record or more is missing at its beginning
-  bool ends_short = false;   ///< or at its end, as it was asked for
+  long long begin = 0;           ///< time-step
+  long long end = 0;             ///< time-step, not included
+  std::size_t first_record = 0;  ///< its number, from 0
+  std::size_t records = 0;       ///< how many from there on
+  bool starts_late = false;      ///< a record or more is missing at its beginning
+  bool ends_short = false;       ///< or at its end, as it was asked for
 };
 
 /// A run cut into windows.
 struct WindowPlan {
-  std::vector<WindowSpan> windows;
-  std::vector<std::string> notes;  ///< sentences about records left out and windows not full
+  std::vector<WindowSpan> windows;  ///< in order of time, at least one
+  std::vector<std::string> notes;   ///< sentences about records left out and windows not full
 };
 
 /// Cuts records into the windows [start + w T, start + (w+1) T) by whole time-steps, so that no record

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "averaging/walls/solidity_cap.hpp"
+#include "averaging/statistics/redistribution.hpp"
 
 namespace millfoam::averaging {
 
@@ -13,10 +13,10 @@ namespace {
 
 using Columns = RecordSums;
 
-/// Means over the records: [n][columns] extensive quantities and [n] room.
+/// Means over the records: [n][columns] extensive quantities and [n] volumes inside the mill, m^3.
 struct Means {
   std::vector<double> values;
-  std::vector<double> room;
+  std::vector<double> inside_volumes;
 
   double at(std::size_t cell, std::size_t column) const { return values[cell * Columns::columns + column]; }
 };
@@ -28,35 +28,38 @@ Means means(const WindowMoments& moments) {
     for (std::size_t column = 0; column < Columns::columns; ++column) {
       result.values.push_back(moments.sum(c, column) / records);
     }
-    result.room.push_back(moments.cell_volume(c) / records);
+    result.inside_volumes.push_back(moments.cell_volume(c) / records);
   }
   return result;
 }
 
-/// Takes the solids out of cells within walls, whose room becomes 0, and what is above the cap out of others.
-void move_to_neighbours(const CellRoom& room, Means& mean, Ledger& ledger) {
-  if (!room.volumes.empty()) {
-    for (std::size_t c = 0; c < mean.room.size(); ++c) {
-      if (mean.room[c] < smallest_inside_fraction * room.volumes[c]) mean.room[c] = 0;
+/// Takes the solids out of cells within walls, whose volume inside becomes 0, and what is above the cap out
+/// of others.
+void redistribute(const CellLimits& limits, Means& mean, Ledger& ledger) {
+  if (!limits.whole_volumes.empty()) {
+    for (std::size_t c = 0; c < mean.inside_volumes.size(); ++c) {
+      if (mean.inside_volumes[c] < smallest_inside_fraction * limits.whole_volumes[c])
+        mean.inside_volumes[c] = 0;
     }
-    const HandedOver walls = empty_walls(mean.values, Columns::columns, mean.room, room.neighbours);
+    const Redistributed walls =
+        redistribute_from_walls(mean.values, Columns::columns, mean.inside_volumes, limits.neighbours);
     ledger.clipped += walls.moved;
     ledger.deposited -= walls.lost;
     ledger.outside += walls.lost;
   }
-  if (!room.solidity_cap) return;
-  std::vector<double> capacities(mean.room.size());
-  std::transform(mean.room.begin(), mean.room.end(), capacities.begin(),
-                 [&](double volume) { return *room.solidity_cap * volume; });
-  ledger.clipped += move_excess(mean.values, Columns::columns, capacities, room.neighbours);
+  if (!limits.solidity_cap) return;
+  std::vector<double> capacities(mean.inside_volumes.size());
+  std::transform(mean.inside_volumes.begin(), mean.inside_volumes.end(), capacities.begin(),
+                 [&](double volume) { return *limits.solidity_cap * volume; });
+  ledger.clipped += redistribute_excess(mean.values, Columns::columns, capacities, limits.neighbours);
 }
 
 void fill_means(const Means& mean, WindowAverage& result) {
   SolidsWindow& fields = result.mean;
-  for (std::size_t c = 0; c < mean.room.size(); ++c) {
+  for (std::size_t c = 0; c < mean.inside_volumes.size(); ++c) {
     const double volume = mean.at(c, Columns::volume);
     if (volume == 0) continue;
-    fields.solidity[c] = volume / mean.room[c];
+    fields.solidity[c] = volume / mean.inside_volumes[c];
     fields.diameter[c] = volume / mean.at(c, Columns::volume_over_diameter);
     fields.diameter43[c] = mean.at(c, Columns::volume_times_diameter) / volume;
     result.number[c] = mean.at(c, Columns::balls);
@@ -74,7 +77,7 @@ void fill_means(const Means& mean, WindowAverage& result) {
 
 }  // namespace
 
-WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
+WindowAverage average(const WindowMoments& moments, const CellLimits& limits) {
   assert(moments.records() > 0);
   const auto records = static_cast<double>(moments.records());
   const std::size_t n = moments.cells();
@@ -85,7 +88,7 @@ WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
 
   if (moments.occupied() > 0) result.balls_per_cell = moments.balls() / moments.occupied();
   Means mean = means(moments);
-  move_to_neighbours(room, mean, result.ledger);
+  redistribute(limits, mean, result.ledger);
   for (std::vector<double>* field :
        {&result.mean.solidity, &result.mean.diameter, &result.mean.diameter43, &result.number,
         &result.granular_temperature, &result.solidity_deviation}) {
@@ -95,10 +98,10 @@ WindowAverage average(const WindowMoments& moments, const CellRoom& room) {
   result.velocity_deviation.assign(3 * n, 0.0);
   fill_means(mean, result);
   for (std::size_t c = 0; c < n; ++c) {
-    if (!room.volumes.empty()) {
+    if (!limits.whole_volumes.empty()) {
       // Round-off of the clipped triangles must not make a whole voxel more than whole.
       const double inside = moments.cell_volume(c) / records;
-      result.mean.inside_fraction.push_back(std::clamp(inside / room.volumes[c], 0.0, 1.0));
+      result.mean.inside_fraction.push_back(std::clamp(inside / limits.whole_volumes[c], 0.0, 1.0));
     }
     if (result.mean.solidity[c] == 0) continue;
     result.solidity_deviation[c] = std::sqrt(moments.solidity_variance(c));

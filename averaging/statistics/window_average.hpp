@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "averaging/files/solids_file.hpp"
 #include "averaging/statistics/window_moments.hpp"
+#include "averaging/values/solids_window.hpp"
 
 namespace millfoam::averaging {
 
@@ -14,15 +14,15 @@ namespace millfoam::averaging {
 /// reach into it, by their overlap with the wall, belongs to its neighbours.
 inline constexpr double smallest_inside_fraction = 0.01;
 
-/// What an average needs beside the moments.
-struct CellRoom {
-  std::vector<double> volumes;  ///< [n] whole volumes of the cells, m^3; empty unless walls cut the cells
-  std::vector<std::array<int, 2>> neighbours;  ///< cells that share a face, see `move_excess`
+/// What limits the solids of cells: walls that cut them and a largest solidity.
+struct CellLimits {
+  std::vector<double> whole_volumes;           ///< [n] of the cells, m^3; empty unless walls cut the cells
+  std::vector<std::array<int, 2>> neighbours;  ///< pairs that share a face, see `redistribute_excess`
   std::optional<double> solidity_cap;          ///< largest solidity that may stay in a cell
 };
 
 /// The averages over the records k = 1 ... K of a window. With phi_k and u_k the solidity and the mean
-/// particle velocity of record k, and W the room of the cell (its volume inside the mill):
+/// particle velocity of record k, and W the cell's volume inside the mill:
 ///
 ///     solidity                phi = sum V / sum W
 ///     velocity                u = sum V v / sum V
@@ -37,12 +37,12 @@ struct CellRoom {
 /// of the mean within the window; the drift's part is the mean square of velocity_deviation's components.
 ///
 /// V_k is the volume of balls in the cell in record k. Cells of which less than `smallest_inside_fraction` is
-/// inside are emptied into their neighbours (`empty_walls`), and what is above a cap on solidity moves on
-/// (`move_excess`), with its momentum and all else that the means are made of; both are counted in the
-/// ledger's `clipped`. Deviations are those before anything moved.
+/// inside are emptied into their neighbours (`redistribute_from_walls`), and what is above a cap on solidity
+/// moves to neighbours (`redistribute_excess`), with its momentum and all else that the means are made of;
+/// both are counted in the ledger's `clipped`. Deviations are those before anything moved.
 ///
 /// The moments must hold a record. `time.records` is filled in, the window's times are the caller's.
-/// Throws std::runtime_error when the cap leaves no room for the balls.
-WindowAverage average(const WindowMoments& moments, const CellRoom& room);
+/// Throws as `redistribute_excess`.
+WindowAverage average(const WindowMoments& moments, const CellLimits& limits);
 
 }  // namespace millfoam::averaging

@@ -20,7 +20,7 @@ void WindowMoments::clear() {
 void WindowMoments::add_to_spread(const RecordSums& record, std::size_t cell) {
   double* const s = &spreads_[cell * spreads];
   const double volume = record.at(cell, RecordSums::volume), cell_volume = record.cell_volumes[cell];
-  s[room] += cell_volume;
+  s[inside_volume] += cell_volume;
   const double solidity = cell_volume > 0 ? volume / cell_volume : 0;
   const double difference = solidity - s[solidity_mean];
   s[solidity_mean] += difference / totals_.records;
@@ -53,7 +53,7 @@ void WindowMoments::merge(const WindowMoments& later) {
   for (std::size_t cell = 0; cell < cells_; ++cell) {
     double* const s = &spreads_[cell * spreads];
     const double* const l = later.spread(cell);
-    s[room] += l[room];
+    s[inside_volume] += l[inside_volume];
     const double step = l[solidity_mean] - s[solidity_mean];
     s[solidity_mean] += step * later_share;
     s[solidity_squares] += l[solidity_squares] + step * step * totals_.records * later_share;

@@ -16,6 +16,7 @@ namespace millfoam::averaging {
 /// (Comm ACM 22:532) and, merged, Chan, Golub & LeVeque 1983 (Am Stat 37:242).
 class WindowMoments {
  public:
+  /// Of no records yet.
   explicit WindowMoments(std::size_t cells);
 
   /// Adds the next record.
@@ -27,9 +28,9 @@ class WindowMoments {
   /// Back to no records; keeps the storage.
   void clear();
 
-  std::size_t cells() const { return cells_; }
-  long long records() const { return static_cast<long long>(totals_.records); }
-  Ledger ledger() const { return totals_.ledger; }  ///< sum over the records
+  std::size_t cells() const { return cells_; }                                   ///< their number
+  long long records() const { return static_cast<long long>(totals_.records); }  ///< number of records added
+  Ledger ledger() const { return totals_.ledger; }                               ///< sum over the records
   /// Number of cells with balls in them, summed over the records.
   double occupied() const { return totals_.occupied; }
   /// Number of balls deposited, summed over the records.
@@ -40,21 +41,25 @@ class WindowMoments {
     return sums_[cell * RecordSums::columns + column];
   }
   /// Sum over the records of the cell's volume, m^3.
-  double cell_volume(std::size_t cell) const { return spread(cell)[room]; }
+  double cell_volume(std::size_t cell) const { return spread(cell)[inside_volume]; }
   /// Mean square deviation of the records' solidities from their mean.
   double solidity_variance(std::size_t cell) const;
   /// The same of the records' mean velocities, weighted by the balls' volume; component 0 to 2, m^2/s^2.
   double velocity_variance(std::size_t cell, std::size_t component) const;
 
-  /// Everything as plain numbers, to be sent or stored and read back; `packed_size` of them.
+  /// Everything as plain numbers, to be sent or stored; `packed_size` of them.
   std::vector<double> packed() const;
+
+  /// How many numbers the moments of so many cells are.
   static std::size_t packed_size(std::size_t cells);
+
+  /// Takes over what `packed` gave for as many cells.
   void unpack(const std::vector<double>& numbers);
 
  private:
   /// Columns of the spreads.
   enum Spread : std::size_t {
-    room,                                  ///< sum of cell volumes
+    inside_volume,                         ///< sum of cell volumes
     solidity_mean,                         ///< of the records' solidities
     solidity_squares,                      ///< sum of squared differences from it
     velocity_mean,                         ///< of the records' velocities, weighted by volume; three columns

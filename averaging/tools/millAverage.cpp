@@ -10,7 +10,7 @@
 
 #include "averaging/run/summary_file.hpp"
 #include "averaging/tools/mill_averages.hpp"
-#include "averaging/tools/mpi_team.hpp"
+#include "averaging/tools/mpi_communicator.hpp"
 #include "averaging/tools/options.hpp"
 
 namespace {
@@ -35,9 +35,9 @@ int verdict(const SolidsSummary& summary, double tolerance) {
   return failures.empty() ? 0 : 1;
 }
 
-int run(Options& options, Team& team) {
+int run(Options& options, Communicator& communicator) {
   const auto note = [&](const std::string& sentence) {
-    if (team.rank() == 0) std::cerr << "millAverage: " << sentence << '\n';
+    if (communicator.rank() == 0) std::cerr << "millAverage: " << sentence << '\n';
   };
   std::string fingerprint;
   if (!options.mill.file.empty()) fingerprint = take_from_mill(options.mill.read(), options);
@@ -45,7 +45,7 @@ int run(Options& options, Team& team) {
   AverageRequest request = as_request(options);
   request.mill_averages = fingerprint;
   int code = 0;
-  for (const SolidsSummary& summary : average_run(request, {show_progress, note}, team)) {
+  for (const SolidsSummary& summary : average_run(request, {show_progress, note}, communicator)) {
     std::cout << report(summary);
     code = std::max(code, verdict(summary, allowed));
   }
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   CLI::App app("Averages the balls of a DEM run over cells and time windows into a solids file");
   Options options;
   declare(app, options);
-  std::unique_ptr<Team> team;
+  std::unique_ptr<Communicator> communicator;
   try {
     app.parse(argc, argv);
     if (!options.report.empty()) return report_file(options);
@@ -75,8 +75,9 @@ int main(int argc, char** argv) {
       millfoam::meshing::write_resolved_mill(options.mill.read(), "millAverage", options.mill.resolved);
       return 0;
     }
-    team = MpiTeam::launched() ? std::make_unique<MpiTeam>() : std::make_unique<Team>();
-    return run(options, *team);
+    communicator =
+        MpiCommunicator::launched() ? std::make_unique<MpiCommunicator>() : std::make_unique<Communicator>();
+    return run(options, *communicator);
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const std::exception& error) {
@@ -84,7 +85,7 @@ int main(int argc, char** argv) {
     std::cerr << "millAverage: error: "
               << (full ? "not enough memory: take fewer cells (--shape) or --threads" : error.what()) << '\n';
     // The other ranks wait for this one.
-    if (team && team->size() > 1) MpiTeam::abort();
+    if (communicator && communicator->size() > 1) MpiCommunicator::abort();
     return 1;
   }
 }

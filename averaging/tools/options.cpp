@@ -133,22 +133,25 @@ std::vector<std::filesystem::path> matching_files(const std::vector<std::string>
   return files;
 }
 
-}  // namespace
-
-void declare(CLI::App& app, Options& options) {
+void declare_mill(CLI::App& app, Options& options) {
   app.set_version_flag("--version", program());
   meshing::add_mill_options(app, options.mill);
   app.add_option("--case", options.case_folder,
                  "folder with dumps/ and walls/ of the mill, which receives solids.h5; what the mill says is "
                  "averaged unless options below say otherwise")
       ->capture_default_str();
+}
+
+void declare_files(CLI::App& app, Options& options) {
   app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
   app.add_option("--dt", options.timestep,
                  "DEM time-step, s; unless given, out of run.json beside the dumps");
   app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.json");
   app.add_option("-o,--output", options.output,
                  "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
+}
 
+void declare_cells(CLI::App& app, Options& options) {
   app.add_option("--box", options.box, "voxels of a box: two corners x0 y0 z0 x1 y1 z1, m")->expected(6);
   app.add_option("--cylinder", options.cylinder,
                  "voxels of a cylinder about z: radii r0 r1 and ends z0 z1, m")
@@ -169,19 +172,25 @@ void declare(CLI::App& app, Options& options) {
          "width of the conservative diffusion on the mesh, m; without a number 2.5 Sauter diameters of the "
          "balls [no smoothing]")
       ->expected(0, 1);
+}
 
+void declare_method(CLI::App& app, Options& options) {
   app.add_option("--method", options.method, "how balls are shared between cells: exact or sample")
       ->check(CLI::IsMember({"exact", "sample"}))
       ->capture_default_str();
   app.add_option("--template", options.template_points, "points along a sphere's diameter, to sample")
       ->capture_default_str();
   app.add_option("--cap", options.solidity_cap, "largest solidity: what is above moves to neighbours [none]");
+}
 
+void declare_windows(CLI::App& app, Options& options) {
   app.add_option("--window", options.windows,
                  "lengths of the time windows, s, or 'whole' for one over the run; several in one pass");
   app.add_option("--start", options.start, "DEM time at which the first window begins, s [first dump]");
   app.add_option("--end", options.end, "DEM time from which on dumps are left out, s [none]");
+}
 
+void declare_run(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "of this process [OMP_NUM_THREADS or all cores]")
       ->check(CLI::Range(1, 1024));
   app.add_option("--checkpoint", options.checkpoint_interval, "time between notes of how far the run is, s")
@@ -192,6 +201,17 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--tolerance", options.tolerance,
                  "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
                  "--report, else none]");
+}
+
+}  // namespace
+
+void declare(CLI::App& app, Options& options) {
+  declare_mill(app, options);
+  declare_files(app, options);
+  declare_cells(app, options);
+  declare_method(app, options);
+  declare_windows(app, options);
+  declare_run(app, options);
 }
 
 double tolerance(const Options& options, double usual) {
@@ -224,7 +244,7 @@ AverageRequest as_request(const Options& options) {
   request.dumps = options.dumps;
   request.timestep = options.timestep;
   request.angular_velocity = options.speed;
-  request.method = options.method == "exact" ? SharingMethod::exact : SharingMethod::sample;
+  request.method = options.method == "exact" ? DepositionMethod::exact : DepositionMethod::sample;
   request.template_points = options.template_points;
   request.walls = matching_files(options.walls);
   request.solidity_cap = options.solidity_cap;

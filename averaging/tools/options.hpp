@@ -14,32 +14,32 @@ namespace millfoam::averaging {
 
 /// The options of millAverage as they are typed.
 struct Options {
-  meshing::MillOptions mill;      ///< no file: without a mill
-  std::string case_folder = ".";  ///< of the mill
-  std::string dumps;
-  std::optional<double> timestep;
-  std::optional<double> speed;
-  std::vector<double> box;
-  std::vector<double> cylinder;
-  std::string mesh;
-  std::vector<int> shape;
-  std::vector<std::string> periodic;
-  std::vector<std::string> motion;
-  std::optional<double> period;
-  std::optional<std::string> smoothing;
-  std::string method = "exact";
-  int template_points = 12;
-  std::vector<std::string> walls;
-  std::optional<double> solidity_cap;
-  std::vector<std::string> windows;
-  std::optional<double> start;
-  std::optional<double> end;
-  int threads = 0;
-  double checkpoint_interval = 10;
-  std::optional<double> tolerance;
-  std::string report;
-  std::string json;
-  std::string output;
+  meshing::MillOptions mill;             ///< no file: without a mill
+  std::string case_folder = ".";         ///< of the mill
+  std::string dumps;                     ///< pattern of their names
+  std::optional<double> timestep;        ///< of the DEM run, s
+  std::optional<double> speed;           ///< of the mill about z, rad/s
+  std::vector<double> box;               ///< [6] two corners, m
+  std::vector<double> cylinder;          ///< [4] two radii and two ends, m
+  std::string mesh;                      ///< mesh file
+  std::vector<int> shape;                ///< [3] numbers of voxels
+  std::vector<std::string> periodic;     ///< x, y, z
+  std::vector<std::string> motion;       ///< of the mesh, for `parse_motion`, or `none`
+  std::optional<double> period;          ///< of the mesh along z, m
+  std::optional<std::string> smoothing;  ///< width, m; empty: the usual one
+  std::string method = "exact";          ///< exact or sample
+  int template_points = 12;              ///< along a sphere's diameter
+  std::vector<std::string> walls;        ///< patterns of STL files, or a mesh file
+  std::optional<double> solidity_cap;    ///< largest solidity
+  std::vector<std::string> windows;      ///< lengths, s, or `whole`
+  std::optional<double> start;           ///< DEM time, s
+  std::optional<double> end;             ///< DEM time, s
+  int threads = 0;                       ///< of this process; 0: as many as OpenMP gives
+  double checkpoint_interval = 10;       ///< s
+  std::optional<double> tolerance;       ///< largest share of the volume outside or clipped
+  std::string report;                    ///< solids file that is only reported
+  std::string json;                      ///< where that report goes too
+  std::string output;                    ///< the solids file
 };
 
 /// Declares them, with their help.

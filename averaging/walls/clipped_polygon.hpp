@@ -14,6 +14,7 @@ namespace millfoam::averaging {
 class ClippedPolygon {
  public:
   ClippedPolygon() = default;
+  /// A triangle, corners in m.
   ClippedPolygon(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) : size_(3) {
     corners_[0] = a;
     corners_[1] = b;
@@ -26,12 +27,13 @@ class ClippedPolygon {
     return *this;
   }
 
-  std::size_t size() const { return size_; }
-  const Eigen::Vector3d& operator[](std::size_t corner) const { return corners_[corner]; }
+  std::size_t size() const { return size_; }  ///< number of corners
+  const Eigen::Vector3d& operator[](std::size_t corner) const { return corners_[corner]; }  ///< m
   const Eigen::Vector3d* begin() const { return corners_.data(); }
   const Eigen::Vector3d* end() const { return corners_.data() + size_; }
 
-  void clear() { size_ = 0; }
+  void clear() { size_ = 0; }  ///< leaves no corner
+  /// Adds a corner, m; at most 12.
   void push_back(const Eigen::Vector3d& corner) {
     assert(size_ < corners_.size());
     corners_[size_++] = corner;

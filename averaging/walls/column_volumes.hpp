@@ -45,7 +45,7 @@ class ColumnVolumes {
 };
 
 /// A volume between 0 and that of the voxel, without the round-off at either end.
-inline double tidied(double volume, double voxel) {
+inline double without_round_off(double volume, double voxel) {
   const double round_off = 1e-12 * voxel;
   if (volume < round_off) return 0;
   return volume > voxel - round_off ? voxel : volume;

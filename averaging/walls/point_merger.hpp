@@ -18,6 +18,7 @@ class PointMerger {
   PointMerger(std::vector<Eigen::Vector3d>& points, double tolerance)
       : points_(points), tolerance_(tolerance) {}
 
+  /// The place, in the points that differ, of a point, m; a new one is put at the end.
   int number_of(const Eigen::Vector3d& point) {
     std::array<std::int64_t, 3> box{};
     for (int axis = 0; axis < 3; ++axis) {

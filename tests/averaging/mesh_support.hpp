@@ -13,7 +13,7 @@
 
 #include "averaging/mesh/mesh_geometry.hpp"
 #include "averaging/mesh/poly_mesh.hpp"
-#include "averaging/pi.hpp"
+#include "averaging/values/pi.hpp"
 
 /// Meshes made in memory.
 namespace millfoam::averaging {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finding points in meshes and sharing balls between their cells, each beside another way to do the same. The
+// Finding points in meshes and depositing balls in their cells, each beside another way to do the same. The
 // meshes are drums of hexahedra that have turned; the argument n makes about 10 n^3 cells: 5, 11, 22 and 46
 // give 10^3, 10^4, 10^5 and 10^6. One item is a point or a ball; times are the thread's own.
 #include <CGAL/AABB_traits.h>
@@ -15,9 +15,10 @@
 #include <random>
 #include <vector>
 
+#include "averaging/deposition/exact_mesh_deposition.hpp"
+#include "averaging/deposition/sampled_mesh_deposition.hpp"
 #include "averaging/mesh/cell_locator.hpp"
 #include "averaging/mesh/cell_tree.hpp"
-#include "averaging/sharing/mesh_sharing.hpp"
 #include "tests/averaging/mesh_support.hpp"
 
 namespace millfoam::averaging {
@@ -115,13 +116,13 @@ BENCHMARK(rigid_random_points)->Arg(5)->Arg(11)->Arg(22)->Arg(46)->Unit(benchmar
 void baseline_every_cell(benchmark::State& state) {
   const TestMesh mesh = mill(size_of(state));
   const MeshGeometry geometry(mesh.topology, mesh.points);
-  const CellSides sides(geometry);
+  const CellContainment containment(geometry);
   Points points = coherent_points();
   points.resize(1000);
   const auto locate = [&](const Vector3d& point, int) {
     for (int cell = 0; cell < static_cast<int>(geometry.cells()); ++cell) {
       if (!geometry.boxes()[static_cast<std::size_t>(cell)].contains(point)) continue;
-      if (sides.side(cell, sides.local(point)) == CellSides::Side::inside) return cell;
+      if (containment.test(cell, containment.local(point)) == CellContainment::Answer::inside) return cell;
     }
     return -1;
   };
@@ -219,13 +220,13 @@ BENCHMARK(build_tree)->Arg(17)->Unit(benchmark::kMillisecond);
 BENCHMARK(baseline_cgal_build_tree)->Arg(17)->Unit(benchmark::kMillisecond);
 
 /// Balls in a turned mesh of about 2600 cells; the argument is 100 d/dx.
-template <typename Sharing>
-void share(benchmark::State& state, double warp) {
+template <typename Method>
+void deposit(benchmark::State& state, double warp) {
   const int n = 12;
   const TestMesh mesh = warped(drum_mesh(radius, length, n, n / 2, 6), warp * length / 6);
-  Sharing sharing(std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points),
-                                              parse_motion({"rotation speed 3"}), 0.0));
-  sharing.begin_record(0.37);
+  Method deposition(std::make_unique<RigidMesh>(prepare(mesh.topology, mesh.points),
+                                                parse_motion({"rotation speed 3"}), 0.0));
+  deposition.begin_record(0.37);
   const double cell = std::cbrt(pi * radius * radius * length / static_cast<double>(mesh.topology.cells));
   const double of_ball = static_cast<double>(state.range(0)) / 200 * cell;
   std::mt19937 random(1);
@@ -236,26 +237,26 @@ void share(benchmark::State& state, double warp) {
                          length / 2 + (length / 2 - of_ball) * part(random)};
     if (std::hypot(centre[0], centre[1]) < 0.95 * radius - of_ball) balls.push_back({1, centre, {}, of_ball});
   }
-  std::vector<Share> shares;
+  std::vector<Deposit> deposits;
   double met = 0;
   for (auto _ : state) {
     met = 0;
     for (const Particle& ball : balls) {
-      sharing.share(ball, shares);
-      met += static_cast<double>(shares.size());
+      deposition.deposit(ball, deposits);
+      met += static_cast<double>(deposits.size());
     }
   }
   count(state, balls.size(), mesh.topology.cells);
   state.counters["cells_per_ball"] = met / static_cast<double>(balls.size());
 }
 void exact_flat_cells(benchmark::State& state) {
-  share<MeshExact>(state, 0);
+  deposit<ExactMeshDeposition>(state, 0);
 }
 void exact_warped_cells(benchmark::State& state) {
-  share<MeshExact>(state, 0.05);
+  deposit<ExactMeshDeposition>(state, 0.05);
 }
 void sampling_flat_cells(benchmark::State& state) {
-  share<MeshSampling>(state, 0);
+  deposit<SampledMeshDeposition>(state, 0);
 }
 BENCHMARK(exact_flat_cells)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Arg(400)->Unit(benchmark::kMillisecond);
 BENCHMARK(exact_warped_cells)->Arg(25)->Arg(50)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sharing balls between the voxels of a box and a cylinder, each method beside a plain way to do the same.
+// Depositing balls in the voxels of a box and a cylinder, each method beside a plain way to do the same.
 // The argument is 100 d/dx, ball over voxel; the balls have random places. One item is a ball or, where the
 // name says so, a point.
 #include <benchmark/benchmark.h>
@@ -8,13 +8,13 @@
 #include <random>
 #include <vector>
 
+#include "averaging/deposition/exact_box_deposition.hpp"
+#include "averaging/deposition/exact_cylinder_deposition.hpp"
+#include "averaging/deposition/sampled_box_deposition.hpp"
+#include "averaging/deposition/sampled_cylinder_deposition.hpp"
 #include "averaging/overlap/sphere_template.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
-#include "averaging/pi.hpp"
-#include "averaging/sharing/box_exact.hpp"
-#include "averaging/sharing/box_sampling.hpp"
-#include "averaging/sharing/cylinder_exact.hpp"
-#include "averaging/sharing/cylinder_sampling.hpp"
+#include "averaging/values/pi.hpp"
 
 namespace millfoam::averaging {
 namespace {
@@ -35,21 +35,21 @@ double ratio(const benchmark::State& state) {
   return static_cast<double>(state.range(0)) / 100;
 }
 
-void share_all(benchmark::State& state, CellSharing& sharing, const std::vector<Particle>& all,
-               int items_per_ball = 1) {
-  std::vector<Share> shares;
+void deposit_all(benchmark::State& state, Deposition& deposition, const std::vector<Particle>& all,
+                 int items_per_ball = 1) {
+  std::vector<Deposit> deposits;
   for (auto _ : state) {
     for (const Particle& ball : all) {
-      sharing.share(ball, shares);
-      benchmark::DoNotOptimize(shares.data());
+      deposition.deposit(ball, deposits);
+      benchmark::DoNotOptimize(deposits.data());
     }
   }
   state.SetItemsProcessed(state.iterations() * static_cast<long long>(all.size()) * items_per_ball);
 }
 
 void box_exact(benchmark::State& state) {
-  BoxExact sharing(box());
-  share_all(state, sharing, balls(ratio(state) * box().spacing()[0]));
+  ExactBoxDeposition deposition(box());
+  deposit_all(state, deposition, balls(ratio(state) * box().spacing()[0]));
 }
 BENCHMARK(box_exact)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
 
@@ -101,8 +101,8 @@ void box_exact_baseline_voxel_by_voxel(benchmark::State& state) {
 BENCHMARK(box_exact_baseline_voxel_by_voxel)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
 
 void box_sampling_points(benchmark::State& state) {
-  BoxSampling sharing(box(), 12);
-  share_all(state, sharing, balls(ratio(state) * box().spacing()[0]), SphereTemplate(12).size());
+  SampledBoxDeposition deposition(box(), 12);
+  deposit_all(state, deposition, balls(ratio(state) * box().spacing()[0]), SphereTemplate(12).size());
 }
 BENCHMARK(box_sampling_points)->Arg(50)->Arg(100)->Arg(200)->Arg(400);
 
@@ -154,14 +154,14 @@ std::vector<Particle> balls_in_cylinder(double diameter) {
 }
 
 void cylinder_exact(benchmark::State& state) {
-  CylinderExact sharing(cylinder());
-  share_all(state, sharing, balls_in_cylinder(ratio(state) * 0.05));
+  ExactCylinderDeposition deposition(cylinder());
+  deposit_all(state, deposition, balls_in_cylinder(ratio(state) * 0.05));
 }
 BENCHMARK(cylinder_exact)->Arg(50)->Arg(100)->Arg(200);
 
 void cylinder_sampling_points(benchmark::State& state) {
-  CylinderSampling sharing(cylinder(), 12);
-  share_all(state, sharing, balls_in_cylinder(ratio(state) * 0.05), SphereTemplate(12).size());
+  SampledCylinderDeposition deposition(cylinder(), 12);
+  deposit_all(state, deposition, balls_in_cylinder(ratio(state) * 0.05), SphereTemplate(12).size());
 }
 BENCHMARK(cylinder_sampling_points)->Arg(50)->Arg(100)->Arg(200);
 

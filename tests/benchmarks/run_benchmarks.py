@@ -22,7 +22,8 @@ import numpy as np
 matplotlib.use("Agg")
 
 ROOT = Path(__file__).resolve().parents[2]
-MILL = ROOT / "cases" / "mills" / "mill_12cm"
+MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
+TEMPLATE = ROOT / "scripts" / "mill_case"
 REPETITIONS = 5
 
 
@@ -75,8 +76,8 @@ def location(results):
     with tempfile.TemporaryDirectory() as folder:
         case = Path(folder)
         for part in ("system", "constant"):
-            shutil.copytree(MILL / part, case / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
-        subprocess.run(["millMesh", MILL / "mill.yaml", "--case", case], check=True, stdout=subprocess.DEVNULL)
+            shutil.copytree(TEMPLATE / part, case / part)
+        subprocess.run(["millMesh", MILL, "--case", case], check=True, stdout=subprocess.DEVNULL)
         subprocess.run(["foamMeshToH5", "-case", case], check=True, stdout=subprocess.DEVNULL)
         programs = [["openfoam_location_benchmark", "-case", case]]
         if shutil.which("vtk_location_benchmark"):

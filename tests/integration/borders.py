@@ -29,9 +29,6 @@ MAY_USE = {
     "cases/studies": WHOLE_PACKAGE,
     "cases/verification": WHOLE_PACKAGE,
 }
-# Folders of C++ that include each other today; the list only gets shorter.
-KNOWN_CYCLES = [{f"averaging/{part}" for part in ("dumps", "fields", "files", "grids", "mesh", "overlap", "sharing",
-                                                  "statistics", "walls")}]
 # Headers without a dot are the standard library's; a tool may also read its options.
 STANDARD_LIBRARY_ONLY = "openfoam_module/drag"
 OPTIONS_OF_TOOLS = ("CLI/CLI.hpp", "millfoam_version.hpp")
@@ -49,13 +46,12 @@ def room_of(path):
 
 def violations(root):
     """Sentences, one for each include, import or name (also of OpenFOAM) in the tree that crosses a border the wrong
-    way, and for each cycle of folders or modules but KNOWN_CYCLES."""
+    way, and for each cycle of folders or modules."""
     root = Path(root).resolve()
     cpp, python = cpp_graph(root), python_graph(root)
     result = [sentence for file in cpp for sentence in _check_cpp(root, file)]
     result += [sentence for file, others in python.items() for sentence in _check_python(file, others)]
-    result += [_folder_sentence(found, cpp) for found in folder_cycles(cpp) if found not in KNOWN_CYCLES]
-    result += [_folder_sentence(found, python) for found in folder_cycles(python)]
+    result += [_folder_sentence(found, graph) for graph in (cpp, python) for found in folder_cycles(graph)]
     result += [f"{', '.join(sorted(map(str, found)))}: modules import each other" for found in cycles(python)]
     return result + [sentence for file in sorted((root / "scripts").rglob("*"))
                      for sentence in _cases_named(root, file)]

@@ -15,11 +15,14 @@ from millfoam.files import foam
 from millfoam.files.tables import read_columns, read_table
 from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from mill_case import replace
+from mill_case import replace, run_mill
 from slurry_case import SLURRY, SlurryTest
 
-CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
+MILL = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm" / "mill.yaml"
 FEED, HALF, END, WINDOW = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s
+CHANGES = ("resolution={counts: {gap: 2, lifter: 1, height: 1, ring: 10}, layers: 9}", "geometry.pulp_lifters.layers=2",
+           "flow.balls=no", f"flow.feed={FEED}", f"flow.duration={END}", f"flow.write_interval={HALF}",
+           f"flow.averages={{start: 0, window: {WINDOW}}}")
 SPEED = -2.5  # that a balance in a box is told, rad/s
 OBJECTS = f"""
 functions
@@ -48,21 +51,9 @@ class FedMill(unittest.TestCase):
         cls.folder = Path(tempfile.mkdtemp(prefix="function-objects-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.case = cls.folder / "whole"
-        for part in ("system", "constant", "0.orig"):
-            shutil.copytree(CASE / part, cls.case / part, ignore=shutil.ignore_patterns("polyMesh", "millProperties"))
-        shutil.copy(CASE / "mill.yaml", cls.case)
-        replace(cls.case / "mill.yaml", (r"counts: .*", "counts: {gap: 2, lifter: 1, height: 1, ring: 10}"),
-                (r"^  layers: \d+", "  layers: 9"), (r"depth: 0.033, layers: 3", "depth: 0.033, layers: 2"))
+        run_mill(cls.case, MILL, *CHANGES, until="start")
         control = cls.case / "system" / "controlDict"
-        replace(control, (r"^writeInterval +[^;]+", f"writeInterval {HALF}"),
-                (r"^writePrecision +\d+", "writePrecision 17"))
         control.write_text(control.read_text().split("functions")[0] + OBJECTS)
-        (cls.case / "constant" / "operation").write_text(f"feedRate {FEED};\nlaw none;\n")
-        (cls.case / "constant" / "bedProperties").unlink()
-        shutil.copytree(cls.case / "0.orig", cls.case / "0")
-        run(cls.case, "millMesh", "mill.yaml", "--case", ".")
-        run(cls.case, "slurryStart")
-        end_at(cls.case, END)
         cls.split = cls.folder / "ranks"
         shutil.copytree(cls.case, cls.split)
         run(cls.case, "slurryFoam")

@@ -9,19 +9,21 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 from PIL import Image
 
 from millfoam.files import foam
+from millfoam.files.tables import read_columns
 from millfoam.files.written_times import MillFlow
 from millfoam.readings import axial
 from millfoam.run import run
 from mill_case import run_mill
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
-FEED, HALF, END = 65.3e-6, 0.01, 0.02  # m3/s, s
+FEED, HALF, END, WRITTEN = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s: ends of two runs, and what does not divide them
 CHANGES = ("resolution={counts: {gap: 2, lifter: 1, height: 1, ring: 10}, layers: 9}", "geometry.pulp_lifters.layers=2",
-           "flow.balls=no", f"flow.duration={END}", f"flow.write_interval={HALF}",
+           "flow.balls=no", f"flow.duration={END}", f"flow.write_interval={WRITTEN}",
            "flow.averages={start: 0, window: 0.02, interval: 0.005}")
 
 
@@ -40,6 +42,18 @@ class FedMill(unittest.TestCase):
 
     def test_a_flow_without_balls_takes_no_charge(self):
         self.assertEqual(re.findall(r"^Running (\w+):", self.stages, re.M), ["mesh", "check", "start"])
+
+    def test_both_ends_are_met_and_written_whatever_the_interval(self):
+        times = [time for time, _ in self.flow.frames]
+        np.testing.assert_allclose(times, [0, WRITTEN, HALF, HALF + WRITTEN, END], atol=1e-12)
+
+    def test_what_was_measured_goes_on_from_the_first_end(self):
+        told = read_columns(self.case, "slurryBalance")
+        np.testing.assert_allclose(told["fed"], FEED * told["Time"], rtol=1e-4)
+        self.assertLess(np.abs(told["missing"]).max(), 1e-6 * told["holdUp"][0])
+        with h5py.File(self.case / "slurry.h5") as file:
+            self.assertEqual(list(file["window/ends_short"][:]), [0])
+            np.testing.assert_allclose((file["window/begin"][0], file["window/end"][0]), (0, END), atol=1e-9)
 
     def test_the_slurry_grows_by_the_feed(self):
         times, volumes = axial.slurry_volumes(self.case)

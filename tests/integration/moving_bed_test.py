@@ -138,6 +138,49 @@ class Ledger(RecordTest):
                 self.assert_refused(self.ledger_case(factor), "the ledger says", "above 2 %", "--inside",
                                     "ledgerCorrection no")
 
+    def assert_advice(self, *words, shape, cells=(4, 1, 1), **options):
+        """The refusal of solids on uniform voxels, of which the ledger says 3 % more, holds the words."""
+        phi = solids.uniform(0.3, shape=shape)
+        case = self.box(cells=cells, delta_t=STEP, end_time=STEP)
+        solids.write(case.path / "solids.h5", **BOX, solidity=phi, deposited=np.array([1.03 * 0.3 * 0.04 ** 3]),
+                     **options)
+        case.drag('law Ergun; solids "solids.h5"; interpolation cell; ledgerCorrection yes;')
+        log = case.run("millInterFoam").log
+        message = " ".join(log[log.index("FOAM FATAL"):].split())
+        for word in ("the correction would be 3 %, in size above 2 %", *words):
+            self.assertIn(word, message)
+
+    def test_the_refusal_of_few_balls_names_the_voxels_that_hold_eight(self):
+        # 0.6 V/(pi/6 d^3) = 2.29 balls of 2 cm in 2 x 2 x 4 cm; 8 balls take (8 pi/6 d^3/0.6)^(1/3) = 3.82 cm
+        self.assert_advice("There are 5 balls of 0.02 m", "voxels are 0.02 m wide and 0.04 m long",
+                           "holds 2.29 balls, and 8 make an average", "voxels of at least 0.04 m (averages.voxel_size",
+                           shape=(1, 2, 2), diameter=0.02)
+
+    def test_the_refusal_of_thick_layers_names_the_thickness_and_the_voxels(self):
+        self.assert_advice("take layers of at most 0.01 m (resolution.layers) or voxels of at least 0.02 m"
+                           " (averages.voxel_size", shape=(4, 2, 2), cells=(4, 4, 2), diameter=0.002)
+
+    def test_the_refusal_of_wide_cells_names_their_width(self):
+        self.assert_advice("take cells of at most 0.01 m (resolution.cell_size", "voxels of at least 0.02 m",
+                           shape=(2, 4, 4), cells=(2, 2, 4), diameter=0.002)
+
+    def test_the_refusal_of_coarse_voxels_names_how_small_they_may_be(self):
+        self.assert_advice("take smaller ones, down to 0.00956 m (averages.voxel_size", "resolution.cell_size",
+                           shape=(1, 1, 1), cells=(4, 4, 4), diameter=0.005)
+
+    def test_the_refusal_of_voxels_with_eight_balls_asks_for_no_smaller_ones(self):
+        self.assert_advice("take others (averages.voxel_size, averages.counts), or more balls", shape=(1, 1, 1),
+                           cells=(4, 4, 4), diameter=0.018)
+
+    def test_a_larger_correction_may_be_allowed(self):
+        case = self.ledger_case(1.03, entries="ledgerCorrection yes; largestCorrection 0.04;")
+        found, = self.fields(case, "solidity", STEP)
+        np.testing.assert_allclose(found, 1.03 * self.phi, rtol=1e-12)
+        self.assert_refused(self.ledger_case(1.05, entries="ledgerCorrection yes; largestCorrection 0.04;"),
+                            "above 4 %")
+        self.assert_refused(self.ledger_case(1, entries="ledgerCorrection yes; largestCorrection 2;"),
+                            "largestCorrection is 2", "from 0 to 1")
+
     def test_below_two_per_cent_is_not(self):
         for factor in (1.0195, 0.9805):
             with self.subTest(factor=factor):
@@ -177,6 +220,41 @@ class Uncovered(RecordTest):
     def test_are_refused_when_they_are_an_error(self):
         self.assert_refused(self.case("uncovered error;"), "1 of 4 cells lie outside", "cell 3 at (0.035 0.02 0.02)",
                             "millAverage", "uncovered warn")
+
+
+class EmptyZones(RecordTest):
+    """A grate before the last of four cells, which the voxels do not see."""
+
+    def case(self, entries="emptyZones (behind);", **options):
+        phi = solids.uniform(0.1, 0.3, shape=(1, 1, 2))
+        chamber = 0.75 * 0.04 ** 3 * phi[:, 0, 0, 0]
+        case = self.record_case(phi, deposited=chamber, velocity=(0.1, 0, 0),
+                                entries=f"ledgerCorrection yes; uncovered error; {entries}", **options)
+        case.write("system/topoSetDict", """
+            actions ( { name behind; type cellZoneSet; action new; source boxToCell; box (0.03 -9 -9) (9 9 9); } );""")
+        self.assert_runs(case, "topoSet")
+        return case
+
+    def test_have_no_solids_and_the_others_have_all_of_the_ledgers(self):
+        case = self.case(end_time=0.02)
+        found = self.fields(case, "solidity", 0.008, 0.018)
+        np.testing.assert_allclose(found, [[0.1, 0.1, 0.1, 0], [0.3, 0.3, 0.3, 0]], rtol=1e-12)
+        np.testing.assert_array_equal(case.field("solidsVelocity", 0.018)[3], [0, 0, 0])
+
+    def test_are_empty_on_two_ranks_too(self):
+        case = self.case()
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        self.assert_runs(case, "millInterFoam", ranks=2)
+        self.assert_runs(case, "reconstructPar")
+        np.testing.assert_allclose(case.field("solidity", STEP), [0.1, 0.1, 0.1, 0], rtol=1e-12)
+
+    def test_need_no_voxels(self):
+        found, = self.fields(self.case(upper=(0.03, 0.04, 0.04)), "solidity", STEP)
+        np.testing.assert_allclose(found, [0.1, 0.1, 0.1, 0], rtol=1e-12)
+
+    def test_that_the_mesh_has_not_are_refused(self):
+        self.assert_refused(self.case("emptyZones (pulpLifters);"), "emptyZones names pulpLifters", "behind")
 
 
 class BlockTest(OpenFoamTest):

@@ -7,6 +7,7 @@ import os
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -231,6 +232,16 @@ class Help(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), tool)
             for word in ("Usage: " + tool, "Reads:", "Writes:", *words):
                 self.assertIn(word, done.stdout)
+
+    def test_neither_needs_a_case_or_a_shell_that_knows_of_openfoam(self):
+        folder = tempfile.mkdtemp(prefix="millfoam_test_")
+        self.addCleanup(os.rmdir, folder)
+        for tool in self.reads_and_writes:
+            for option, words in (("--version", tool + " "), ("--help", "Usage: " + tool)):
+                done = subprocess.run([shutil.which(tool), option], capture_output=True, text=True, check=False,
+                                      cwd=folder, env={"PATH": "/usr/bin:/bin"})
+                self.assertEqual((done.returncode, done.stderr), (0, ""), (tool, option))
+                self.assertIn(words, done.stdout)
 
     def test_version_is_that_of_the_program(self):
         for tool in self.reads_and_writes:

@@ -2,9 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "meshing/mill.hpp"
 #include "meshing/mill_charge.hpp"
+#include "meshing/mill_document.hpp"
+#include "meshing/mill_shape.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
@@ -93,7 +98,8 @@ TEST(FlowStart, is_refused_when_given_twice_or_too_large) {
       std::string::npos);
   EXPECT_NE(refusal_of(bare_mill, {"flow.start={level: 0, fill: 1}"}).find("either it or level"),
             std::string::npos);
-  EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=1"}).find("the mill has room for"), std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=0.025"}).find("the mill has room for"),
+            std::string::npos);
 }
 
 TEST(Flow, laws_are_those_of_the_table) {
@@ -142,6 +148,97 @@ TEST(Set, of_one_alternative_takes_the_place_of_the_other) {
             std::string::npos);
 }
 
+TEST(Set, of_one_alternative_takes_the_place_of_the_other_in_every_section) {
+  EXPECT_DOUBLE_EQ(mill_of(bare_mill + "flow: {duration: 5}\n", {"flow.turns=1"}).flow.duration,
+                   mill_of(bare_mill).turn());
+  const std::string inlet = with(example_mill, "speed:", "  inlet: {radius: 0.02}\nspeed:");
+  EXPECT_DOUBLE_EQ(mill_of(inlet, {"geometry.inlet.area=0.001"}).geometry.inlet->radius,
+                   std::sqrt(0.001 / std::acos(-1.0)));
+  EXPECT_EQ(mill_of(example_mill, {"resolution.counts={gap: 11, lifter: 3, height: 5, ring: 9}"})
+                .resolution.cell_size,
+            0);
+  EXPECT_EQ(mill_of(bare_mill + "averages: {voxel_size: 0.06}\n", {"averages.counts={across: 9, along: 2}"})
+                .averages.voxels.shape,
+            (std::array<int, 3>{9, 9, 2}));
+  EXPECT_EQ(
+      mill_of(bare_mill + "flow: {start: {volume: 0.001}}\n", {"flow.start.level=-0.1"}).flow.start.level,
+      -0.1);
+}
+
+TEST(Set, of_a_fraction_of_the_critical_speed_keeps_the_sense_of_the_files_angular_velocity) {
+  const std::string speed = "fraction_of_critical: 0.5\n  sense: clockwise";
+  const double critical = std::sqrt(9.81 / 0.06);
+  for (const double sign : {-1, 1}) {
+    const std::string text = with(example_mill, speed, "angular_velocity: " + std::to_string(sign * 6.4));
+    EXPECT_DOUBLE_EQ(mill_of(text, {"speed.fraction_of_critical=0.7"}).angular_velocity,
+                     sign * 0.7 * critical);
+  }
+  const std::string text = with(example_mill, speed, "angular_velocity: -6.4");
+  EXPECT_DOUBLE_EQ(
+      mill_of(text, {"speed.fraction_of_critical=0.7", "speed.sense=anticlockwise"}).angular_velocity,
+      0.7 * critical);
+}
+
+TEST(Set, of_classes_takes_the_place_of_fill_and_diameter) {
+  const Mill mill = mill_of(bare_mill, {"charge.classes=[{diameter: 0.03, mass: 5}]"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.03);
+  EXPECT_EQ(mill.charge.classes[0].mass, 5);
+}
+
+TEST(Set, of_fill_and_diameter_takes_the_place_of_classes) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.3", "charge.diameter=0.005"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.005);
+  EXPECT_NEAR(count_charge(mill).load, 0.3, 1e-3);
+}
+
+TEST(Set, of_fill_alone_fills_with_the_files_classes_in_their_shares) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.25"});
+  const Charge& charge = mill.charge;
+  ASSERT_EQ(charge.classes.size(), 2U);
+  EXPECT_EQ(charge.classes[0].diameter, 0.008);
+  EXPECT_EQ(charge.classes[1].diameter, 0.002);
+  EXPECT_DOUBLE_EQ(charge.classes[1].mass / charge.classes[0].mass, 1.5);
+  const double mass = charge.classes[0].mass + charge.classes[1].mass;
+  EXPECT_DOUBLE_EQ(mass, 0.25 * 0.6 * 2700 * analytic_volume(mill.geometry));
+  // As much with another packing
+  EXPECT_DOUBLE_EQ(mill_of(text, {"charge.fill=0.25", "charge.packing=0.5"}).charge.classes[0].mass,
+                   charge.classes[0].mass * 0.5 / 0.6);
+}
+
+TEST(Set, of_two_alternatives_is_refused) {
+  const auto refused = [](const std::string& text, const std::vector<std::string>& set,
+                          const std::string& message) {
+    EXPECT_NE(refusal_of(text, set).find(message), std::string::npos) << refusal_of(text, set);
+  };
+  refused(example_mill, {"charge.fill=0.3", "charge.classes=[{diameter: 0.005, mass: 0.1}]"},
+          "--set charge.fill=0.3: key 'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.classes[0].mass=0.1"},
+          "'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.reference_length=0.1"},
+          "'charge.reference_length' = 0.1: expected it beside classes only");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.fraction_of_critical=0.5"},
+          "either angular_velocity alone");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.sense=clockwise"},
+          "either angular_velocity alone");
+  refused(bare_mill, {"flow.duration=2", "flow.turns=1"}, "either duration or turns");
+  refused(bare_mill, {"flow.start.level=0", "flow.start.volume=0.001"}, "either it or level");
+  refused(bare_mill, {"flow.start.fill=1", "slurry.level=0"}, "either it or slurry.level");
+  refused(example_mill, {"dem.youngs_modulus=1e7", "dem.largest_overlap=0.05"},
+          "either it or youngs_modulus");
+  refused(example_mill, {"resolution.cell_size=0.003", "resolution.counts={gap: 11}"},
+          "either cell_size or counts");
+}
+
+TEST(Set, leaves_two_alternatives_of_the_file_refused) {
+  const std::string both = with(example_mill, "  classes", "  fill: 0.3\n  classes");
+  EXPECT_NE(refusal_of(both, {"dem.seed=3"}).find("'charge.fill' = 0.3: expected either classes"),
+            std::string::npos);
+}
+
 TEST(Set, says_what_it_is_when_it_is_none) {
   for (const char* change : {"flow.law", "=3", "a..b=1", "charge.classes[x].mass=1"})
     EXPECT_NE(refusal_of(example_mill, {change}).find("expected PATH=VALUE"), std::string::npos) << change;
@@ -166,6 +263,56 @@ TEST(Lengths, in_millimetres_are_refused) {
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=120"}).find("up to 50 m"), std::string::npos);
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=1e300"}).find("up to 50 m"), std::string::npos);
   EXPECT_NE(refusal_of(example_mill, {"dem.duration=1e12"}).find("up to 100000 s"), std::string::npos);
+}
+
+/// The paths of all numbers of a resolved mill's keys, and whether each is a whole one.
+std::vector<std::pair<std::string, bool>> numbers_of(const nlohmann::ordered_json& keys) {
+  std::vector<std::pair<std::string, bool>> paths;
+  const nlohmann::ordered_json flat = keys.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number()) continue;
+    std::string path;
+    std::istringstream names(pointer.substr(1));
+    for (std::string name; std::getline(names, name, '/');) {
+      const bool item = name.find_first_not_of("0123456789") == std::string::npos;
+      path += item ? "[" + name + "]" : (path.empty() ? "" : ".") + name;
+    }
+    paths.emplace_back(path, value.is_number_integer());
+  }
+  return paths;
+}
+
+TEST(Numbers, are_bounded_each_by_something_that_a_mill_can_have) {
+  const std::string whole = with(with(with(example_mill, "speed:", R"(  inlet: {radius: 0.02}
+  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}
+  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}
+speed:)"),
+                                      "  classes", "  reference_length: 0.024\n  classes"),
+                                 "  level: -0.012\n", "");
+  const std::string smooth = with(with(bare_mill, "count: 12", "count: 0"), "ends: periodic", "ends: plain");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> mills{
+      {whole, {"flow.start={volume: 1e-5}", "flow.duration=1", "geometry.slice=0.02"}},
+      {whole, {"geometry.inlet={area: 0.001}", "speed={angular_velocity: 3}", "dem={youngs_modulus: 1e7}"}},
+      {bare_mill, {"averages={counts: {across: 9, along: 2}}", "flow.start={level: -0.1}", "flow.turns=1"}},
+      {smooth, {"resolution={counts: {gap: 48, ring: 9}}", "flow.averages={counts: {across: 9, along: 2}}"}},
+      {example_mill, {"resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9}}"}}};
+  std::set<std::string> tried;
+  for (const auto& [text, set] : mills) {
+    const MillDescription mill = describe(text, set);
+    for (const auto& [path, is_whole] : numbers_of(mill.document->keys())) {
+      for (const std::string& value : is_whole ? std::vector<std::string>{"2000000000", "-2000000000"}
+                                               : std::vector<std::string>{"1e300", "-1e300"}) {
+        std::vector<std::string> changed = set;
+        changed.push_back(path + "=" + value);
+        const std::string message = refusal_of(text, changed);
+        const std::string start =
+            "--set " + changed.back() + ": key '" + path + "' = " + value + ": expected ";
+        EXPECT_EQ(message.rfind(start, 0), 0U) << path << " = " << value << ": " << message;
+      }
+      tried.insert(path);
+    }
+  }
+  EXPECT_GT(tried.size(), 60U);
 }
 
 TEST(Charge, counts_whole_balls_and_names_fines) {

@@ -236,12 +236,24 @@ TEST(Grates, have_a_zone_of_the_cells_in_front_of_them) {
 TEST(Grates, with_pulp_lifters_have_a_zone_of_the_cells_behind_them) {
   const Geometry mill = mill_with_pulp_lifters();
   const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
-  ASSERT_EQ(mesh.cell_zones.size(), 1u);
+  ASSERT_EQ(mesh.cell_zones.size(), 2u);
   ASSERT_EQ(mesh.face_zones.size(), 1u);
   std::vector<int> behind;
   for (const int face : mesh.face_zones[0].members)
     behind.push_back(mesh.neighbour[static_cast<std::size_t>(face)]);
   EXPECT_EQ(mesh.cell_zones[0].members, behind);
+}
+
+TEST(PulpLifters, have_a_zone_of_all_cells_behind_the_discharge_end) {
+  const Geometry mill = mill_with_pulp_lifters();
+  const VolumeMesh mesh = make_mill_mesh(make_cross_section(mill, 0.012), mill, mill_layers);
+  const MeshMeasures m = measure(mesh);
+  std::vector<int> behind;
+  for (int cell = 0; cell < mesh.cells; ++cell)
+    if (m.cell_centre[static_cast<std::size_t>(cell)].z() > mill.length) behind.push_back(cell);
+  ASSERT_EQ(mesh.cell_zones.size(), 2u);
+  EXPECT_EQ(mesh.cell_zones[1].name, "pulpLifters");
+  EXPECT_EQ(mesh.cell_zones[1].members, behind);
 }
 
 TEST(Grates, with_more_sectors_than_columns_are_refused) {

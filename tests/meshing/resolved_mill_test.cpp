@@ -24,6 +24,9 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
            {example_mill, {"geometry.slice=0.012", "flow.turns=2", "flow.law=Hill"}},
            {with(example_mill, "  level: -0.012\n", ""),
             {"flow.start.fill=0.7", "averages.counts={across: 9, along: 2}"}},
+           {example_mill, {"charge.fill=0.25", "speed.angular_velocity=3", "flow.duration=1"}},
+           {with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", "angular_velocity: -6.4"),
+            {"speed.fraction_of_critical=0.6", "geometry.slice=0.012"}},
            {fill, {"flow.balls=no", "geometry.inlet={radius: 0.02}", "flow.feed=1e-5"}}}) {
     const TemporaryFolder folder;
     const MillDescription first = describe(text, set);

@@ -13,7 +13,7 @@ import numpy as np
 from millfoam.files.flow_record import FlowRecord
 from millfoam.files.mill_case import MillCase
 from millfoam.report import checks
-from millfoam.report.steadiness import batches_of, halves
+from millfoam.report.steadiness import batches_of, error_over_turns, halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow
 
@@ -124,6 +124,19 @@ class Flow(Verdicts):
                               for seed in range(200)])
             difference, error = np.sqrt(np.mean(found**2, axis=0))
             self.assertAlmostEqual(error / difference, 1, delta=0.15)
+
+    def test_the_error_of_a_mean_is_of_whole_turns(self):
+        time = np.arange(0, 6.5 + 1e-9, 1e-2)
+        found = []
+        for seed in range(200):
+            values = np.random.default_rng(seed).normal(0, 1, time.shape) + np.sin(2 * np.pi * time)
+            late = time >= 0.5
+            found.append((values[late].mean(), error_over_turns(time, values, 0.5, 1.0)))
+        spread, error = np.std([mean for mean, _ in found]), np.sqrt(np.mean([error**2 for _, error in found]))
+        self.assertAlmostEqual(error / spread, 1, delta=0.15)
+        # What comes back with every turn adds no error
+        self.assertLess(error_over_turns(time, np.sin(2 * np.pi * time), 0.5, 1.0), 1e-9)
+        self.assertTrue(np.isnan(error_over_turns(time, time, 5.0, 1.0)))
 
     def courant(self, steps, limits=None):
         columns = dict(zip(("courant", "courant_surface", "voidage_change"), np.transpose(steps)))

@@ -6,6 +6,7 @@
 #include "movingBed.H"
 #include "readableLog.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
+#include "resolutionAdvice.H"
 #include "uncoveredCells.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -38,9 +39,40 @@ Foam::movingBed::zero(
 }
 
 
+Foam::labelList Foam::movingBed::emptyCells() const
+{
+    labelHashSet cells;
+    for (const word& name :
+         dict_.lookupOrDefault<wordList>("emptyZones", wordList()))
+    {
+        const label zonei = mesh_.cellZones().findZoneID(name);
+        if (zonei < 0)
+        {
+            FatalIOErrorInFunction(dict_)
+                << "emptyZones names " << name << "; expected one of the mesh's"
+                << " cell zones " << flatOutput(mesh_.cellZones().names())
+                << ". millMesh makes pulpLifters" << exit(FatalIOError);
+        }
+        cells.insert(mesh_.cellZones()[zonei]);
+    }
+    return cells.sortedToc();
+}
+
+
+bool Foam::movingBed::sample(const scalar time, const bool moved)
+{
+    const bool changed = source_->sample(mesh_, time, moved, sums_);
+    sums_.empty(empty_);
+    return changed;
+}
+
+
 void Foam::movingBed::checkCover()
 {
-    const label n = returnReduce(source_->uncovered().size(), sumOp<label>());
+    labelHashSet missed(source_->uncovered());
+    missed.unset(empty_);
+    const labelList uncovered(missed.sortedToc());
+    const label n = returnReduce(uncovered.size(), sumOp<label>());
     if (n == 0 || told_)
         return;
 
@@ -48,7 +80,7 @@ void Foam::movingBed::checkCover()
     readableText text;
     text << n << " of " << returnReduce(mesh_.nCells(), sumOp<label>())
          << " cells lie outside the grid of the solids: "
-         << firstCells(mesh_, source_->uncovered()).c_str();
+         << firstCells(mesh_, uncovered).c_str();
     if (uncovered_ == beyond::warn)
     {
         WarningInFunction << text.str().c_str() << "; they have no solids"
@@ -67,7 +99,9 @@ void Foam::movingBed::setSolidity(scalarField& solidity)
     solidity = sums_.solidity();
     if (conservation_.valid() && source_->knowsVolume())
     {
-        conservation_->correct(solidity, mesh_.V(), source_->volume());
+        conservation_->correct(
+            solidity, mesh_.V(), source_->volume(),
+            [this] { return resolutionAdvice(mesh_, source_(), sums_); });
     }
 }
 
@@ -106,6 +140,7 @@ Foam::movingBed::movingBed(const dictionary& dict, const fvMesh& mesh)
           ? new solidsConservation(dict_)
           : nullptr),
   uncovered_(beyondNames_.getOrDefault("uncovered", dict_, beyond::error)),
+  empty_(emptyCells()),
   told_(false),
   sums_(),
   solidity_(zero<scalar>("solidity", dimless, true)),
@@ -132,8 +167,7 @@ void Foam::movingBed::update()
         return;
 
     const bool moved = mesh_.changing() && !placed_;
-    if (source_->sample(mesh_, mesh_.time().value(), moved, sums_) ||
-        mesh_.changing())
+    if (sample(mesh_.time().value(), moved) || mesh_.changing())
     {
         checkCover();
         setFields();
@@ -149,9 +183,7 @@ void Foam::movingBed::update()
 
 Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
 {
-    source_->sample(
-        mesh_, mesh_.time().value() - mesh_.time().deltaTValue(),
-        mesh_.changing(), sums_);
+    sample(mesh_.time().value() - mesh_.time().deltaTValue(), mesh_.changing());
     checkCover();
     placed_ = true;
 
@@ -167,9 +199,13 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
 
 Foam::wordList Foam::movingBed::entries()
 {
-    return {"solids", "interpolation", "inTime",           "outOfRange",
-            "time0",  "omega",         "fingerprint",      "block",
-            "blocks", "uncovered",     "ledgerCorrection", "largestSolidity"};
+    return {"solids",          "interpolation",
+            "inTime",          "outOfRange",
+            "time0",           "omega",
+            "fingerprint",     "block",
+            "blocks",          "uncovered",
+            "emptyZones",      "ledgerCorrection",
+            "largestSolidity", "largestCorrection"};
 }
 
 

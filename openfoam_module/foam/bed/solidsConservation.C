@@ -13,9 +13,6 @@
 namespace Foam
 {
 
-//- Beyond this relative correction the fields are not those of the mesh
-static constexpr scalar tooLarge = 0.02;
-
 //- Relative error of the corrected volume
 static constexpr scalar precision = 1e-13;
 
@@ -72,19 +69,25 @@ Foam::scalar Foam::solidsConservation::factorFor(
 
 
 void Foam::solidsConservation::checkSize(
-    const scalar found, const scalar volume) const
+    const scalar found, const scalar volume,
+    const std::function<string()>& advice) const
 {
-    if (mag(volume - found) <= tooLarge * found)
+    if (mag(volume - found) <= largestCorrection_ * found)
         return;
 
+    OStringStream percent;
+    percent.precision(3);
+    percent << 100 * (volume / max(found, VSMALL) - 1) << " %, in size above "
+            << 100 * largestCorrection_ << " %";
     FatalIOErrorInFunction(dict_)
         << "the solids fill " << found << " m3 of the mesh but the ledger says "
-        << volume << " m3: the correction would be above " << 100 * tooLarge
-        << " %. Does the grid of the solids cover the mesh, were the walls "
-           "given"
+        << volume << " m3: the correction would be " << percent.str().c_str()
+        << ". " << advice().c_str()
+        << "Does the grid of the solids cover the mesh, were the walls given"
         << " to millAverage (--inside), is the mesh turned to the solids' time?"
-        << " A mesh that holds only a part of the charge by intention wants"
-        << " ledgerCorrection no" << exit(FatalIOError);
+        << " A larger correction is allowed by largestCorrection, and a mesh"
+        << " that holds only a part of the charge by ledgerCorrection no"
+        << exit(FatalIOError);
 }
 
 
@@ -93,6 +96,7 @@ void Foam::solidsConservation::checkSize(
 Foam::solidsConservation::solidsConservation(const dictionary& dict)
 : dict_(dict),
   largestSolidity_(dict.lookupOrDefault<scalar>("largestSolidity", 0.9)),
+  largestCorrection_(dict.lookupOrDefault<scalar>("largestCorrection", 0.02)),
   solids_(0),
   present_(0),
   largest_(0),
@@ -104,17 +108,25 @@ Foam::solidsConservation::solidsConservation(const dictionary& dict)
             << "largestSolidity is " << largestSolidity_
             << "; expected a number above 0 and below 1" << exit(FatalIOError);
     }
+    if (!(largestCorrection_ >= 0 && largestCorrection_ <= 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "largestCorrection is " << largestCorrection_
+            << "; expected a share of the volume from 0 to 1"
+            << exit(FatalIOError);
+    }
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::solidsConservation::correct(
-    scalarField& solidity, const scalarField& V, const scalar volume)
+    scalarField& solidity, const scalarField& V, const scalar volume,
+    const std::function<string()>& advice)
 {
     scalar found = sum(solidity * V);
     reduce(found, sumOp<scalar>());
-    checkSize(found, volume);
+    checkSize(found, volume, advice);
     solids_ = volume;
     if (found <= 0)
         return;

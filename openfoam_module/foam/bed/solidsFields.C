@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsFields.H"
+#include "UIndirectList.H"
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -32,6 +33,15 @@ void Foam::solidsFields::add(
     flux_[celli] += phi * u;
     overDiameter_[celli] += phi / d32;
     timesDiameter_[celli] += phi * d43;
+}
+
+
+void Foam::solidsFields::empty(const labelUList& cells)
+{
+    UIndirectList<scalar>(solidity_, cells) = Zero;
+    UIndirectList<vector>(flux_, cells) = vector(Zero);
+    UIndirectList<scalar>(overDiameter_, cells) = Zero;
+    UIndirectList<scalar>(timesDiameter_, cells) = Zero;
 }
 
 

@@ -46,6 +46,27 @@ struct pointSampler
     }
 };
 
+//- Lengths of a grid's voxels, m; of a cylinder's at half of its radius
+struct voxelLengths
+{
+    vector operator()(const millfoam::averaging::BoxGrid& grid) const
+    {
+        const auto lengths = grid.spacing();
+        return vector(lengths[0], lengths[1], lengths[2]);
+    }
+
+    vector operator()(const millfoam::averaging::CylinderGrid& grid) const
+    {
+        const auto lengths = grid.spacing();
+        return vector(lengths[0], lengths[1] * grid.radii()[1] / 2, lengths[2]);
+    }
+
+    vector operator()(const MeshCells&) const
+    {
+        return vector::zero;
+    }
+};
+
 } // End namespace Foam
 
 
@@ -287,6 +308,12 @@ Foam::scalar Foam::solidsRecord::volume() const
 {
     return (1 - moment_.weight) * deposited_[moment_.lower] +
            moment_.weight * deposited_[moment_.upper];
+}
+
+
+Foam::vector Foam::solidsRecord::spacing() const
+{
+    return std::visit(voxelLengths(), reader_->grid());
 }
 
 

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from ..files.data_files import number, read_json
+from ..files.tables import TableError, read_table
 from ..run import RunError
 
 TEMPLATE = Path(__file__).resolve().parents[2] / "mill_case"
 TRIAL_TIME = 20.0  # s that the trial of the flow may last
 LARGEST_STEPS = 30  # its length in largest time-steps: about 40 steps, because the first ones are shorter
 FIRST_STEPS = 10  # that are not counted: the time-step grows from its first value
-FEWEST_STEPS = 4  # that are waited for on a mesh too large for the trial's time
+FEWEST_STEPS = 4  # a mesh too large for the trial's time makes so many, or a multiple
 
 
 @dataclass(frozen=True)
@@ -110,14 +111,15 @@ def try_mesh(folder: Path | str, mill: Path | str) -> MeshTrial:
 
 
 def shorten(folder: Path, largest_step: float) -> None:
-    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets a row
-    at the end of each step."""
+    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets the
+    time that each step has taken."""
     with open(folder / "system" / "controlDict", "a") as control:
         control.write(f"endTime {LARGEST_STEPS * largest_step:.9g};\n"
                       'functions { trial { type abort; libs ("libutilityFunctionObjects.so"); '
-                      'file "<case>/stop"; action noWriteNow; } '
-                      'steps { type fieldMinMax; libs ("libfieldFunctionObjects.so"); fields (alpha.slurry); '
-                      'log no; } }\n')
+                      'file "<case>/stop"; action noWriteNow; '
+                      f'timeStart 1e-12; executeControl timeStep; executeInterval {FEWEST_STEPS}; '
+                      f'writeControl timeStep; writeInterval {FEWEST_STEPS}; }} '
+                      'steps { type timeInfo; libs ("libutilityFunctionObjects.so"); } }\n')
 
 
 def try_flow(folder: Path | str, solver: str, largest_step: float, ranks: int) -> FlowTrial:
@@ -136,32 +138,27 @@ def try_flow(folder: Path | str, solver: str, largest_step: float, ranks: int) -
         start.append(run_measured(case, "decomposePar", "-force", ranks=ranks))
         program = ["mpirun", "-np", str(ranks), *program, "-parallel"]
     start_disk = disk(case / "0", *case.glob("processor*"))
-    seen: list[float] = []
 
     def watch(seconds: float) -> None:
-        steps = steps_done(case)
-        if steps > len(seen):
-            seen.extend([seconds] * (steps - len(seen)))
-        if seconds > TRIAL_TIME and steps >= FEWEST_STEPS:
+        if seconds > TRIAL_TIME:
             (case / "stop").touch()
     cost = run_measured(case, *program, log="log.flow", watch=watch, ranks=ranks)
     return FlowTrial(Cost(sum(one.time for one in start), max(one.memory for one in start)), start_disk,
-                     step_time(seen), cost.memory)
+                     step_time(execution_times(case)), cost.memory)
 
 
-def steps_done(folder: Path) -> int:
-    """Number of steps that the trial of a flow has made."""
-    table = folder / "postProcessing" / "steps" / "0" / "fieldMinMax.dat"
-    if not table.is_file():
-        return 0
-    with table.open() as lines:
-        return sum(line.endswith("\n") and not line.startswith("#") for line in lines)
+def execution_times(folder: Path | str) -> Sequence[float]:
+    """Times in s [steps] for which a trial's solver had computed at the end of each step; empty where there is none."""
+    try:
+        names, rows = read_table(folder, "steps", "timeInfo")
+    except TableError:
+        return []
+    return list(rows[:, names.index("cpuTime")])
 
 
-def step_time(seen: Sequence[float]) -> float:
-    """Mean time in s of a step after the first ones; seen: when the end of each step was seen. RunError where there are
-    too few steps."""
-    if len(seen) < 2:
-        raise RunError(f"the trial of the flow made {len(seen)} steps; expected 2 or more")
-    first = min(FIRST_STEPS, len(seen) // 2)
-    return (seen[-1] - seen[first - 1]) / (len(seen) - first)
+def step_time(times: Sequence[float]) -> float:
+    """Mean time in s of a step after the first ones. RunError where there are too few steps."""
+    if len(times) < 2:
+        raise RunError(f"the trial of the flow made {len(times)} steps; expected 2 or more")
+    first = min(FIRST_STEPS, len(times) // 2)
+    return (times[-1] - times[first - 1]) / (len(times) - first)

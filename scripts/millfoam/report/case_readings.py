@@ -12,6 +12,7 @@ from ..readings import axial, charge
 from ..readings.axial import humps_at_ends
 from ..readings.means import Reading, time_mean
 from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_blocks, slurry_way
+from .steadiness import error_over_turns
 from .words import millilitres, uncertain
 
 Rows = list[tuple[str, str]]  # of a table: name and text
@@ -146,10 +147,14 @@ def balance_numbers(case: MillCase) -> Rows:
     if not late.any():
         return []
     mean = {name: time_mean(told["Time"], values, case.begin) for name, values in told.items()}
+
+    def error(name: str) -> float:
+        return error_over_turns(told["Time"], told[name], case.begin, case.turn)
     rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4)),
-            ("centre of the slurry, x to the falling side", f"{1e3 * to_falling_side(case, mean['x']):.1f} mm"),
-            ("centre of the slurry, y", f"{1e3 * mean['y']:.1f} mm"),
-            ("power for the slurry", f"{mean['power']:.3g} W")]
+            ("centre of the slurry, x to the falling side",
+             uncertain(1e3 * to_falling_side(case, mean["x"]), 1e3 * error("x"), "mm")),
+            ("centre of the slurry, y", uncertain(1e3 * mean["y"], 1e3 * error("y"), "mm")),
+            ("power for the slurry", uncertain(mean["power"], error("power"), "W"))]
     if case.is_open and not case.is_slice:
         feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
         rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),

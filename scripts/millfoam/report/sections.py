@@ -35,9 +35,10 @@ def spans(case: MillCase, readings: Readings) -> str:
         words.append(f"flow from {case.begin:.3g} to {case.last:.3g} s")
     told = "Averages: " + ", ".join(words) + "."
     if case.solids or case.results:
-        told += (" ±: standard errors of batch means over time. Angles are counted from straight down, positive where "
-                 "the "
-                 f"shell rises. {FRAME}")
+        told += " ±: standard errors of batch means over time."
+        if case.flow:
+            told += " Those of the slurry are of whole turns; none is given where fewer than two are averaged."
+        told += f" Angles are counted from straight down, positive where the shell rises. {FRAME}"
     return told + readings.short_blocks(slurry=False)
 
 

@@ -39,6 +39,15 @@ def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: flo
         return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
 
 
+def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
+    """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
+    turn takes `turn` s; NaN where fewer than two fit."""
+    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
+    if turns < 2:
+        return np.nan
+    return float(batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns))
+
+
 def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:
     """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
     batches_of.

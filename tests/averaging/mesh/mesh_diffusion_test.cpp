@@ -7,7 +7,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "averaging/mesh/periodic_faces.hpp"
 #include "tests/averaging/mesh_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
@@ -140,26 +139,6 @@ TEST(MeshDiffusion, RefusesWhatItCannotDo) {
                {"width", "0.0", "above 0"});
   expect_named(message_of<std::invalid_argument>([&] { MeshDiffusion(box, 0.1, 0.7); }),
                {"period is 0.7 m", "1 m"});
-}
-
-TEST(PeriodicFaces, PairTheFacesOfTheTwoEnds) {
-  const MeshGeometry mesh = geometry_of(drum_mesh(1, 0.5, 4, 3, 2));
-  const auto pairs = periodic_faces(mesh, 0.5);
-  EXPECT_EQ(pairs.size(), mesh.cells() / 2);
-  for (const auto& [low, high] : pairs) {
-    const int a = mesh.topology().owner[static_cast<std::size_t>(low)];
-    const int b = mesh.topology().owner[static_cast<std::size_t>(high)];
-    const Eigen::Vector3d apart =
-        mesh.centres()[static_cast<std::size_t>(b)] - mesh.centres()[static_cast<std::size_t>(a)];
-    EXPECT_NEAR((apart - Eigen::Vector3d(0, 0, 0.25)).norm(), 0, 1e-12);
-  }
-}
-
-TEST(PeriodicFaces, EndsThatDifferAreRefused) {
-  TestMesh cone = box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 1});
-  for (Eigen::Vector3d& p : cone.points) p.x() *= 1 + p.z();
-  expect_named(message_of<std::invalid_argument>([&] { periodic_faces(geometry_of(cone), 1); }),
-               {"boundary face", "no partner"});
 }
 
 }  // namespace

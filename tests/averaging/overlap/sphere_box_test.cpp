@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "averaging/overlap/sphere_triangle.hpp"
-#include "tests/averaging/overlap/quadrature.hpp"
+#include "tests/averaging/overlap/quadrature_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {

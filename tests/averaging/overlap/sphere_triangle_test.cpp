@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/averaging/overlap/quadrature.hpp"
+#include "tests/averaging/overlap/quadrature_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {

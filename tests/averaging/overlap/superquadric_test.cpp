@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "averaging/overlap/sphere_template.hpp"
-#include "tests/averaging/overlap/quadrature.hpp"
+#include "tests/averaging/overlap/quadrature_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {

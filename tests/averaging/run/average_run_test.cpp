@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "averaging/dumps/run_notes.hpp"
+#include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/output_lock.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/summary_file.hpp"
@@ -36,7 +36,7 @@ struct AverageRun : ::testing::Test {
   const std::filesystem::path& output() const { return request.windows[0].output; }
 
   SolidsSummary run() {
-    Team alone;
+    Communicator alone;
     return average_run(
         request, {[](std::size_t, std::size_t) {}, [this](const std::string& s) { notes.push_back(s); }},
         alone)[0];
@@ -44,7 +44,7 @@ struct AverageRun : ::testing::Test {
 
   /// Runs until `dumps` are averaged and stops there, as a run that is killed would.
   void run_and_stop(std::size_t dumps) {
-    Team alone;
+    Communicator alone;
     const auto stop = [dumps](std::size_t done, std::size_t) {
       if (done >= dumps) throw std::runtime_error("stopped");
     };
@@ -77,7 +77,7 @@ TEST_F(AverageRun, WritesWindowsWithTheVolumeWhereTheBallIs) {
 TEST_F(AverageRun, SamplingAgreesWithExactVolumesToTheTemplatesError) {
   run();
   const SolidsWindow exact = SolidsReader(output()).read_window(15);
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   run();
   const SolidsWindow sampled = SolidsReader(output()).read_window(15);
   EXPECT_EQ(SolidsReader(output()).header().method, "sample, 12 points along a diameter");
@@ -179,9 +179,9 @@ TEST_F(AverageRun, AStoppedRunOfOtherSettingsIsNotTakenUp) {
   run();
   const std::string fresh = bytes(output());
   request.checkpoint_interval = 0;
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   run_and_stop(60);
-  request.method = SharingMethod::exact;
+  request.method = DepositionMethod::exact;
   run();
   expect_named(notes.back(), {"other dumps or settings"});
   EXPECT_EQ(bytes(output()), fresh);
@@ -192,10 +192,10 @@ TEST_F(AverageRun, WindowsOfAnotherStoppedRunInBetweenAreNotTakenForItsOwn) {
   const std::string fresh = bytes(output());
   request.checkpoint_interval = 0;
   run_and_stop(60);
-  request.method = SharingMethod::sample;
+  request.method = DepositionMethod::sample;
   request.checkpoint_interval = 1000;
   run_and_stop(100);
-  request.method = SharingMethod::exact;
+  request.method = DepositionMethod::exact;
   run();
   EXPECT_EQ(bytes(output()), fresh);
 }
@@ -241,7 +241,7 @@ TEST_F(AverageRun, NamesTheMillAndTheDryRunOfTheNotes) {
   EXPECT_EQ(header.program, program());
   EXPECT_EQ(header.mill_charge, "0a1b");
   EXPECT_EQ(header.mill_averages, "2c3d");
-  EXPECT_EQ(header.run_id, read_run_notes(folder / "")->run_id);
+  EXPECT_EQ(header.run_id, read_run_metadata(folder / "")->run_id);
   EXPECT_EQ(header.fines_share, 0.5);
 }
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "averaging/sharing/box_exact.hpp"
+#include "averaging/deposition/exact_box_deposition.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -14,9 +14,9 @@ namespace {
 const BoxGrid unit_voxel({0, 0, 0}, {1, 1, 1}, {1, 1, 1});
 
 void add(WindowMoments& moments, const std::vector<Particle>& particles) {
-  BoxExact sharing(unit_voxel);
+  ExactBoxDeposition deposition(unit_voxel);
   RecordSums sums;
-  sum_record(sharing, {0, particles, {}}, 0, sums);
+  sum_record(deposition, {0, particles, {}}, 0, sums);
   moments.add(sums);
 }
 
@@ -101,7 +101,7 @@ TEST(WindowAverage, UniformMotionHasNoSpread) {
 /// Two voxels of 1 m^3 side by side, the first with 0.02 m^3 of balls at velocity 1, the second with 0.4 at
 /// velocity 0, of which the walls leave `inside` to the first.
 struct TwoVoxels : ::testing::Test {
-  CellRoom room{{1, 1}, {{0, 1}}, std::nullopt};
+  CellLimits limits{{1, 1}, {{0, 1}}, std::nullopt};
 
   WindowAverage average_of(double inside) {
     RecordSums sums;
@@ -117,7 +117,7 @@ struct TwoVoxels : ::testing::Test {
     sums.ledger = {0.42, 0.42, 0, 0};
     WindowMoments moments(2);
     moments.add(sums);
-    return average(moments, room);
+    return average(moments, limits);
   }
 };
 
@@ -139,7 +139,7 @@ TEST_F(TwoVoxels, WithinTheWallGiveWhatReachesIntoThemToTheirNeighbours) {
 }
 
 TEST_F(TwoVoxels, AboveACapGiveTheExcessToTheirNeighbours) {
-  room.solidity_cap = 0.3;
+  limits.solidity_cap = 0.3;
   const WindowAverage window = average_of(1);
   EXPECT_NEAR(window.mean.solidity[0], 0.12, 1e-15);
   EXPECT_NEAR(window.mean.solidity[1], 0.3, 1e-15);
@@ -148,7 +148,7 @@ TEST_F(TwoVoxels, AboveACapGiveTheExcessToTheirNeighbours) {
 }
 
 TEST_F(TwoVoxels, ACapThatLeavesNoRoomIsRefused) {
-  room.solidity_cap = 0.2;
+  limits.solidity_cap = 0.2;
   EXPECT_THROW(average_of(1), std::runtime_error);
 }
 

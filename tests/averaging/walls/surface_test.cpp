@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
-#include "averaging/walls/stl_file.hpp"
 #include "tests/averaging/mesh_support.hpp"
 #include "tests/averaging/walls/walls_support.hpp"
 
@@ -14,38 +12,6 @@ namespace millfoam::averaging {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Only some of a surface's triangles.
-Surface part_of(const Surface& surface, std::size_t first, std::size_t end) {
-  Surface part;
-  part.points = surface.points;
-  part.triangles.assign(surface.triangles.begin() + static_cast<std::ptrdiff_t>(first),
-                        surface.triangles.begin() + static_cast<std::ptrdiff_t>(end));
-  return part;
-}
-
-std::string binary_stl(const Surface& surface) {
-  std::string bytes = "solid that is binary";
-  bytes.resize(80);
-  const auto put = [&](const auto& value) {
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes.append(raw, sizeof value);
-  };
-  put(static_cast<std::uint32_t>(surface.triangles.size()));
-  for (const auto& triangle : surface.triangles) {
-    bytes.append(12, '\0');
-    for (const int corner : triangle) {
-      for (const double x : surface.points[static_cast<std::size_t>(corner)]) put(static_cast<float>(x));
-    }
-    bytes.append(2, '\0');
-  }
-  return bytes;
-}
-
-std::string refusal(const std::vector<std::filesystem::path>& files) {
-  return message_of<SurfaceError>([&] { read_surface(files); });
-}
 
 TEST(Surface, PartsInSeveralFilesAndSolidsMakeOne) {
   const TemporaryFolder folder;
@@ -138,61 +104,6 @@ TEST(Surface, OfAMeshHoldsTheVolumeOfItsCells) {
   double volume = 0;
   for (const double cell : geometry.volumes()) volume += cell;
   EXPECT_NEAR(enclosed_volume(boundary_surface(geometry)) / volume, 1, 1e-13);
-}
-
-TEST(StlFile, AWrongWordIsToldWithItsLine) {
-  const TemporaryFolder folder;
-  std::string text = stl_text(box_surface({0, 0, 0}, {1, 2, 3}));
-  text.replace(text.find("endloop"), 7, "endlop!");
-  expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:7", "endlop!", "'endloop'"});
-  expect_named(refusal({folder.write("notes.txt", "mill of 12 lifters\n")}),
-               {"notes.txt:1", "mill of", "'solid'"});
-}
-
-TEST(StlFile, ACoordinateThatIsNoFiniteNumberIsToldWithItsPlace) {
-  const TemporaryFolder folder;
-  const Surface box = box_surface({0, 0, 0}, {1, 2, 3});
-  for (const std::string word : {"nan", "1.0.0", "1e999", ""}) {
-    std::string text = stl_text(box);
-    text.replace(text.find("vertex 0 0 0"), 12, "vertex 0 0 " + word);
-    expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:4", "vertex 0 0 " + word, "finite"});
-  }
-  std::string binary = binary_stl(box);
-  const float infinite = INFINITY;
-  std::memcpy(binary.data() + 84 + 50 + 16, &infinite, 4);
-  expect_named(refusal({folder.write("wall.stl", binary)}), {"wall.stl", "byte 150", "finite"});
-}
-
-TEST(StlFile, AFileCutAtAnyByteIsRefused) {
-  const TemporaryFolder folder;
-  const Surface triangle = part_of(box_surface({0, 0, 0}, {1, 2, 3}), 0, 1);
-  for (const std::string& text : {stl_text(triangle), binary_stl(triangle)}) {
-    // Without the name of its last solid an ASCII file is still whole.
-    const std::size_t end = text.rfind("endsolid");
-    const std::size_t whole = end == std::string::npos ? text.size() : end + 8;
-    EXPECT_EQ(read_stl(folder.write("whole.stl", text.substr(0, whole))).size(), 1U);
-    for (std::size_t length = 0; length < whole; ++length) {
-      const auto cut = folder.write("cut.stl", text.substr(0, length));
-      EXPECT_THROW(read_stl(cut), SurfaceError) << "cut after " << length << " bytes";
-    }
-  }
-}
-
-TEST(StlFile, ABinaryFileThatIsCutIsToldWithTheBytesThatItsTrianglesNeed) {
-  const TemporaryFolder folder;
-  const std::string whole = binary_stl(box_surface({0, 0, 0}, {1, 2, 3}));
-  const auto cut_after = [&](std::size_t bytes) {
-    return refusal({folder.write("wall.stl", whole.substr(0, bytes))});
-  };
-  expect_named(cut_after(200), {"wall.stl: is cut short: there are 200 bytes",
-                                "expected 684 for the 12 triangles announced in its header"});
-  expect_named(cut_after(50),
-               {"is cut short: there are 50 bytes", "expected 84 for the header of a binary STL"});
-}
-
-TEST(StlFile, OneThatIsNotThereIsNamed) {
-  expect_named(refusal({"gone.stl"}), {"gone.stl", "open"});
-  EXPECT_THROW(read_surface({}), SurfaceError);
 }
 
 }  // namespace

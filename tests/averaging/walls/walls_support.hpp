@@ -4,6 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -93,6 +96,40 @@ inline std::string stl_text(const Surface& surface, const std::string& name = "w
   }
   text << "endsolid " << name << '\n';
   return text.str();
+}
+
+/// Only some of a surface's triangles.
+inline Surface part_of(const Surface& surface, std::size_t first, std::size_t end) {
+  Surface part;
+  part.points = surface.points;
+  part.triangles.assign(surface.triangles.begin() + static_cast<std::ptrdiff_t>(first),
+                        surface.triangles.begin() + static_cast<std::ptrdiff_t>(end));
+  return part;
+}
+
+/// A binary STL file of a surface.
+inline std::string binary_stl(const Surface& surface) {
+  std::string bytes = "solid that is binary";
+  bytes.resize(80);
+  const auto put = [&](const auto& value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    bytes.append(raw, sizeof value);
+  };
+  put(static_cast<std::uint32_t>(surface.triangles.size()));
+  for (const auto& triangle : surface.triangles) {
+    bytes.append(12, '\0');
+    for (const int corner : triangle) {
+      for (const double x : surface.points[static_cast<std::size_t>(corner)]) put(static_cast<float>(x));
+    }
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+/// Why STL files are refused.
+inline std::string refusal(const std::vector<std::filesystem::path>& files) {
+  return message_of<SurfaceError>([&] { read_surface(files); });
 }
 
 }  // namespace millfoam::averaging

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace millfoam::averaging {
+
+/// What the DEM driver writes about its run in `run.json` beside its dumps, an object of JSON; other keys are
+/// allowed.
+struct RunMetadata {
+  std::filesystem::path file;              ///< where it was read
+  std::string run_id;                      ///< of the dry run: FNV-1a of the file's bytes, 16 hex digits
+  std::optional<double> timestep;          ///< key `timestep_s`, s
+  std::optional<long long> interval;       ///< key `interval`, time-steps between dumps
+  std::optional<double> angular_velocity;  ///< key `angular_velocity_rad_s`, of the mill about z, rad/s
+  std::string mill_charge;                 ///< key `charge` of `mill`: fingerprint; empty: not known
+  /// Mass of the fines, which are no balls, over that of the whole charge: fines_mass_kg / (fines_mass_kg +
+  /// charge_mass_kg), where both keys are there.
+  std::optional<double> fines_share;
+};
+
+/// Reads `run.json` in a folder; nothing when there is none.
+/// Throws DumpError, naming the file and its line, for text that is no JSON; naming the file and the key, for
+/// a `format` other than millfoam-dumps, a `timestep_s` that is not a positive number, an `interval` that is
+/// not a positive whole number, and other values of another kind than above. A key that is null counts as not
+/// there.
+std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder);
+
+/// The DEM time-step, s: `given`, or else the metadata's.
+/// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when
+/// `given` is not positive.
+double agreed_timestep(std::optional<double> given, const std::optional<RunMetadata>& metadata);
+
+/// The mill's angular velocity, rad/s: `given`, or else the metadata's, or nothing. Throws DumpError as
+/// `agreed_timestep` when they differ or `given` is not finite.
+std::optional<double> agreed_angular_velocity(std::optional<double> given,
+                                              const std::optional<RunMetadata>& metadata);
+
+}  // namespace millfoam::averaging

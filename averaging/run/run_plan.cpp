@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/run_plan.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/overlap/superquadric.hpp"
+#include "averaging/run/grid_check.hpp"
+
+namespace millfoam::averaging {
+
+namespace {
+
+/// Records in a block: as many as let merging cost little beside the records themselves, but few enough to
+/// give work to many threads and ranks. Of the run alone, so that the result does not depend on these.
+std::size_t block_size(const std::vector<WindowPlan>& plans) {
+  std::size_t records = 0;
+  for (const WindowPlan& plan : plans) {
+    for (const WindowSpan& span : plan.windows) records = std::max(records, span.first_record + span.records);
+  }
+  return std::clamp<std::size_t>(records / 64, 1, 16);
+}
+
+/// sum d^3 / sum d^2; 0 of no balls.
+double sauter_diameter(const ParticleRecord& record) {
+  double volume = 0, area = 0;
+  for (std::size_t p = 0; p < record.particles.size(); ++p) {
+    const double d =
+        record.shapes.empty() ? 2 * record.particles[p].radius : volume_equivalent_diameter(record.shapes[p]);
+    volume += d * d * d;
+    area += d * d;
+  }
+  return area > 0 ? volume / area : 0;
+}
+
+}  // namespace
+
+RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress) {
+  RunPlan plan;
+  plan.dumps = find_dumps(request.dumps);
+  plan.metadata = read_run_metadata(plan.dumps.front().path.parent_path());
+  plan.settings.timestep = agreed_timestep(request.timestep, plan.metadata);
+  plan.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, plan.metadata);
+  const std::optional<long long> interval = plan.metadata ? plan.metadata->interval : std::nullopt;
+  std::vector<long long> steps;
+  for (const DumpFile& dump : plan.dumps) steps.push_back(dump.step);
+  for (const WindowsRequest& windows : request.windows) {
+    plan.series.push_back(
+        plan_windows(steps, {plan.settings.timestep, interval, windows.length, request.start, request.end}));
+    for (const std::string& sentence : plan.series.back().notes) progress.note(sentence);
+  }
+  plan.settings.sauter_diameter =
+      sauter_diameter(read_dump(plan.dumps[plan.series[0].windows[0].first_record].path));
+  plan.blocks = plan_blocks(plan.series, block_size(plan.series));
+  return plan;
+}
+
+void require_fitting_grid(const AverageRequest& request, const RunPlan& plan, const CellSetup& setup) {
+  const WindowSpan& last = plan.series[0].windows.back();
+  std::string first_misfit;
+  for (const std::size_t r : {plan.series[0].windows[0].first_record, last.first_record + last.records - 1}) {
+    const DumpFile& dump = plan.dumps[r];
+    const double time = static_cast<double>(dump.step) * plan.settings.timestep;
+    const std::string found =
+        misfit(setup, read_dump(dump.path), time, dump.path.string(), request.largest_outside);
+    if (found.empty()) return;
+    if (first_misfit.empty()) first_misfit = found;
+  }
+  throw std::invalid_argument(first_misfit);
+}
+
+}  // namespace millfoam::averaging

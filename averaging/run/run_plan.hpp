@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "averaging/dumps/dump_series.hpp"
+#include "averaging/dumps/run_metadata.hpp"
+#include "averaging/run/average_run.hpp"
+#include "averaging/run/cell_setup.hpp"
+#include "averaging/run/record_blocks.hpp"
+#include "averaging/statistics/time_windows.hpp"
+
+namespace millfoam::averaging {
+
+/// The dumps of a run and how they are cut into windows and blocks.
+struct RunPlan {
+  std::vector<DumpFile> dumps;          ///< in order of time
+  std::optional<RunMetadata> metadata;  ///< of run.json, where it lies beside the dumps
+  RunSettings settings;                 ///< what request and metadata agree on
+  std::vector<WindowPlan> series;       ///< windows of each length
+  std::vector<RecordBlock> blocks;      ///< of all of them, in order of time
+};
+
+/// Finds the dumps of a request and cuts them. Throws DumpError, WindowError.
+RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress);
+
+/// Throws std::invalid_argument when the grid cannot be meant for the balls. A first record that does not fit
+/// is forgiven where the last one does: the charge may be filled in during the run.
+void require_fitting_grid(const AverageRequest& request, const RunPlan& plan, const CellSetup& setup);
+
+}  // namespace millfoam::averaging

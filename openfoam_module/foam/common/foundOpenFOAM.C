@@ -1,0 +1,51 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Description
+    Lets a program find the OpenFOAM that it was built with, where the shell has
+    not been told of one.
+
+    OpenFOAM's library looks for etc/controlDict of WM_PROJECT_DIR before main()
+    begins, and ends the program where there is none: not even --version could
+    be answered. What stands in .preinit_array comes before all libraries; it
+    starts the program again with that variable, unless it is set. Nothing of
+    libc but system calls is sure to work there, and no object of the program.
+
+\*---------------------------------------------------------------------------*/
+
+#include <cstring>
+#include <unistd.h>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+static void findOpenFOAM(int, char** argv, char** envp)
+{
+    static char builtWith[] = "WM_PROJECT_DIR=" MILLFOAM_OPENFOAM_DIR;
+    static char program[4096];
+    static char* environment[4096];
+
+    std::size_t n = 0;
+    for (; envp[n]; ++n)
+    {
+        if (std::strncmp(envp[n], "WM_PROJECT_DIR=", 15) == 0)
+        {
+            return;
+        }
+    }
+    if (n + 2 > sizeof(environment) / sizeof(*environment) ||
+        readlink("/proc/self/exe", program, sizeof(program) - 1) < 0)
+    {
+        return;
+    }
+    std::memcpy(environment, envp, n * sizeof(*envp));
+    environment[n] = builtWith;
+    execve(program, argv, environment);
+}
+
+
+__attribute__((section(".preinit_array"), used)) static void (*const findFirst)(
+    int, char**, char**) = findOpenFOAM;
+
+
+// ************************************************************************* //

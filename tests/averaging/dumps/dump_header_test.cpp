@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/dumps/dump_header.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/averaging/dumps/dump_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+TEST(DumpHeader, AHeaderAloneIsRefused) {
+  const std::string text = dump_text(1, random_balls(2, 1));
+  const std::size_t columns = text.find("ITEM: ATOMS");
+  expect_named(refusal_of_dump(text.substr(0, columns)), {"dump7.txt:9", "ends here", "truncated"});
+  expect_named(refusal_of_dump(text.substr(0, text.find('\n', columns) + 1)),
+               {"dump7.txt:10", "particle 1 of 2", "truncated"});
+}
+
+TEST(DumpHeader, CountsThatCannotBeAreRefused) {
+  std::string text = dump_text(1, random_balls(2, 1));
+  const std::size_t place = text.find("ATOMS\n2") + 6;
+  for (const std::string count :
+       {"-1", "9000000000000000000", "90000000000000000000", "2.0", "1e9", "", "two", "3"}) {
+    std::string broken = text;
+    expect_named(refusal_of_dump(broken.replace(place, 1, count)), {"dump7.txt:"});
+  }
+}
+
+TEST(DumpHeader, AnItemThatIsThereTwiceIsRefused) {
+  std::string text = dump_text(1, random_balls(2, 1));
+  expect_named(refusal_of_dump("ITEM: TIMESTEP\n4\n" + text), {"dump7.txt:3", "'ITEM: TIMESTEP'", "twice"});
+  expect_named(
+      refusal_of_dump(text.substr(0, text.find("ITEM: BOX")) + text.substr(text.find("ITEM: NUMBER"))),
+      {"dump7.txt:5", "'ITEM: NUMBER OF ATOMS'", "twice"});
+}
+
+}  // namespace
+}  // namespace millfoam::averaging
