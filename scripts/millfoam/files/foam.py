@@ -96,6 +96,7 @@ class Mesh:
 
     @property
     def cells(self) -> int:
+        """Number of cells."""
         return int(self.owner.max()) + 1
 
     def centres_and_volumes(self) -> tuple[np.ndarray, np.ndarray]:

@@ -60,6 +60,7 @@ class Mill:
 
     @property
     def title(self) -> str:
+        """The mill's title, empty without one."""
         return self.asked("title") or ""
 
     @property
@@ -74,6 +75,7 @@ class Mill:
 
     @cached_property
     def radius(self) -> float:
+        """Inner radius of the shell, m."""
         return self.derived("geometry", "radius_m")
 
     @cached_property
@@ -83,6 +85,7 @@ class Mill:
 
     @cached_property
     def whole_length(self) -> float:
+        """Length of the whole mill, m."""
         return self.derived("geometry", "whole_length_m")
 
     @cached_property
@@ -126,6 +129,7 @@ class Mill:
 
     @property
     def sauter_diameter(self) -> float:
+        """Sauter diameter d32 of the charge, m."""
         return self.derived("charge", "sauter_diameter_m")
 
     @property

@@ -49,22 +49,27 @@ class MillCase:
 
     @property
     def name(self) -> str:
+        """Name of the case's folder."""
         return self.folder.resolve().name
 
     @property
     def title(self) -> str:
+        """The mill's title, or else the folder's name."""
         return self.mill.title or self.name
 
     @property
     def radius(self) -> float:
+        """Inner radius of the shell, m."""
         return self.mill.radius
 
     @property
     def length(self) -> float:
+        """Length of what is computed, m."""
         return self.mill.length
 
     @property
     def is_slice(self) -> bool:
+        """Whether the mill is a periodic slice."""
         return self.mill.is_slice
 
     @property
@@ -220,6 +225,7 @@ class MillCase:
 
     @cached_property
     def flow(self) -> MillFlow | None:
+        """MillFlow of the written times; None without a flow, and where it cannot be used, told in `unusable`."""
         # millMesh writes the mill's mesh and numbers for a dry run too
         record = self.folder / "postProcessing" / "flow"
         if not (times(self.folder) or any(self.folder.glob("processor*")) or record.is_dir()):

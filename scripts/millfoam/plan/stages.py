@@ -48,6 +48,7 @@ class FlowPlan:
 
 
 def flow_number(mill: Mill, *keys: str) -> float:
+    """A number of the mill's derived flow; DataError naming the key where it is missing."""
     return mill.derived("flow", *keys)
 
 

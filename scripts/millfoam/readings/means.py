@@ -22,6 +22,7 @@ class Mean:
         return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
 
     def told(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
+        """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
         return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
 
 

@@ -116,6 +116,7 @@ class Shape:
     columns: int  # of cells, in the mill's section
 
     def reynolds_percentiles(self, percents: ArrayLike) -> np.ndarray:
+        """Reynolds numbers below which these percents of the slurry in the bed lie."""
         return weighted_percentile(self.reynolds, self.weights, percents)
 
 

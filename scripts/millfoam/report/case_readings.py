@@ -131,6 +131,7 @@ def load_numbers(mill: Mill) -> Rows:
 
 
 def charge_numbers(readings: Readings) -> Rows:
+    """Rows of what is read off the charge, with standard errors over time."""
     found, error, x = readings.charge, readings.error, to_falling_side(readings.case, readings.charge.centre[0])
     return [("centre of circulation, x to the falling side", uncertain(1e3 * x, 1e3 * error("centre", 0), "mm")),
             ("centre of circulation, y", uncertain(1e3 * found.centre[1], 1e3 * error("centre", 1), "mm")),
@@ -143,6 +144,7 @@ def charge_numbers(readings: Readings) -> Rows:
 
 
 def balance_numbers(case: MillCase) -> Rows:
+    """Rows of slurryBalance's means over the averaged time; none before it begins."""
     told, late = case.balance, case.balance["Time"] >= case.begin
     if not late.any():
         return []

@@ -13,12 +13,14 @@ NOISE = 0.05  # of a window's mean solidity by chance
 
 
 def lost_balls(case: MillCase) -> Check:
+    """Whether all balls stayed in the mill."""
     lost = int(case.result("lost_balls"))
     return judged("No ball is lost", lost, 0, f"{lost} of {int(case.result('balls'))} lost",
                   "Shorten the time-step (dem.rayleigh_fraction) or look for holes in the walls (millMesh surface).")
 
 
 def charge_steadiness(case: MillCase) -> Check:
+    """Whether the dry run is steady from before its averages on."""
     name = "The charge is steady where it is averaged"
     if not case.results.get("steady"):
         return Check(name, "fails", "the dry run's power did not become steady",
@@ -33,6 +35,7 @@ def charge_steadiness(case: MillCase) -> Check:
 
 
 def overlap(case: MillCase) -> Check:
+    """Whether balls overlap so little that their softness does not matter."""
     diameter = case.result("smallest_diameter_m")
     share = case.result("ball_overlap_largest_m") / diameter
     usual = case.result("ball_overlap_99_m") / diameter
@@ -43,6 +46,7 @@ def overlap(case: MillCase) -> Check:
 
 
 def ledger(case: MillCase) -> Check:
+    """Whether the balls' volume lies in the averages."""
     with h5py.File(case.solids) as file:
         into, outside, clipped = (file[f"ledger/{key}"][:] for key in ("volume_in", "outside", "clipped"))
     share = ((outside + clipped) / into).max()
@@ -53,6 +57,7 @@ def ledger(case: MillCase) -> Check:
 
 
 def averaging_volume(case: MillCase) -> Check:
+    """Whether as many balls lie in a voxel as the drag laws were derived on."""
     with h5py.File(case.solids) as file:
         balls = file["window/balls_per_cell"][:].mean()
     found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived on {BALLS} to 64)"
@@ -64,6 +69,7 @@ def averaging_volume(case: MillCase) -> Check:
 
 
 def window_noise(case: MillCase) -> Check:
+    """How uncertain the mean solidity of a window is by chance."""
     name = "Windows are long enough for their mean"
     with h5py.File(case.solids) as file:
         count = len(file["window/begin"])

@@ -65,6 +65,7 @@ def verdict_table(found: Sequence[list[Check]], names: Sequence[str]) -> str:
 
 
 def same_pixels(a: SolidsMap | SlurryMap, b: SolidsMap | SlurryMap) -> bool:
+    """Whether two maps are on the same pixels."""
     return len(a.x) == len(b.x) and len(a.y) == len(b.y) and np.allclose(a.x, b.x) and np.allclose(a.y, b.y)
 
 
@@ -138,6 +139,7 @@ def charge_curves(told: Sequence[Told]) -> list[str]:
 
 
 def slurry_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> list[str]:
+    """Maps of the slurry's share, and their differences from the first case's."""
     told = [(case, reading.slurry, name) for case, reading, name in zip(cases, readings, names)
             if isinstance(reading.slurry, SlurryMap)]
     if not told:
@@ -160,6 +162,7 @@ def slurry_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names:
 
 
 def axial_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> list[str]:
+    """Profiles along the axis of all cases that have one."""
     found = [(name, reading.profile) for name, reading in zip(names, readings)
              if isinstance(reading.profile, axial.AxialProfile) and len(reading.profile.z) > 2]
     if not found:
@@ -174,6 +177,7 @@ def axial_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: 
 
 
 def time_cards(cases: Sequence[MillCase], names: Sequence[str]) -> list[str]:
+    """Hold-up, height of the centre and power against time of all cases that have a balance."""
     told = [(name, case) for name, case in zip(names, cases) if case.balance is not None
             and len(case.balance["Time"]) > 1]
     if not told:

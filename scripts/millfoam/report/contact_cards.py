@@ -16,6 +16,7 @@ NAMES = {"damping": "damping along the normal", "friction": "friction", "rolling
 
 
 def contact_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the contacts of a dry run; none where it did not write any."""
     folder = case.contacts
     if not folder:
         return []
@@ -81,6 +82,7 @@ def power_table(spectra: Spectra) -> tuple[list[str], list[tuple]]:
 
 
 def balance_rows(spectra: Spectra, drive: float) -> list[tuple[str, str]]:
+    """Rows of what contacts take and what the drive gives (`drive`, W)."""
     parts = {part: spectra.power[part] for part in PARTS}
     taken = spectra.total_power()
     rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} "

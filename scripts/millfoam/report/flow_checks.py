@@ -20,6 +20,7 @@ NO_STEPS = "slurryFoam writes postProcessing/flow/START/steps.csv: run the flow 
 
 
 def conservation(case: MillCase) -> Check:
+    """Whether no slurry is missing."""
     name = "Slurry is conserved"
     told = case.balance
     if told is None:
@@ -40,6 +41,7 @@ def column(case: MillCase, name: str) -> np.ndarray | None:
 
 
 def courant(case: MillCase) -> Check:
+    """Whether time-steps keep to the limits that were asked for."""
     name = "Time-steps keep to their limits"
     steps = case.record.steps
     if steps is None or len(steps["time_s"]) == 0:
@@ -67,6 +69,7 @@ def step_limits(case: MillCase) -> np.ndarray:
 
 
 def mesh(case: MillCase) -> Check:
+    """Whether checkMesh finds nothing, with the mesh's quality."""
     name = "The mesh is sound"
     told = case.json(case.folder / "mesh.json", "mesh")
     quality = (told or {}).get("quality") or {}
@@ -83,6 +86,7 @@ def mesh(case: MillCase) -> Check:
 
 
 def solids_on_mesh(case: MillCase) -> Check:
+    """Whether the balls keep their volume on the flow's mesh."""
     name = "Balls on the flow's mesh keep their volume"
     found = column(case, "volume_correction")
     if found is None:
@@ -93,6 +97,7 @@ def solids_on_mesh(case: MillCase) -> Check:
 
 
 def drag_range(case: MillCase) -> Check:
+    """Which part of the slurry in the bed is beyond the range of the drag law."""
     name = "The drag law is within its range"
     found = column(case, "beyond_law")
     if found is None:
@@ -108,6 +113,7 @@ def drag_range(case: MillCase) -> Check:
 
 
 def one_way(case: MillCase) -> Check:
+    """Whether the slurry would not move the balls, which one-way coupling takes for granted."""
     name = "The slurry would not move the balls"
     load = case.load
     if load is None:

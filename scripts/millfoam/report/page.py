@@ -100,6 +100,7 @@ def player(figures: Iterable[Figure], caption: str, *, title: str | None = None)
 
 
 def paragraph(words: str) -> str:
+    """A paragraph of plain text."""
     return f'<p class="note">{text(words)}</p>'
 
 

@@ -21,11 +21,13 @@ FRAMES = 40  # of the animation, at most
 
 
 def overview(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the animation and the key numbers."""
     cards = [page.table(None, key_numbers(case, readings), title="Key numbers", note=spans(case, readings))]
     return [animation(case)] + cards if case.flow or case.solids else cards
 
 
 def spans(case: MillCase, readings: Readings) -> str:
+    """In words, over which times the key numbers are averaged."""
     words = []
     if not (case.solids or case.flow):
         return "Power: mean of the dry run since it is steady, with the standard error of batch means."
@@ -67,6 +69,7 @@ def last_turn(seconds: float, turn: float) -> str:
 
 
 def charge_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
     cards = charge_maps(case, readings) if case.solids else []
     if case.energy:
         cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's "
@@ -80,6 +83,7 @@ def charge_section(case: MillCase, readings: Readings) -> list[str]:
 
 
 def charge_maps(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge's map, with what is read off it where it can be read."""
     found, mean = readings.charge, case.charge
     if isinstance(found, str):
         words = f"Solidity averaged over axis and time. Not read: {found}."
@@ -100,6 +104,7 @@ def charge_maps(case: MillCase, readings: Readings) -> list[str]:
 
 
 def ledger_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the ledgers of both averages, the mesh, and the range of the drag law."""
     cards = []
     if case.solids:
         with h5py.File(case.solids) as file:

@@ -18,6 +18,7 @@ from .words import millilitres, uncertain
 
 
 def slurry_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the slurry's maps and what is read off them; none without a flow."""
     if not case.flow:
         return []
     slurry = readings.slurry
@@ -74,6 +75,7 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
 
 
 def axial_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the profile along the axis; none of fewer than three slices."""
     if not case.flow or len(getattr(readings.profile, "z", ())) < 3:
         return []
     fits = []
@@ -102,6 +104,7 @@ def along(case: MillCase) -> str:
 
 
 def balance_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of slurryBalance's tables; none without them."""
     if case.balance is None or len(case.balance["Time"]) < 2:
         return []
     through = " and through its openings" if case.is_open and not case.is_slice else ""

@@ -78,6 +78,7 @@ def difference_with_error(value: float, error: float) -> str:
 
 
 def flow_steadiness(case: MillCase) -> Check:
+    """Whether hold-up and centre of the slurry differ little between the two halves of the averaged time."""
     name = "The flow is steady"
     told = case.balance
     if told is None or (told["Time"] >= case.begin).sum() < 20:

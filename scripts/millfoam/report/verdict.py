@@ -15,6 +15,7 @@ class Check:
 
     @property
     def lasting(self) -> bool:
+        """Whether a longer run cannot make the check hold."""
         return bool(self.meaning) and self.state in ("look", "fails")
 
 
