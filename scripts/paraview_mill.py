@@ -2,12 +2,13 @@
 """Shows a mill in ParaView: walls, charge and slurry together.
 
     paraview --script=scripts/paraview_mill.py     in a case's folder, or with MILL_CASE=FOLDER in the environment
-    Macros > Import new macro…                     the same from ParaView's menu, of the folder that ParaView was started in
-    pvbatch scripts/paraview_mill.py CASE PICTURE.png     a picture of the last time; without a display behind `xvfb-run -a`
+    Macros > Import new macro…                     the same from ParaView's menu, of the folder that it was started in
+    pvbatch scripts/paraview_mill.py CASE PICTURE.png     a picture of the last time; without a display by `xvfb-run -a`
 
-ParaView's own readers are enough: that of OpenFOAM for the case (an empty file CASE/mill.foam tells it where), that of XDMF for
-solids.xdmf and slurry.xdmf. Walls are translucent; the charge is where the solidity is above 0.3, coloured by its speed; the
-slurry's surface is where its share passes 0.5. The averages' times are DEM times: they are shifted to the flow's."""
+ParaView's own readers are enough: that of OpenFOAM for the case (an empty file CASE/mill.foam tells it where), that of
+XDMF for solids.xdmf and slurry.xdmf. Walls are translucent; the charge is where the solidity is above 0.3, coloured by
+its speed; the slurry's surface is where its share passes 0.5. The averages' times are DEM times: they are shifted to
+the flow's."""
 import os
 import sys
 from pathlib import Path
@@ -25,7 +26,8 @@ def flow_of(case):
     handle = case / "mill.foam"
     handle.touch()
     reader = simple.OpenFOAMReader(registrationName="flow", FileName=str(handle))
-    if (case / "processor0").is_dir() and not any((case / name / "alpha.slurry").is_file() for name in os.listdir(case) if name != "0"):
+    reconstructed = any((case / name / "alpha.slurry").is_file() for name in os.listdir(case) if name != "0")
+    if (case / "processor0").is_dir() and not reconstructed:
         reader.CaseType = "Decomposed Case"
     reader.UpdatePipelineInformation()
     reader.MeshRegions = [region for region in reader.MeshRegions.Available

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
+"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get
+wrong."""
 import json
 import resource
 import signal
@@ -261,7 +262,8 @@ class MillAverage(unittest.TestCase):
         self.refused(self.command(output="folder"), "'folder' is a folder")
         self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.json", "2 rad/s")
         self.refused(self.command("--inside", "no*.stl"), "--inside 'no*.stl' matches no file")
-        self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape", "a mesh has its own")
+        self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape",
+                     "a mesh has its own")
         self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")
         self.refused(self.command(grid=BOX[:7]), "--shape is missing", "nx ny nz")
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same after a
-restart and on two ranks, and what cannot be is refused."""
+"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same
+after a restart and on two ranks, and what cannot be is refused."""
 import re
 import shutil
 import tempfile
@@ -11,10 +11,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.tables import read_columns, read_table
+from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from millfoam.tables import read_columns, read_table
 from mill_case import replace, run_mill
 from slurry_case import SLURRY, SlurryTest
 
@@ -81,7 +81,8 @@ class FedMill(unittest.TestCase):
         _, holdup = read_table(self.case, "axialProfiles", "holdUp")
         _, height = read_table(self.case, "axialProfiles", "height")
         np.testing.assert_allclose(holdup[:, 1:].sum(axis=1), self.columns["holdUp"], rtol=1e-10)
-        np.testing.assert_allclose((holdup * height)[:, 1:].sum(axis=1) / holdup[:, 1:].sum(axis=1), self.columns["y"], rtol=1e-8)
+        np.testing.assert_allclose((holdup * height)[:, 1:].sum(axis=1) / holdup[:, 1:].sum(axis=1), self.columns["y"],
+                                   rtol=1e-8)
 
     def test_voxels_hold_what_the_cells_hold(self):
         with h5py.File(self.case / "slurry.h5") as file:
@@ -105,7 +106,8 @@ class FedMill(unittest.TestCase):
         columns = read_columns(case, "slurryBalance")
         for name in ("holdUp", "fed", "x", "y", "z"):
             expected = np.interp(columns["Time"], self.columns["Time"], self.columns[name])
-            np.testing.assert_allclose(columns[name], expected, rtol=0, atol=rtol * np.abs(expected).max(), err_msg=name)
+            np.testing.assert_allclose(columns[name], expected, rtol=0, atol=rtol * np.abs(expected).max(),
+                                       err_msg=name)
         self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
         with h5py.File(case / "slurry.h5") as found, h5py.File(self.case / "slurry.h5") as expected:
             for name in FIELDS:
@@ -129,7 +131,8 @@ class FedMill(unittest.TestCase):
         shutil.rmtree(case / f"{END:g}")
         for table in case.glob("postProcessing/*/0/*.dat"):  # as far as the killed run would have come
             lines = table.read_text().splitlines(keepends=True)
-            table.write_text("".join(line for line in lines if line.startswith("#") or float(line.split()[0]) <= 1.2 * HALF))
+            table.write_text("".join(line for line in lines
+                                     if line.startswith("#") or float(line.split()[0]) <= 1.2 * HALF))
         run(case, "slurryFoam")
         self.assert_same(case, 1e-9)
         columns = read_columns(case, "slurryBalance")
@@ -190,14 +193,13 @@ class FedMill(unittest.TestCase):
             with self.subTest(new):
                 self.assertIn(words, self.refused(pattern, new))
 
-
     def test_balls_before_the_inlet_take_nothing_from_the_feed(self):
         case = self.folder / "balls"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", "0.0*"))
         (case / "constant" / "bedProperties").write_text(
             "FoamFile { version 2; format ascii; class dictionary; object bedProperties; }\n"
-            "blocks { front { box (-1 -1 -1) (1 0 0.1); edge 0.05; edgeAxes (0 1 1); solidity 0.55; diameter 0.005; velocity (0 0 0); } }\n"
-            "drag { law Beetstra; }\n")
+            "blocks { front { box (-1 -1 -1) (1 0 0.1); edge 0.05; edgeAxes (0 1 1); solidity 0.55; diameter 0.005; "
+            "velocity (0 0 0); } }\ndrag { law Beetstra; }\n")
         end_at(case, HALF)
         run(case, "slurryFoam")
         told = read_columns(case, "slurryBalance")
@@ -220,7 +222,8 @@ class InABox(SlurryTest):
         """Columns of a balance in a run of the case."""
         control = case.path / "system" / "controlDict"
         control.write_text(control.read_text() + """
-            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed %g; writePrecision 12; } }""" % SPEED)
+            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed %g;
+            writePrecision 12; } }""" % SPEED)
         self.assert_runs(case, "slurryFoam")
         return read_columns(case.path, "slurryBalance")
 
@@ -282,11 +285,13 @@ class InABox(SlurryTest):
         time = case.path / "0.01"
         cells = int(np.prod(case.shape))
         phi, alpha, d = (foam.read_field(time / name, cells) for name in ("solidity", "alpha.slurry", "solidsDiameter"))
-        slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells), axis=1)
+        slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells),
+                              axis=1)
         wet = (alpha > 0.5) & (phi > 0)
         reynolds = SLURRY * (1 - phi) * slip * d / 1.4e-3
         self.assertAlmostEqual(told["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
-        self.assertAlmostEqual(told["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]), delta=1e-6 * reynolds.max())
+        self.assertAlmostEqual(told["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]),
+                               delta=1e-6 * reynolds.max())
         below = [phi[wet][chosen].sum() / phi[wet].sum() for chosen in (
             reynolds[wet] < told["Re_95"][-1] * (1 - 1e-9), reynolds[wet] <= told["Re_95"][-1] * (1 + 1e-9))]
         self.assertLessEqual(below[0], 0.95)

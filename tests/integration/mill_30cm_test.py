@@ -13,10 +13,11 @@ import h5py
 import numpy as np
 from PIL import Image
 
-from millfoam import axial, foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.tables import read_columns
+from millfoam.files.written_times import MillFlow
+from millfoam.readings import axial
 from millfoam.run import run
-from millfoam.tables import read_columns
 from mill_case import run_mill
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"

@@ -14,12 +14,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam, solids
-from millfoam.data_files import read_json
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam, solids_file
+from millfoam.files.data_files import read_json
+from millfoam.files.slurry_file import read_slurry_map
+from millfoam.files.tables import read_columns
+from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from millfoam.slurry import read_slurry_map
-from millfoam.tables import read_columns
 from mill_case import run_mill
 import mills_test
 
@@ -44,7 +44,7 @@ class ShortMill(unittest.TestCase):
         for name, changes in VARIANTS.items():
             run_mill(cls.folder / name, MILL, *CHANGES, *changes, charge=None if name == "law" else cls.folder / "law")
             cls.flows[name] = MillFlow(cls.folder / name)
-        cls.solids = solids.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
+        cls.solids = solids_file.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
         cls.print_summary()
 
     @classmethod

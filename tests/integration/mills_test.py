@@ -15,9 +15,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
-from millfoam.data_files import read_csv, read_json
-from millfoam.tables import read_columns
+from millfoam.files import foam
+from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.tables import read_columns
 
 NEW_MILL = Path(__file__).resolve().parents[2] / "scripts" / "new_mill"
 GRAVITY = 9.81  # m/s2; the critical speed is sqrt(g/R)

@@ -18,9 +18,9 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam import foam
-from millfoam.data_files import read_json
-from millfoam.mill import read_mill
+from millfoam.files import foam
+from millfoam.files.data_files import read_json
+from millfoam.files.mill import read_mill
 
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE, REPORT = ROOT / "scripts" / "mill_case", ROOT / "scripts" / "report"
@@ -242,7 +242,7 @@ class OneChange(MillTest):
         mill["charge"] = {"fill": 0.15, "diameter": 0.035}
         mill["speed"] = {"fraction_of_critical": 0.7, "sense": "anticlockwise"}
         mill["materials"] = {"ball": dict(HARD), "wall": dict(HARD), "ball_ball": dict(CONTACT),
-                           "ball_wall": dict(CONTACT)}
+                             "ball_wall": dict(CONTACT)}
         mill["resolution"] = {"cell_size": 0.05, "layers": 2}
         mill["flow"]["start"] = {"fill": 1}
         mill["averages"]["voxel_size"] = 0.04

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates of
-porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write down."""
+"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates
+of porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write
+down."""
 import unittest
 
 import numpy as np
@@ -17,8 +18,8 @@ NEWTONIAN = "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity;
 
 class ColumnTest(SlurryTest):
     def column(self, *, level, across=2, **options):
-        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across), level=lambda x: level + 0 * x,
-                                **options)
+        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across),
+                                level=lambda x: level + 0 * x, **options)
         for side in ("left", "right", "back", "front"):
             case.at_patch(side, U=SLIP)
         return case
@@ -50,8 +51,8 @@ class Piston(ColumnTest):
 
     def assert_carried(self, case, tolerance, solidity=0, level_tolerance=1e-5):
         """The slurry's superficial velocity is the piston's in the last step; it lies flat, as high as before over the
-        piston, since the balls' volume stays in it. The four columns' mean height is held to 1e-5 of a cell, each one's to
-        `level_tolerance`."""
+        piston, since the balls' volume stays in it. The four columns' mean height is held to 1e-5 of a cell, each one's
+        to `level_tolerance`."""
         slurry = case.steps()["slurry_m3"]
         np.testing.assert_allclose(slurry, slurry[0], rtol=1e-8)
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from millfoam.charge import circulation_centre, read_charge, stream_function, tangential_profile
-from millfoam.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
-from millfoam.solids import ANTICLOCKWISE, SolidsMap
+from millfoam.files.solids_file import ANTICLOCKWISE, SolidsMap
+from millfoam.readings.charge import circulation_centre, read_charge, stream_function, tangential_profile
+from millfoam.readings.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
 
 RADIUS, WALL, PHI = 0.15, 0.008, 0.55
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.axial import discharge, slurry_volumes
-from millfoam.data_files import DataError, number, read_csv, read_json
-from millfoam.flow_record import read_flow_record
-from millfoam.mill import fnv1a, read_mill
-from millfoam.slurry_shape import count_steps
+from millfoam.files.data_files import DataError, number, read_csv, read_json
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.mill import fnv1a, read_mill
+from millfoam.readings.axial import discharge, slurry_volumes
+from millfoam.readings.slurry_in_cells import count_steps
 from report_cases import OMEGA, PRINTS, change_json, write_mill, write_steps
 
 

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.mill import fnv1a
+from millfoam.files.mill import fnv1a
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "integration"))
 import mesh as hexahedra  # noqa: E402

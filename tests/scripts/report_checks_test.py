@@ -10,9 +10,9 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 
-from millfoam.flow_record import FlowRecord
+from millfoam.files.flow_record import FlowRecord
+from millfoam.files.mill_case import MillCase
 from millfoam.report import checks
-from millfoam.report.sources import MillCase
 from millfoam.report.steadiness import batches_of, error_over_turns, halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow

@@ -9,8 +9,8 @@ from unittest import mock
 
 import numpy as np
 
+from millfoam.files.mill_case import MillCase
 from millfoam.report.build import report_case
-from millfoam.report.sources import MillCase
 from report_cases import write_flow, write_fluid_only, write_steps
 from report_test import REPORT, Case
 
@@ -23,8 +23,9 @@ class Damaged(Case):
         self.undrawn()
         # What takes the time and reads no file
         for name in ("charge.charge_with_errors", "models.fit_free_surface"):
-            self.enterContext(mock.patch(f"millfoam.{name}", side_effect=RuntimeError("left out")))
-        self.enterContext(mock.patch("millfoam.free_surface.fit_logistic", return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
+            self.enterContext(mock.patch(f"millfoam.readings.{name}", side_effect=RuntimeError("left out")))
+        self.enterContext(mock.patch("millfoam.readings.free_surface.fit_logistic",
+                                     return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
 
     def outcome(self, folder):
         try:

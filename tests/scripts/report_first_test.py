@@ -7,11 +7,11 @@ import unittest
 import h5py
 import numpy as np
 
+from millfoam.files.mill_case import MillCase
 from millfoam.report.build import compare_cases, report_case
+from millfoam.report.case_readings import Readings, key_numbers
 from millfoam.report.checks import all_checks
-from millfoam.report.headline import first_lines
-from millfoam.report.readings import Readings, key_numbers
-from millfoam.report.sources import MillCase
+from millfoam.report.headline import first_lines, summary
 from millfoam.report.stages import programs
 from report_cases import DURATION, OMEGA, change_json, write_dry, write_flow
 from report_test import Case
@@ -167,8 +167,8 @@ class TheMill(Case):
             self.assertEqual(*(one[name] for one in numbers))
         self.assertRegex(numbers[0]["centre of circulation, x to the falling side"], "^-30")
         self.assertAlmostEqual(there.charge.centroid()[0], -here.charge.centroid()[0])
-        self.assertIn(", clockwise at 74.2 %", here.summary())
-        self.assertIn(", anticlockwise at 74.2 %", there.summary())
+        self.assertIn(", clockwise at 74.2 %", summary(here))
+        self.assertIn(", anticlockwise at 74.2 %", summary(there))
 
     def test_of_one_size_by_fill_is_reported_as_any_other(self):
         # mill.yaml without classes

@@ -14,13 +14,16 @@ from unittest import mock
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.axial import Humps
-from millfoam.flow_readings import Mean, Way, angle_mean, slurry_blocks, slurry_way
-from millfoam.mill_plots import circle, mean_flow, mean_of_times
+from millfoam.files.mill import NoMill
+from millfoam.files.mill_case import MillCase
+from millfoam.files.outline import circle, lifter_outline
+from millfoam.readings.axial import Humps
+from millfoam.readings.maps_of_times import mean_flow, mean_of_times
+from millfoam.readings.means import Mean, angle_mean
+from millfoam.readings.slurry_over_time import Way, slurry_blocks, slurry_way
 from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
-from millfoam.report.readings import Readings, humps_told
-from millfoam.report.sources import MillCase, NoMill, lifter_outline
+from millfoam.report.case_readings import Readings, humps_told
 from report_cases import (OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_mill, write_slurry,
                           write_solids, write_steps)
 

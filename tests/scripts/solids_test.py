@@ -8,11 +8,13 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam.solids import mean_map, read_map, read_windows, with_error
+from millfoam.files.solids_file import mean_map, read_map, read_windows
+from millfoam.readings.means import with_error
 
 
 def write(path, solidity, speed, complete=1):
-    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed along x."""
+    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed
+    along x."""
     with h5py.File(path, "w") as file:
         file.attrs.update(complete=complete, timestep=1e-5)
         file.create_group("grid").attrs.update(lower=[0, 0, 0], upper=[1, 2, 1], shape=[2, 2, 2])
@@ -70,7 +72,8 @@ class Errors(unittest.TestCase):
 
     def test_of_independent_windows_is_that_of_their_mean(self):
         random = np.random.default_rng(3)
-        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)), blocks=20)
+        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)),
+                           blocks=20)
         self.assertAlmostEqual(float(found.error), 0.05 / np.sqrt(400), delta=0.2 * 0.05 / np.sqrt(400))
 
     def test_blocks_without_the_reading_are_counted_and_left_out(self):

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.tables import TableError, read_columns, read_table, time_mean
+from millfoam.files.tables import TableError, read_columns, read_table
+from millfoam.readings.means import time_mean
 
 
 class Tables(unittest.TestCase):

@@ -14,16 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
-from millfoam.mill_runs import FINE, MILL, set_options
+from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import write_parameters
+from millfoam.run import set_options, write_parameters
+from mill_slice import FINE, MILL
 from pool_history import largest_speeds
+
+matplotlib.use("Agg")
 
 STILL = 1e-6  # m/s, largest speed of the slurry alone
 CONSERVED = 1e-6  # relative change of the slurry's volume
@@ -112,7 +112,8 @@ def plot(fluids, pool, steps, out):
     left.axhline(STILL, color="k", ls="--", label="allowed")
     left.set(title="Slurry alone, at rest", xlabel="time, ms", ylabel="m/s")
     right.semilogy(1e3 * steps[:, 0], steps[:, 1], color="0.7", label="largest of every step")
-    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"), (pool.slurry_rms, "slurry, rms")):
+    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"),
+                          (pool.slurry_rms, "slurry, rms")):
         right.semilogy(1e3 * pool.time[1:], values[1:], "o-", ms=3, label=label)
     right.set(title="Pool under air: spurious speeds", xlabel="time, ms", ylabel="m/s")
     for axis in (left, right):

@@ -35,7 +35,8 @@ def checks(run, history, reference, end):
         if run.bed:
             found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), IN_BED))
     if reference is not None:
-        found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1], SHARE))
+        found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1],
+                      SHARE))
     return named(run, found)
 
 
@@ -83,15 +84,16 @@ def judge(histories, end):
         for what, found, aim in (("slurry", history.slurry[-1], AIM_SLURRY), ("air", history.air[-1], AIM_AIR)):
             if run.filled:
                 continue
-            text.append(f"{run.setting + ': largest speed in the ' + what + ' at the end, m/s (aim)':<86} {found:10.3e} "
-                        f"{aim:9.2e}" + ("" if found <= aim else "  above the aim"))
+            text.append(f"{run.setting + ': largest speed in the ' + what + ' at the end, m/s (aim)':<86} "
+                        f"{found:10.3e} {aim:9.2e}" + ("" if found <= aim else "  above the aim"))
     if text:
         text.insert(0, f"{JUDGED:<86} {'found':>10} {'allowed':>9}")
     return text, missed
 
 
 def report(histories, end, out):
-    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that missed."""
+    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that
+    missed."""
     judged, missed = judge(histories, end)
     text = "\n".join(table(histories, end) + [""] + judged)
     print(text)

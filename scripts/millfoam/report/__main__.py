@@ -9,10 +9,13 @@ import argparse
 import sys
 from pathlib import Path
 
+import matplotlib
+
 from .build import compare_cases, report_case
 
 
-def main():
+def main() -> None:
+    matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="report", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")

@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
@@ -11,13 +12,15 @@ BALLS = 8  # in an averaging volume: the drag laws were derived on 8 to 64
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
-def lost_balls(case):
+def lost_balls(case: MillCase) -> Check:
+    """Whether all balls stayed in the mill."""
     lost = int(case.result("lost_balls"))
     return judged("No ball is lost", lost, 0, f"{lost} of {int(case.result('balls'))} lost",
                   "Shorten the time-step (dem.rayleigh_fraction) or look for holes in the walls (millMesh surface).")
 
 
-def charge_steadiness(case):
+def charge_steadiness(case: MillCase) -> Check:
+    """Whether the dry run is steady from before its averages on."""
     name = "The charge is steady where it is averaged"
     if not case.results.get("steady"):
         return Check(name, "fails", "the dry run's power did not become steady",
@@ -31,7 +34,8 @@ def charge_steadiness(case):
                   "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=0.5)
 
 
-def overlap(case):
+def overlap(case: MillCase) -> Check:
+    """Whether balls overlap so little that their softness does not matter."""
     diameter = case.result("smallest_diameter_m")
     share = case.result("ball_overlap_largest_m") / diameter
     usual = case.result("ball_overlap_99_m") / diameter
@@ -41,7 +45,8 @@ def overlap(case):
                   f"(limit {100 * OVERLAP:.0f} %)", "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
 
 
-def ledger(case):
+def ledger(case: MillCase) -> Check:
+    """Whether the balls' volume lies in the averages."""
     with h5py.File(case.solids) as file:
         into, outside, clipped = (file[f"ledger/{key}"][:] for key in ("volume_in", "outside", "clipped"))
     share = ((outside + clipped) / into).max()
@@ -51,7 +56,8 @@ def ledger(case):
                                                    "(--inside).")
 
 
-def averaging_volume(case):
+def averaging_volume(case: MillCase) -> Check:
+    """Whether as many balls lie in a voxel as the drag laws were derived on."""
     with h5py.File(case.solids) as file:
         balls = file["window/balls_per_cell"][:].mean()
     found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived on {BALLS} to 64)"
@@ -62,7 +68,8 @@ def averaging_volume(case):
                   "Take larger voxels or --smooth; on smaller ones a law sees single balls.", doubtful=8)
 
 
-def window_noise(case):
+def window_noise(case: MillCase) -> Check:
+    """How uncertain the mean solidity of a window is by chance."""
     name = "Windows are long enough for their mean"
     with h5py.File(case.solids) as file:
         count = len(file["window/begin"])

@@ -1,14 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report that hold several cases against the first."""
+from collections.abc import Sequence
+
 import numpy as np
 
-from .. import axial, charge, compare, mill_plots
-from ..slurry_maps import SlurryMap
+from ..files.mill_case import MillCase
+from ..files.slurry_file import SlurryMap
+from ..files.solids_file import SolidsMap
+from ..plots import mill_plots
+from ..readings import axial, charge, compare
+from ..readings.free_surface import free_surface
 from . import figures, maps, page
-from .readings import FRAME, key_numbers
+from .case_readings import FRAME, Readings, key_numbers
+from .headline import summary
+from .verdict import Check
+
+Told = tuple[MillCase, Readings, str]  # a case, what is read off it, its name
 
 
-def sections(cases, readings, names, found):
+def sections(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str],
+             found: Sequence[list[Check]]) -> list[page.Section]:
     """(id, heading, [cards]) of cases, their Readings, names and lists of checks, the first being what the others are
     held against."""
     numbers_card = numbers(cases, readings, names)
@@ -20,7 +31,7 @@ def sections(cases, readings, names, found):
             ("time", "Against time", time_cards(cases, names))]
 
 
-def distinct(cases):
+def distinct(cases: Sequence[MillCase]) -> list[str]:
     """Names of the cases' folders, with as many of the folders above as it takes to tell them apart."""
     parts = [case.folder.resolve().parts for case in cases]
     for depth in range(1, max(map(len, parts)) + 1):
@@ -30,12 +41,12 @@ def distinct(cases):
     return [f"{'/'.join(one[-1:])} ({number})" for number, one in enumerate(parts, 1)]
 
 
-def numbers(cases, readings, names):
+def numbers(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> str:
     """Key numbers, a column per case."""
     columns = [dict(key_numbers(case, reading)) for case, reading in zip(cases, readings)]
     keys = list(dict.fromkeys(key for column in columns for key in column))
     rows = [(key, *(column.get(key, "–") for column in columns)) for key in keys]
-    rows.insert(0, ("run", *(case.summary() for case in cases)))
+    rows.insert(0, ("run", *(summary(case) for case in cases)))
     short = [f" {name}:{words}" for name, words in zip(names, [one.short_blocks(slurry=False) for one in readings])
              if words]
     return page.table(["", *names], rows, wide=True, note="±: standard errors of batch means over time. Angles are "
@@ -44,27 +55,29 @@ def numbers(cases, readings, names):
                       + "".join(short))
 
 
-def verdict_table(found, names):
+def verdict_table(found: Sequence[list[Check]], names: Sequence[str]) -> str:
     """The states of lists of checks, a column per case."""
-    found = [{check.name: check for check in checks} for checks in found]
-    keys = list(dict.fromkeys(key for one in found for key in one))
-    rows = [(key, *(page.MARKS[one[key].state] if key in one else "–" for one in found)) for key in keys]
+    by_name = [{check.name: check for check in checks} for checks in found]
+    keys = list(dict.fromkeys(key for one in by_name for key in one))
+    rows = [(key, *(page.MARKS[one[key].state] if key in one else "–" for one in by_name)) for key in keys]
     return page.table(["", *names], rows, wide=True, note="What was found, and what to do, is in each case's own "
                                                           "report.")
 
 
-def same_pixels(a, b):
+def same_pixels(a: SolidsMap | SlurryMap, b: SolidsMap | SlurryMap) -> bool:
+    """Whether two maps are on the same pixels."""
     return len(a.x) == len(b.x) and len(a.y) == len(b.y) and np.allclose(a.x, b.x) and np.allclose(a.y, b.y)
 
 
-def not_compared(case, first, one, other):
+def not_compared(case: MillCase, first: MillCase, one: SolidsMap | SlurryMap,
+                 other: SolidsMap | SlurryMap) -> str | None:
     """Why maps of a case and the first are not held against each other; None where they are."""
     if not np.isclose(case.radius, first.radius):
         return f"another mill, of {2e3 * case.radius:.4g} mm instead of {2e3 * first.radius:.4g} mm"
     return None if same_pixels(one, other) else "other voxels"
 
 
-def charge_cards(cases, readings, names):
+def charge_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> list[str]:
     """Solidity maps, their differences with numbers, free surfaces and tangential velocities."""
     told = [(case, reading, name) for case, reading, name in zip(cases, readings, names) if case.solids]
     if len(told) < 2:
@@ -76,9 +89,10 @@ def charge_cards(cases, readings, names):
     return cards + charge_differences(told) + charge_curves(told)
 
 
-def charge_differences(told):
+def charge_differences(told: Sequence[Told]) -> list[str]:
     """Maps of the differences from the first of (case, readings, name), and a table of their numbers."""
-    (first, _, first_name), cards, rows = told[0], [], []
+    (first, _, first_name), cards = told[0], []
+    rows: list[tuple] = []
     for case, _, name in told[1:]:
         reason = not_compared(case, first, case.charge, first.charge)
         if reason or case.solids == first.solids:
@@ -90,8 +104,8 @@ def charge_differences(told):
                                   title=f"{name} less {first_name}"))
         found = compare.difference(case.charge, first.charge)
         try:
-            surface = compare.surface_difference(*(compare.free_surface(one.charge, one.radius)
-                                                   for one in (case, first)))
+            ours, theirs = (free_surface(one.charge, one.radius) for one in (case, first))
+            surface = compare.surface_difference(ours, theirs)
             height = f"{1e3 * surface.mean:+.2g} mm, deviating by {1e3 * surface.deviation:.2g} mm"
         except RuntimeError:
             height = "–"
@@ -106,7 +120,7 @@ def charge_differences(told):
     return cards
 
 
-def charge_curves(told):
+def charge_curves(told: Sequence[Told]) -> list[str]:
     """Free surfaces and tangential velocities of the cases of the first one's size of which they could be read."""
     radius = told[0][0].radius
     read = [(case, name, reading.charge) for case, reading, name in told
@@ -124,7 +138,8 @@ def charge_curves(told):
                          title="Tangential velocity")]
 
 
-def slurry_cards(cases, readings, names):
+def slurry_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> list[str]:
+    """Maps of the slurry's share, and their differences from the first case's."""
     told = [(case, reading.slurry, name) for case, reading, name in zip(cases, readings, names)
             if isinstance(reading.slurry, SlurryMap)]
     if not told:
@@ -146,7 +161,8 @@ def slurry_cards(cases, readings, names):
     return cards
 
 
-def axial_cards(cases, readings, names):
+def axial_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names: Sequence[str]) -> list[str]:
+    """Profiles along the axis of all cases that have one."""
     found = [(name, reading.profile) for name, reading in zip(names, readings)
              if isinstance(reading.profile, axial.AxialProfile) and len(reading.profile.z) > 2]
     if not found:
@@ -160,7 +176,8 @@ def axial_cards(cases, readings, names):
                          "Pressure in the slurry without what the depth makes, mean over time.", title="p_rgh")]
 
 
-def time_cards(cases, names):
+def time_cards(cases: Sequence[MillCase], names: Sequence[str]) -> list[str]:
+    """Hold-up, height of the centre and power against time of all cases that have a balance."""
     told = [(name, case) for name, case in zip(names, cases) if case.balance is not None
             and len(case.balance["Time"]) > 1]
     if not told:

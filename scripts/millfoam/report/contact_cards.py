@@ -2,9 +2,12 @@
 """Section of the report about the contacts of a dry run that wrote them: spectra of collisions and of dissipated
 power."""
 import numpy as np
+from matplotlib.figure import Figure
 
-from ..contact_spectra import PARTS, power_to_dissipate, read_spectra
+from ..files.mill_case import MillCase
+from ..readings.contact_spectra import PARTS, Spectra, power_to_dissipate, read_spectra
 from . import page
+from .case_readings import Readings
 from .figures import COLOURS, axes_of
 
 DUMPS = 300  # of contacts that are read at most: a spectrum of so many is smooth, and takes some ten seconds
@@ -12,7 +15,8 @@ NAMES = {"damping": "damping along the normal", "friction": "friction", "rolling
          "spring": "kept by springs, and for a while"}
 
 
-def contact_section(case, _readings):
+def contact_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the contacts of a dry run; none where it did not write any."""
     folder = case.contacts
     if not folder:
         return []
@@ -36,7 +40,7 @@ def contact_section(case, _readings):
                             "tell of it: more dumps, at shorter intervals, bring them together.")]
 
 
-def contact_span(case):
+def contact_span(case: MillCase) -> tuple[float, float]:
     """DEM times between which contacts are read: the last DUMPS dumps since the charge is steady, if it ever is."""
     times = case.contact_times
     if len(times) < 3:
@@ -47,7 +51,7 @@ def contact_span(case):
     return (begin if begin <= times[-3] else first), times[-1]
 
 
-def spectra_figure(spectra):
+def spectra_figure(spectra: Spectra) -> Figure:
     """Collisions and dissipated power by energy, a curve for each class of the larger ball and one for the wall."""
     figure, (top, bottom) = axes_of(2, height=3.0)
     middles = np.sqrt(spectra.edges[1:] * spectra.edges[:-1])
@@ -68,7 +72,7 @@ def spectra_figure(spectra):
     return figure
 
 
-def power_table(spectra):
+def power_table(spectra: Spectra) -> tuple[list[str], list[tuple]]:
     """Head and rows: dissipated power of each pair of classes, mW."""
     power = 1e3 * spectra.dissipation().sum(axis=-1)
     names = ["wall", *(f"{1e3 * diameter:.3g} mm" for diameter in spectra.classes[1:])]
@@ -77,7 +81,8 @@ def power_table(spectra):
     return ["", *names], rows
 
 
-def balance_rows(spectra, drive):
+def balance_rows(spectra: Spectra, drive: float) -> list[tuple[str, str]]:
+    """Rows of what contacts take and what the drive gives (`drive`, W)."""
     parts = {part: spectra.power[part] for part in PARTS}
     taken = spectra.total_power()
     rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} "

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of the report that are about time, the axis and the run; for maps see millfoam.report.maps."""
-import matplotlib
+from collections.abc import Sequence
 
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from .. import mill_plots
+from ..files.mill_case import MillCase
+from ..plots import mill_plots
+from ..readings.axial import AxialProfile
 
+Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
 # Okabe & Ito's colours, which colour-blind readers can tell apart
 BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
 COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
@@ -15,7 +19,7 @@ COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
 plt.rcParams.update({"font.size": 10.5, "legend.fontsize": 9, "legend.frameon": False})
 
 
-def axes_of(rows=1, *, width=5.4, height=2.5):
+def axes_of(rows: int = 1, *, width: float = 5.4, height: float = 2.5) -> tuple[Figure, np.ndarray]:
     """A figure with panels below each other in the report's style."""
     figure, axes = plt.subplots(rows, 1, figsize=(width, height * rows if rows > 1 else 3.4), sharex=True,
                                 constrained_layout=True, squeeze=False)
@@ -25,7 +29,7 @@ def axes_of(rows=1, *, width=5.4, height=2.5):
     return figure, axes[:, 0]
 
 
-def running_mean(times, values, width):
+def running_mean(times: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
     """Mean over the time `width` (s) before each time; steps count by their length."""
     steps = np.diff(times, prepend=times[0] - (times[1] - times[0]))
     total = np.concatenate([[0], np.cumsum(values * steps)])
@@ -34,7 +38,7 @@ def running_mean(times, values, width):
     return (total[1:] - np.interp(begin, clock, total)) / (times - begin)
 
 
-def quarter_turns(case, name):
+def quarter_turns(case: MillCase, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without
     the first steps' start-up on; of a shorter run over what there is, from its half on."""
     times = case.balance["Time"]
@@ -44,7 +48,7 @@ def quarter_turns(case, name):
     return times[whole], mean[whole]
 
 
-def late_limits(times, values):
+def late_limits(times: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half
     and nought span, and on either side half as much again as far as there are values."""
     late = values[times >= times[0] / 2 + times[-1] / 2]
@@ -53,7 +57,7 @@ def late_limits(times, values):
     return 1.1 * min(low, max(low - more, values.min())), 1.1 * max(high, min(high + more, values.max())) or 1e-12
 
 
-def energy(case):
+def energy(case: MillCase) -> Figure:
     """Power and energies of the dry run against time."""
     figure, (top, bottom) = axes_of(2)
     time, told = case.energy["time_s"], case.energy
@@ -75,7 +79,7 @@ def energy(case):
     return figure
 
 
-def overlaps(case):
+def overlaps(case: MillCase) -> Figure:
     """Histogram of the contacts' overlaps."""
     figure, (axis,) = axes_of()
     overlap, balls, walls = (case.overlaps[key] for key in ("overlap_m", "ball_contacts", "wall_contacts"))
@@ -89,7 +93,7 @@ def overlaps(case):
     return figure
 
 
-def holdup(case):
+def holdup(case: MillCase) -> Figure:
     """Hold-up, feed and discharge of the slurry against time."""
     told, is_open = case.balance, case.is_open and not case.is_slice
     figure, axes = axes_of(2 if is_open else 1)
@@ -108,7 +112,7 @@ def holdup(case):
     return figure
 
 
-def centre_and_power(case):
+def centre_and_power(case: MillCase) -> Figure:
     """Centre of the slurry and the power that it takes against time."""
     told = case.balance
     figure, (top, bottom) = axes_of(2)
@@ -123,7 +127,7 @@ def centre_and_power(case):
     return figure
 
 
-def reynolds(case):
+def reynolds(case: MillCase) -> Figure:
     """Particle Reynolds numbers in slurry against time."""
     told = case.balance
     figure, (axis,) = axes_of()
@@ -135,7 +139,7 @@ def reynolds(case):
     return figure
 
 
-def holdup_along(profile, z, model):
+def holdup_along(profile: AxialProfile, z: np.ndarray, model: np.ndarray) -> Figure:
     """Hold-up per length along the axis: of an AxialProfile, and of a model (m2) at z (m)."""
     figure, (axis,) = axes_of()
     axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE,
@@ -146,7 +150,7 @@ def holdup_along(profile, z, model):
     return figure
 
 
-def axial(profile, fits, along):
+def axial(profile: AxialProfile, fits: Sequence[Curve], along: str) -> Figure:
     """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves
     (label, z, height)."""
     figure, (height, held, head) = axes_of(3, height=2.3)
@@ -167,7 +171,7 @@ def axial(profile, fits, along):
     return figure
 
 
-def axial_against_time(places, times, values, along):
+def axial_against_time(places: np.ndarray, times: np.ndarray, values: np.ndarray, along: str) -> Figure:
     """Height of the centre of mass over the axis, which is called `along`, and time."""
     figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
@@ -179,12 +183,13 @@ def axial_against_time(places, times, values, along):
     return figure
 
 
-def _legend_above(axis, labels):
+def _legend_above(axis: Axes, labels: Sequence[str]) -> None:
     """A legend where it hides no curve; short names stand side by side."""
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2 if max(map(len, labels)) < 22 else 1)
 
 
-def lines_against(curves, xlabel, ylabel, limits=None):
+def lines_against(curves: Sequence[Curve], xlabel: str, ylabel: str,
+                  limits: tuple[float, float] | None = None) -> Figure:
     """Curves (label, x, y) of several cases in one panel; limits of y."""
     figure, (axis,) = axes_of()
     for (label, x, y), colour in zip(curves, COLOURS):
@@ -194,7 +199,7 @@ def lines_against(curves, xlabel, ylabel, limits=None):
     return figure
 
 
-def surfaces(lines, radius, omega):
+def surfaces(lines: Sequence[tuple[str, np.ndarray]], radius: float, omega: float) -> Figure:
     """Free surfaces (label, [n, 2] m) in the circle of a mill that turns at `omega` (rad/s)."""
     figure, axis = plt.subplots(figsize=(5.2, 5), constrained_layout=True)
     angle = np.linspace(0, 2 * np.pi, 361)

@@ -2,7 +2,8 @@
 """Checks of a flow: its slurry, its time-steps, its mesh, and the balls in it."""
 import numpy as np
 
-from ..data_files import number
+from ..files.data_files import number
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 
 CONSERVED = 1e-6  # of the hold-up that may be missing
@@ -18,7 +19,8 @@ QUALITY = (("volume_error", "volume error"), ("non_orthogonality_deg", "non-orth
 NO_STEPS = "slurryFoam writes postProcessing/flow/START/steps.csv: run the flow with it."
 
 
-def conservation(case):
+def conservation(case: MillCase) -> Check:
+    """Whether no slurry is missing."""
     name = "Slurry is conserved"
     told = case.balance
     if told is None:
@@ -31,14 +33,15 @@ def conservation(case):
                   "more iterations (nLimiterIter).")
 
 
-def column(case, name):
+def column(case: MillCase, name: str) -> np.ndarray | None:
     """A column of steps.csv [steps], or None where there is none or nothing in it is known."""
     steps = case.record.steps
     found = steps.get(name) if steps else None
     return found if found is not None and np.isfinite(found).any() else None
 
 
-def courant(case):
+def courant(case: MillCase) -> Check:
+    """Whether time-steps keep to the limits that were asked for."""
     name = "Time-steps keep to their limits"
     steps = case.record.steps
     if steps is None or len(steps["time_s"]) == 0:
@@ -59,13 +62,14 @@ def courant(case):
                   "Lower flow.max_courant, flow.max_surface_courant or flow.max_time_step.", doubtful=0.05)
 
 
-def step_limits(case):
+def step_limits(case: MillCase) -> np.ndarray:
     """Limits by flow.json's last start of the quantities of LIMITS [3]; infinite where there is none."""
     told = case.record.last.get("limits") or {}
     return np.array([told.get(key) or np.inf for _, key, _ in LIMITS], dtype=float)
 
 
-def mesh(case):
+def mesh(case: MillCase) -> Check:
+    """Whether checkMesh finds nothing, with the mesh's quality."""
     name = "The mesh is sound"
     told = case.json(case.folder / "mesh.json", "mesh")
     quality = (told or {}).get("quality") or {}
@@ -81,7 +85,8 @@ def mesh(case):
                  "Refine the mesh or change the lifters' section.")
 
 
-def solids_on_mesh(case):
+def solids_on_mesh(case: MillCase) -> Check:
+    """Whether the balls keep their volume on the flow's mesh."""
     name = "Balls on the flow's mesh keep their volume"
     found = column(case, "volume_correction")
     if found is None:
@@ -91,7 +96,8 @@ def solids_on_mesh(case):
                   "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).")
 
 
-def drag_range(case):
+def drag_range(case: MillCase) -> Check:
+    """Which part of the slurry in the bed is beyond the range of the drag law."""
     name = "The drag law is within its range"
     found = column(case, "beyond_law")
     if found is None:
@@ -106,7 +112,8 @@ def drag_range(case):
                           "matters")
 
 
-def one_way(case):
+def one_way(case: MillCase) -> Check:
+    """Whether the slurry would not move the balls, which one-way coupling takes for granted."""
     name = "The slurry would not move the balls"
     load = case.load
     if load is None:

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the reader of a report must know first: numbers of a start, a repeated charge, verdicts that no longer run can
 change."""
+from collections.abc import Sequence
+
 import numpy as np
 
-from .sources import fines_told
+from ..files.mill import Mill
+from ..files.mill_case import MillCase
+from .verdict import Check
 
 
-def first_lines(case, checks):
+def first_lines(case: MillCase, checks: Sequence[Check]) -> list[str]:
     """Sentences for the top of the report of a MillCase with these checks: the first says whether the flow's numbers
     are of its start."""
     lines = []
@@ -21,7 +25,7 @@ def first_lines(case, checks):
     return lines + [lasting_told(check) for check in checks if check.lasting]
 
 
-def start_told(case, checks):
+def start_told(case: MillCase, checks: Sequence[Check]) -> str:
     """That the flow's numbers are of its start: it was cut short, or is not steady. Empty where neither is known."""
     if case.is_cut_short:
         asked = f" of {case.duration:.3g} s" if np.isfinite(case.duration) else ""
@@ -34,7 +38,7 @@ def start_told(case, checks):
     return words.get(steady, "")
 
 
-def repetition_told(case):
+def repetition_told(case: MillCase) -> str:
     """That the dry record was repeated, and how often; empty where it was not."""
     times = (case.record.last.get("solids") or {}).get("repeated") or 0
     return (f"The record of the dry charge is shorter than the flow and was repeated {times} "
@@ -42,7 +46,28 @@ def repetition_told(case):
             "the charge's motion comes back with every repetition." if times else "")
 
 
-def lasting_told(check):
+def lasting_told(check: Check) -> str:
     """That a longer run cannot make a check hold, and what it means."""
     word = "fails" if check.state == "fails" else "is doubtful"
     return f"“{check.name}” {word}, and a longer run does not change that: {check.meaning}."
+
+
+def summary(case: MillCase) -> str:
+    """One line on a MillCase: what was run."""
+    mill = case.mill
+    part = f" of {1e3 * mill.whole_length:.4g} mm" if mill.length < 0.999 * mill.whole_length else ""
+    length = f"{1e3 * mill.length:.4g} mm" + (f" (periodic slice{part})" if mill.is_slice else "")
+    words = [f"{2e3 * mill.radius:.4g} × {length}",
+             f"{mill.sense} at {100 * mill.critical_share:.3g} % of critical ({abs(mill.omega):.2f} rad/s)"]
+    words += [f"{int(case.results['balls'])} balls"] if case.results else []
+    words += [fines_told(mill)] if mill.fines_share > 0 else []
+    if case.flow:
+        words.append(f"slurry {mill.slurry('density_kg_m3'):.4g} kg/m³")
+        unknown = "drag law not told" if case.flow.displaced else "no balls in the flow"
+        words.append(f"drag: {case.law}" if case.law else unknown)
+    return ", ".join(words)
+
+
+def fines_told(mill: Mill) -> str:
+    """In words, which part of a Mill's charge is not simulated."""
+    return f"without balls of {1e3 * mill.largest_fines:.3g} mm and less ({100 * mill.fines_share:.0f} % of the mass)"

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report of one case: each function returns cards, none where the case does not have what it shows."""
+from collections.abc import Iterable
+from typing import Any
+
 import h5py
 import numpy as np
 
-from .. import charge_plots, mill_plots, solids
-from ..data_files import read_text
+from ..files import solids_file
+from ..files.data_files import read_text
+from ..files.mill_case import MillCase
+from ..plots import charge_plots, mill_plots
 from . import figures, maps, page
+from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
-from .readings import FRAME, key_numbers
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
 from .words import quantity, span_of_time
@@ -15,12 +20,14 @@ from .words import quantity, span_of_time
 FRAMES = 40  # of the animation, at most
 
 
-def overview(case, readings):
+def overview(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the animation and the key numbers."""
     cards = [page.table(None, key_numbers(case, readings), title="Key numbers", note=spans(case, readings))]
     return [animation(case)] + cards if case.flow or case.solids else cards
 
 
-def spans(case, readings):
+def spans(case: MillCase, readings: Readings) -> str:
+    """In words, over which times the key numbers are averaged."""
     words = []
     if not (case.solids or case.flow):
         return "Power: mean of the dry run since it is steady, with the standard error of batch means."
@@ -37,7 +44,7 @@ def spans(case, readings):
     return told + readings.short_blocks(slurry=False)
 
 
-def animation(case):
+def animation(case: MillCase) -> str:
     """Charge and slurry over the last turn of the mill, or what there is of it."""
     if case.flow:
         frames = [frame for frame in case.flow.frames if frame[0] >= max(case.last - case.turn, 1e-9)]
@@ -47,7 +54,7 @@ def animation(case):
         return page.player(mill_plots.frame_figures(case.flow, frames),
                            f"Share of slurry over the axis (blue){edge}, flow time {frames[0][0]:.2f} to "
                            f"{frames[-1][0]:.2f} s.", title=last_turn(shown, case.turn))
-    windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
+    windows = solids_file.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
     shown = windows[-1].end - windows[0].begin
     windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
     return page.player(mill_plots.charge_figures(windows, case.radius, case.omega, case.outline_at),
@@ -56,12 +63,13 @@ def animation(case):
                        "the mill's outline at the end of each.", title=last_turn(shown, case.turn))
 
 
-def last_turn(seconds, turn):
+def last_turn(seconds: float, turn: float) -> str:
     """Title of a time (s) that is shown, of a mill whose turn takes `turn` s."""
     return "The last turn" if seconds > 0.99 * turn else f"The last {seconds / turn:.2f} of a turn"
 
 
-def charge_section(case, readings):
+def charge_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
     cards = charge_maps(case, readings) if case.solids else []
     if case.energy:
         cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's "
@@ -74,7 +82,8 @@ def charge_section(case, readings):
     return cards
 
 
-def charge_maps(case, readings):
+def charge_maps(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge's map, with what is read off it where it can be read."""
     found, mean = readings.charge, case.charge
     if isinstance(found, str):
         words = f"Solidity averaged over axis and time. Not read: {found}."
@@ -94,7 +103,8 @@ def charge_maps(case, readings):
                          title="Speed of the balls")]
 
 
-def ledger_section(case, _readings):
+def ledger_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the ledgers of both averages, the mesh, and the range of the drag law."""
     cards = []
     if case.solids:
         with h5py.File(case.solids) as file:
@@ -131,7 +141,7 @@ def ledger_section(case, _readings):
     return cards
 
 
-def drag_rows(drag, beyond):
+def drag_rows(drag: dict[str, Any], beyond: dict[str, float]) -> list[tuple[str, str]]:
     """Rows (name, text) of the law of flow.json's last start, and of the share of the slurry in the bed that is
     beyond its range."""
     names = {"mean": "beyond its range, of the slurry in the bed, mean over time", "largest": "the same, at most",
@@ -144,14 +154,14 @@ def drag_rows(drag, beyond):
     return rows + [(name, f"{100 * beyond[key]:.3g} %") for key, name in names.items() if beyond.get(key) is not None]
 
 
-def numbers_of(content):
+def numbers_of(content: dict[str, Any]) -> list[tuple[str, str]]:
     """Rows (name, text) of the single values of a JSON result, without its head."""
     head = ("format", "version", "program", "mill")
     return [quantity(key, value) for key, value in content.items()
             if key not in head and not isinstance(value, (dict, list))]
 
 
-def run_section(case, _readings):
+def run_section(case: MillCase, _readings: Readings) -> list[str]:
     """Versions and cost, and the resolved mill."""
     cards = [page.table(None, programs(case), title="Programs", note="By the files that they wrote.")]
     costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case)]
@@ -172,10 +182,10 @@ def run_section(case, _readings):
                                 mill.text())]
 
 
-def stage_costs(case):
+def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
     """(stage, wall time in s) by log.costs of the charge's and the case's folder, all times that a stage was run
     added up."""
-    costs = {}
+    costs: dict[str, float] = {}
     for path in (folder / "log.costs" for folder in case.charge_folders):
         for line in read_text(path).splitlines() if path.is_file() else ():
             name, _, seconds = line.rpartition(",")

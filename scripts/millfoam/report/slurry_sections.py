@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report about the slurry: its maps, its way along the axis, its balance, mechanistic models beside
 it."""
+from typing import Any
+
 import numpy as np
 
-from .. import axial, charge, mill_plots, models, slurry_maps
-from ..flow_readings import RING, Way, humps_at_ends, ring_depth
-from ..free_surface import at_points
-from ..tables import time_mean
+from ..files.mill_case import MillCase
+from ..plots import mill_plots
+from ..readings import axial, charge, models, slurry_on_maps
+from ..readings.axial import humps_at_ends
+from ..readings.free_surface import at_points
+from ..readings.means import time_mean
+from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
+from .case_readings import Readings
 from .words import millilitres, uncertain
 
 
-def slurry_section(case, readings):
+def slurry_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the slurry's maps and what is read off them; none without a flow."""
     if not case.flow:
         return []
     slurry = readings.slurry
@@ -39,7 +46,7 @@ def slurry_section(case, readings):
     return cards + [page.table(None, slurry_rows(case, readings), title="Read off the maps", note=note)]
 
 
-def slurry_rows(case, readings):
+def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
     """Rows (name, text) of toe, shoulder, pool and way along the axis."""
     slurry, way = readings.slurry, readings.way
     if isinstance(way, Way):
@@ -51,7 +58,7 @@ def slurry_rows(case, readings):
     if case.solids and case.law:
         points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
         solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
-    pool = slurry_maps.pool(slurry, solidity)
+    pool = slurry_on_maps.pool(slurry, solidity)
     rows.append(("pool clear of the charge" if case.has_balls else "pool",
                  f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0
                  else "none"))
@@ -59,7 +66,7 @@ def slurry_rows(case, readings):
         return rows
     if not isinstance(way, Way):
         return rows + [("along the axis", str(way))]
-    halves = slurry_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
+    halves = slurry_on_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
     rows += [(f"along the axis at the {name}: mean (90 % of it)", uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
               + f" ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
              for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]
@@ -67,7 +74,8 @@ def slurry_rows(case, readings):
     return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
 
 
-def axial_section(case, readings):
+def axial_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the profile along the axis; none of fewer than three slices."""
     if not case.flow or len(getattr(readings.profile, "z", ())) < 3:
         return []
     fits = []
@@ -90,12 +98,13 @@ def axial_section(case, readings):
     return cards
 
 
-def along(case):
+def along(case: MillCase) -> str:
     """What the axis along the mill is called."""
     return "z, mm" if case.is_slice else "z from the feed end, mm"
 
 
-def balance_section(case, _readings):
+def balance_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of slurryBalance's tables; none without them."""
     if case.balance is None or len(case.balance["Time"]) < 2:
         return []
     through = " and through its openings" if case.is_open and not case.is_slice else ""
@@ -116,7 +125,7 @@ def balance_section(case, _readings):
     return cards
 
 
-def wall_table(case):
+def wall_table(case: MillCase) -> tuple[list[str] | None, list[tuple]]:
     """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest
     slip."""
     told = case.balance
@@ -125,10 +134,10 @@ def wall_table(case):
     walls = list(dict.fromkeys(name.split("_", 1)[1] for name in told
                                if name.startswith(("torque_", "power_")) and name != "torque_all"))
 
-    def cell(name):
+    def cell(name: str) -> tuple[float, str] | str:
         return (time_mean(told["Time"], told[name], case.begin), ".3g") if name in told else "–"
 
-    rows = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
+    rows: list[tuple] = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
     if "torque_all" in told:
         rows.append(("all", cell("torque_all"), cell("power")))
     if "slip_max" in told and case.met_balls:
@@ -137,15 +146,15 @@ def wall_table(case):
     return ["", "torque, N m", "power, W"], rows
 
 
-def models_section(case, readings):
+def models_section(case: MillCase, readings: Readings) -> list[str]:
     """Mechanistic models beside what was found."""
     cards = []
     # The model's wall friction is that of end walls, which a slice does not have
     if isinstance(readings.charge, charge.Charge) and not case.is_slice:
-        points = readings.charge.surface.points / case.radius
+        x, y = readings.charge.surface.points.T / case.radius
         number = models.surface_number(abs(case.omega), case.mill.sauter_diameter, case.radius,
                                        case.mill.whole_length)
-        found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
+        found = readings.attempt(lambda: models.fit_free_surface(x, y, number, clockwise=case.omega < 0))
         if not isinstance(found, str):
             model, rmsd = found
             why = (f"the fit leaves more than {100 * models.POOR:.0f} % of the radius" if rmsd > models.POOR else
@@ -165,7 +174,7 @@ def models_section(case, readings):
     return cards
 
 
-def moys(case, profile):
+def moys(case: MillCase, profile: Any) -> list[str]:
     """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a
     mill with feed, balls and a discharge over a lip."""
     dense = case.charge.solidity[case.charge.solidity > 0.3]

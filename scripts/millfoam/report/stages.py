@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The stages of a case by the files that they left: which mill each belongs to, and which program wrote it."""
 from dataclasses import dataclass
+from typing import Any
 
 import h5py
 
-from ..mill import PARTS
+from ..files.mill import PARTS
+from ..files.mill_case import MillCase
 from .verdict import Check
 
 NAME = "All stages belong to this mill"
@@ -19,12 +21,12 @@ class Stage:
     """A file of a stage: its name, the program with its version (None: not told), fingerprints part -> 16 hex digits,
     and what makes it again."""
     file: str
-    program: str
-    mill: dict
+    program: str | None
+    mill: dict[str, str]
     again: str
 
 
-def stages(case):
+def stages(case: MillCase) -> list[Stage]:
     """Stage of each file of a MillCase that tells of itself."""
     found = []
     for folders, files in ((case.charge_folders, CHARGE_FILES), ([case.folder], CASE_FILES)):
@@ -46,12 +48,12 @@ def stages(case):
     return found
 
 
-def text_of(value):
+def text_of(value: Any) -> Any:
     """An attribute of an HDF5 file: texts as text."""
     return value.decode(errors="replace") if isinstance(value, bytes) else value
 
 
-def same_mill(case):
+def same_mill(case: MillCase) -> Check:
     """Whether what the stages left belongs to mill.json's mill; unknown where no stage tells it."""
     wrong, told = [], 0
     for stage in stages(case):
@@ -70,12 +72,12 @@ def same_mill(case):
     return Check(NAME, "holds", f"{told} fingerprints of the stages are those of mill.json")
 
 
-def programs(case):
+def programs(case: MillCase) -> list[tuple[str, str]]:
     """(files, program and version) of the files that tell them, each program once; OpenFOAM's build and LIGGGHTS'
     version."""
     found = [("mill.json", case.mill.content.get("program"))]
     found += [(stage.file, stage.program) for stage in stages(case)]
-    by_program = {}
+    by_program: dict[str, list[str]] = {}
     for name, program in found:
         if program:
             by_program.setdefault(program, []).append(name)

@@ -2,6 +2,7 @@
 """Whether the averaged flow drifts: its second half against its first."""
 import numpy as np
 
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 from .words import decimals
 
@@ -10,7 +11,7 @@ BATCHES = 5  # of each half, at least: what the error is from
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
 
 
-def batches_of(span, turn):
+def batches_of(span: float, turn: float) -> tuple[float, int]:
     """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and how many of them
     make a half.
 
@@ -28,7 +29,7 @@ def batches_of(span, turn):
     return whole * turn, turns // whole
 
 
-def batch_means(times, values, begin, length, count):
+def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: float, count: int) -> np.ndarray:
     """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN where there is no value."""
     places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
     # The last time closes the last batch
@@ -38,16 +39,16 @@ def batch_means(times, values, begin, length, count):
         return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
 
 
-def error_over_turns(times, values, begin, turn):
+def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
     """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
     turn takes `turn` s; NaN where fewer than two fit."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
     if turns < 2:
         return np.nan
-    return batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns)
+    return float(batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns))
 
 
-def halves(times, values, begin, turn):
+def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:
     """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
     batches_of.
 
@@ -70,13 +71,14 @@ def halves(times, values, begin, turn):
     return scale * (last.mean() - first.mean()), scale * error
 
 
-def difference_with_error(value, error):
+def difference_with_error(value: float, error: float) -> str:
     """As many digits as the error allows, three after the point at most."""
     digits = min(decimals(error), 3) if np.isfinite(error) and error > 0 else 3
     return f"{value:+.{digits}f} ± {error:.{digits}f}"
 
 
-def flow_steadiness(case):
+def flow_steadiness(case: MillCase) -> Check:
+    """Whether hold-up and centre of the slurry differ little between the two halves of the averaged time."""
     name = "The flow is steady"
     told = case.balance
     if told is None or (told["Time"] >= case.begin).sum() < 20:

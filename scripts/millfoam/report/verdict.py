@@ -14,11 +14,13 @@ class Check:
     meaning: str = ""
 
     @property
-    def lasting(self):
+    def lasting(self) -> bool:
+        """Whether a longer run cannot make the check hold."""
         return bool(self.meaning) and self.state in ("look", "fails")
 
 
-def judged(name, value, limit, found, advice, *, doubtful=None, meaning=""):
+def judged(name: str, value: float, limit: float, found: str, advice: str, *, doubtful: float | None = None,
+           meaning: str = "") -> Check:
     """A check that holds up to `limit`, is doubtful up to `doubtful`, and fails beyond."""
     if value <= limit:
         return Check(name, "holds", found)
