@@ -198,6 +198,8 @@ def write_time(folder, time, places):
               "forceOverWeight": 0.1 + 0 * wet, "U": np.column_stack([0.1 * wet, 0 * wet, np.where(x > 0, 0.02,
                                                                                                    -0.01) * wet])}
     (folder / f"{time:g}").mkdir()
+    if time == 0:  # written before the flow knows its balls
+        del fields["solidity"], fields["forceOverWeight"]
     for name, values in fields.items():
         kind = "vector" if values.ndim > 1 else "scalar"
         rows = "\n".join(f"({' '.join(f'{v:.9g}' for v in row)})" if values.ndim > 1 else f"{row:.9g}"

@@ -102,6 +102,13 @@ class Pictures(Case):
         self.assertEqual(sorted(path.name for path in (flow / "pictures").iterdir()),
                          ["force_on_balls.png", "slurry.gif", "slurry_frames.png"])
 
+    def test_averages_from_the_start_on_leave_out_what_knows_no_balls_yet(self):
+        flow = write_flow(self.folder / "flow")
+        self.assertFalse((flow / "0" / "solidity").exists())
+        ended = self.plot(flow, "--begin", "0")
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        self.assertIn("force of the fluid on the balls over their weight: mean 0.1,", ended.stdout)
+
     def test_what_cannot_be_is_refused_in_one_sentence(self):
         flow = write_flow(self.folder / "flow")
         self.assert_one_sentence(self.plot(flow, "--begin", "-1"), "--begin -1: expected 0 or more and less than .* "

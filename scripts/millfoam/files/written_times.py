@@ -112,9 +112,14 @@ class MillFlow:
         volume = self.field("alpha.slurry", path) * self.volumes
         return volume * (1 - self.field("solidity", path)) if self.displaced else volume
 
+    def frames_with_slurry(self, begin: float) -> list[tuple[float, Path]]:
+        """The written times (s) and their folders from `begin` (s) on whose volume of slurry can be told."""
+        return [(time, path) for time, path in self.frames
+                if time >= begin - 1e-9 and (not self.displaced or (path / "solidity").is_file())]
+
     def slurry_volumes(self) -> tuple[float, float]:
         """Volume of slurry at the first and the last written time that have it, m^3."""
-        first = next(path for _, path in self.frames if not self.displaced or (path / "solidity").is_file())
+        first = self.frames_with_slurry(0.0)[0][1]
         return float(self.slurry(first).sum()), float(self.slurry(self.frames[-1][1]).sum())
 
     def load(self, begin: float) -> tuple[float, float] | None:

@@ -71,7 +71,7 @@ def summary(flow: MillFlow, charge: SolidsMap | None, begin: float) -> None:
     if charge:
         x, y = charge.centroid()
         print(f"charge centroid, averaged:  x {1e3 * x:7.2f} mm, y {1e3 * y:7.2f} mm")
-    late = [flow.slurry_centroid(*frame) for frame in flow.frames if frame[0] >= begin - 1e-9]
+    late = [flow.slurry_centroid(*frame) for frame in flow.frames_with_slurry(begin)]
     print(f"slurry centroid, averaged:  x {1e3 * sum(c[0] for c in late) / len(late):7.2f} mm, "
           f"y {1e3 * sum(c[1] for c in late) / len(late):7.2f} mm")
     first, last = flow.slurry_volumes()

@@ -59,9 +59,7 @@ def axial_series(flow: MillFlow, begin: float) -> AxialSeries:
     """AxialSeries of a MillFlow's written times from flow time `begin` (s) on."""
     z, layer = np.unique(np.round(flow.centres[flow.chamber, 2], 7), return_inverse=True)
     times, heights, holdups, pressures = [], [], [], []
-    for time, path in flow.frames:
-        if time < max(begin, 1e-9) - 1e-9:
-            continue
+    for time, path in flow.frames_with_slurry(begin):
         slurry = flow.slurry(path)[flow.chamber]
         y = flow.turned(flow.centres[flow.chamber, :2], time)[:, 1]
         holdup = np.bincount(layer, slurry)

@@ -62,12 +62,11 @@ def mean_load(flow: MillFlow, begin: float) -> tuple[np.ndarray, np.ndarray, np.
     (s), on a lab-frame grid: x, y, ratio [ny, nx]; NaN where the balls fill less than 2 % in the mean."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     weighted, solidity, frames = np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS)), 0
-    for time, path in flow.frames:
-        if time >= begin - 1e-9:
-            phi = flow.field("solidity", path)
-            ratio = flow.field("forceOverWeight", path)
-            weighted = weighted + np.nan_to_num(flow.on_grid(flow.over_axis(phi * ratio), time, x, y))
-            solidity = solidity + np.nan_to_num(flow.on_grid(flow.over_axis(phi), time, x, y))
-            frames += 1
+    for time, path in flow.frames_with_slurry(begin):
+        phi = flow.field("solidity", path)
+        ratio = flow.field("forceOverWeight", path)
+        weighted = weighted + np.nan_to_num(flow.on_grid(flow.over_axis(phi * ratio), time, x, y))
+        solidity = solidity + np.nan_to_num(flow.on_grid(flow.over_axis(phi), time, x, y))
+        frames += 1
     with np.errstate(invalid="ignore", divide="ignore"):
         return x, y, np.where(solidity > 0.02 * frames, weighted / solidity, np.nan)
