@@ -40,7 +40,8 @@ static void findOpenFOAM(int, char** argv, char** envp)
         return;
     }
     std::memcpy(environment, envp, n * sizeof(*envp));
-    environment[n] = access(builtWith + 15, F_OK) == 0 ? builtWith : distribution;
+    environment[n] =
+        access(builtWith + 15, F_OK) == 0 ? builtWith : distribution;
     execve(program, argv, environment);
 }
 
