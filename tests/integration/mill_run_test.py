@@ -197,7 +197,7 @@ class Again(unittest.TestCase):
         with open(self.case / ".stages" / "lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             told = self.refused("./Allrun")
-        self.assertIn("another Allrun is at work in", told)
+        self.assertIn("another Allrun is running in", told)
 
     def test_solids_of_an_older_dry_run_are_found(self):
         self.allrun("--until", "charge", "--set", "dem.seed=7")
