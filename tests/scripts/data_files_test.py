@@ -154,7 +154,7 @@ class Flow(Folder):
         with self.assertRaisesRegex(RuntimeError, "no two steps from 2 s on"):
             discharge(times, volumes, 3e-5, 2)
 
-    def test_a_record_cut_short_is_told(self):
+    def test_a_record_cut_short_is_reported(self):
         write_steps(self.folder, 0, np.array([0.1]))
         path = self.folder / "postProcessing" / "flow" / "0" / "flow.json"
         change_json(path, "complete", to=False)

@@ -284,9 +284,9 @@ class List(Verdicts):
         results = {"lost_balls": 0, "balls": 5, "steady": False, "ball_overlap_largest_m": 1e-5,
                    "ball_overlap_99_m": 1e-6,
                    "smallest_diameter_m": 0.004}
-        found = checks.all_checks(case(results=results, unusable=["slurry.h5: not used, as it is half-written"]))
+        found = checks.all_checks(case(results=results, unusable=["slurry.h5: not used, because it is not complete"]))
         self.assertEqual([check.state for check in found], ["fails", "fails", "unknown", "holds", "holds"])
-        self.assertIn("half-written", " ".join(check.found for check in found[:2]))
+        self.assertIn("not complete", " ".join(check.found for check in found[:2]))
 
     def test_a_number_that_a_file_lacks_is_reported(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

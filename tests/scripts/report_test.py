@@ -154,10 +154,10 @@ class OneCase(Case):
         flow = write_flow(self.folder / "flow")
         write_slurry(flow / "slurry.h5", complete=0)
         found = self.assert_whole(report_case(flow))
-        self.assertIn("slurry.h5: not used, as it is half-written", found.text)
+        self.assertIn("slurry.h5: not used, because it is not complete", found.text)
         self.assertIn("written times", found.text)
         (flow / "slurry.h5").write_bytes((flow / "slurry.h5").read_bytes()[:3000])
-        self.assertIn("slurry.h5: not used, as it is cut short", Page(report_case(flow)).text)
+        self.assertIn("slurry.h5: not used, because it is cut short", Page(report_case(flow)).text)
 
     def test_a_table_that_cannot_be_read_is_reported(self):
         flow = write_flow(self.folder / "flow", voxels=False)
@@ -315,9 +315,9 @@ class Refused(Case):
 
     def test_a_case_that_was_not_run_or_whose_averages_are_not_whole(self):
         write_mill(self.folder)
-        self.assert_refused("neither a flow .* nor a whole solids.h5, nor dumps/results.json")
+        self.assert_refused("no flow .*, no complete solids.h5, no dumps/results.json")
         write_solids(self.folder / "solids.h5", complete=0)
-        self.assert_refused("solids.h5: not used, as it is half-written; average the dumps again")
+        self.assert_refused("solids.h5: not used, because it is not complete; average the dumps again")
 
     def test_an_older_report_stays(self):
         dry = write_dry(self.folder / "dry")
