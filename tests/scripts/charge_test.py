@@ -80,7 +80,7 @@ class Centre(unittest.TestCase):
         exact = np.where((y < 0) & (np.hypot(x, y) < RADIUS), 300 * PHI * y * (RADIUS**2 - x**2 - y**2), 0)
         apart = np.abs(stream_function(charge) - exact) / np.abs(exact).max()
         self.assertAlmostEqual(stream_function(charge).min() / exact.min(), 1, delta=0.02)
-        # Where the flux ends within a voxel, at shell and surface, no more than its share of the depth can be told
+        # Where the flux ends within a voxel, at shell and surface, only its share of the depth is known
         self.assertLess(apart.max(), 2 / 33)
 
     def test_there_is_none_where_nothing_turns_with_the_mill(self):
@@ -170,13 +170,13 @@ class Surface(unittest.TestCase):
     def test_a_thin_charge_has_none_and_does_not_centrifuge(self):
         thin = charge_map(lambda x, y: np.where((np.hypot(x, y) > 0.144) & (y < -0.1), PHI, 0), turning(5, (0, 0)))
         with self.assertRaisesRegex(RuntimeError, "no free surface.*the charge covers 2[5-9] % of the shell: it is too "
-                                                  "thin") as told:
+                                                  "thin") as caught:
             free_surface(thin, RADIUS, WALL)
-        self.assertNotIn("centrifug", str(told.exception))
+        self.assertNotIn("centrifug", str(caught.exception))
         with self.assertRaisesRegex(RuntimeError,
-                                    "no centre of circulation.*the charge covers 2[5-9] % of the shell") as told:
+                                    "no centre of circulation.*the charge covers 2[5-9] % of the shell") as caught:
             circulation_centre(thin, RADIUS)
-        self.assertNotIn("centrifug", str(told.exception))
+        self.assertNotIn("centrifug", str(caught.exception))
 
 
 class Tangential(unittest.TestCase):
