@@ -2,7 +2,7 @@
 """Mills with changes, and runs of the 12 cm mill's slice with them, each made once and kept.
 
 What a run changes is a list of settings `path=value`, as every tool takes them behind --set. The mill that comes of
-them, mill.json, lies in the run's folder, and its fingerprints tell what was made from the same inputs:
+them, mill.json, lies in the run's folder, and its fingerprints show what was made from the same inputs:
 
     charge_FINGERPRINT/      a dry run
     averages_FINGERPRINT/    solids.h5 of a charge, a window and a voxel size

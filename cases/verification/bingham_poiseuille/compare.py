@@ -143,7 +143,7 @@ def print_table(flows, out):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
     lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
-                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are held against their own curve "
+                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are compared with their own curve "
                  "alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
