@@ -160,7 +160,7 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using CgalTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-/// The facets' triangles in CGAL's tree: the facet that a ray meets first tells the cell by the side that the
+/// The facets' triangles in CGAL's tree: the facet that a ray meets first gives the cell by the side that the
 /// ray comes from.
 struct CgalLocator {
   Triangles triangles;

@@ -115,14 +115,14 @@ class MillAverage(unittest.TestCase):
             self.assertEqual(process.wait(), -signal.SIGKILL, "the run ended before it was killed")
             self.assertFalse((self.folder / "solids.h5").exists())
             sizes.append((self.folder / "solids.h5.journal").stat().st_size)
-        self.assertEqual(sizes, sorted(sizes), "a later run goes on where the one before was killed")
+        self.assertEqual(sizes, sorted(sizes), "a later run resumes where the one before was killed")
         last = self.average("--checkpoint", "0")
         self.assertIn("taking up an unfinished run", last.stderr)
         self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
                          [name + end for name in ("solids", "whole_run") for end in (".h5", ".json", ".xdmf")])
 
-    def test_a_full_disk_is_told_and_leaves_nothing_that_looks_whole(self):
+    def test_a_full_disk_is_reported_and_leaves_nothing_that_looks_whole(self):
         self.average(output="whole_run.h5")
         size = (self.folder / "whole_run.h5").stat().st_size
 

@@ -61,7 +61,7 @@ class Centre(unittest.TestCase):
     def test_of_a_rigidly_turning_half_disc_is_where_it_turns_about(self):
         centre = (-0.03, -0.06)
         found = circulation_centre(charge_map(below(lambda x: 0 * x), turning(5, centre)), RADIUS)
-        # Voxels cut by the surface tell the velocity of their lower part only
+        # Voxels cut by the surface have the velocity of their lower part only
         np.testing.assert_allclose(found, centre, atol=1e-5)
 
     def test_of_a_closed_stream_is_that_of_its_stream_function(self):
@@ -202,7 +202,7 @@ class Tangential(unittest.TestCase):
     def test_rigid_rotation_has_the_speed_of_the_mill(self):
         profile = tangential_profile(charge_map(below(lambda x: 0 * x), turning(5, (0, -0.06))), RADIUS, WALL)
         np.testing.assert_allclose(profile.shear_rate, 5, atol=0.15)
-        # Voxels that the surface halves tell the velocity of their lower half
+        # Voxels that the surface halves have the velocity of their lower half
         np.testing.assert_allclose(profile.velocity, 5 * (profile.distance - 0.06), atol=5 * 2 * RADIUS / 65 / 2)
 
     def test_the_mills_sense_is_positive_along_any_line(self):
