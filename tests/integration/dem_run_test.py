@@ -192,7 +192,7 @@ class DemRun(unittest.TestCase):
         cut = case / "dem" / f"restart.{kept + 100}"
         cut.write_bytes((case / "dem" / f"restart.{kept}").read_bytes()[:-100])
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
-        self.assertIn(f"{cut.name}: it, or a dump before it, is not whole and is not used", log)
+        self.assertIn(f"{cut.name}: this file, or a dump before it, is not complete and is not used", log)
         self.assertIn(f"resumed at step {kept},", log)
         self.assertFalse(cut.exists())
         self.assert_whole(case)
@@ -240,7 +240,7 @@ class DemRun(unittest.TestCase):
 
         (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
         with self.assertRaisesRegex(RunError,
-                                    r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected no less than the 0.1 s"):
+                                    r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected at least the 0.1 s"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         (case / "mill.yaml").write_text(MILL)
         lost = next((case / "contacts").glob("walls.*.txt"))

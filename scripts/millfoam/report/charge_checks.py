@@ -8,7 +8,7 @@ from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
 OVERLAP = 0.15  # of the diameter: physics of softened balls (Brosh, Kalman & Levy)
-BALLS = 8  # in an averaging volume: the drag laws were derived on 8 to 64
+BALLS = 8  # in an averaging volume: the drag laws were derived from 8 to 64
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
