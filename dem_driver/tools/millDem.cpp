@@ -104,7 +104,7 @@ std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_dr
   return step;
 }
 
-/// Makes the folder ready for LIGGGHTS: from `step` on, or anew.
+/// Prepares the folder for LIGGGHTS: to resume at `step`, or for a new run.
 void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (step) {
     dem_driver::remove_results(folder);

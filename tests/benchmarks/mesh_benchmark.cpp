@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finding points in meshes and depositing balls in their cells, each beside another way to do the same. The
+// Finding points in meshes and depositing balls in their cells, each compared with another method. The
 // meshes are drums of hexahedra that have turned; the argument n makes about 10 n^3 cells: 5, 11, 22 and 46
 // give 10^3, 10^4, 10^5 and 10^6. One item is a point or a ball; times are the thread's own.
 #include <CGAL/AABB_traits.h>

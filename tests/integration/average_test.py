@@ -215,8 +215,8 @@ class MillAverage(unittest.TestCase):
     def test_a_grid_that_is_not_where_the_balls_are_is_refused(self):
         millimetres = ["--box", "-1000", "-1000", "0", "1000", "1000", "1000", "--shape", "9", "8", "3"]
         self.refused(self.command(grid=millimetres), "far too large", "x -1000 to 1000", "expected metres")
-        beside = ["--box", "2", "-1", "0", "3", "1", "1", "--shape", "9", "8", "3"]
-        self.refused(self.command(grid=beside), "100 % of the balls' volume lies outside", "x 2 to 3",
+        shifted = ["--box", "2", "-1", "0", "3", "1", "1", "--shape", "9", "8", "3"]
+        self.refused(self.command(grid=shifted), "100 % of the balls' volume lies outside", "x 2 to 3",
                      "expected metres")
         self.assertEqual(list(self.folder.iterdir()), [])
         part = ["--box", "0.3", "-1", "0", "1", "1", "1", "--shape", "9", "8", "3"]

@@ -33,7 +33,7 @@ def charge_map(solidity, velocity, voxels=65, part=8):
 
 
 def below(line):
-    """Solidity PHI below the line y = line(x), nought above."""
+    """Solidity PHI below the line y = line(x), zero above."""
     return lambda x, y: np.where(y < line(x), PHI, 0.0)
 
 

@@ -280,7 +280,7 @@ class Curves(Case):
             found = figures.late_limits(np.arange(10.0), np.array([*early, 1, 1, 1, 2, 1, 1, 1.0]))
             np.testing.assert_allclose(found, limits)
 
-    def test_reynolds_numbers_stand_on_a_linear_axis_from_nought(self):
+    def test_reynolds_numbers_have_a_linear_axis_from_zero(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]
         self.assertEqual((axis.get_yscale(), axis.get_ylim()[0]), ("linear", 0))
         plt.close(axis.figure)

@@ -228,7 +228,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="*", metavar="RUN",
                         help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
-    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
     parser.add_argument("--quick", action="store_true",
                         help="0.2 s of two thin slices: shows that it works, not what it says")
     parser.add_argument("--readings", action="store_true",
@@ -263,7 +263,7 @@ def main():
     known = cases()
     if options.list or not (options.runs or options.quick):
         for case in known.values():
-            print(case.name, "whole" if is_whole(*asked(case, options)) else "")
+            print(case.name, "complete" if is_whole(*asked(case, options)) else "")
         return 0
     names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
     results, failures = [], []
