@@ -18,7 +18,7 @@ class RunError(RuntimeError):
 
 
 def write_parameters(case: Path | str, **values: Any) -> None:
-    """Writes CASE/parameters, which the template's dictionaries include: one `key value;` a line."""
+    """Writes CASE/parameters, which the template's dictionaries include: one `key value;` on each line."""
     (Path(case) / "parameters").write_text("".join(f"{key} {value};\n" for key, value in values.items()))
 
 
@@ -43,7 +43,7 @@ def set_options(changes: Iterable[str]) -> list[str]:
 
 
 def case_options(description: str | None, quick: str | None = None) -> argparse.Namespace:
-    """Options of a verification case's script: `jobs`, and `quick` where a text says what its quick form leaves out."""
+    """Options of a verification case's script: `jobs`, and `quick` if there is a text about the quick form."""
     parser = argparse.ArgumentParser(description=description)
     if quick:
         parser.add_argument("--quick", action="store_true", help=quick)

@@ -97,7 +97,7 @@ def _reason(file, room, include, place):
         return "only .H and .C may include OpenFOAM"
     if room is None:
         return None
-    # Not there (yet), or found through another include folder: the name still tells
+    # Not there (yet), or found through another include folder: the name still shows the room
     other = room_of(place or include)
     if other is not None and other != room and other not in MAY_USE[room]:
         return f"{room} must not know {other}"

@@ -181,23 +181,23 @@ class DemRun(unittest.TestCase):
         self.assertTrue(wait_for(lambda: self.last_restart(case), 120))
         for pid in descendants(process.pid):
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (20000, 20000))
-        _, told = process.communicate(timeout=60)
+        _, output = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1)
-        self.assertRegex(told, r"error: \./(dumps|contacts|dem)/\S+: \d+ bytes.*expected .*; .* free")
+        self.assertRegex(output, r"error: \./(dumps|contacts|dem)/\S+: \d+ bytes.*expected .*; .* free")
         kept = self.last_restart(case)
-        self.assertIn(f"--resume continues from step {kept}\n", told)
+        self.assertIn(f"--resume continues from step {kept}\n", output)
         self.assertFalse((case / "dumps" / "run.json").exists())
-        self.assertNotIn("100 %", told)
+        self.assertNotIn("100 %", output)
         # As a later one would be, had millDem been killed before it saw it
         cut = case / "dem" / f"restart.{kept + 100}"
         cut.write_bytes((case / "dem" / f"restart.{kept}").read_bytes()[:-100])
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
-        self.assertIn(f"{cut.name}: it, or a dump before it, is not whole and is not used", log)
+        self.assertIn(f"{cut.name}: this file, or a dump before it, is not complete and is not used", log)
         self.assertIn(f"resumed at step {kept},", log)
         self.assertFalse(cut.exists())
         self.assert_whole(case)
 
-    def test_what_cannot_fit_on_the_disk_and_walls_of_another_mill_are_told_before_anything_is_removed(self):
+    def test_what_cannot_fit_on_the_disk_and_walls_of_another_mill_are_reported_before_anything_is_removed(self):
         short = MILL.replace("duration: 1.0", "duration: 0.05")
         case = self.make_case(short)
         run(case, "millDem", "mill.yaml", "--case", ".")
@@ -240,7 +240,7 @@ class DemRun(unittest.TestCase):
 
         (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
         with self.assertRaisesRegex(RunError,
-                                    r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected no less than the 0.1 s"):
+                                    r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected at least the 0.1 s"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         (case / "mill.yaml").write_text(MILL)
         lost = next((case / "contacts").glob("walls.*.txt"))
@@ -254,13 +254,13 @@ class DemRun(unittest.TestCase):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertTrue((case / "dumps" / "run.json").is_file())
 
-    def test_a_wall_that_is_cut_and_a_missing_program_are_told_before_anything_is_removed(self):
+    def test_a_wall_that_is_cut_and_a_missing_program_are_reported_before_anything_is_removed(self):
         case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.05"))
         run(case, "millDem", "mill.yaml", "--case", ".")
         before = sorted(case.glob("*/*"))
-        told = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True,
+        done = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True,
                               text=True, env={**os.environ, "PATH": "/no/such/folder"})
-        self.assertIn("liggghts is not on PATH", told.stderr)
+        self.assertIn("liggghts is not on PATH", done.stderr)
         self.assertEqual(sorted(case.glob("*/*")), before)
         shell = case / "walls" / "shell.stl"
         shell.write_bytes(shell.read_bytes()[:-200])
@@ -305,10 +305,10 @@ class DemRun(unittest.TestCase):
 
     def test_the_plan_names_steps_time_disk_and_memory_of_the_run(self):
         case = self.make_case()
-        told = run(case, "millDem", "plan", "mill.yaml", "--json", "plan.json")
+        output = run(case, "millDem", "plan", "mill.yaml", "--json", "plan.json")
         plan = read_json(case / "plan.json")
         self.assertEqual((plan["format"], plan["ranks"], plan["balls"]), ("millfoam-dem-plan", 1, 398))
-        self.assertIn(f"  steps      {plan['steps']}\n", told)
+        self.assertIn(f"  steps      {plan['steps']}\n", output)
         predicted = {"disk": plan["disk_bytes"] / 1e9, "memory": plan["memory_bytes"] / 1e9}
         peak = self.run_and_watch(case)
         self.assertLess(max(predicted["memory"] / peak, peak / predicted["memory"]), 1.5)

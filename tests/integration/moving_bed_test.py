@@ -123,10 +123,10 @@ class Ledger(RecordTest):
                              STEP)
         np.testing.assert_allclose(found, [0.62 / 6, 3.1 / 6, 0, 0.58], rtol=1e-12)
 
-    def test_the_log_tells_the_present_and_the_largest_correction(self):
+    def test_the_log_has_the_present_and_the_largest_correction(self):
         log = self.assert_runs(self.ledger_case(1.01, 0.995, end_time=0.02), "millInterFoam").log
-        told = [tuple(map(float, found)) for found in re.findall(r"volume corrected by (\S+) %, at most (\S+) %", log)]
-        np.testing.assert_allclose([told[0], told[-1]], [(1, 1), (-0.5, 1)], rtol=1e-9)
+        added = [tuple(map(float, pair)) for pair in re.findall(r"volume corrected by (\S+) %, at most (\S+) %", log)]
+        np.testing.assert_allclose([added[0], added[-1]], [(1, 1), (-0.5, 1)], rtol=1e-9)
 
     def test_particleDrag_leaves_the_solids_as_they_are(self):
         found, = self.fields(self.ledger_case(1.5, entries=""), "solidity", STEP)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam goes on after a restart and on two ranks as it would have, and loses nothing: in a closed box with a
+"""slurryFoam gives the same after a restart and on two ranks, and loses nothing: in a closed box with a
 moving bed, on meshes that stand still and turn."""
 import re
 import shutil

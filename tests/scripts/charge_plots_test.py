@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of a charge are written, and are not blank; errors of all readings over windows that are alike are
-nought."""
+zero."""
 import io
 import unittest
 

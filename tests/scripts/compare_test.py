@@ -79,10 +79,10 @@ class Surface(unittest.TestCase):
 
     def test_of_such_as_do_not_stand_over_each_other_is_refused(self):
         surface = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
-        beside = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
-        beside.points = beside.points + (0.4, 0)
-        with self.assertRaisesRegex(RuntimeError, "do not stand over each other"):
-            surface_difference(surface, beside)
+        shifted = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
+        shifted.points = shifted.points + (0.4, 0)
+        with self.assertRaisesRegex(RuntimeError, "have no common range of x"):
+            surface_difference(surface, shifted)
 
 
 class Measured(unittest.TestCase):
@@ -192,7 +192,7 @@ class Measured(unittest.TestCase):
                 ([head, "0.125,0.125,0.4,1"], "line 2, column vy: ''; expected a number"),
                 ([head, "0.2,0.125,0.4,0,0"], "line 2, column x_m: 0.2 m is no voxel's centre; expected 4 voxels"),
                 ([head, "0.125,1.125,0.4,0,0"], "line 2, column y_m: 1.125 m is no voxel's centre"),
-                ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was told before")):
+                ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was given before")):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 self.read(*rows)
 

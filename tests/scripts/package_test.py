@@ -39,7 +39,7 @@ class Installed(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="package-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        # A build leaves files beside its source
+        # A build leaves files in its source folder
         source, cls.site = cls.folder / "source", cls.folder / "site"
         shutil.copytree(SCRIPTS / "millfoam", source / "millfoam", ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(SCRIPTS / "pyproject.toml", source)

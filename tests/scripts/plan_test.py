@@ -179,7 +179,7 @@ class Arithmetic(Folder):
         (self.folder / "stubs" / "slurryFoam").write_text("#!/bin/sh\necho FOAM FATAL ERROR: no room\nexit 1\n")
         done = self.plan()
         self.assertEqual(done.returncode, 1)
-        self.assertIn("slurryFoam failed; it printed last:\nFOAM FATAL ERROR: no room", done.stderr)
+        self.assertIn("slurryFoam failed; its output ends with:\nFOAM FATAL ERROR: no room", done.stderr)
 
     def test_a_folder_without_a_mill_is_refused(self):
         done = self.plan()
@@ -223,7 +223,7 @@ class SmallMill(Folder):
             # Of a rank with OpenFOAM's libraries, not of mpirun
             self.assertGreater(flow.memory, 80e6)
 
-    def test_every_stage_of_a_real_mill_is_told(self):
+    def test_every_stage_of_a_real_mill_is_planned(self):
         (self.folder / "mill.yaml").write_text(SMALL)
         subprocess.run(["millMesh", "mill.yaml", "--resolved", "mill.json"], cwd=self.folder, check=True)
         content, stages, text = self.planned("-np", "2")

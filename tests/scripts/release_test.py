@@ -51,7 +51,7 @@ class Release(unittest.TestCase):
         self.assertIn("\n## 7.8.9\n", (self.tree / "CHANGELOG.md").read_text())
         self.assertEqual(self.git("status", "--porcelain"), "")
         self.assertEqual(self.git("tag").strip(), "v7.8.9")
-        self.refused("7.8.9", "the tag v7.8.9 is there already")
+        self.refused("7.8.9", "the tag v7.8.9 exists already")
 
     def refused(self, version, words):
         before = self.git("log", "--oneline")

@@ -232,9 +232,9 @@ def write_steps(folder, start, times, law="Beetstra", **summary):
              "drag": {"law": law, "reference": "a paper", "solidity_range": [0.0, 0.6], "reynolds_range": [0.2, None]},
              "beyond_law": {"mean": 0.1, "largest": 0.12, "solidity_above": 0.1}} if law else {"solids": None,
                                                                                                "drag": None}
-    told = {"complete": True, "begin_s": start, "end_s": float(times[-1]), "limits": LIMITS,
-            "openfoam": {"version": "v1912", "build": "abc-1"}, **balls, **summary}
-    write_json(place / "flow.json", "flow", ("charge", "averages", "flow"), **told)
+    content = {"complete": True, "begin_s": start, "end_s": float(times[-1]), "limits": LIMITS,
+               "openfoam": {"version": "v1912", "build": "abc-1"}, **balls, **summary}
+    write_json(place / "flow.json", "flow", ("charge", "averages", "flow"), **content)
     one = np.ones(len(times))
     known = one if law else np.nan * one
     rows = np.column_stack([times, np.diff(times, prepend=start), 0.2 * one, 0.1 * one, 0.01 * one, 8e-4 * one,

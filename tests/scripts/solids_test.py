@@ -49,7 +49,7 @@ class Windows(unittest.TestCase):
             self.assertEqual((mean.begin, mean.end), (0, 0.1))
 
     def test_none_in_that_time_or_a_file_that_is_not_whole_is_refused(self):
-        with self.assertRaisesRegex(RuntimeError, "no window between 3 and inf s; there are 0.0 to 0.15"):
+        with self.assertRaisesRegex(RuntimeError, "no window between 3 and inf s; the file has 0.0 to 0.15"):
             read_windows(self.path, 3)
         write(self.path, (0.1,), (1,), complete=0)
         with self.assertRaisesRegex(RuntimeError, "not complete"):

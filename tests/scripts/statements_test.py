@@ -35,7 +35,7 @@ def series(profile=-0.05, pressure=0.0, noise=1e-4):
 
 
 def run(speed=75, law=None, solids=20, last=5.0, **read):
-    """A run of the 30 cm mill, steady if nothing else is told."""
+    """A run of the 30 cm mill, steady by default."""
     return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True,
                        **{"series": series(), **read})
 
@@ -60,7 +60,7 @@ class Flat(unittest.TestCase):
             self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)),
                              [NOT_TESTED, verdict])
 
-    def test_a_run_that_is_short_or_missing_is_told(self):
+    def test_a_run_that_is_short_or_missing_is_reported(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
         found = statements.flat_without_balls(Runs([short]))
         self.assertEqual([one.verdict for one in found], [NOT_TESTED] * 3)
@@ -68,7 +68,7 @@ class Flat(unittest.TestCase):
         self.assertIn("missing: fluid_only_75", found[1].figure)
         self.assertEqual("missing: 12 cm slice at 50 %, without balls", found[2].figure)
 
-    def test_what_could_not_be_read_is_told(self):
+    def test_what_could_not_be_read_is_reported(self):
         found = statements.flat_without_balls(Runs([run(failures=["surface not read: no slurry"])]))
         self.assertEqual((found[1].verdict, found[1].figure), (NOT_TESTED, "surface not read: no slurry"))
 
@@ -209,7 +209,7 @@ class Steady(unittest.TestCase):
         self.assertEqual(self.judged(self.moved(lambda t: 1e-3 * np.sin(12 * np.pi * t))).verdict, CONFIRMED)
         found = self.judged(self.moved(lambda t: 2e-3 * t))
         self.assertEqual(found.verdict, UNDECIDED)
-        self.assertRegex(found.figure, "not steady: .*: its height drifts by 1.0[0-9] ± 0.[0-9]+ mm from half to half")
+        self.assertRegex(found.figure, "not steady: .*: its height drifts by 1.0[0-9] ± 0.[0-9]+ mm between the halves")
 
     def test_less_than_a_turn_leaves_a_statement_undecided(self):
         one = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
@@ -242,7 +242,7 @@ class Steady(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """What cases/studies/thesis_statements takes without being told."""
+    """The runs that cases/studies/thesis_statements takes by default."""
 
     def setUp(self):
         path = Path(__file__).parents[2] / "cases" / "studies" / "thesis_statements" / "statements.py"

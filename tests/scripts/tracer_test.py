@@ -186,7 +186,7 @@ class InTheReport(unittest.TestCase):
             with self.assertRaises(RuntimeError) as caught:
                 measurements.refuse_outside("a.csv", self.orbit(1000), self.EDGES, periodic)
             for part in ("a.csv: 100 % of its time is outside",
-                         "from x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels from "
+                         "the track covers x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels "
                          "x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
                 self.assertIn(part, str(caught.exception))
 

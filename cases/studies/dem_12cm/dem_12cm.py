@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of the 12 cm mill beside published readings: RMSD of the tangential velocity from a cubic, and of the free
-surface from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a
-difference comes from.
+"""Dry runs of the 12 cm mill compared with published readings: RMSD of the tangential velocity from a cubic, and of the
+free surface from a logistic, with their errors over time. The same mills with one change show the cause of a
+difference.
 
-Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept,
-what was broken off is resumed; dumps are removed once they are averaged."""
+Every run has a folder runs/NAME as those of dem_matrix; complete runs of dem_matrix are used. Complete runs are kept,
+interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
 import csv
 import sys
@@ -141,7 +141,7 @@ def write_csv(path, columns, rows):
         writer.writerows(rows)
 
 
-def told(value, error, digits):
+def value_text(value, error, digits):
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
@@ -151,9 +151,9 @@ def print_table(rows):
           f"{'publ.':>7}{'centre mm':>14}{'toe':>6}{'shoulder':>10}{'time s':>8}")
     for r in rows:
         centre = f"{r['centre_x_mm']:.1f}, {r['centre_y_mm']:.1f}"
-        print(f"{r['run']:<{width}}{r['balls']:6d}{r['steady']:>7}{told(r['power_W'], r['power_error_W'], 4):>17}"
-              f"{told(r['cubic_rmsd_m_s'], r['cubic_error_m_s'], 4):>18}{r['cubic_published_m_s']:8.4f}"
-              f"{told(r['logistic_rmsd_mm'], r['logistic_error_mm'], 2):>15}{r['logistic_published_mm']:7.2f}"
+        print(f"{r['run']:<{width}}{r['balls']:6d}{r['steady']:>7}{value_text(r['power_W'], r['power_error_W'], 4):>17}"
+              f"{value_text(r['cubic_rmsd_m_s'], r['cubic_error_m_s'], 4):>18}{r['cubic_published_m_s']:8.4f}"
+              f"{value_text(r['logistic_rmsd_mm'], r['logistic_error_mm'], 2):>15}{r['logistic_published_mm']:7.2f}"
               f"{centre:>14}{r['toe_deg']:6.0f}{r['shoulder_deg']:10.0f}{r['wall_time_s']:8.0f}")
 
 
@@ -179,12 +179,13 @@ def print_readings(rows):
     for r in rows:
         if r is rows[0] or r["run"] != rows[rows.index(r) - 1]["run"]:
             print(f"\n{r['run']:<66}{'whole':>18}{'a window':>10}{'publ.':>9}")
-        print(f"  {r['rmsd_of']:<14}{r['reading']:<50}{told(r['value'], r['error'], 4):>18}{r['single_windows']:10.4f}"
+        print(f"  {r['rmsd_of']:<14}{r['reading']:<50}{value_text(r['value'], r['error'], 4):>18}"
+              f"{r['single_windows']:10.4f}"
               f"{r['published']:9.4g}")
 
 
 def plot(results, rows, path):
-    """Measured beside published RMSDs above, below the maps with what is read off them."""
+    """Top: simulated and published RMSDs; bottom: the maps with their readings."""
     across = min(len(results), 4)
     lines = -(-len(results) // across)
     figure = plt.figure(figsize=(max(5.2 * across, 10), 5 + 6.4 * lines), constrained_layout=True)
@@ -227,7 +228,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="*", metavar="RUN",
                         help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
-    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
     parser.add_argument("--quick", action="store_true",
                         help="0.2 s of two thin slices: shows that it works, not what it says")
     parser.add_argument("--readings", action="store_true",
@@ -240,7 +241,7 @@ def parse():
     return parser.parse_args(), parser
 
 
-def tell(results, options):
+def report(results, options):
     """Tables, picture and reports of runs that are whole."""
     name = "dem_12cm_quick" if options.quick else "dem_12cm"
     rows = [row(result) for result in results]
@@ -262,7 +263,7 @@ def main():
     known = cases()
     if options.list or not (options.runs or options.quick):
         for case in known.values():
-            print(case.name, "whole" if is_whole(*asked(case, options)) else "")
+            print(case.name, "complete" if is_whole(*asked(case, options)) else "")
         return 0
     names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
     results, failures = [], []
@@ -273,7 +274,7 @@ def main():
             failures.append(f"{case.name}: {error}")
             print(failures[-1], flush=True)
     if results:
-        tell(results, options)
+        report(results, options)
     if failures:
         print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(results)} runs failed")
     return 1 if failures else 0

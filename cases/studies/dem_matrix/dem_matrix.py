@@ -3,8 +3,8 @@
 """Dry runs of the published matrix: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds.
 
 Every run has a folder runs/NAME with its mill.json, walls, dumps/results.json, dumps/energy.csv and solids.h5 (its
-averages on 65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is
-kept, what was broken off is resumed; dumps are removed once they are averaged."""
+averages on 65 x 65 voxels over the mill's length, without the first second, in windows of 0.1 s). Complete runs are
+kept, interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
 import csv
 import sys
@@ -80,7 +80,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("runs", nargs="*", metavar="RUN",
                         help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
-    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
     parser.add_argument("--duration", type=float, help="of the turning mill, s [4; of the 30 cm mill 6.25 and 5]")
     parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH",
                         help="periodic slices of this length (m) instead")
@@ -103,7 +103,7 @@ def main():
     settings = matrix()
     if options.list or not options.runs:
         for name, setting in settings.items():
-            print(name, "whole" if is_whole(*asked(setting, options)) else "")
+            print(name, "complete" if is_whole(*asked(setting, options)) else "")
         return 0
     rows, failures = [], []
     for setting in chosen(options.runs, settings, parser):

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs of the 30 cm mill and of the 12 cm mill's slice to choose from for a comparison, whether they are steady, and
-verdicts.
+"""Runs of the 30 cm mill and of the 12 cm mill's slice for comparisons, whether they are steady, and verdicts.
 
-Verdicts: `confirmed` and `contradicted` where the difference is more than twice its standard error over time,
-`undecided` where it is not or a run is not steady (see `unsteady`), `not tested` where a run is missing: which one is
-told. Runs of the 30 cm mill count from LATEST on."""
+Verdicts: `confirmed` and `contradicted` if the difference is more than twice its standard error over time, `undecided`
+if it is not or a run is not steady (see `unsteady`), `not tested` if a run is missing, which the verdict names. Runs of
+the 30 cm mill count if they reach LATEST."""
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,7 +19,7 @@ CONFIRMED, CONTRADICTED, UNDECIDED, NOT_TESTED = "confirmed", "contradicted", "u
 
 @dataclass(frozen=True)
 class Verdict:
-    """A statement, the runs it was held against, what came out, and the number that says so or what is missing."""
+    """A statement, the runs with which it was compared, the verdict, and its number or what is missing."""
     statement: str
     runs: str
     verdict: str
@@ -28,7 +27,7 @@ class Verdict:
 
 
 def sign(difference):
-    """1, -1 or 0: of a Mean, if it is more than twice its error from nought."""
+    """Sign 1 or -1 of a Mean that differs from zero by more than twice its error; otherwise 0."""
     return 0 if not abs(difference.value) > 2 * difference.error else int(np.sign(difference.value))
 
 
@@ -65,7 +64,7 @@ class Which(NamedTuple):
 
 
 class Runs:
-    """RunReadings to choose from, and why a run that was asked for is not there."""
+    """RunReadings to choose from, and why a run is missing."""
 
     def __init__(self, runs):
         self.short = [run for run in runs if mill_of(run) == LARGE and run.last < LATEST]
@@ -76,7 +75,7 @@ class Runs:
         return next((run for run in self.runs if which.fits(run)), None)
 
     def missing(self, which):
-        """What to say of a run that find() does not find."""
+        """Text for a run that find() does not find."""
         for run in self.short:
             if which.fits(run):
                 return f"{which} ends at {run.last:g} s; expected {LATEST:g} s or more"
@@ -91,8 +90,8 @@ class Runs:
         return sorted({run.speed for run in self.runs if mill_of(run) == SLICE}) or [50]
 
     def places(self):
-        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared; of the slice those that
-        there are, and where that is one only, beside it what it could be held against."""
+        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared. For the slice these are
+        the existing ones; if there is only one, also one to compare it with."""
         found = [(LARGE, 75, [20, 40])]
         for speed in self.slice_speeds():
             solids = {run.solids for run in self.of(SLICE) if run.speed == speed and run.solids}
@@ -116,8 +115,8 @@ def unsteady(run):
     """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
     or the height of the slurry's centre of mass differs between its halves by more than two standard errors.
 
-    The errors are those of HALF_BLOCKS block means within either half: over all of the time the drift itself would
-    count."""
+    The errors are those of HALF_BLOCKS block means within each half. Blocks over the whole time would include the
+    drift."""
     if not run.series:
         return f"{run.name}: its height over time is not known"
     times, heights = run.series.times, height_over_time(run)
@@ -127,12 +126,12 @@ def unsteady(run):
     halves = [Mean(*map(float, series_mean(half, HALF_BLOCKS))) for half in np.array_split(heights, 2)]
     drift = halves[1] - halves[0]
     if not np.isfinite(drift.error):
-        return f"{run.name}: {len(times)} times are too few to tell a drift"
-    return f"{run.name}: its height drifts by {drift.told('mm', 1e3, '.2f')} from half to half" if sign(drift) else ""
+        return f"{run.name}: {len(times)} times are too few to find a drift"
+    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if sign(drift) else ""
 
 
 def judged(verdict, figure, *runs):
-    """A verdict on runs and its number; where a run is not steady, `undecided` with the reason."""
+    """A verdict on runs and its number; if a run is not steady, `undecided` with the reason."""
     reasons = [reason for reason in map(unsteady, runs) if reason]
     if verdict in (CONFIRMED, CONTRADICTED) and reasons:
         return UNDECIDED, f"{figure}; not steady: {'; '.join(reasons)}"

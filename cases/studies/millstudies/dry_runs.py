@@ -29,22 +29,22 @@ class DryRun:
 
 
 def is_whole(folder, mill):
-    """Whether a folder holds the averages of a Mill's dry run."""
+    """Whether a folder has the complete averages of a Mill's dry run."""
     return is_of(Path(folder) / "solids.json", "averages", "averages", mill)
 
 
 def make_dry_run(folder, mill, *, ranks=2, keep_dumps=False):
-    """DryRun of a Mill in a folder, whose name is the run's; it is made unless it is whole.
+    """DryRun of a Mill in a folder, whose name is the run's; it is made unless it is complete.
 
-    A run that was broken off is resumed, also with another duration; one of another mill is left alone: RunError. Dumps
-    are large: they are removed once they are averaged, unless `keep_dumps`."""
+    An interrupted run is resumed, also with another duration. RunError for the run of another mill, which stays as it
+    is. Dumps are large: they are removed after they are averaged, unless `keep_dumps`."""
     folder = Path(folder)
     if not is_whole(folder, mill):
         refuse_another(folder, mill)
         make_charge(folder, mill, ranks)
         run(folder, "millAverage", "mill.json", "--case", ".")
     if not keep_dumps:
-        # The restart files first: without them nobody resumes a run that lacks dumps
+        # The restart files first: without them, no one can resume a run that lacks dumps
         for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
             large.unlink()
     return DryRun(folder.name, read_json(folder / "dumps" / "results.json", "charge"), read_map(folder / "solids.h5"))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mills with changes, and runs of the 12 cm mill's slice with them, each made once and kept.
 
-What a run changes is a list of settings `path=value`, as every tool takes them behind --set. The mill that comes of
-them, mill.json, lies in the run's folder, and its fingerprints tell what was made from the same inputs:
+A run changes a list of settings `path=value`, as every tool takes them after --set. The resulting mill, mill.json, is in
+the run's folder, and its fingerprints show what was made from the same inputs:
 
     charge_FINGERPRINT/      a dry run
     averages_FINGERPRINT/    solids.h5 of a charge, a window and a voxel size
@@ -65,7 +65,7 @@ def is_of(path, kind, part, mill):
 
 
 def make_charge(folder, mill, ranks=2):
-    """The dry run of a Mill in a folder: walls/ and dumps/. A whole one is kept, one that was broken off is resumed."""
+    """The dry run of a Mill in a folder: walls/ and dumps/. A complete one is kept, an interrupted one is resumed."""
     write_mill(mill, folder)
     run(folder, "millMesh", "mill.json", "--case", ".", "--walls")
     run(folder, "millDem", "mill.json", "--case", ".", "-np", ranks, "--resume")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Other ways to read the tangential velocity and the free surface off a map: each changes one choice of readings.charge
-or readings.free_surface, so that a published number that was read in an unknown way can be held against all of them.
+or readings.free_surface, so that a published number with an unknown reading can be compared with all of them.
 
 Each reading is a function (SolidsMap, radius in m) -> root mean square deviation, m/s or m, and raises RuntimeError
 where the map does not have it. Names: VELOCITY and SURFACE."""

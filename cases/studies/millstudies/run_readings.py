@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mill's run says about its slurry, as far as published statements are about it: surface, profile and way along
-the axis, particle Reynolds numbers."""
+"""Readings of a run's slurry for published statements: surface, profile and motion along the axis, particle Reynolds
+numbers."""
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) compared with runs of the 30
-cm mill, and what does not lie along the axis also with the 12 cm mill's slice: each gives verdicts (see compared_runs)
-with the numbers that say so. Tilts, numbers of humps and shares that are compared with a limit are taken as they are;
-their errors are told."""
+cm mill. Statements that do not concern the axis are also compared with the 12 cm mill's slice. Each gives verdicts (see
+compared_runs) with their numbers. Tilts, numbers of humps and shares are compared with a limit as they are; their
+errors are printed."""
 import numpy as np
 from scipy.signal import find_peaks
 
@@ -18,7 +18,7 @@ from .run_readings import read_run
 FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02
 TWICE = (1.5, 2.5)  # what counts as about twice
 SLIGHTLY = 0.03  # of a height, over the mill's diameter
-CLEARLY = 1.1  # ratio of two pressure drops from which one is clearly larger
+CLEARLY = 1.1  # least ratio of two pressure drops of which one is clearly larger
 # All that is published: solids of the slurry, % by mass -> number that most of it is below
 REYNOLDS = {20: 150, 40: 90}
 
@@ -34,15 +34,15 @@ def flat_without_balls(runs):
             continue
         tilt, deviation = run.surface.tilt, run.surface.deviation.value
         flat = abs(tilt.value) <= FLAT_TILT and deviation <= FLAT_DEVIATION * run.diameter
-        figure = (f"tilt {tilt.told('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
+        figure = (f"tilt {tilt.text('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
                   f"degrees, {1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
         found.append(Verdict(statement, run.name, *judged(CONFIRMED if flat else CONTRADICTED, figure, run)))
     return found
 
 
 def maxima(z, height, error):
-    """Places (m) of a profile's maxima, those at its ends too, that stand out: by more than a tenth of its range, and
-    three times the error of the difference of two of its heights [n] (m), whose standard errors are `error` (m)."""
+    """Places (m) of a profile's clear maxima, also at its ends. Their prominence is more than a tenth of the range, and
+    three times the error of the difference of two heights [n] (m) with the standard errors `error` (m)."""
     padded = np.concatenate([[height.min() - 1], height, [height.min() - 1]])
     return z[find_peaks(padded, prominence=max(3 * np.sqrt(2) * error, 0.1 * np.ptp(height)))[0] - 1]
 
@@ -96,7 +96,7 @@ def surface_follows(runs):
         if run.law and run.surface and run.surface.charge_tilt is not None:
             tilt, charge = run.surface.tilt, run.surface.charge_tilt
             margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error)
-            figure = f"tilt of the slurry {tilt.told('degrees')}, of the charge {charge:.1f} (level: 0)"
+            figure = f"tilt of the slurry {tilt.text('degrees')}, of the charge {charge:.1f} (level: 0)"
             found.append(Verdict(statement, run.name, *judged(by_sign(margin), figure, run)))
         elif run.law:
             found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
@@ -104,28 +104,29 @@ def surface_follows(runs):
 
 
 def lacking(runs):
-    """Which run is to be named for each mill of which there is none with balls."""
+    """Run to name for each mill without a run with balls."""
     named = Which(75, "Beetstra", 20), Which(50, "Beetstra", None, SLICE)
     return [which for which in named if not runs.of(which.mill)]
 
 
 def pair(runs, statement, first, second, judge):
-    """Verdict of judge(run, run) on two runs (Which); `not tested` where one is missing, or one has more slices."""
+    """Verdict of judge(run, run) on two runs (Which); `not tested` if one is missing, or one has more slices."""
     found = [runs.find(which) for which in (first, second)]
     gone = [unread(run, runs, which) for run, which in zip(found, (first, second)) if not run or not run.series]
     names = f"{first}; {second}"
     if not gone and len(found[0].series.z) != len(found[1].series.z):
-        gone = [f"{one.name} has {len(one.series.z)} slices along the axis" for one in found] + ["expected as many"]
+        gone = [f"{one.name} has {len(one.series.z)} slices along the axis" for one in found] + [
+            "expected the same number"]
     if gone:
         return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
     return Verdict(statement, names, *judged(*judge(*found), *found))
 
 
 def concentration_raises(runs):
-    """A higher concentration of the slurry raises it: the highest of a mill and law against the lowest."""
+    """A higher concentration of the slurry raises it: the highest of a mill and law compared with the lowest."""
     def judge(thin, thick):
         rise = height(thick) - height(thin)
-        return by_sign(rise), f"rises by {rise.told('mm', 1e3, '.2f')}"
+        return by_sign(rise), f"rises by {rise.text('mm', 1e3, '.2f')}"
 
     return [pair(runs, "a higher slurry concentration raises it",
                  *(Which(speed, law, one, mill) for one in (solids[0], solids[-1])), judge)
@@ -138,7 +139,7 @@ def drag_raises(runs):
     def judge(beetstra, ergun):
         rise = height(ergun) - height(beetstra)
         slight = abs(rise.value) <= SLIGHTLY * ergun.diameter
-        return by_sign(rise) if slight else CONTRADICTED, f"higher by {rise.told('mm', 1e3, '.2f')}"
+        return by_sign(rise) if slight else CONTRADICTED, f"higher by {rise.text('mm', 1e3, '.2f')}"
 
     higher, shrinks = [], []
     for mill, speed, solids in runs.places():
@@ -162,7 +163,7 @@ def drag_difference_shrinks(runs, four):
     if gone:
         return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
     rises = [height(found[second]) - height(found[second - 1]) for second in (1, 3)]
-    figure = " and ".join(rise.told("mm", 1e3, ".2f") for rise in rises)
+    figure = " and ".join(rise.text("mm", 1e3, ".2f") for rise in rises)
     return Verdict(statement, names, *judged(by_sign(rises[0] - rises[1]), figure, *found))
 
 
@@ -217,7 +218,7 @@ def pressure_drops(runs):
         verdict = by_sign(more - less)
         if verdict == CONFIRMED and (sign(more) <= 0 or more.value < CLEARLY * less.value):
             verdict = CONTRADICTED
-        return verdict, f"{more.told('Pa')} against {less.told('Pa')}" + (
+        return verdict, f"{more.text('Pa')} compared with {less.text('Pa')}" + (
             "; the pressure does not fall towards the discharge" if max(more.value, less.value) < 0 else "")
 
     return [pair(runs, "the axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra",
@@ -231,7 +232,7 @@ def circulation(runs):
         if run.toe:
             signs = sign(run.toe), sign(run.shoulder)
             verdict = CONFIRMED if signs == (1, -1) else CONTRADICTED if signs[0] < 0 or signs[1] > 0 else UNDECIDED
-            figure = (f"mean {run.toe.told('mm/s', 1e3)} on the toe's half, {run.shoulder.told('mm/s', 1e3)} on the "
+            figure = (f"mean {run.toe.text('mm/s', 1e3)} on the toe's half, {run.shoulder.text('mm/s', 1e3)} on the "
                       "shoulder's")
             found.append(Verdict(statement, run.name, *judged(verdict, figure, run)))
         else:
@@ -251,7 +252,7 @@ def verdicts(runs):
 
 
 def read(case):
-    """RunReadings of a MillCase with a flow, of a slice too with its series: it tells whether it is steady."""
+    """RunReadings of a MillCase with a flow; also a slice gets its series, which shows whether it is steady."""
     found = read_run(case)
     if found.series is None and not found.ends:
         try:

@@ -3,7 +3,7 @@
 """Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, against the closed form.
 
 With the plates at y = -h and h, force per volume G, yield stress tau0 and plastic viscosity mu, the slurry moves as a
-plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); beside it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu) (Bird,
+plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); next to it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu) (Bird,
 Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). With slurryFoam also softer plugs: the error has
 to go down with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one
 misses."""
@@ -143,7 +143,7 @@ def print_table(flows, out):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
     lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
-                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are held against their own curve "
+                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are compared with their own curve "
                  "alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")

@@ -63,7 +63,7 @@ class Bed:
     cells: int
     beta: float
     numerical: float = np.nan
-    overshoot: float = np.nan  # of the pressure beside the bed's ends, over the drop
+    overshoot: float = np.nan  # of the pressure close to the bed's ends, over the drop
     spurious: float = np.nan  # largest |u| over the balls' speed
 
     @property

@@ -32,7 +32,7 @@ FLUID_STEPS, POOL_END = 50, 0.2
 MOST_AIR, MOST_SLURRY = 3.0, 0.12  # m/s
 STILL_FLUID = dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no",
                    writeInterval=FLUID_STEPS * 1e-3)
-# By name: mill (beside this file, or elsewhere) and its settings, the DEM time it is turned to, parameters of the flow
+# By name: mill (in this folder, or elsewhere) and its settings, the DEM time it is turned to, parameters of the flow
 RUNS = {
     "pool": ("mill.yaml", (), 0, dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes",
                                       writeInterval=0.01)),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Spurious speeds of a pool that should be at rest, read from a run's written times and kept beside it."""
+"""Spurious speeds of a pool that should be at rest, read from a run's written times and kept in its folder."""
 import csv
 import math
 from dataclasses import astuple, dataclass, fields

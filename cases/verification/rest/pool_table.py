@@ -76,8 +76,8 @@ def judge(histories, end):
     for run, history in histories.items():
         if run.solver != JUDGED:
             continue
-        beside = [other for other in histories if other.setting == run.setting and other.solver == REFERENCE]
-        for what, found, allowed in checks(run, history, histories[beside[0]] if beside else None, end):
+        references = [other for other in histories if other.setting == run.setting and other.solver == REFERENCE]
+        for what, found, allowed in checks(run, history, histories[references[0]] if references else None, end):
             hit = math.isfinite(found) and found <= allowed
             missed += not hit
             text.append(f"{what:<86} {found:10.3e} {allowed:9.2e}" + ("" if hit else "  MISSED"))

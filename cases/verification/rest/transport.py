@@ -55,7 +55,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--meshes", nargs="+", choices=pool.OMEGA, default=list(pool.OMEGA))
     parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport",
-                        help="folder of the runs, made anew")
+                        help="folder of the runs; it is made again")
     options = parser.parse_args()
     here, work = Path(__file__).parent.resolve(), options.work.resolve()
     lines = [f"{'mesh':<8} {'solver':<13} {'surface moved, mm':>18} {'volume change':>14} {'cells of the surface':>21}"]

@@ -134,7 +134,7 @@ def build(run, case, here):
 
 @dataclass
 class History:
-    """The first mode's share of the surface's elevation (m) at the written times (s), and what it is held against."""
+    """The first mode's share of the surface's elevation (m) at the written times (s), and its reference."""
     run: Run
     time: np.ndarray
     elevation: np.ndarray

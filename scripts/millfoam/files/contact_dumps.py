@@ -20,8 +20,8 @@ BALL_COLUMNS = {"id": "id", "type": "type", "position": ("x", "y", "z"), "veloci
 
 @dataclass
 class Materials:
-    """What the deck says of the atom types, the last of which is the wall's: youngs_modulus [n] (Pa), poisson_ratio
-    [n], restitution [n, n], friction [n, n]; density of the balls (kg/m^3)."""
+    """Properties of the deck's atom types (the last one is the wall): youngs_modulus [n] (Pa), poisson_ratio [n],
+    restitution [n, n], friction [n, n]; density of the balls (kg/m^3)."""
     youngs_modulus: np.ndarray
     poisson_ratio: np.ndarray
     restitution: np.ndarray
@@ -30,7 +30,7 @@ class Materials:
 
 
 def read_materials(deck: Path | str) -> Materials:
-    """Materials of a run's deck, DIR/dem/in.mill; RuntimeError naming the property that it lacks."""
+    """Materials of a run's deck, DIR/dem/in.mill; RuntimeError names a missing property."""
     text = Path(deck).read_text()
     found: dict[str, Any] = {}
     for line in text.splitlines():
@@ -53,7 +53,7 @@ def read_table(path: Path | str, columns: dict[str, Any]) -> tuple[dict[str, np.
     """A LIGGGHTS dump as ({key: values [m], or [m, n] for n columns}, the box's periods [3] (m), inf where it has
     walls).
 
-    columns: for each key the number of a compute's column, or a column's name, or a tuple of these. RuntimeError naming
+    columns: for each key the number of a compute's column, or a column's name, or a tuple of these. RuntimeError names
     the file, the line and what was expected."""
     lines = Path(path).read_text().splitlines()
     if len(lines) < 9 or not lines[8].startswith("ITEM: ") or not lines[3].isdigit() or len(lines) != 9 + int(lines[3]):
@@ -85,7 +85,7 @@ def _numbers(path: Path | str, lines: list[str], columns: int) -> np.ndarray:
 
 
 def contact_steps(folder: Path | str) -> list[int]:
-    """Steps of the contact dumps of a case DIR; RuntimeError where there are none."""
+    """Steps of the contact dumps of a case DIR; RuntimeError if there are none."""
     return [step for step, _ in numbered_dumps(Path(folder) / "contacts", "pairs")]
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the files of numbers that the stages leave: JSON with a format's name, and CSV with a unit in each column's
-name."""
+"""Reads the stages' files of numbers: JSON with a format's name, and CSV with a unit in each column's name."""
 import json
 import math
 from pathlib import Path
@@ -10,11 +9,11 @@ import numpy as np
 
 
 class DataError(RuntimeError):
-    """A file of numbers that cannot be read; the message names the file, the place in it and what was expected."""
+    """A file of numbers that cannot be read; the message names the file, the line or key, and what was expected."""
 
 
 def read_text(path: Path | str) -> str:
-    """Text of a file in UTF-8; DataError where it is not there or is in another encoding."""
+    """Text of a file in UTF-8; DataError if it is missing or has another encoding."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
@@ -24,7 +23,7 @@ def read_text(path: Path | str) -> str:
 
 
 def read_json(path: Path | str, kind: str) -> dict[str, Any]:
-    """Content of a JSON file of the format millfoam-`kind`; DataError naming what is wrong with it."""
+    """Content of a JSON file of the format millfoam-`kind`; DataError names what is wrong with it."""
     try:
         content = json.loads(read_text(path))
     except json.JSONDecodeError as error:
@@ -39,7 +38,7 @@ def read_json(path: Path | str, kind: str) -> dict[str, Any]:
 
 
 def entry(content: Any, path: Path | str, *keys: str) -> Any:
-    """content[key][key]…; DataError naming `path` and the first key that is not there."""
+    """content[key][key]…; DataError names `path` and the first key that is missing."""
     for depth, key in enumerate(keys):
         if not isinstance(content, dict) or key not in content:
             raise DataError(f"{path}: no {'.'.join(keys[:depth + 1])}")
@@ -48,7 +47,7 @@ def entry(content: Any, path: Path | str, *keys: str) -> Any:
 
 
 def number(content: Any, path: Path | str, *keys: str) -> float:
-    """The number content[key]…, NaN for null; DataError naming `path` and the key where there is none."""
+    """The number content[key]…, NaN for null; DataError names `path` and the key if there is no number."""
     value = entry(content, path, *keys)
     if value is None:
         return math.nan
@@ -58,11 +57,11 @@ def number(content: Any, path: Path | str, *keys: str) -> float:
 
 
 def read_csv(path: Path | str) -> dict[str, np.ndarray]:
-    """Columns of a CSV file, name -> values [rows]. A last line without an end is what a killed program was writing:
-    it is left out. DataError naming the line that is no row of numbers."""
+    """Columns of a CSV file, name -> values [rows]. A last line without a line end, from a killed program, is left
+    out. DataError names a line that is no row of numbers."""
     lines = read_text(path).split("\n")[:-1]
     if not lines:
-        raise DataError(f"{path}: no line; expected the columns' names")
+        raise DataError(f"{path}: no complete line; expected the columns' names")
     names, rows = [name.strip() for name in lines[0].split(",")], []
     for count, line in enumerate(lines[1:], start=2):
         try:

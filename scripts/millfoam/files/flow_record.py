@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What slurryFoam left of its steps: rows of postProcessing/flow/START/steps.csv, and START/flow.json, a summary of
-each start."""
+"""slurryFoam's record of its steps: rows of postProcessing/flow/START/steps.csv, and START/flow.json, a summary of each
+start."""
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,24 +12,24 @@ from .data_files import DataError, read_csv, read_json
 
 @dataclass
 class FlowRecord:
-    """Of a flow, its restarts joined. steps: column -> values over the steps, or None; summaries: [(path, content)]
-    of the starts in order of time."""
+    """Record of a flow with all its restarts. steps: column -> values over the steps, or None; summaries: [(path,
+    content)] of the starts in order of time."""
     steps: dict[str, np.ndarray] | None
     summaries: list[tuple[Path, dict[str, Any]]]
 
     @property
     def last(self) -> dict[str, Any]:
-        """Summary of the last start; an empty one where none was written."""
+        """Summary of the last start; empty if none was written."""
         return self.summaries[-1][1] if self.summaries else {}
 
     @property
     def complete(self) -> bool | None:
-        """Whether the last start came to its end; None where no summary tells it."""
+        """Whether the last start reached its end; None without a summary."""
         return self.last.get("complete")
 
 
 def starts(folder: Path | str) -> list[tuple[float, Path]]:
-    """[(start, folder)] in order of time of what is in CASE/postProcessing/flow."""
+    """[(start, folder)] of CASE/postProcessing/flow in order of time."""
     found = []
     for place in (Path(folder) / "postProcessing" / "flow").glob("*"):
         try:
@@ -40,8 +40,8 @@ def starts(folder: Path | str) -> list[tuple[float, Path]]:
 
 
 def joined(parts: list[tuple[float, dict[str, np.ndarray]]]) -> dict[str, np.ndarray]:
-    """Columns of steps out of [(start time, columns)] in order of time: steps of an earlier start that end after a
-    later one's start were computed again, and are left out. DataError where columns differ."""
+    """Columns of steps from [(start time, columns)] in order of time. Steps of an earlier start that end after a later
+    start were computed again and are left out. DataError if columns differ."""
     names = list(parts[0][1])
     rows = np.empty((0, len(names)))
     for start, columns in parts:
@@ -54,7 +54,7 @@ def joined(parts: list[tuple[float, dict[str, np.ndarray]]]) -> dict[str, np.nda
 
 
 def read_flow_record(folder: Path | str) -> FlowRecord:
-    """FlowRecord of a case's folder, empty where slurryFoam left nothing; DataError for a file that cannot be read."""
+    """FlowRecord of a case's folder, empty if slurryFoam wrote none; DataError for a file that cannot be read."""
     found = starts(folder)
     parts = [(start, read_csv(place / "steps.csv")) for start, place in found if (place / "steps.csv").is_file()]
     for start, columns in parts:

@@ -12,14 +12,13 @@ COLUMNS, VELOCITIES = ("x_m", "y_m", "solidity"), ("vx", "vy")
 
 
 def read_measured(path: Path | str, like: SolidsMap) -> SolidsMap:
-    """A measured map as a SolidsMap on the voxels of another, `like`, whose room within the walls and times it takes
-    over.
+    """A measured map as a SolidsMap on the voxels of another, `like`, with its walls and times.
 
-    path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s; both empty where
-    no velocity was measured, both columns missing where none was at all), in any order and among others, blanks around
-    names and numbers or not. Voxels may be missing: their solidity and velocity are NaN. ValueError, naming file, line,
-    column and value, for a missing column, what is no number, a solidity beyond 0 to 1, a place that is no voxel's
-    centre, and a voxel told twice."""
+    path: CSV with a header and the columns x_m, y_m (of a voxel's centre, m), solidity, vx, vy (m/s). vx and vy are
+    empty where no velocity was measured; both columns are missing if none was measured at all. The columns have any
+    order, other columns and blanks are allowed. Voxels may be missing: their solidity and velocity are NaN. ValueError
+    names file, line, column and value of a missing column, a wrong number, a solidity outside 0 to 1, a place that is
+    no voxel's centre, and a voxel that is given twice."""
     solidity, velocity = np.full(like.solidity.shape, np.nan), np.full(like.velocity.shape, np.nan)
     # Spreadsheets put a mark before UTF-8
     with open(path, newline="", encoding="utf-8-sig") as file:
@@ -35,7 +34,7 @@ def read_measured(path: Path | str, like: SolidsMap) -> SolidsMap:
             place = tuple(_voxel(path, line, column, _number(path, row, line, column), edges)
                           for column, edges in (("y_m", like.y), ("x_m", like.x)))
             if np.isfinite(solidity[place]):
-                raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was told "
+                raise ValueError(f"{path}, line {line}, columns x_m, y_m: voxel {row['x_m']}, {row['y_m']} was given "
                                  "before")
             solidity[place] = _number(path, row, line, "solidity", 0, 1)
             if any((row[column] or "").strip() for column in measured):

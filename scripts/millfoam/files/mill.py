@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads DIR/mill.json, the resolved mill: every key of mill.yaml with its default, and every number derived from them.
 
-The tools write it (layout: meshing/README.md); nothing of a mill is computed here."""
+The tools write it (layout: FORMATS.md). This module computes nothing."""
 import json
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +14,7 @@ SECTIONS = ("geometry", "speed", "charge")
 
 
 class NoMill(RuntimeError):
-    """A folder that is no mill's case; the message says what was looked for."""
+    """A folder that is no mill's case; the message names the missing file."""
 
 
 def fnv1a(content: bytes) -> str:
@@ -27,7 +27,7 @@ def fnv1a(content: bytes) -> str:
 
 
 def read_mill(folder: Path | str) -> "Mill":
-    """The Mill of a case's folder; NoMill where its mill.json is missing, no JSON, of another format or incomplete."""
+    """The Mill of a case's folder; NoMill if its mill.json is missing, no JSON, of another format or incomplete."""
     path = Path(folder) / "mill.json"
     if not path.is_file():
         raise NoMill(f"{folder}: no mill.json; expected the folder of a mill's case that was run: run Allrun, or "
@@ -39,7 +39,7 @@ def read_mill(folder: Path | str) -> "Mill":
 
 
 class Mill:
-    """A resolved mill; lengths in m, angles in rad, times in s. DataError where mill.json lacks a section."""
+    """A resolved mill; lengths in m, angles in rad, times in s. DataError if mill.json lacks a section."""
 
     def __init__(self, path: Path | str, content: dict[str, Any]) -> None:
         self.path, self.content = Path(path), content
@@ -48,11 +48,11 @@ class Mill:
             entry(content, path, "mill", section)
 
     def derived(self, *keys: str) -> float:
-        """A derived number; NaN for null. DataError naming the key where it is missing."""
+        """A derived number; NaN for null. DataError names a missing key."""
         return number(self.content, self.path, "derived", *keys)
 
     def asked(self, *keys: str) -> Any:
-        """A key of mill.yaml with its default, or None where this mill has none."""
+        """A key of mill.yaml with its default, or None if this mill has none."""
         try:
             return entry(self.content, self.path, "mill", *keys)
         except DataError:
@@ -65,12 +65,12 @@ class Mill:
 
     @property
     def fingerprint(self) -> dict[str, str]:
-        """Of its parts: walls, charge, averages, flow -> 16 hex digits."""
+        """Fingerprints of its parts: walls, charge, averages, flow -> 16 hex digits."""
         return self.content.get("fingerprint") or {}
 
     @property
     def settings(self) -> list[str]:
-        """What `--set` changed: list of `path=value`."""
+        """Changes by `--set`: list of `path=value`."""
         return self.content.get("set") or []
 
     @cached_property
@@ -80,7 +80,7 @@ class Mill:
 
     @cached_property
     def length(self) -> float:
-        """Of what is computed: a slice's length."""
+        """Length of the computed part, which may be a slice, m."""
         return self.derived("geometry", "length_m")
 
     @cached_property
@@ -119,7 +119,7 @@ class Mill:
 
     @cached_property
     def turn(self) -> float:
-        """Time of a turn."""
+        """Time of one turn, s."""
         return self.derived("speed", "turn_s")
 
     @property
@@ -139,12 +139,12 @@ class Mill:
 
     @property
     def load(self) -> float:
-        """Share of the mill that the simulated charge fills in bulk."""
+        """Share of the mill that the bulk of the simulated charge fills."""
         return self.derived("charge", "load")
 
     @property
     def load_asked(self) -> float:
-        """The same with the fines that are left out."""
+        """The same, with the fines that are left out."""
         return self.derived("charge", "load_asked")
 
     @property
@@ -158,7 +158,7 @@ class Mill:
         return self.derived("slurry", key)
 
     def flow(self, key: str, default: Any = None) -> Any:
-        """A derived value of the flow, or the default where the mill has none."""
+        """A derived value of the flow, or the default if the mill has none."""
         return (self.content["derived"].get("flow") or {}).get(key, default)
 
     @property
@@ -167,16 +167,16 @@ class Mill:
         return Path(self.content.get("file") or "mill.yaml").name
 
     def changed_since(self) -> bool | None:
-        """Whether the file that this mill was read from, now beside mill.json, has other bytes; None where that
-        cannot be told."""
-        told, file = self.content.get("file_fingerprint"), self.path.parent / self.file_name
-        if not told or not file.is_file() or file == self.path:
+        """Whether the file that this mill was read from, in the folder of mill.json, has changed; None if that is not
+        known."""
+        fingerprint, file = self.content.get("file_fingerprint"), self.path.parent / self.file_name
+        if not fingerprint or not file.is_file() or file == self.path:
             return None
-        return fnv1a(file.read_bytes()) != told
+        return fnv1a(file.read_bytes()) != fingerprint
 
     def text(self) -> str:
-        """The resolved mill, laid out for reading: its keys and derived numbers, one a line, lists and small groups
-        in a line."""
+        """The resolved mill as text for reading: keys and derived numbers, one on each line; short lists and groups on
+        one line."""
         shown = {key: self.content[key] for key in ("mill", "derived")}
         return "\n".join(lines_of({"fingerprint": self.fingerprint, **shown}))
 
@@ -185,11 +185,11 @@ def lines_of(values: dict[str, Any], indent: str = "") -> list[str]:
     """Lines `key: value` of nested dictionaries."""
     lines = []
     for key, value in values.items():
-        told = json.dumps(value, ensure_ascii=False)
-        if isinstance(value, dict) and len(indent) + len(told) > 100 or isinstance(value, dict) and len(value) > 3:
+        text = json.dumps(value, ensure_ascii=False)
+        if isinstance(value, dict) and len(indent) + len(text) > 100 or isinstance(value, dict) and len(value) > 3:
             lines += [f"{indent}{key}:", *lines_of(value, indent + "  ")]
-        elif isinstance(value, list) and value and len(indent) + len(told) > 100:
+        elif isinstance(value, list) and value and len(indent) + len(text) > 100:
             lines += [f"{indent}{key}:", *(f"{indent}  - {json.dumps(one, ensure_ascii=False)}" for one in value)]
         else:
-            lines.append(f"{indent}{key}: {value if isinstance(value, str) else told}")
+            lines.append(f"{indent}{key}: {value if isinstance(value, str) else text}")
     return lines

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a case folder holds of a mill's run, whatever of it is there: mill, charge, flow, tables, results of its
-stages."""
+"""Parts of a mill's run in a case folder, if they exist: mill, charge, flow, tables, results of its stages."""
 from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
@@ -20,15 +19,15 @@ from .outline import lifter_outline
 from .solids_file import SolidsMap
 from .written_times import MillFlow
 
-CUT = 0.01  # of a flow's duration: what it may lack of it
+CUT = 0.01  # share of a flow's duration that may be missing
 
 
 class MillCase:
-    """A mill's run in a folder; parts that are not there are None.
+    """A mill's run in a folder; missing parts are None.
 
-    begin: flow time from which averages are taken, s; None: the mill's own (flow.averages_start), or the second half
-    of a flow that was cut short before. A dry run is averaged from the same time of its own, or from when it is
-    steady. unusable: what is there but cannot be used, in words."""
+    begin: flow time at which the averages begin, s. None: the mill's own (flow.averages_start), or half of the time of
+    a flow that was cut short before. The averages of a dry run begin at the same time of its own, or when it is steady.
+    unusable: why files cannot be used, in words."""
 
     def __init__(self, folder: Path | str, begin: float | None = None) -> None:
         self.folder = Path(folder)
@@ -36,8 +35,7 @@ class MillCase:
         self.unusable: list[str] = []
         self.mill = read_mill(self.folder)
         if self.flow is None and self.solids is None and self.dry is None:
-            raise NoMill("; ".join([f"{self.folder}: neither a flow (times with alpha.slurry), nor a whole solids.h5, "
-                                    f"nor "
+            raise NoMill("; ".join([f"{self.folder}: no flow (times with alpha.slurry), no complete solids.h5, no "
                                     "dumps/results.json; has the case run to its end?", *self.unusable]))
         if begin is None:
             return
@@ -54,7 +52,7 @@ class MillCase:
 
     @property
     def title(self) -> str:
-        """The mill's title, or else the folder's name."""
+        """The mill's title, or the folder's name."""
         return self.mill.title or self.name
 
     @property
@@ -64,7 +62,7 @@ class MillCase:
 
     @property
     def length(self) -> float:
-        """Length of what is computed, m."""
+        """Length of the computed part, m."""
         return self.mill.length
 
     @property
@@ -89,7 +87,7 @@ class MillCase:
 
     @cached_property
     def has_balls(self) -> bool:
-        """Whether the charge is in the flow, or there is no flow."""
+        """Whether the flow has balls, or there is no flow."""
         return bool(not self.flow or self.law or self.flow.displaced)
 
     @cached_property
@@ -104,13 +102,13 @@ class MillCase:
         return lifter_outline(self.radius, *self.mill.lifters, self.omega * time)
 
     def json(self, path: Path, kind: str) -> dict[str, Any] | None:
-        """Content of a JSON file millfoam-`kind`, or None; one that cannot be read is told in `unusable`."""
+        """Content of a JSON file millfoam-`kind`, or None; `unusable` reports a file that cannot be read."""
         if not path.is_file():
             return None
-        return self._told(lambda: read_json(path, kind))
+        return self._reported(lambda: read_json(path, kind))
 
-    def _told(self, read: Callable[[], Any], none: Any = None) -> Any:
-        """What read() gives; `none`, and the error's text in `unusable`, if it raises one."""
+    def _reported(self, read: Callable[[], Any], none: Any = None) -> Any:
+        """The result of read(); if it raises an error, `none`, with the error's text in `unusable`."""
         try:
             return read()
         except (RuntimeError, OSError, ValueError, KeyError) as error:
@@ -123,33 +121,33 @@ class MillCase:
 
     @cached_property
     def solids(self) -> Path | None:
-        """solids.h5, with links followed, where it is whole and of a box's voxels."""
+        """solids.h5, with links followed, if it is complete and has a box's voxels."""
         path = self.folder / "solids.h5"
         if not self._whole(path, "average the dumps again (millAverage)"):
             return None
         with h5py.File(path) as file:
             if "lower" not in file["grid"].attrs:
-                self.unusable.append(f"{path}: its cells are not a box's voxels, which maps are made of")
+                self.unusable.append(f"{path}: its cells are not a box's voxels, which maps need")
                 return None
         return path.resolve()
 
     def _whole(self, path: Path, advice: str) -> bool:
-        """Whether a file of averages is there and whole."""
+        """Whether a file of averages exists and is complete."""
         if not path.is_file():
             return False
         try:
             with h5py.File(path) as file:
                 if file.attrs.get("complete", 0) == 1:
                     return True
-                reason = "it is half-written"
+                reason = "it is not complete"
         except OSError:
-            reason = "it is cut short, or no HDF5 file"
-        self.unusable.append(f"{path}: not used, as {reason}; {advice}")
+            reason = "it is cut short or no HDF5 file"
+        self.unusable.append(f"{path}: not used, because {reason}; {advice}")
         return False
 
     @cached_property
     def charge_folders(self) -> list[Path]:
-        """Folders in which the charge may have been made: the case's, and that of solids.h5 where that is a link."""
+        """Folders in which the charge may have been made: the case's, and that of solids.h5 if this is a link."""
         return list(dict.fromkeys([self.folder.resolve()] + ([self.solids.parent] if self.solids else [])))
 
     @cached_property
@@ -164,7 +162,7 @@ class MillCase:
         return self.json(self.dry / "results.json", "charge") if self.dry else None
 
     def result(self, *keys: str) -> float:
-        """A number of results.json, NaN for null; DataError where there is none."""
+        """A number of results.json, NaN for null; DataError if it is missing."""
         return number(self.results, self.dry / "results.json", *keys)
 
     @cached_property
@@ -179,7 +177,7 @@ class MillCase:
 
     def _columns(self, name: str) -> dict[str, np.ndarray] | None:
         path = self.dry / name if self.dry else None
-        found = self._told(lambda: read_csv(path)) if path and path.is_file() else None
+        found = self._reported(lambda: read_csv(path)) if path and path.is_file() else None
         return found if found and len(next(iter(found.values()))) > 1 else None
 
     @cached_property
@@ -211,7 +209,7 @@ class MillCase:
 
     @cached_property
     def contacts(self) -> Path | None:
-        """The folder that holds the dry run's contacts/ beside its dumps/, or None."""
+        """The folder with the dry run's contacts/ and dumps/, or None without contacts."""
         folder = self.dry.parent if self.dry else None
         return folder if folder and any((folder / "contacts").glob("pairs.*.txt")) else None
 
@@ -225,8 +223,8 @@ class MillCase:
 
     @cached_property
     def flow(self) -> MillFlow | None:
-        """MillFlow of the written times; None without a flow, and where it cannot be used, told in `unusable`."""
-        # millMesh writes the mill's mesh and numbers for a dry run too
+        """MillFlow of the written times; None without a flow, or if `unusable` reports that it cannot be used."""
+        # millMesh writes the mill's mesh and numbers for a dry run, too
         record = self.folder / "postProcessing" / "flow"
         if not (times(self.folder) or any(self.folder.glob("processor*")) or record.is_dir()):
             return None
@@ -238,8 +236,8 @@ class MillCase:
 
     @cached_property
     def record(self) -> FlowRecord:
-        """FlowRecord of the flow's steps and summaries, empty where there is none."""
-        return self._told(lambda: read_flow_record(self.folder), FlowRecord(None, []))
+        """FlowRecord of the flow's steps and summaries, empty if there is none."""
+        return self._reported(lambda: read_flow_record(self.folder), FlowRecord(None, []))
 
     @cached_property
     def last(self) -> float:
@@ -248,18 +246,18 @@ class MillCase:
 
     @cached_property
     def duration(self) -> float:
-        """Time that the flow was to last, s; NaN where the mill does not tell it."""
+        """Duration of the flow by the mill, s; NaN if the mill has none."""
         return float(self.mill.flow("duration_s") or np.nan)
 
     @cached_property
     def is_cut_short(self) -> bool:
-        """Whether the flow has not come to the end that the mill asks for."""
+        """Whether the flow has not reached the mill's end time."""
         return self.record.complete is False or self.last < (1 - CUT) * self.duration
 
     @cached_property
     def begin(self) -> float:
-        """Flow time from which averages are taken, s: of a flow that has less than half of what was to be averaged,
-        its half."""
+        """Flow time at which the averages begin, s. If the flow has less than half of the time that the mill averages,
+        half of its time."""
         if self.asked_begin is not None:
             return self.asked_begin
         start = self.mill.flow("averages_start_s")
@@ -280,14 +278,14 @@ class MillCase:
 
     @cached_property
     def is_open(self) -> bool:
-        """Whether slurry is fed or let out: more than round-off."""
-        told = self.balance
-        through = max(np.abs(told["feed"]).max(), np.abs(told["discharge"]).max()) * np.ptp(told["Time"])
-        return through > 1e-6 * told["holdUp"].max()
+        """Whether slurry enters or leaves, by more than round-off."""
+        columns = self.balance
+        through = max(np.abs(columns["feed"]).max(), np.abs(columns["discharge"]).max()) * np.ptp(columns["Time"])
+        return through > 1e-6 * columns["holdUp"].max()
 
     @property
     def met_balls(self) -> bool:
-        """Whether slurryBalance told Reynolds numbers of balls in slurry."""
+        """Whether slurryBalance has Reynolds numbers of balls in slurry."""
         return "Re_mean" in self.balance and bool((self.balance["Re_mean"] > 0).any())
 
     def axial(self, quantity: str) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
@@ -299,13 +297,13 @@ class MillCase:
         return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
 
     def _table(self, name: str, read: Callable[[], Any]) -> Any:
-        """What read() gives of a function object's table; None without a flow and, told where there are such tables,
-        if it cannot be read."""
-        return self._told(read) if self.flow and (self.folder / "postProcessing" / name).is_dir() else None
+        """The result of read() of a function object's table; None without a flow or table, or if `unusable` reports
+        that it cannot be read."""
+        return self._reported(read) if self.flow and (self.folder / "postProcessing" / name).is_dir() else None
 
     @cached_property
     def slurry(self) -> Path | None:
-        """slurry.h5, where it is whole."""
+        """slurry.h5, if it is complete."""
         path = self.folder / "slurry.h5"
         return path if self._whole(path, "let the flow run to its end (voxelAverages.H)") else None
 
@@ -316,7 +314,7 @@ class MillCase:
 
     @cached_property
     def law(self) -> str | None:
-        """The drag law's name, or None without balls or flow: what the solver tells, else what the mill asks for."""
+        """The drag law's name from the solver's summary, or otherwise from the mill; None without balls or flow."""
         if not self.flow:
             return None
         if self.record.summaries:

@@ -4,15 +4,15 @@ import numpy as np
 
 
 def circle(radius: float) -> np.ndarray:
-    """Points [361, 2] of the circle of a radius about the axis, in its unit."""
+    """Points [361, 2] of a circle about the axis, in the radius' unit."""
     turn = np.linspace(0, 2 * np.pi, 361)
     return radius * np.column_stack([np.cos(turn), np.sin(turn)])
 
 
 def lifter_outline(radius: float, count: int, height: float, width: float, top_width: float,
                    angle: float) -> np.ndarray:
-    """Closed outline [n, 2] (m) of a shell with `count` trapezoids of which the first stands at `angle` (rad) from
-    +x; height from the shell to the middle of the flat top, width of the foot between its points on the shell."""
+    """Closed outline [n, 2] (m) of a shell with `count` trapezoids, the first at `angle` (rad) from +x; height: from
+    the shell to the middle of the flat top; width: of the foot, between its points on the shell."""
     if not count:
         return circle(radius)
     half, pitch = np.arcsin(width / 2 / radius), 2 * np.pi / count

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry on voxels
-(layout: averaging/README.md)."""
+(layout: FORMATS.md)."""
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,9 +15,9 @@ from .solids_file import CLOCKWISE, open_hdf5
 class SlurryMap:
     """Slurry averaged over axis and time on the pixels of a box about the mill.
 
-    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx], of the fluid (what balls leave)
-    that is slurry, NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what the
-    mean over time is of, in words; sense: the mill's."""
+    x, y: edges of the pixels [nx + 1], [ny + 1] (m), equally spaced; share [ny, nx] of slurry in the fluid (the space
+    without balls), NaN outside the mill; velocity [ny, nx, 3] (m/s), NaN where there is no slurry; source: what was
+    averaged over time, in words; sense: the mill's."""
     x: np.ndarray
     y: np.ndarray
     share: np.ndarray
@@ -38,7 +38,7 @@ class SlurryMap:
 class VoxelMap(SlurryMap):
     """SlurryMap on the box's x-y voxels.
 
-    inside [ny, nx], the share of the column within the mill; holdup [ny, nx], of the mill's space that is slurry;
+    inside [ny, nx], the share of the column within the mill; holdup [ny, nx], the share of slurry in the mill's space;
     pressure [ny, nx] (Pa) of the slurry, NaN where there is none; begin, end: DEM time (s)."""
     inside: np.ndarray
     holdup: np.ndarray
@@ -56,9 +56,9 @@ class VoxelMap(SlurryMap):
 
 def read_slurry_map(path: Path | str, begin: float | None = None, end: float | None = None, length: float = np.inf,
                     sense: float = CLOCKWISE) -> VoxelMap:
-    """VoxelMap of a slurry.h5: mean over the axis, by the layers of voxels with their middle before z = length (m), and
-    over the windows that lie in [begin, end) of DEM time; of all that the file's own mean over the run takes where no
-    times are given. sense: the mill's. RuntimeError for a file that is not whole or times without a window."""
+    """VoxelMap of a slurry.h5: mean over the axis (the layers of voxels with their middle before z = length, m), and
+    over the windows in [begin, end) of DEM time. Without times, it is the file's own mean over the run. sense: the
+    mill's. RuntimeError if the file is not complete or has no window in these times."""
     with open_hdf5(path) as file:
         if file.attrs.get("complete", 0) != 1:
             raise RuntimeError(f"{path}: not complete; let the flow run to its end")
@@ -76,7 +76,7 @@ def read_slurry_map(path: Path | str, begin: float | None = None, end: float | N
             slack, last = 1e-6 * file.attrs["window"], np.inf if end is None else end
             chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= last + slack))
             if len(chosen) == 0:
-                raise RuntimeError(f"{path}: no window between {begin} and {end} s; there are {begins[0]} to "
+                raise RuntimeError(f"{path}: no window between {begin} and {end} s; the file has {begins[0]} to "
                                    f"{ends[-1]} s")
             means = [(file, window) for window in chosen]
             inside_of = (grid["insideFraction"][window] for window in chosen)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads what function objects have written to CASE/postProcessing/NAME/TIME/FILE.dat."""
+"""Reads tables of function objects, CASE/postProcessing/NAME/TIME/FILE.dat."""
 import re
 from pathlib import Path
 
@@ -11,8 +11,8 @@ class TableError(RuntimeError):
 
 
 def _read_file(path: Path) -> tuple[float, list[str], list[list[float]]]:
-    """When the file was begun (s since 1970; its modification where it does not say), words of its last comment line
-    and its rows. A last line without an end is what a killed flow was writing: it is left out."""
+    """Time at which the file was begun (s since 1970; of its modification if the file does not name it), words of its
+    last comment line, and its rows. A last line without a line end, from a killed flow, is left out."""
     begun, names, rows = path.stat().st_mtime, [], []
     for number, line in enumerate(path.read_text().split("\n")[:-1], start=1):
         if line.startswith("#"):
@@ -32,8 +32,8 @@ def _read_file(path: Path) -> tuple[float, list[str], list[list[float]]]:
 def read_table(case: Path | str, name: str, file: str | None = None) -> tuple[list[str], np.ndarray]:
     """Column names and rows [times, columns] of a function object's table, the time (s) in the first column.
 
-    A flow that went on after it was broken off wrote further files: from a file's first time on, its rows replace those
-    of the files that were begun before it. TableError where there is none, or the files' columns differ."""
+    A flow that resumed after an interruption has several files. From a file's first time on, its rows replace those of
+    earlier files. TableError if there is no file, or the files' columns differ."""
     file = file or name
     folder = Path(case) / "postProcessing" / name
     stem = re.compile(rf"{re.escape(file)}(_[\d.e+-]+)?")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tracks of single balls: of tracers from text files, and out of the dumps of a dry run (layout:
+"""Tracks of single balls: of tracers from text files, and of balls from the dumps of a dry run (layout:
 dem_driver/README.md)."""
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ POSITION = ("x", "y", "z")
 
 @dataclass
 class Trajectory:
-    """Track of one tracer: time [n] (s), increasing; position [n, 3] (m). ValueError where it is none."""
+    """Track of one tracer: time [n] (s), increasing; position [n, 3] (m). ValueError if these are no track."""
     time: np.ndarray
     position: np.ndarray
 
@@ -30,10 +30,10 @@ class Trajectory:
 
 
 def read_trajectory(path: Path | str, time_unit: float = 1.0, length_unit: float = 1.0) -> Trajectory:
-    """Trajectory from a text file of lines t, x, y, z, parted by commas or blanks; empty lines, lines that begin with
-    #, and one line of names at the top are skipped. Units: in s and m. RuntimeError naming file, line and value for a
-    wrong number of columns, a word that is no number or not finite, time that does not increase, or fewer than two
-    points."""
+    """Trajectory from a text file of lines t, x, y, z, separated by commas or blanks. Empty lines, lines that begin
+    with #, and one line of names at the top are skipped. Units: in s and m. RuntimeError names file, line and value of
+    a wrong number of columns, a word that is no finite number, or a time that does not increase; also for fewer than
+    two points."""
     rows: list[list[float]] = []
     with open(path) as file:
         for number, line in enumerate(file, 1):
@@ -72,9 +72,9 @@ def read_tracks(dumps: Path | str, ids: Iterable[int], begin: float = 0.0,
                 end: float = np.inf) -> dict[int, Trajectory]:
     """Tracks of the balls with these ids in the dumps from `begin` to `end` (DEM time, s): {id: Trajectory}.
 
-    dumps: the folder DIR/dumps of a run that is whole. Every dump is read once; only the lines of the balls asked for
-    are taken apart, so that a few hundred tracks cost little more than the reading. Along a periodic axis the tracks
-    go on beyond the box. RuntimeError for a dump that lacks one of the balls, naming it."""
+    dumps: the folder DIR/dumps of a complete run. Every dump is read once, and only the lines of these balls are
+    parsed, so that a few hundred tracks take only a little more time than the reading. Along a periodic axis the tracks
+    continue beyond the box. RuntimeError names a ball that a dump lacks."""
     wanted = np.unique(np.asarray(ids, dtype=int))
     timestep = read_timestep(dumps)
     # Times that should agree may differ by rounding
@@ -106,14 +106,14 @@ def balls_of_dump(path: Path | str, wanted: np.ndarray) -> tuple[np.ndarray, np.
     lines = lines[np.argsort(ids[lines])]
     if not np.array_equal(ids[lines], wanted):
         missing = np.setdiff1d(wanted, ids[lines])
-        raise RuntimeError(f"{path}: " + (f"no ball {missing[0]}" if len(missing) else "a ball that is there twice"))
+        raise RuntimeError(f"{path}: " + (f"no ball {missing[0]}" if len(missing) else "a ball appears twice"))
     table = np.array(b" ".join(data[starts[line]:ends[line]] for line in lines).split(),
                      dtype=float).reshape(len(lines), -1)
     return table[:, [names.index(name) for name in POSITION]], periods
 
 
 def _header(path: Path | str, data: bytes) -> tuple[list[str], np.ndarray, int]:
-    """Names of the columns, periods of the box (m) and where the first ball's line begins."""
+    """Names of the columns, periods of the box (m), and the position of the first ball's line."""
     mark = data.find(b"ITEM: ATOMS")
     start = data.find(b"\n", mark) + 1
     lines = data[:max(start, 0)].decode().splitlines()
@@ -128,7 +128,7 @@ def _header(path: Path | str, data: bytes) -> tuple[list[str], np.ndarray, int]:
 
 
 def _leading_numbers(text: np.ndarray, starts: np.ndarray) -> np.ndarray:
-    """The whole numbers that begin at `starts` of a text [bytes], each up to the first character that is no digit."""
+    """The whole numbers that begin at `starts` of a text [bytes]; each ends at the first character that is no digit."""
     numbers = np.zeros(len(starts), dtype=np.int64)
     digits = np.ones(len(starts), dtype=bool)
     position = starts.copy()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the slurry/air flow of a mill case: fields averaged over the axis, in the lab frame.
 
-The mesh is a cross-section extruded along the axis and turns rigidly, so that cells stand in columns and a column's
-place at any time follows from its place at the start. Means over the axis are of the mill itself, without
+The mesh is a cross-section extruded along the axis and turns rigidly. So its cells are in columns, and a column's
+place at any time follows from its place at the start. Means over the axis are of the mill itself, without the
 compartments of pulp lifters behind its grates."""
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from . import foam
 
 
 class MillFlow:
-    """The flow in case directory `case`; `frames` are its written times [(s, Path)], the initial one included."""
+    """The flow in the case folder `case`; `frames` are its written times [(s, Path)] with the initial one."""
 
     def __init__(self, case: Path | str) -> None:
         self.case = Path(case)
@@ -43,7 +43,7 @@ class MillFlow:
         self._pixels: dict[tuple, np.ndarray] = {}
 
     def turned(self, points: np.ndarray, time: float) -> np.ndarray:
-        """x-y points [n, 2] of the mesh at flow time 0, where they are at `time`."""
+        """Positions at `time` of x-y points [n, 2] of the mesh at flow time 0."""
         c, s = np.cos(self.omega * time), np.sin(self.omega * time)
         return points @ np.array([[c, s], [-s, c]])
 
@@ -52,7 +52,7 @@ class MillFlow:
         return foam.read_field(path / name, self.mesh.cells)
 
     def over_axis(self, values: np.ndarray, weights: np.ndarray | float = 1.0) -> np.ndarray:
-        """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these vanish."""
+        """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these are zero."""
         weight = self.volumes * self.chamber * weights
         total = np.bincount(self.column, weight)
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -60,7 +60,7 @@ class MillFlow:
                             np.nan)
 
     def _end_faces(self) -> np.ndarray:
-        """Numbers of the feed end's faces, those of an inlet in it too."""
+        """Numbers of the feed end's faces, with those of an inlet in it."""
         patches = [self.mesh.patches[name] for name in ("feedEnd", "inlet") if name in self.mesh.patches]
         return np.concatenate([np.arange(patch.start, patch.start + patch.size) for patch in patches])
 
@@ -98,8 +98,7 @@ class MillFlow:
         return np.append(column_values, np.nan)[self._pixels[key]].reshape(len(y), len(x))
 
     def _columns_of(self, points: np.ndarray, time: float) -> np.ndarray:
-        """Column in which each point [n, 2] (m, lab frame) is at `time`; one beyond the last where it is outside the
-        mill."""
+        """Column in which each point [n, 2] (m, lab frame) is at `time`; outside the mill, the number of columns."""
         back = self.turned(points, -time)
         inside = Outline(self.outline()).contains_points(back)
         columns = np.full(len(points), len(self.column_centres), dtype=np.int32)
@@ -107,24 +106,25 @@ class MillFlow:
         return columns
 
     def slurry(self, path: Path) -> np.ndarray:
-        """Volume of slurry in each cell [cells] at a written time, m^3: its share of what the balls leave of the cell,
-        where they displace it. Of the initial time, written before the flow knew its balls, this cannot be told."""
+        """Volume of slurry in each cell [cells] at a written time, m^3. If balls displace slurry, it is a share of the
+        space between them. It is then not known at the initial time, which is written before the flow reads its
+        balls."""
         volume = self.field("alpha.slurry", path) * self.volumes
         return volume * (1 - self.field("solidity", path)) if self.displaced else volume
 
     def frames_with_slurry(self, begin: float) -> list[tuple[float, Path]]:
-        """The written times (s) and their folders from `begin` (s) on whose volume of slurry can be told."""
+        """The written times (s) and their folders from `begin` (s) on at which the volume of slurry is known."""
         return [(time, path) for time, path in self.frames
                 if time >= begin - 1e-9 and (not self.displaced or (path / "solidity").is_file())]
 
     def slurry_volumes(self) -> tuple[float, float]:
-        """Volume of slurry at the first and the last written time that have it, m^3."""
+        """Volume of slurry at the first and the last written time at which it is known, m^3."""
         first = self.frames_with_slurry(0.0)[0][1]
         return float(self.slurry(first).sum()), float(self.slurry(self.frames[-1][1]).sum())
 
     def load(self, begin: float) -> tuple[float, float] | None:
         """Force of the fluid on the balls over their weight, at the written times from `begin` (s) on: its mean and its
-        95th percentile over the balls' volume, or None where the flow did not tell it."""
+        95th percentile over the balls' volume, or None if the flow did not write it."""
         paths = [path for time, path in self.frames
                  if time >= begin - 1e-9 and (path / "forceOverWeight").is_file()]
         if not paths:

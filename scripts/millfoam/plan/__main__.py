@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tells time, disk and memory of every stage of a mill's case beforehand, from trials on this machine.
+"""Predicts time, disk and memory of every stage of a mill's case, from trials on this machine.
 
     python3 -m millfoam.plan FOLDER -np N [--charge OTHER]
 
-FOLDER holds mill.json. Prints a table and writes FOLDER/plan.json. What is measured here and what is calibrated on
-earlier runs: scripts/README.md, "What it will take"."""
+FOLDER contains mill.json. Prints a table and writes FOLDER/plan.json. scripts/README.md, "What it will take", says what
+is measured here and what is calibrated on earlier runs."""
 import argparse
 import json
 import os
@@ -19,8 +19,8 @@ from ..run import RunError
 from .stages import FlowPlan, Stage, make_stages, total
 from .trial import MeshTrial
 
-BUSY = 0.4  # load per core above which others are told to be at work
-SHORT = 10.0  # s; times below are not told exactly
+BUSY = 0.4  # load per core above which the plan reports that other programs are running
+SHORT = 10.0  # s; shorter times are printed as "< 10 s"
 
 
 def time_text(seconds: float) -> str:
@@ -49,7 +49,7 @@ def table(stages: Sequence[Stage]) -> list[str]:
 
 def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: Sequence[Stage], plan: FlowPlan,
                mesh: MeshTrial) -> None:
-    """Writes plan.json: the Stages as numbers, and what the flow's are made of."""
+    """Writes plan.json: the Stages as numbers, and the numbers from which the flow's are computed."""
     def numbers(one: Stage) -> dict[str, Any]:
         return {"time_s": one.time, "disk_bytes": round(one.disk), "memory_bytes": round(one.memory)}
     content = {"format": "millfoam-plan", "program": "plan", "tools": mill.content.get("program"),
@@ -63,10 +63,11 @@ def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: S
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="plan", description="time, disk and memory of every stage of a mill's case")
-    parser.add_argument("folder", help="with the resolved mill, mill.json")
+    parser = argparse.ArgumentParser(prog="plan",
+                                     description="predicts time, disk and memory of every stage of a mill's case")
+    parser.add_argument("folder", help="folder with the resolved mill, mill.json")
     parser.add_argument("-np", dest="ranks", type=int, default=1, metavar="N", help="number of processes")
-    parser.add_argument("--charge", metavar="FOLDER", help="case that the charge and its averages are taken from")
+    parser.add_argument("--charge", metavar="FOLDER", help="case from which the charge and its averages are taken")
     options = parser.parse_args()
     if options.ranks < 1:
         parser.error(f"-np {options.ranks}: expected 1 or more")
@@ -84,9 +85,9 @@ def main() -> None:
           f"{plan.written_times} written times, on {options.ranks} process{'es' if options.ranks > 1 else ''}")
     cores = os.cpu_count() or 1
     if before > BUSY * cores:
-        print(f"Other programs were at work (load {before:.1f} on {cores} cores): a free machine takes less time")
+        print(f"Other programs were running (load {before:.1f} on {cores} cores): a free machine takes less time")
     if options.charge:
-        print(f"The charge and its averages come from {options.charge}; what that case takes is not counted here")
+        print(f"The charge and its averages are those of {options.charge}; the time for that case is not counted here")
 
 
 if __name__ == "__main__":

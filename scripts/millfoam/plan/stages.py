@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predictions of a mill's stages: trials on this machine, and what is calibrated on earlier runs (scripts/README.md,
-"What it will take")."""
+"""Predictions of a mill's stages from trials on this machine, with constants calibrated on earlier runs
+(scripts/README.md, "What it will take")."""
 import math
 import tempfile
 from collections.abc import Sequence
@@ -24,13 +24,13 @@ PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
 VOXEL_BYTES, SOLIDS_VOXEL_BYTES = 42, 120  # of one window of slurry.h5, of solids.h5
 PICTURES_TIME, FRAME_TIME, FRAMES = 8.0, 0.1, 60  # s; of a frame of the animations, which have 60 at most
 PICTURES_DISK, PYTHON_MEMORY = 6e6, 190e6
-AVERAGE_MEMORY = 21e6  # and what one record of all balls takes
+AVERAGE_MEMORY = 21e6  # without the memory of one record of all balls
 RECORD_BYTES = 100  # of one ball in memory
 
 
 @dataclass(frozen=True)
 class Stage:
-    """Prediction of a stage: s, bytes, bytes; `source` says where it is from."""
+    """Prediction of a stage: time (s), disk (bytes), memory (bytes); source: how it was obtained, in words."""
     name: str
     time: float
     disk: float
@@ -40,7 +40,7 @@ class Stage:
 
 @dataclass(frozen=True)
 class FlowPlan:
-    """Of a flow: typical time-step in s, number of steps, of written times and of windows of slurry.h5."""
+    """Plan of a flow: typical time-step in s, numbers of steps, of written times and of windows of slurry.h5."""
     time_step: float
     steps: int
     written_times: int
@@ -48,16 +48,16 @@ class FlowPlan:
 
 
 def flow_number(mill: Mill, *keys: str) -> float:
-    """A number of the mill's derived flow; DataError naming the key where it is missing."""
+    """A number of the mill's derived flow; DataError names a missing key."""
     return mill.derived("flow", *keys)
 
 
 def typical_time_step(mill: Mill, cell: float) -> float:
-    """Time-step in s at which a flow through cells of that size (m, across the mill) will go for most of its time.
+    """Time-step in s of a flow through cells of that size (m, across the mill) during most of its time.
 
-    The largest one allowed, or those at which slurry that falls through the mill, U = sqrt(2 g D + (omega R)^2),
-    reaches the limits of the Courant numbers. A flow stays below the smallest for part of the time: they are joined
-    smoothly."""
+    Three limits: the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
+    (omega R)^2), reaches the limits of the two Courant numbers. A flow is below the smallest for part of the time, so
+    the limits are joined smoothly."""
     speed = math.hypot(math.sqrt(4 * GRAVITY * mill.radius), mill.omega * mill.radius)
     limits = (flow_number(mill, "max_time_step_s"),
               CELL_COURANT * flow_number(mill, "max_courant") * cell / speed,
@@ -67,7 +67,7 @@ def typical_time_step(mill: Mill, cell: float) -> float:
 
 
 def plan_flow(mill: Mill, mesh: MeshTrial) -> FlowPlan:
-    """FlowPlan of a Mill on a MeshTrial's mesh. Written times are met exactly, which shortens steps."""
+    """FlowPlan of a Mill on a MeshTrial's mesh. Steps are shortened so that they end at the written times."""
     cell = math.sqrt(mesh.volume / mill.length / mesh.cells_in_section)
     time_step = typical_time_step(mill, cell)
     duration, interval = flow_number(mill, "duration_s"), flow_number(mill, "write_interval_s")
@@ -87,8 +87,8 @@ def charge_stage(dem: dict[str, Any]) -> Stage:
 def average_stage(mill: Mill, dem: dict[str, Any]) -> Stage:
     """Stage of the averages: a ball's record takes about as long as a ball's step of the dry run.
 
-    Where the averages start once the charge is steady, that is the second half of the dry run at the latest: that
-    half is taken."""
+    If the averages start when the charge is steady, this is at half of the dry run at the latest; the prediction
+    takes that half."""
     duration, start = mill.asked("dem", "duration"), entry(mill.content, mill.path, "derived", "averages", "start_s")
     span = duration / 2 if start == "steady" else duration - start
     balls = number(dem, "dem_plan.json", "balls")
@@ -123,8 +123,8 @@ def pictures_stage(plan: FlowPlan) -> Stage:
 def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list[Stage], FlowPlan, MeshTrial]:
     """All Stages of a Mill's case and its FlowPlan and MeshTrial; trials are made in a temporary folder.
 
-    charge: folder of the case that the charge is taken from; its stages are not told then. RunError with a tool's own
-    words where it refuses the mill."""
+    charge: folder of the case from which the charge is taken; its stages are then left out. RunError with a tool's own
+    message if the tool refuses the mill."""
     path = mill.path.resolve()
     with tempfile.TemporaryDirectory(prefix="millfoam-plan-") as folder:
         dry = try_charge(folder, path, ranks) if mill.flow("balls") and not charge else None

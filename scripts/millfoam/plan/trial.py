@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trials on the machine at hand: what the dry run, the mesh and a step of the flow of one mill cost here."""
+"""Trials on this machine: the cost of the dry run, the mesh and a step of the flow of one mill."""
 import os
 import shutil
 import subprocess
@@ -14,10 +14,10 @@ from ..files.tables import TableError, read_table
 from ..run import RunError
 
 TEMPLATE = Path(__file__).resolve().parents[2] / "mill_case"
-TRIAL_TIME = 20.0  # s that the trial of the flow may last
+TRIAL_TIME = 20.0  # s, longest time of the flow's trial
 LARGEST_STEPS = 30  # its length in largest time-steps: about 40 steps, because the first ones are shorter
-FIRST_STEPS = 10  # that are not counted: the time-step grows from its first value
-FEWEST_STEPS = 4  # a mesh too large for the trial's time makes so many, or a multiple
+FIRST_STEPS = 10  # not counted, because the time-step grows from its first value
+FEWEST_STEPS = 4  # on a mesh too large for the trial's time, the trial makes this many, or a multiple
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,8 @@ class Cost:
 
 @dataclass(frozen=True)
 class MeshTrial:
-    """A mesh made here: what it cost; its cells, faces and cells of a cross-section; its volume in m3; disk of walls
-    and mesh in bytes."""
+    """A mesh made here: its cost; its cells, faces and cells of a cross-section; its volume in m3; disk of walls and
+    mesh in bytes."""
     cost: Cost
     cells: int
     faces: int
@@ -57,9 +57,9 @@ def disk(*paths: Path) -> float:
 
 def run_measured(folder: Path | str, *command: Any, log: str = "log", watch: Callable[[float], None] | None = None,
                  ranks: int = 1) -> Cost:
-    """Runs a command in a folder and returns its Cost. RunError with the command's own words where it fails.
+    """Runs a command in a folder and returns its Cost. RunError with the command's own message if it fails.
 
-    log: file in the folder that receives what it prints. watch(seconds): called now and then while it runs."""
+    log: file in the folder for the command's output. watch(seconds): called repeatedly while it runs."""
     environment = {**os.environ, "PWD": str(Path(folder).resolve()), "MILLFOAM_NP": str(ranks)}
     begun, place = time.monotonic(), Path(folder) / log
     with open(place, "w") as out:
@@ -77,17 +77,17 @@ def run_measured(folder: Path | str, *command: Any, log: str = "log", watch: Cal
         raise
     child.returncode = os.waitstatus_to_exitcode(code)
     if child.returncode:
-        raise RunError(told_by(command[0], place))
+        raise RunError(error_message(command[0], place))
     return Cost(time.monotonic() - begun, 1024.0 * resources.ru_maxrss)
 
 
-def told_by(program: str, log: Path) -> str:
-    """A tool's own sentence of error, or where there is none the end of what it printed."""
+def error_message(program: str, log: Path) -> str:
+    """A tool's own error message, or the end of its output if there is none."""
     lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
     for place, line in enumerate(lines):
         if ": error:" in line:
             return "\n".join(lines[place:])
-    return "\n".join([f"{program} failed; it printed last:", *lines[-15:]])
+    return "\n".join([f"{program} failed; its output ends with:", *lines[-15:]])
 
 
 def try_charge(folder: Path | str, mill: Path | str, ranks: int) -> dict[str, Any]:
@@ -111,8 +111,8 @@ def try_mesh(folder: Path | str, mill: Path | str) -> MeshTrial:
 
 
 def shorten(folder: Path, largest_step: float) -> None:
-    """Ends a case's flow after some forty steps, or sooner where a file `stop` appears in the case; a table gets the
-    time that each step has taken."""
+    """Ends a case's flow after about forty steps, or earlier if a file `stop` appears in the case. A table records the
+    time of each step."""
     with open(folder / "system" / "controlDict", "a") as control:
         control.write(f"endTime {LARGEST_STEPS * largest_step:.9g};\n"
                       'functions { trial { type abort; libs ("libutilityFunctionObjects.so"); '
@@ -123,7 +123,7 @@ def shorten(folder: Path, largest_step: float) -> None:
 
 
 def try_flow(folder: Path | str, solver: str, largest_step: float, ranks: int) -> FlowTrial:
-    """FlowTrial of a mill's case whose mesh try_mesh made. largest_step: of the time, s."""
+    """FlowTrial of a mill's case with the mesh of try_mesh. largest_step: largest time-step, s."""
     case = Path(folder)
     program = ["slurryFoam"]
     if solver == "interFoam":
@@ -148,7 +148,7 @@ def try_flow(folder: Path | str, solver: str, largest_step: float, ranks: int) -
 
 
 def execution_times(folder: Path | str) -> Sequence[float]:
-    """Times in s [steps] for which a trial's solver had computed at the end of each step; empty where there is none."""
+    """CPU times in s [steps] of a trial's solver at the end of each step; empty if there is none."""
     try:
         names, rows = read_table(folder, "steps", "timeInfo")
     except TableError:
@@ -157,7 +157,7 @@ def execution_times(folder: Path | str) -> Sequence[float]:
 
 
 def step_time(times: Sequence[float]) -> float:
-    """Mean time in s of a step after the first ones. RunError where there are too few steps."""
+    """Mean time in s of a step after the first ones. RunError if there are too few steps."""
     if len(times) < 2:
         raise RunError(f"the trial of the flow made {len(times)} steps; expected 2 or more")
     first = min(FIRST_STEPS, len(times) // 2)

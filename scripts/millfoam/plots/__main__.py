@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of a mill case: maps.png, slurry_frames.png, slurry.gif and, where the flow told the force on the balls,
-force_on_balls.png in CASE/pictures; and the centroids in a table."""
+"""Draws pictures of a mill's case in CASE/pictures: maps.png, slurry_frames.png, slurry.gif, and force_on_balls.png if
+the flow wrote the force on the balls. Prints a table of the centroids."""
 import argparse
 import sys
 from pathlib import Path
@@ -19,8 +19,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
     parser.add_argument("--begin", type=float,
-                        help="flow time from which averages are taken, s [the mill's flow.averages.start, or half of a "
-                             "flow that does not reach beyond it]")
+                        help="flow time at which the averages begin, s [the mill's flow.averages.start; for a flow "
+                             "that ends before it, half of its time]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]
@@ -49,13 +49,13 @@ def main() -> None:
 
 
 def usual_begin(case: Path, last: float) -> float:
-    """Flow time (s) from which averages are taken: the mill's, or half of a flow that ends before it."""
+    """Flow time (s) at which the averages begin: the mill's, or half of the time of a flow that ends before it."""
     start = read_mill(case).flow("averages_start_s") if (case / "mill.json").is_file() else None
     return start if start is not None and start < last else last / 2
 
 
 def read_charge(path: Path, flow: MillFlow, begin: float) -> SolidsMap | None:
-    """SolidsMap of the charge while the flow is averaged, or None, told, where there is no solids.h5."""
+    """SolidsMap of the charge for the averaged time of the flow; None, with a message, if there is no solids.h5."""
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
         return None
@@ -65,7 +65,7 @@ def read_charge(path: Path, flow: MillFlow, begin: float) -> SolidsMap | None:
 
 
 def summary(flow: MillFlow, charge: SolidsMap | None, begin: float) -> None:
-    """Sense of rotation, centroids, and the slurry's volume at begin and end."""
+    """Prints the sense of rotation, the centroids, and the slurry's volume at begin and end."""
     print("the mill turns " + ("clockwise: its rising side is x < 0" if flow.omega < 0 else
                                "anticlockwise: its rising side is x > 0"))
     if charge:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of what is read off the charge: its map with the readings, and the tangential velocity along the line."""
+"""Pictures of the charge's readings: its map with the readings, and the tangential velocity along the line."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,7 +10,7 @@ from ..files.solids_file import SolidsMap
 from ..readings.charge import Charge, TangentialProfile
 from .mill_plots import draw_outline
 
-BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, told apart by the colour-blind
+BLUE, GREEN, GREY = "#0072B2", "#009E73", "0.45"  # Okabe and Ito's, which colour-blind readers can distinguish
 ARROWS = 17  # across the mill
 
 
@@ -43,13 +43,13 @@ def charge_figure(charge: SolidsMap, readings: Charge, radius: float, outline: n
     figure, axis = plt.subplots(figsize=(5.2, 5.1), layout="constrained")
     figure.get_layout_engine().set(rect=(0, 0.14, 1, 0.86))
     figure.colorbar(_draw(axis, charge, readings, radius, outline), ax=axis, label="solidity, –", shrink=0.9)
-    # Of the figure, as it is wider than the map, which an axis' legend would shrink
+    # A legend of the figure, because it is wider than the map; a legend of the axis would shrink the map
     figure.legend(loc="lower center", fontsize=9, frameon=False)
     return figure
 
 
 def draw_charge(axis: Axes, charge: SolidsMap, readings: Charge, radius: float) -> QuadMesh:
-    """What charge_figure shows, on an axis; returns the solidity's image, for a colour bar."""
+    """Draws the content of charge_figure on an axis; returns the solidity's image, for a colour bar."""
     image = _draw(axis, charge, readings, radius, None)
     axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), fontsize=9, frameon=False)
     return image
@@ -80,7 +80,7 @@ def _draw(axis: Axes, charge: SolidsMap, readings: Charge, radius: float, outlin
 
 
 def tangential_figure(profile: TangentialProfile) -> Figure:
-    """Figure of a TangentialProfile: velocity with its cubic, what is left of it, and shear rate, against the
+    """Figure of a TangentialProfile: velocity with its cubic, their difference, and shear rate, against the
     distance."""
     figure, axes = plt.subplots(3, 1, figsize=(5.4, 6.2), sharex=True, constrained_layout=True,
                                 gridspec_kw={"height_ratios": (2, 1, 1.3)})

@@ -90,8 +90,8 @@ def plot_maps(flow: MillFlow, solids: SolidsMap, begin: float, out: Path | str) 
 
 
 def load_figure(flow: MillFlow, begin: float) -> Figure:
-    """Map of the one-way verdict: where the fluid's force on the balls nears their weight. RuntimeError where the flow
-    did not tell that force."""
+    """Map of the fluid's force on the balls over their weight, which shows where one-way coupling holds. RuntimeError
+    if the flow did not write that force."""
     load = flow.load(begin)
     if load is None:
         raise RuntimeError(f"{flow.case}: no forceOverWeight from {begin:g} s on")
@@ -116,7 +116,7 @@ def save(figure: Figure, out: Path | str, dpi: int = 110) -> None:
 
 def draw_frame(axis: Axes, flow: MillFlow, time: float, path: Path, quads: np.ndarray,
                columns: np.ndarray) -> PolyCollection:
-    """Slurry share over the axis at one time, with the charge's edge (solidity 0.2) where the flow felt one."""
+    """Slurry share over the axis at one time, with the charge's edge (solidity 0.2) if the flow has balls."""
     alpha = flow.over_axis(flow.field("alpha.slurry", path))
     turned = 1e3 * flow.turned(quads.reshape(-1, 2), time).reshape(quads.shape)
     patches = PolyCollection(turned, array=np.clip(alpha[columns], 0, 1), cmap=SLURRY, edgecolors="face", lw=0.2)
@@ -150,7 +150,7 @@ def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
 
 
 def frame_figures(flow: MillFlow, frames: Iterable[tuple[float, Path]]) -> Iterator[Figure]:
-    """One figure for each of `frames` (time in s, folder) of the slurry, on the same page: to be saved one after the
+    """One figure for each of `frames` (time in s, folder) of the slurry, on the same page, to be saved one after the
     other."""
     quads, columns = flow.end_wall()
 
@@ -177,8 +177,8 @@ def charge_figures(charges: Iterable[SolidsMap], radius: float, omega: float,
 
 def redrawn_figures(things: Iterable[Thing], draw: Callable[[Axes, Thing], ScalarMappable], shrink: float,
                     label: str) -> Iterator[Figure]:
-    """One figure that is drawn anew for each of `things` by draw(axis, thing), which gives what its colour bar shows.
-    The places on the page are found once, for the first of them: that takes longer than to draw."""
+    """One figure, drawn again for each of `things` by draw(axis, thing), which returns what the colour bar shows. The
+    layout is computed only once, for the first of them, because it takes longer than the drawing."""
     figure, axis = plt.subplots(figsize=(5.4, 4.6), layout="constrained")
     for number, thing in enumerate(things):
         axis.clear()
@@ -192,7 +192,7 @@ def redrawn_figures(things: Iterable[Thing], draw: Callable[[Axes, Thing], Scala
 
 
 def animate(flow: MillFlow, out: Path | str, most: int = 60) -> None:
-    """The frames, at most so many of them and equally spaced, as an endless GIF."""
+    """At most `most` of the frames, equally spaced, as an endless GIF."""
     frames = [flow.frames[k] for k in np.unique(np.linspace(0, len(flow.frames) - 1, most).astype(int))]
     pictures = []
     for figure in frame_figures(flow, frames):

@@ -26,7 +26,7 @@ class AxialProfile:
 @dataclass
 class Humps:
     """height = base + sum of Gaussians, in order of place: places z, heights above the base, widths (standard
-    deviations) [count] and base (m); rmsd: root mean square of what is left (m)."""
+    deviations) [count] and base (m); rmsd: root mean square of the residuals (m)."""
     places: tuple[float, ...]
     heights: tuple[float, ...]
     widths: tuple[float, ...]
@@ -101,8 +101,8 @@ def gaussians(z: ArrayLike, base: float, *humps: float) -> np.ndarray:
 def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
     """Humps of a profile: the best least-squares fit of `count` Gaussians from many first guesses of their places.
 
-    z [n] (m), rising; height [n] (m). Places are within the profile, heights not negative, widths from 3 % to all of
-    its length, and no less than half of the way between two slices: a narrower hump would stand between them unseen.
+    z [n] (m), rising; height [n] (m). Places are within the profile, heights are not negative. Widths are from 3 % to
+    100 % of its length, and at least half of the distance between two slices: a narrower hump could be between them.
     ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
     z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
     if len(z) < 1 + 3 * count:
@@ -130,14 +130,14 @@ def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
 
 
 def humps_at_ends(humps: Humps, z: np.ndarray) -> int:
-    """How many axial.Humps stand at an end of the slices z [n] (m): the profile has no hump there that it tells."""
+    """Number of Humps at an end of the slices z [n] (m): for these, the profile shows no maximum."""
     slack = 0.1 * (z[1] - z[0])
     return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
 
 
 def slurry_volumes(case: Path | str) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) and volumes of slurry (m3) at the ends of the steps [steps] of a case's flow, its restarts joined.
-    RuntimeError if slurryFoam left no steps."""
+    RuntimeError if slurryFoam wrote no steps."""
     steps = read_flow_record(case).steps
     if steps is None:
         raise RuntimeError(f"{case}: no postProcessing/flow/START/steps.csv; expected a flow by slurryFoam")
@@ -145,7 +145,7 @@ def slurry_volumes(case: Path | str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def discharge(times: np.ndarray, volumes: np.ndarray, feed: float, begin: float) -> float:
-    """Mean discharge (m3/s) from `begin` (s) to the last time: what was fed (m3/s) less what was kept."""
+    """Mean discharge (m3/s) from `begin` (s) to the last time: the feed (m3/s) minus the gain of volume."""
     chosen = times >= begin
     if chosen.sum() < 2:
         raise RuntimeError(f"the flow has no two steps from {begin} s on")

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read off a map of the charge: centre of circulation, toe and shoulder, free surface
-(free_surface), tangential velocity.
+"""Readings of a map of the charge: centre of circulation, toe and shoulder, free surface (free_surface), tangential
+velocity.
 
-x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense.
+x to the right, y up, the mill's axis at x = y = 0; the mill turns by the map's sense.
 
 Angles are counted from straight down, in degrees, positive on the side where the shell rises: the shoulder's is
-positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError where the map does not have
-it."""
+positive, the toe's usually negative. Lengths are in m. Each reading raises RuntimeError if the map does not have it."""
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -25,13 +24,13 @@ POINTS = 100  # along the line through the centre of circulation
 
 
 def stream_function(charge: SolidsMap) -> np.ndarray:
-    """Of the charge's volume flux F = phi u: psi [ny, nx] (m2/s), least where the charge turns clockwise round a
-    point.
+    """Stream function psi [ny, nx] (m2/s) of the charge's volume flux F = phi u, lowest where the charge turns
+    clockwise round a point.
 
-    F = (d psi/dy, -d psi/dx) in the sense of least squares, psi = 0 beyond the map: of a charge that is steady and
-    uniform along the axis div F = 0 and psi is exact; noise and what the windows leave of unsteadiness are averaged
-    out, as psi solves Laplace psi = dFx/dy - dFy/dx (by sine transforms). Source: the Helmholtz decomposition, H.
-    Bhatia et al., The Helmholtz-Hodge decomposition: a survey, IEEE Trans. Vis. Comput. Graph. 19 (2013) 1386."""
+    F = (d psi/dy, -d psi/dx) in the sense of least squares, psi = 0 beyond the map. If the charge is steady and uniform
+    along the axis, div F = 0 and psi is exact. Noise and unsteadiness are averaged out, because psi solves Laplace psi
+    = dFx/dy - dFy/dx (by sine transforms). Source: the Helmholtz decomposition, H. Bhatia et al., The Helmholtz-Hodge
+    decomposition: a survey, IEEE Trans. Vis. Comput. Graph. 19 (2013) 1386."""
     dy, dx = (np.diff(edges).mean() for edges in (charge.y, charge.x))
     flux = np.pad(charge.flux()[..., :2], ((1, 1), (1, 1), (0, 0)))
     curl = np.gradient(flux[..., 0], dy, axis=0) - np.gradient(flux[..., 1], dx, axis=1)
@@ -46,8 +45,8 @@ def _moving(charge: SolidsMap) -> np.ndarray:
 
 
 def _stagnation_point(charge: SolidsMap, guess: np.ndarray, width: float) -> np.ndarray:
-    """Where the velocity vanishes near a guess [2]: of u = u0 + G (x - guess) fitted with the balls' volume and a
-    Gaussian of `width` (m) as weights, again and again round the point found, until that stays."""
+    """Point of zero velocity near a guess [2]: of u = u0 + G (x - guess), fitted with the balls' volume and a Gaussian
+    of `width` (m) as weights, repeatedly round the point found until it does not move."""
     xx, yy = np.meshgrid(*charge.centres())
     velocity, point = np.nan_to_num(charge.velocity[..., :2]).reshape(-1, 2), np.asarray(guess, dtype=float)
     for _ in range(50):
@@ -60,7 +59,7 @@ def _stagnation_point(charge: SolidsMap, guess: np.ndarray, width: float) -> np.
         if np.linalg.det(gradient) <= 0 or charge.sense * (gradient[1, 0] - gradient[0, 1]) <= 0:
             break
         step = np.linalg.solve(gradient, -fit[0])
-        # No further than the fit has seen
+        # Not beyond the range of the fit
         length = float(np.linalg.norm(step))
         point = point + step * min(1, 2 * width / max(length, 1e-300))
         if length < 1e-5 * width:
@@ -71,14 +70,14 @@ def _stagnation_point(charge: SolidsMap, guess: np.ndarray, width: float) -> np.
 
 
 def circulation_centre(charge: SolidsMap, radius: float) -> tuple[float, float]:
-    """Centre of circulation (x, y) of a SolidsMap's charge (m): where its mean velocity vanishes, between the rising
-    and the falling stream.
+    """Centre of circulation (x, y) of a SolidsMap's charge (m): the point of zero mean velocity between the rising and
+    the falling stream.
 
-    The stream function's least value (in a clockwise mill; its largest in another) finds it, as that sums the whole
-    map's flux and has one deepest place however noisy single voxels are; the place within the voxel is the zero of a
-    linear fit to the velocities around (Gaussian weight, a standard deviation of one voxel or 0.05 radii, whichever
-    is more). RuntimeError if the charge does not turn as the mill does round a point inside the charge: at rest, the
-    other way round, thin, centrifuging."""
+    The stream function's lowest value (in a clockwise mill; its largest in another) finds the voxel. It sums the flux
+    of the whole map, so that noise of single voxels has little effect. The place within the voxel is the zero of a
+    linear fit to the velocities around it (Gaussian weight, a standard deviation of one voxel or 0.05 radii, whichever
+    is more). RuntimeError if the charge does not turn like the mill round a point inside the charge: if it is at rest,
+    turns the other way, is thin or centrifuges."""
     solidity, psi = smoothed(charge, radius), stream_function(charge)
     x, y = charge.centres()
     row, column = np.unravel_index(np.argmax(charge.sense * psi), psi.shape)
@@ -88,9 +87,8 @@ def circulation_centre(charge: SolidsMap, radius: float) -> tuple[float, float]:
     moment = charge.sense * (arms[..., 0] * flux[..., 1] - arms[..., 1] * flux[..., 0]).sum()
     total = (np.linalg.norm(arms, axis=-1) * np.linalg.norm(flux, axis=-1)).sum()
     if not moment > TURNING * total:
-        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's moving turns "
-                           f"with the "
-                           f"mill, less than {TURNING:.0%}")
+        raise RuntimeError(f"no centre of circulation: {moment:.3g} of {total:.3g} m3/s of the charge's motion turns "
+                           f"with the mill, less than {TURNING:.0%}")
     _stay_inside(charge, radius, solidity, guess)
     centre = _stagnation_point(charge, guess, max(SMOOTHING * radius, x[1] - x[0], y[1] - y[0]))
     _stay_inside(charge, radius, solidity, centre)
@@ -98,13 +96,12 @@ def circulation_centre(charge: SolidsMap, radius: float) -> tuple[float, float]:
 
 
 def _stay_inside(charge: SolidsMap, radius: float, solidity: np.ndarray, place: np.ndarray) -> None:
-    """RuntimeError if the smoothed solidity [ny, nx] at a place (x, y) (m) in a mill of `radius` (m) is not that of
-    the charge's inside."""
+    """RuntimeError if a place (x, y) (m) is outside the charge, by the smoothed solidity [ny, nx] in a mill of `radius`
+    (m)."""
     phi, edge = at_points(charge, solidity, place[None])[0], EDGE * solidity.max()
     if phi < edge:
-        raise RuntimeError(f"no centre of circulation inside the charge: it turns round x = {1e3 * place[0]:.1f} mm, y "
-                           f"= "
-                           f"{1e3 * place[1]:.1f} mm, where its solidity is {phi:.3g} (its edge: {edge:.3g}); "
+        raise RuntimeError(f"no centre of circulation inside the charge: it turns round x = {1e3 * place[0]:.1f} mm, "
+                           f"y = {1e3 * place[1]:.1f} mm, where the solidity is {phi:.3g} (charge's edge: {edge:.3g}); "
                            f"{along_the_shell(charge, radius, solidity)}")
 
 
@@ -117,10 +114,9 @@ class TangentialProfile:
     mill turns (m/s); coefficients [4] of the cubic in the distance, highest power first (m/s, m); rmsd of the
     velocity from it (m/s); shear_rate [POINTS] (1/s).
 
-    shear_rate is the cubic's derivative du/dr. It is the rate of shear of the flowing layer, whose streamlines are
-    straight where they cross the line; r d(u/r)/dr = du/dr - u/r would hold for circles round the mill's axis, and
-    has no limit where the surface comes near that axis. Where the charge turns rigidly with the shell, du/dr is the
-    mill's angular speed."""
+    shear_rate is the cubic's derivative du/dr. It is the shear rate of the flowing layer, whose streamlines are
+    straight where they cross the line. For circles round the mill's axis it would be r d(u/r)/dr = du/dr - u/r, which
+    has no limit near that axis. Where the charge turns rigidly with the shell, du/dr is the mill's angular speed."""
     angle: float
     distance: np.ndarray
     velocity: np.ndarray
@@ -134,13 +130,13 @@ class TangentialProfile:
 
 
 def tangential_profile(charge: SolidsMap, radius: float, wall: float = WALL) -> TangentialProfile:
-    """TangentialProfile of a SolidsMap's charge in a mill of `radius` (m). Where the charge covers the mill's centre,
-    the line begins there. Velocities between voxels are flux over solidity, each taken bilinearly."""
+    """TangentialProfile of a SolidsMap's charge in a mill of `radius` (m). If the charge covers the mill's centre, the
+    line begins there. Velocities between voxels are flux over solidity, both interpolated bilinearly."""
     centre = np.array(circulation_centre(charge, radius))
     away = np.linalg.norm(centre)
     if away < 0.01 * radius:
-        raise RuntimeError(f"no line through the centre of circulation: that is {1e3 * away:.2g} mm from the mill's "
-                           f"centre")
+        raise RuntimeError(f"no line through the centre of circulation: it is only {1e3 * away:.2g} mm from the mill's "
+                           "centre")
     outwards = centre / away
     solidity = smoothed(charge, radius)
     inwards = np.linspace(away, 0, 500)
@@ -154,7 +150,7 @@ def tangential_profile(charge: SolidsMap, radius: float, wall: float = WALL) -> 
     balls = at_points(charge, _moving(charge), points)
     if balls.min() <= 0:
         raise RuntimeError(f"no velocity {1e3 * distance[np.argmin(balls)]:.1f} mm from the mill's centre: there are "
-                           f"no balls")
+                           "no balls")
     velocity = charge.sense * (flux[1] * outwards[0] - flux[0] * outwards[1]) / balls
     coefficients = np.polyfit(distance, velocity, 3)
     rmsd = float(np.sqrt(np.mean((np.polyval(coefficients, distance) - velocity) ** 2)))
@@ -165,8 +161,7 @@ def tangential_profile(charge: SolidsMap, radius: float, wall: float = WALL) -> 
 
 @dataclass
 class Charge:
-    """All that is read off a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface,
-    profile."""
+    """All readings of a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface, profile."""
     centre: tuple[float, float]
     toe: float
     shoulder: float

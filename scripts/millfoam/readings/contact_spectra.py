@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spectra of the energy of a charge's contacts: collisions and dissipated power, by class of balls and by energy.
 
-What the interval between the contacts' dumps limits: a contact is a collision when its pair was not in touch at the
-dump before. Pairs that part and meet again within an interval count once. A touch shorter than the interval is seen
-with the probability duration / interval, so that one that is gone at the next dump counts interval / duration times,
+Limits by the interval between the contacts' dumps: a contact is a collision if its pair was not in touch at the dump
+before. Pairs that separate and touch again within an interval count once. A touch shorter than the interval is in a
+dump with the probability duration / interval. So a touch that is not in the next dump counts interval / duration times,
 with the duration of a Hertz contact of its energy. The energy is that at the dump: between the energy at first touch
-and, at the end of the touch, e^2 of it. Powers need no such weights: they are means over the dumps, which see every
-contact as long as it lasts."""
+and, at the end of the touch, e^2 of it. Powers need no such weights: they are means over the dumps, in which every
+contact appears in proportion to its duration."""
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,13 +25,13 @@ PARTS = ("damping", "friction", "rolling", "spring")
 
 @dataclass
 class Spectra:
-    """edges [n] (J): bins of energy are below the first, between two, and above the last, so that nothing is lost.
+    """edges [n] (J): bins of energy are below the first, between two, and above the last, so that all are counted.
 
     classes: diameters (m), ascending, the first 0 for the wall; collisions [c, c, n + 1] (1/s): of a ball of class i <=
     j with one of class j, by energy at first touch; power: {part: [c, c, n + 1]} (W) by the energy of the relative
     motion at the contact, 1/2 m* (approach^2 + slip^2): damping, of the normal dampers; friction, of the tangential
-    forces, by sliding and tangential damping, and what the tangential springs hold for a while; rolling, of rolling
-    friction; spring, into the normal springs, whose mean over a long time is nought. sliding: share of the friction at
+    forces, by sliding and tangential damping, and of the tangential springs; rolling, of rolling
+    friction; spring, into the normal springs, whose mean over a long time is zero. sliding: share of the friction at
     contacts at Coulomb's limit. dumps: their number; interval (s): between them."""
     edges: np.ndarray
     classes: np.ndarray
@@ -46,7 +46,7 @@ class Spectra:
         return np.asarray(sum(self.power[part] for part in PARTS if part != "spring"))
 
     def total_power(self) -> float:
-        """What all contacts take, W: in a steady state the drive's power, whatever the springs hold for a while."""
+        """Power of all contacts, springs included, W: in a steady state it is the drive's power."""
         return float(sum(self.power[part].sum() for part in PARTS))
 
 
@@ -138,8 +138,9 @@ def hertz_duration(mass: np.ndarray, stiffness: np.ndarray, energy: np.ndarray) 
 
 
 def power_to_dissipate(folder: Path | str, begin: float = 0.0, end: float = np.inf) -> float:
-    """Mean of the drive's power in DIR/dumps/energy.csv from `begin` to `end` (s) less what the charge's kinetic energy
-    of translation and potential energy gain, W: what contacts must take, but for the small energy of spin."""
+    """Mean of the drive's power in DIR/dumps/energy.csv from `begin` to `end` (s) minus the gain of the charge's
+    kinetic energy of translation and potential energy, W. The contacts take this power, except for the small energy of
+    spin."""
     table: Any = np.genfromtxt(Path(folder) / "dumps" / "energy.csv", delimiter=",", names=True)
     table = table[(table["time_s"] >= begin) & (table["time_s"] <= end)]
     if len(table) < 2:

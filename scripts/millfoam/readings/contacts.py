@@ -24,7 +24,7 @@ class Contacts:
     the normal spring's force k overlap^1.5.
 
     Powers that the contact takes from the balls and the drive (W): damping, of the normal damper; spring, into the
-    normal spring, which gives it back; friction, of the tangential force: sliding, tangential damper and tangential
+    normal spring, which returns it later; friction, of the tangential force: sliding, tangential damper and tangential
     spring; rolling, of the rolling torque. sliding: whether the tangential force is at Coulomb's limit."""
     key: np.ndarray
     diameters: np.ndarray
@@ -42,7 +42,7 @@ class Contacts:
     sliding: np.ndarray
 
     def power(self) -> np.ndarray:
-        """Power [m] (W) that each contact takes in all."""
+        """Total power [m] (W) of each contact."""
         return self.damping + self.spring + self.friction + self.rolling
 
     def elastic_energy(self) -> np.ndarray:
@@ -50,8 +50,8 @@ class Contacts:
         return 2 / 5 * self.stiffness * self.overlap ** 2.5
 
     def normal_energy(self) -> np.ndarray:
-        """Energy [m] (J) of the motion along the normal, with that of the spring: from first touch on it falls, by what
-        damping takes, from 1/2 m v^2 to e^2 times as much."""
+        """Energy [m] (J) of the motion along the normal and of the spring. During the contact, damping reduces it from
+        1/2 m v^2 to e^2 times this value."""
         return self.reduced_mass * self.approach ** 2 / 2 + self.elastic_energy()
 
 
@@ -120,7 +120,7 @@ def _contacts(table: Table, normal: np.ndarray, arm: np.ndarray, move: np.ndarra
     tangential = table["force"] - push[:, None] * normal
     approach = -np.sum(move * normal, axis=1)
     past = past - np.sum(past * normal, axis=1)[:, None] * normal
-    # What the torque is more than that of the tangential force at its arm is rolling friction
+    # Rolling friction is the torque minus that of the tangential force at its arm
     rolling = table["torque"] + arm[:, None] * np.cross(normal, tangential)
     first, second = types
     stiffness = 4 / 3 * np.sqrt(radius) * _modulus((1 - materials.poisson_ratio ** 2) / materials.youngs_modulus, types)
@@ -134,13 +134,13 @@ def _contacts(table: Table, normal: np.ndarray, arm: np.ndarray, move: np.ndarra
 
 def tangential_forces(dumped: np.ndarray, past: np.ndarray, limit: np.ndarray,
                       damper: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Tangential forces [m, 3] (N) as they acted, and which contacts slide [m], from those that were dumped.
+    """Tangential forces [m, 3] (N) that acted, and whether contacts slide [m], from the dumped forces.
 
-    past [m, 3] (m/s): of the surfaces; limit [m] (N): Coulomb's; damper [m] (N s/m). LIGGGHTS lets a contact slide
-    without its damper, and then shortens its spring to the limit. When it computes the force anew for the dump, it
-    finds the spring within the limit and adds the damper, so that the force is too large: here that is taken off again.
-    The limit itself differs by the half step between the two velocities, so that a spring within 2 % of it is taken for
-    a sliding one."""
+    past [m, 3] (m/s): velocity of the surfaces past each other; limit [m] (N): Coulomb's; damper [m] (N s/m). When a
+    contact slides, LIGGGHTS leaves out its damper and shortens its spring to the limit. When it computes the force
+    again for the dump, the spring is within the limit and it adds the damper, so that the force is too large. This
+    function subtracts the damper again. The limit itself differs by half a step between the two velocities, so that a
+    spring within 2 % of it counts as sliding."""
     size = np.linalg.norm(dumped, axis=1)
     at_limit = np.abs(size - limit) <= 1e-6 * limit
     spring = np.where(at_limit[:, None], dumped, dumped + damper[:, None] * past)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Free surface of the charge, its logistic, and where it meets the shell: toe and shoulder, read off a map of the
+"""Free surface of the charge, its logistic, and its ends at the shell, toe and shoulder: readings of a map of the
 charge.
 
 x to the right, y up, the mill's axis at x = y = 0. Angles are counted from straight down, in degrees, positive on the
 side where the shell rises (by the map's sense; the left of a clockwise mill): the shoulder's is positive, the toe's
-usually negative. Each reading raises RuntimeError where the map does not have it."""
+usually negative. Each reading raises RuntimeError if the map does not have it."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,17 +19,17 @@ from .shell_angles import shell_angle
 # Standard deviation of the Gaussian that smooths the solidity before its edge is sought, of the mill's radius
 SMOOTHING = 0.05
 EDGE = 0.5  # solidity at the charge's edge, of the largest of the smoothed map
-WALL = 0.008  # what is nearer to the shell is between or at lifters, m
+WALL = 0.008  # m from the shell; the space closer to it is between or at lifters
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
 POINTS = 100  # along the free surface
 ALL_ROUND = 0.95  # share of the shell that a centrifuging charge covers
-KNOWN = 0.5  # length of the free surface that must be known where a map misses voxels, of the mill's radius
+KNOWN = 0.5  # length of the free surface that must be known if a map lacks voxels, of the mill's radius
 
 
 def smoothed(charge: SolidsMap, radius: float, smoothing: float = SMOOTHING) -> np.ndarray:
-    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and room are smoothed
-    apart, so that the mean is over what lies inside the mill only and the shell is no edge. RuntimeError if there is
-    no charge."""
+    """Solidity [ny, nx] of a SolidsMap, smoothed by a Gaussian of `smoothing` radii. Balls and space are smoothed
+    separately, so that the mean is only over the mill's inside and the shell is no edge. RuntimeError if there is no
+    charge."""
     widths = [smoothing * radius / np.diff(edges).mean() for edges in (charge.y, charge.x)]
     balls, room = (gaussian_filter(values, widths, mode="constant") for values in (
         charge.balls(), np.where(np.isfinite(charge.solidity), charge.inside, 0.0)))
@@ -40,18 +40,19 @@ def smoothed(charge: SolidsMap, radius: float, smoothing: float = SMOOTHING) -> 
 
 
 def at_points(charge: SolidsMap, values: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Values [ny, nx] on a map's voxels, bilinearly at points [n, 2] (m); beyond the outermost centres, theirs."""
+    """Values [ny, nx] on a map's voxels, interpolated bilinearly at points [n, 2] (m); constant beyond the outermost
+    centres."""
     x, y = charge.centres()
     place = [(points[:, 1] - y[0]) / (y[1] - y[0]), (points[:, 0] - x[0]) / (x[1] - x[0])]
     return map_coordinates(values, place, order=1, mode="nearest")
 
 
 def along_the_shell(charge: SolidsMap, radius: float, solidity: np.ndarray, wall: float = WALL) -> str:
-    """In words, how much of the shell of a mill of `radius` (m) the charge covers: only one that lies along all of it
+    """In words, the share of the shell of a mill of `radius` (m) that the charge covers. A charge that covers all of it
     centrifuges.
 
-    solidity [ny, nx], smoothed; covered: where it is that of the charge's inside somewhere within `wall` (m) of the
-    shell."""
+    solidity [ny, nx], smoothed. A place is covered if the solidity within `wall` (m) of it reaches that of the charge's
+    edge."""
     angle = np.radians(np.arange(0, 360, 2))
     depths = np.linspace(0, wall, 5)[:, None]
     points = np.stack([(radius - depths) * np.cos(angle), (radius - depths) * np.sin(angle)], axis=-1)
@@ -71,9 +72,9 @@ def logistic(x: np.ndarray, a: float, b: float, c: float, d: float) -> np.ndarra
 class FreeSurface:
     """Free surface of the bulk of the charge, from the shoulder to the toe.
 
-    points [POINTS, 2]: x, y (m), equally far from each other along it, NaN where a measured map does not know it;
-    parameters: a (m), b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean
-    square of what the points' y differ from it by; NaN where what is known of the surface has no logistic."""
+    points [POINTS, 2]: x, y (m), equally spaced along it, NaN where a measured map does not know it; parameters: a (m),
+    b, c (1/m), d (m) of the logistic y = a/(1 + b exp(-c x)) + d, c > 0; rmsd (m): root mean square of the points'
+    differences from it in y; NaN if the known part of the surface has no logistic."""
     points: np.ndarray
     parameters: tuple[float, ...]
     rmsd: float
@@ -83,8 +84,8 @@ class FreeSurface:
         return logistic(np.asarray(x, dtype=float), *self.parameters)
 
     def height(self, x: ArrayLike) -> np.ndarray:
-        """The surface's own height y (m) at x (m), straight between points, the highest where it overhangs; NaN
-        beside it and where it is not known."""
+        """The surface's own height y (m) at x (m), straight between points, the highest one if it overhangs; NaN
+        outside its range and where it is not known."""
         x = np.atleast_1d(np.asarray(x, dtype=float))
         (x0, y0), (x1, y1) = self.points[:-1].T[..., None], self.points[1:].T[..., None]
         with np.errstate(invalid="ignore", divide="ignore"):
@@ -95,7 +96,7 @@ class FreeSurface:
 
 
 def _to_circle(inner: np.ndarray, outer: np.ndarray, largest: float) -> np.ndarray:
-    """Where the straight way from a point [2] within the circle of radius `largest` to one beyond it crosses it."""
+    """Crossing of the circle of radius `largest` and the straight line from a point [2] inside it to one outside."""
     way = outer - inner
     square, offset = way @ way, inner @ way
     return inner + (np.sqrt(offset**2 + square * (largest**2 - inner @ inner)) - offset) / square * way
@@ -123,12 +124,11 @@ def _evenly(line: np.ndarray, count: int) -> np.ndarray:
 
 
 def is_known(charge: SolidsMap, points: np.ndarray, margin: float) -> np.ndarray:
-    """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill whose solidity the map
-    misses [n]."""
+    """Whether points [n, 2] (m) are farther than `margin` (m) from every voxel in the mill without a solidity [n]."""
     rows, columns = np.nonzero(~np.isfinite(charge.solidity) & (charge.inside > 0))
-    beside = [np.maximum(np.maximum(edges[index] - place[:, None], place[:, None] - edges[index + 1]), 0.0)
-              for edges, index, place in ((charge.x, columns, points[:, 0]), (charge.y, rows, points[:, 1]))]
-    return np.all(np.hypot(*beside) > margin, axis=1)
+    apart = [np.maximum(np.maximum(edges[index] - place[:, None], place[:, None] - edges[index + 1]), 0.0)
+             for edges, index, place in ((charge.x, columns, points[:, 0]), (charge.y, rows, points[:, 1]))]
+    return np.all(np.hypot(*apart) > margin, axis=1)
 
 
 def _length(line: np.ndarray) -> float:
@@ -147,34 +147,34 @@ def surface_points(charge: SolidsMap, radius: float, wall: float = WALL, smoothi
                      ("no free surface", along_the_shell(charge, radius, solidity, wall)))
         raise RuntimeError(f"{what}: the charge's edge, solidity {EDGE * solidity.max():.3g}, does not meet the circle "
                            f"{1e3 * wall:g} mm from the shell; {why}")
-    # Beside what a map misses, the contour is the edge of what it knows
+    # Close to missing voxels, the contour is only the edge of the known part
     margin = max(np.diff(charge.x).max(), np.diff(charge.y).max(), smoothing * radius)
     lines = (_evenly(piece, POINTS) for piece in pieces)
     points = max((np.where(is_known(charge, line, margin)[:, None], line, np.nan) for line in lines), key=_length)
     if np.isnan(points).any() and _length(points) < KNOWN * radius:
         raise RuntimeError(f"free surface not known: {1e3 * _length(points):.0f} mm of it are farther than "
-                           f"{1e3 * margin:.1f} mm from voxels that the map misses; expected "
+                           f"{1e3 * margin:.1f} mm from voxels that the map lacks; expected "
                            f"{1e3 * KNOWN * radius:.0f} mm or more")
-    # On the way from the shoulder to the toe the charge is on the right in a clockwise mill, on the left in another
+    # From the shoulder to the toe, the charge is on the right side in a clockwise mill, on the left side in another
     along = np.gradient(points, axis=0)
     across = np.column_stack([along[:, 1], -along[:, 0]])
     inwards = -charge.sense * across / np.linalg.norm(along, axis=1, keepdims=True)
     step = SMOOTHING * radius / 2
-    told = np.isfinite(inwards).all(axis=1)
-    ahead, behind = (at_points(charge, solidity, (points + way * inwards)[told]) for way in (step, -step))
+    known = np.isfinite(inwards).all(axis=1)
+    ahead, behind = (at_points(charge, solidity, (points + way * inwards)[known]) for way in (step, -step))
     return points if np.mean(ahead - behind) > 0 else points[::-1]
 
 
 def free_surface(charge: SolidsMap, radius: float, wall: float = WALL, smoothing: float = SMOOTHING) -> FreeSurface:
     """FreeSurface of a SolidsMap's charge in a mill of `radius` (m).
 
-    The map is smoothed by a Gaussian of `smoothing` radii; the surface is the contour at EDGE of the largest solidity
-    left, where it is farther than `wall` (m) from the shell. Of several pieces from shell to shell the longest
-    counts: that bounds the bulk. Balls in flight are thinner than EDGE and outside of it; a cataract that is not
-    belongs to it.
+    The map is smoothed by a Gaussian of `smoothing` radii. The surface is the contour at EDGE of the largest smoothed
+    solidity, where it is farther than `wall` (m) from the shell. If there are several pieces from shell to shell, the
+    longest one counts, which bounds the bulk. Balls in flight have a lower solidity and are outside; a dense cataract
+    belongs to the bulk.
 
-    Of a map that misses voxels in the mill it is read only where it is farther from these than a voxel's width and
-    the smoothing's; RuntimeError "free surface not known" where that leaves less than KNOWN radii of it."""
+    If the map lacks voxels in the mill, the surface is read only where it is farther from them than a voxel's width
+    and the smoothing's; RuntimeError "free surface not known" if less than KNOWN radii of it remain."""
     points = surface_points(charge, radius, wall, smoothing)
     known = np.isfinite(points[:, 0])
     try:
@@ -182,7 +182,7 @@ def free_surface(charge: SolidsMap, radius: float, wall: float = WALL, smoothing
     except RuntimeError:
         if known.all():
             raise
-        parameters, rmsd = (np.nan,) * 4, np.nan  # a straight part of a surface fixes no step
+        parameters, rmsd = (np.nan,) * 4, np.nan  # a straight part of a surface determines no step
     return FreeSurface(points, parameters, rmsd)
 
 
@@ -191,8 +191,8 @@ def fit_logistic(x: np.ndarray, y: np.ndarray, scale: float) -> tuple[tuple[floa
     least-squares fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up
     to ten of them.
 
-    They begin at the best three of a table of places and widths of the step, to each of which belong an a and a d
-    that are linear least squares. RuntimeError if none comes to an end."""
+    They begin at the best three of a table of places and widths of the step; a and d of each are linear least squares.
+    RuntimeError if no fit converges."""
     x, y = x / scale, y / scale
 
     def step(x: np.ndarray, a: float, place: float, c: float, d: float) -> np.ndarray:
@@ -218,8 +218,8 @@ def fit_logistic(x: np.ndarray, y: np.ndarray, scale: float) -> tuple[tuple[floa
 
 
 def toe_and_shoulder(charge: SolidsMap, radius: float, wall: float = WALL) -> tuple[float, ...]:
-    """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)): of the
-    points at which the free surface meets the circle `wall` (m) from the shell."""
+    """Angles of toe and shoulder (degrees from straight down, positive where the shell rises; in [-180, 180)). They are
+    the points at which the free surface meets the circle `wall` (m) from the shell."""
     points = surface_points(charge, radius, wall)
     for end, name in ((-1, "toe"), (0, "shoulder")):
         if np.isnan(points[end]).any():

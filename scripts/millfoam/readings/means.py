@@ -14,14 +14,14 @@ BLOCKS = 5  # of the averaged time, for errors
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean over time and its standard error; NaN where there are no two blocks."""
+    """A mean over time and its standard error, which is NaN for fewer than two blocks."""
     value: float
     error: float = 0.0
 
     def __sub__(self, other: "Mean") -> "Mean":
         return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
 
-    def told(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
+    def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
         return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
 
@@ -41,7 +41,7 @@ def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np
 
 
 def angle_mean(angles: ArrayLike) -> Mean:
-    """block_mean of angles [n] (degrees), which may stand on either side of 180; from -180 to 180."""
+    """block_mean of angles [n] (degrees), which may be on both sides of 180; from -180 to 180."""
     about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
     found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
     return Mean(float((found.value + about + 180) % 360 - 180), found.error)
@@ -49,9 +49,8 @@ def angle_mean(angles: ArrayLike) -> Mean:
 
 @dataclass
 class Reading:
-    """value of the mean over all windows, a number or an array, and its standard error, from as many `blocks` of
-    windows; on `failed` further blocks there was nothing to read. The error is NaN if it could be read on fewer than
-    two."""
+    """value: of the mean over all windows, a number or an array; error: its standard error from `blocks` blocks of
+    windows, NaN for fewer than two; failed: number of further blocks without this reading."""
     value: np.ndarray
     error: np.ndarray
     blocks: int
@@ -61,12 +60,12 @@ class Reading:
 def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsMap], blocks: int = 8) -> Reading:
     """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
 
-    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, where there is
-    nothing to read. What it raises for the mean of all windows is passed on. maps: as read_windows gives them; they are
-    cut into at most `blocks` equal blocks of successive windows (what is left over goes to the first ones), each block
-    is averaged and read, and the error is the readings' standard deviation over the root of their number. That holds as
-    far as blocks are longer than what the charge remembers, about a turn of the charge. Method of batch means: A. M.
-    Law, Simulation Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
+    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, if a map does not
+    have it. An error for the mean of all windows is passed on. maps: from read_windows. They are divided into at most
+    `blocks` equal blocks of successive windows (the first ones may be one window longer). Each block is averaged and
+    read. The error is the readings' standard deviation over the root of their number. It holds if blocks are longer
+    than the correlation time of the charge, about a turn of the charge. Method of batch means: A. M. Law, Simulation
+    Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
     if len(maps) < 2 or blocks < 2:
         raise ValueError(f"{len(maps)} windows in {blocks} blocks: an error over time needs at least two of each")
     value = np.asarray(reading(mean_map(maps)), dtype=float)
@@ -84,7 +83,7 @@ def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsM
 
 
 def time_mean(times: ArrayLike, values: ArrayLike, begin: float) -> float:
-    """Mean of values [times] from `begin` (s) on, each standing for the time since the one before; NaN if there are
+    """Mean of values [times] from `begin` (s) on, each weighted by the time since the one before; NaN if there are
     none."""
     times = np.asarray(times)
     steps = np.diff(times, prepend=2 * times[0] - times[1] if len(times) > 1 else times[0] - 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mechanistic models to hold against a simulated mill: the charge's free surface and the slurry's hold-up."""
+"""Mechanistic models to compare with a simulated mill: the charge's free surface and the slurry's hold-up."""
 from dataclasses import dataclass
 from typing import Any
 
@@ -39,10 +39,10 @@ def free_surface(internal: float, wall: float, number: float, filling: float | N
     """FreeSurface of Taberlet, Richard & Hinch, Phys. Rev. E 73 (2006) 050301: dy/dx = mu_i + mu_w Lambda sqrt(1 - x^2
     - y^2) where the mill lifts its charge on the right (anticlockwise); for a clockwise mill it is mirrored.
 
-    Either filling, above 0 and below 1, of which the height follows, or the height at x = 0 in (-1, 1). The ends'
-    friction takes the place of a term that grows with the flowing layer, whose thickness follows from its flow, Omega
-    (R^2 - r^2) / 2, at a shear rate sqrt(g/d). ValueError for other values, or a surface that does not go from shell to
-    shell."""
+    Give either the filling, above 0 and below 1, from which the height follows, or the height at x = 0 in (-1, 1). The
+    ends' friction is a term that grows with the flowing layer. The thickness of this layer follows from its flow, Omega
+    (R^2 - r^2) / 2, at a shear rate sqrt(g/d). ValueError for other values, or for a surface that does not reach from
+    shell to shell."""
     if (filling is None) == (height is None):
         raise ValueError("filling and height: expected one of them")
     if filling is not None and not 0 < filling < 1 or height is not None and not -1 < height < 1:
@@ -85,8 +85,8 @@ def _branches(internal: float, wall: float, number: float, height: float) -> tup
 def fit_free_surface(x: ArrayLike, y: ArrayLike, number: float, filling: float | None = None,
                      clockwise: bool = True) -> tuple[FreeSurface, float]:
     """FreeSurface whose mu_i and mu_w are fitted to points x, y [n] (units of the radius) of a free surface, n > 2, and
-    the root mean square of what is left in y: (FreeSurface, float). With a filling the height follows from it,
-    otherwise it is fitted. Friction is not negative: a surface that asks for that is fitted with none."""
+    the root mean square of the residuals in y: (FreeSurface, float). The height follows from the filling; without a
+    filling it is fitted. Friction is 0 where the fit would make it negative."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if x.shape != y.shape or len(x) < 3 or not np.all(x ** 2 + y ** 2 < 1):
         raise ValueError(f"points x {x.shape}, y {y.shape}; expected 3 or more within the mill")
@@ -99,7 +99,7 @@ def fit_free_surface(x: ArrayLike, y: ArrayLike, number: float, filling: float |
 
     def misfit(unknowns: np.ndarray) -> np.ndarray:
         found = surface(unknowns)
-        # Points beyond the model's own shell points are held against the straight line with the slope that it has there
+        # Points beyond the model's ends at the shell are compared with a straight line of the slope at these ends
         beyond = np.where(along < found.x[0], along - found.x[0],
                           np.where(along > found.x[-1], along - found.x[-1], 0.0))
         return np.interp(along, found.x, found.y) + found.internal * beyond - y
@@ -114,8 +114,7 @@ def fit_free_surface(x: ArrayLike, y: ArrayLike, number: float, filling: float |
 
 
 def describes(surface: FreeSurface, rmsd: float) -> bool:
-    """Whether a fitted FreeSurface describes what it was fitted to: friction above its bound of nought, a small
-    rest."""
+    """Whether a fitted FreeSurface describes its points: friction above its bound of zero, and small residuals."""
     return min(surface.internal, surface.wall) > 1e-3 and rmsd <= POOR
 
 
@@ -160,7 +159,7 @@ def slurry_hold_up(charge: Charge, flow: float, discharge_depth: float, viscosit
     _check(flow, discharge_depth)
     drop = 2.5 * charge.resistance(viscosity, density) * flow * charge.length
     least = discharge_depth ** 2.5
-    # ((least + drop)^1.6 - least^1.6) / drop, in which the smaller of the two must not be lost
+    # ((least + drop)^1.6 - least^1.6) / drop, without cancellation of the smaller one
     if drop == 0:
         mean = 1.6 * least ** 0.6
     elif drop < least:

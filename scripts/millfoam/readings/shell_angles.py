@@ -16,23 +16,22 @@ def shell_angle(x: np.ndarray, y: np.ndarray, omega: float) -> np.ndarray:
 
 
 def bin_centres() -> np.ndarray:
-    """Of the ring's bins, degrees."""
+    """Centres of the ring's bins, degrees."""
     return np.arange(-180 + BIN / 2, 180, BIN)
 
 
 def crossing(angles: np.ndarray, share: np.ndarray, inside: int, outside: int) -> float:
-    """Angle at which the share, straight between the two bins, is LEVEL."""
+    """Angle at which the share, interpolated linearly between the two bins, is LEVEL."""
     part = (share[inside] - LEVEL) / (share[inside] - share[outside])
     way = (angles[outside] - angles[inside] + 180) % 360 - 180
     return (angles[inside] + part * way + 180) % 360 - 180
 
 
 def toe_and_shoulder(share: np.ndarray) -> tuple[float, float]:
-    """Both ends of the slurry along the lifters' tips (degrees), out of its share of the fluid in the ring's bins
-    [bins].
+    """Both ends of the slurry along the lifters' tips (degrees), from its share of the fluid in the ring's bins [bins].
 
-    Of the arcs with a share of at least LEVEL the one that holds most slurry counts. NaN where there is no end:
-    nowhere that much slurry, or everywhere."""
+    Arcs have a share of at least LEVEL; the one with most slurry counts. NaN if there is no end, because no bin or
+    every bin has such a share."""
     angles, wet = bin_centres(), share >= LEVEL
     starts = np.flatnonzero(wet & ~np.roll(wet, 1))
     if len(starts) == 0:

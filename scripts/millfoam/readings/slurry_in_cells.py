@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the slurry of a mill stands, what turns it, and how fast it passes the balls: numbers read off the cells of a
-flow's written times.
+"""Place, torque and slip velocity of the slurry of a mill, from the cells of a flow's written times.
 
 Angles: see shell_angles."""
 from collections.abc import Sequence
@@ -17,7 +16,7 @@ from .means import weighted_percentile
 from .shell_angles import BIN, shell_angle, toe_and_shoulder
 
 SAMPLES = 4  # along each side of a column's quad
-BED = 0.2  # solidity from which on a place belongs to the bed
+BED = 0.2  # lowest solidity of the bed
 
 
 def samples(flow: MillFlow) -> tuple[np.ndarray, np.ndarray]:
@@ -63,7 +62,7 @@ def centre(flow: MillFlow, frame: Frame) -> list[float]:
 
 
 def angular_momentum(flow: MillFlow, frame: Frame, density: float) -> float:
-    """Of the slurry about the mill's axis, kg m2/s."""
+    """Angular momentum of the slurry about the mill's axis, kg m2/s."""
     x, y = place(flow, frame)
     return float(density * (frame.slurry * (x * frame.velocity[:, 1] - y * frame.velocity[:, 0])).sum())
 
@@ -78,8 +77,8 @@ def over_bins(flow: MillFlow, frame: Frame, points: np.ndarray, column: np.ndarr
 
 
 def ring(flow: MillFlow, frame: Frame, points: np.ndarray, column: np.ndarray, height: float) -> np.ndarray:
-    """Volumes of slurry and fluid [2, bins] of a ring along the lifters' tips, inside of them and as wide as the
-    lifters' `height` (m): between lifters, pockets of air and slurry carried over the top would blur both ends."""
+    """Volumes of slurry and fluid [2, bins] of a ring inside the lifters' tips, as wide as the lifters' `height` (m).
+    Between lifters, pockets of air and slurry carried over the top would blur both ends."""
     x, y = flow.turned(points, frame.time).T
     bins = round(360 / BIN)
     keys = np.floor((shell_angle(x, y, flow.omega) + 180) / BIN).astype(int) % bins
@@ -105,8 +104,8 @@ def reynolds(frame: Frame, density: float, viscosity: float) -> tuple[np.ndarray
 
 @dataclass
 class Shape:
-    """What is read off the later part of a flow. Each of `numbers` is name -> (mean, half of the difference between
-    the means over the two halves of that time): centre_x, centre_y (m), toe, shoulder (degrees), torque (N m), power
+    """Readings of the later part of a flow. Each of `numbers` is name -> (mean, half of the difference between the
+    means over the two halves of that time): centre_x, centre_y (m), toe, shoulder (degrees), torque (N m), power
     (W/m)."""
     numbers: dict[str, tuple[float, float]]
     share: np.ndarray  # slurry's of the fluid [pixels, pixels] over the mill's square, NaN outside
@@ -130,8 +129,8 @@ def power_numbers(flow: MillFlow, frames: Sequence[Frame], centres: np.ndarray, 
                   gravity: float = 9.81) -> dict[str, float]:
     """Torque (N m) on the slurry by walls and balls, and its power (W/m of the mill's length).
 
-    Walls and balls balance the slurry's weight and change its angular momentum L: T = m g x_c + dL/dt. The balls are
-    driven by the mill alone, so that the mill has to give omega T, whichever way the torque takes."""
+    Walls and balls balance the slurry's weight and change its angular momentum L: T = m g x_c + dL/dt. Only the mill
+    drives the balls, so that the mill's power is omega T for the torque of walls and of balls."""
     density = float(properties["slurryDensity"])
     mass = density * np.mean([frame.slurry.sum() for frame in frames])
     gain = angular_momentum(flow, frames[-1], density) - angular_momentum(flow, frames[0], density)
@@ -168,6 +167,6 @@ def read_shape(flow: MillFlow, begin: float, pixels: int = 60) -> Shape:
 
 
 def count_steps(case: Path | str) -> int:
-    """Time-steps of a case's flow, its restarts joined; 0 if slurryFoam left none."""
+    """Number of time-steps of a case's flow with all restarts; 0 if slurryFoam wrote none."""
     steps = read_flow_record(case).steps
     return 0 if steps is None else len(steps["time_s"])

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read off maps of the slurry, averaged over axis and time (SlurryMap): toe and shoulder, the pool in front of
-the charge, the way along the axis.
+"""Readings of maps of the slurry, averaged over axis and time (SlurryMap): toe and shoulder, the pool in front of the
+charge, the motion along the axis.
 
-x to the right, y up, the mill's axis at x = y = 0; which way the mill turns is the map's sense. z runs from the feed
-end to the discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
+x to the right, y up, the mill's axis at x = y = 0; the mill turns by the map's sense. z runs from the feed end to the
+discharge end. Angles are counted from straight down, in degrees, positive on the rising side."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from .means import weighted_percentile
 from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
 
 BED = 0.1  # solidity above which a pixel belongs to the charge
-RANGE = (5, 95)  # per cent of the slurry between which an axial velocity's range is told
+RANGE = (5, 95)  # per cent of the slurry that bound an axial velocity's range
 
 
 def pixel_angles(slurry: SlurryMap) -> np.ndarray:
@@ -25,12 +25,12 @@ def pixel_angles(slurry: SlurryMap) -> np.ndarray:
 
 def slurry_ends(slurry: SlurryMap, radius: float, wall: float) -> tuple[float, ...]:
     """Toe and shoulder of a SlurryMap's slurry (degrees): where its share passes 0.5 on the circle `wall` (m) from the
-    shell, at both ends of the arc with most slurry; NaN if there is none or no end. A `wall` at the lifters' tips keeps
-    out of the reading what they carry over the top."""
+    shell, at both ends of the arc with most slurry; NaN if there is none or no end. With a `wall` at the lifters' tips,
+    slurry that they carry over the top has no effect."""
     angle, (x, y) = np.radians(bin_centres()), slurry.centres()
     place = [(-(radius - wall) * np.cos(angle) - y[0]) / (y[1] - y[0]),
              (slurry.sense * (radius - wall) * np.sin(angle) - x[0]) / (x[1] - x[0])]
-    # Beside pixels outside the mill the mean is over those inside
+    # Next to pixels outside the mill, the mean is over those inside
     known = np.isfinite(slurry.share).astype(float)
     share, weight = (map_coordinates(values, place, order=1, mode="nearest")
                      for values in (np.nan_to_num(slurry.share), known))
@@ -49,14 +49,13 @@ class Pool:
 
 
 def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
-    """Pool of a SlurryMap beside a charge of `solidity` [ny, nx] on the same pixels.
+    """Pool of a SlurryMap with a charge of `solidity` [ny, nx] on the same pixels.
 
     It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and
-    a solidity of at most 0.1: slurry that stands clear of the charge, not what fills its pores. Without balls it is all
-    slurry. Films that are thinner in the mean than half a pixel do not appear. ValueError if the shapes differ."""
+    a solidity of at most 0.1: slurry clear of the charge, not in its pores. Without balls it is all slurry. Films with
+    a mean thickness below half a pixel do not appear. ValueError if the shapes differ."""
     if solidity.shape != slurry.share.shape:
-        raise ValueError(f"solidity of {solidity.shape} pixels beside slurry of {slurry.share.shape}; expected the "
-                         "same")
+        raise ValueError(f"solidity of {solidity.shape} pixels, slurry of {slurry.share.shape}; expected the same")
     share = np.nan_to_num(slurry.share)
     regions, count = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
     if count == 0:
@@ -79,8 +78,8 @@ class HalfFlow:
 
 @dataclass
 class AxialFlow:
-    """Of the slurry's way along the axis: velocity [ny, nx] (m/s), NaN where its share is at most 0.5; of its halves at
-    the toe and at the shoulder, on either side of the line from the mill's centre at `middle` degrees."""
+    """The slurry's motion along the axis: velocity [ny, nx] (m/s), NaN where its share is at most 0.5; toe, shoulder:
+    of its halves on both sides of the line from the mill's centre at `middle` degrees."""
     velocity: np.ndarray
     middle: float
     toe: HalfFlow
@@ -88,7 +87,7 @@ class AxialFlow:
 
     @property
     def circulates(self) -> bool:
-        """Whether slurry goes to the discharge at the toe and back at the shoulder, in the mean."""
+        """Whether slurry flows to the discharge at the toe and back at the shoulder, in the mean."""
         return self.toe.mean > 0 > self.shoulder.mean
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, way along the axis, with standard
-errors. From the tables and slurry.h5 of function objects, else from the written times."""
+"""The slurry of a mill's run by successive blocks of time: maps, toe and shoulder, motion along the axis, with standard
+errors. From the tables and slurry.h5 of function objects, or otherwise from the written times."""
 import copy
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from .axial import AxialSeries, axial_series
 from .maps_of_times import TimesMap, mean_flow, mean_of_times
 from .means import BLOCKS, Mean, angle_mean, block_mean
 
-RING = 1.5  # heights of a lifter from the shell to the circle on which the slurry is read: what lifters carry is beyond
+RING = 1.5  # lifter heights from the shell to the circle on which the slurry is read; lifters carry slurry outside it
 
 
 @dataclass(frozen=True)
 class Way:
-    """Of the slurry by blocks of time: angles of its toe and shoulder (degrees, from straight down) on the circle of
-    ring_depth, and velocity along the axis of its halves there (m/s, to the discharge positive)."""
+    """The slurry's readings by blocks of time: angles of its toe and shoulder (degrees, from straight down) on the
+    circle of ring_depth, and velocity along the axis of its halves there (m/s, to the discharge positive)."""
     toe_angle: Mean
     shoulder_angle: Mean
     toe: Mean
@@ -29,7 +29,7 @@ class Way:
 
     @property
     def circulates(self) -> str:
-        """Whether slurry goes to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` where
+        """Whether slurry flows to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` if
         that is within two standard errors."""
         signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value))
                  for half in (self.toe, self.shoulder)]
@@ -42,7 +42,7 @@ def ring_depth(lifter_height: float) -> float:
 
 
 def slurry_way(maps: Sequence[SlurryMap], radius: float, lifter_height: float) -> Way:
-    """Way of SlurryMap of successive blocks of time. RuntimeError where slurry has no ends on the circle."""
+    """Way of SlurryMap of successive blocks of time. RuntimeError if slurry has no ends on the circle."""
     ends = [slurry_on_maps.slurry_ends(one, radius, ring_depth(lifter_height)) for one in maps]
     ways = [slurry_on_maps.axial_flow(one, *both) for one, both in zip(maps, ends)]
     angles = [angle_mean(one) for one in zip(*ends)]
@@ -50,7 +50,7 @@ def slurry_way(maps: Sequence[SlurryMap], radius: float, lifter_height: float) -
 
 
 def mean_slurry(case: MillCase, maps: Sequence[SlurryMap]) -> SlurryMap:
-    """SlurryMap of the averaged time of a MillCase, of whose blocks there are `maps`."""
+    """SlurryMap of the averaged time of a MillCase; maps: of the blocks of this time."""
     of_times = [one for one in maps if isinstance(one, TimesMap)]
     if len(of_times) == len(maps):
         return mean_of_times(of_times)
@@ -59,20 +59,20 @@ def mean_slurry(case: MillCase, maps: Sequence[SlurryMap]) -> SlurryMap:
 
 
 def blocks_of(count: int) -> list[np.ndarray]:
-    """Numbers of `count` windows or times in a row, in BLOCKS parts as equal as can be, or fewer of one each."""
+    """Numbers of `count` successive windows or times, in at most BLOCKS parts of nearly equal size."""
     return np.array_split(np.arange(count), min(BLOCKS, count))
 
 
 def slurry_blocks(case: MillCase) -> Iterator[SlurryMap]:
     """SlurryMap of successive parts of the averaged time of a MillCase: of slurry.h5's windows that
-    lie in it, or of the written times. RuntimeError where there are none."""
+    lie in it, or of the written times. RuntimeError if there are none."""
     begin, end = case.flow.time0 + case.begin, case.flow.time0 + case.last
     if case.slurry:
         with h5py.File(case.slurry) as file:
             begins, ends = file["window/begin"][:], file["window/end"][:]
         late = np.flatnonzero((begins >= begin - 1e-6) & (ends <= end + 1e-6))
         if len(late) == 0:
-            raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; there are "
+            raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; the file has "
                                f"{begins[0]:g} to {ends[-1]:g} s")
         for part in blocks_of(len(late)):
             yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length,
@@ -86,11 +86,11 @@ def slurry_blocks(case: MillCase) -> Iterator[SlurryMap]:
 
 
 def read_series(case: MillCase) -> AxialSeries:
-    """AxialSeries of a MillCase: axialProfiles' tables where they are, else the written times."""
+    """AxialSeries of a MillCase, from axialProfiles' tables, or otherwise from the written times."""
     tables = [case.axial(name) for name in ("height", "holdUp", "p_rgh")]
     if any(table is None for table in tables):
         return axial_series(case.flow, case.begin)
-    # A flow that was killed may have written one table farther than another
+    # A flow that was killed may have written more rows to one table than to another
     rows = min(len(table[1]) for table in tables)
     z, times, holdup = tables[1][0], tables[1][1][:rows], tables[1][2][:rows]
     late = times >= case.begin

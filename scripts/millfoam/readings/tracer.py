@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Residence time, solidity and velocity of a charge from the tracks of tracers, as of positron emission particle
-tracking.
+"""Residence time, solidity and velocity of a charge from the tracks of tracers, for example of positron emission
+particle tracking.
 
-In a steady, ergodic charge the share of its time that one ball spends in a voxel is the share of the charge's volume
-that is there: solidity = share x volume of the charge / volume of the voxel (Parker et al., Nucl. Instrum. Methods A
-392 (1997) 421; Wildman et al., Phys. Rev. E 62 (2000) 3826). It is where balls' centres are: balls themselves reach
+In a steady, ergodic charge the share of time that one ball spends in a voxel is the share of the charge's volume in
+it: solidity = share x volume of the charge / volume of the voxel (Parker et al., Nucl. Instrum. Methods A 392 (1997)
+421; Wildman et al., Phys. Rev. E 62 (2000) 3826). This is the solidity of the balls' centres; balls themselves reach
 half a diameter further.
 
-How many tracers that takes: in the 30 cm mill at 75 % of critical speed, 3 s, voxels of 9 mm, balls of 5 mm,
-compare.difference in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100,
-0.022 for 300 and 0.017 for 600: it falls about as one over the root of their number. That balls reach further than
-their centres is no more than 0.001 of it."""
+Number of tracers: in the 30 cm mill at 75 % of critical speed, 3 s, voxels of 9 mm, balls of 5 mm, compare.difference
+in solidity from the map of all 54 676 balls is 0.37 for one tracer, 0.13 for 10, 0.045 for 100, 0.022 for 300 and 0.017
+for 600. It falls about as one over the root of their number. The difference between balls and their centres is at most
+0.001 of it."""
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -23,11 +23,11 @@ from ..files.tracks import Trajectory
 
 @dataclass
 class TracerMap(SolidsMap):
-    """A SolidsMap from tracers, comparable with one from a simulation by compare.difference; and what is behind it.
+    """A SolidsMap from tracers, comparable with one from a simulation by compare.difference, with its 3D fields.
 
     z: voxel edges [nz + 1] (m); residence [nz, ny, nx]: share of all tracers' time; solidity_3d [nz, ny, nx];
-    velocity_3d [nz, ny, nx, 3] (m/s), NaN where no tracer was; outside: share of the time that was spent outside the
-    voxels, which the solidity lacks; tracers: their number."""
+    velocity_3d [nz, ny, nx, 3] (m/s), NaN where no tracer was; outside: share of the time outside the voxels, which is
+    missing in the solidity; tracers: their number."""
     z: np.ndarray
     residence: np.ndarray
     solidity_3d: np.ndarray
@@ -84,8 +84,8 @@ def residence(track: Trajectory, edges: Sequence[ArrayLike], velocity: np.ndarra
     """Time [nz, ny, nx] (s) that a tracer spends in each voxel, the integral of its velocity over that time [nz, ny,
     nx, 3] (m), and the time that it spends outside (s).
 
-    The track is straight between its points, and so is its velocity [n, 3] (m/s) over time: both integrals are exact
-    for that. periodic: z is of a periodic slice, from the first edge to the last, and the track may go on beyond
+    Between its points the track is straight and its velocity [n, 3] (m/s) is linear in time; both integrals are exact
+    for that. periodic: z is of a periodic slice, from the first edge to the last, and the track may continue beyond
     them."""
     planes = [np.asarray(one, dtype=float) for one in edges]
     shape = tuple(len(one) - 1 for one in reversed(planes))

@@ -10,13 +10,13 @@ from . import page
 from .case_readings import Readings
 from .figures import COLOURS, axes_of
 
-DUMPS = 300  # of contacts that are read at most: a spectrum of so many is smooth, and takes some ten seconds
+DUMPS = 300  # of contacts, at most; their spectrum is smooth and takes about ten seconds
 NAMES = {"damping": "damping along the normal", "friction": "friction", "rolling": "rolling friction",
-         "spring": "kept by springs, and for a while"}
+         "spring": "stored in springs"}
 
 
 def contact_section(case: MillCase, _readings: Readings) -> list[str]:
-    """Cards of the contacts of a dry run; none where it did not write any."""
+    """Cards of the contacts of a dry run; none if it wrote no contacts."""
     folder = case.contacts
     if not folder:
         return []
@@ -27,21 +27,19 @@ def contact_section(case: MillCase, _readings: Readings) -> list[str]:
         return [page.paragraph(f"Contacts cannot be shown: {error}.")]
     span = (f"{spectra.dumps} dumps of contacts, every {1e3 * spectra.interval:.3g} ms of DEM time {begin:.3g} to "
             f"{end:.3g} s")
-    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: "
-                                                  "power that "
-                         "contacts dissipate by the energy of their motion. Pairs go by their larger ball; grey: with "
-                         "the wall. "
-                         f"From {span}.", title="Spectra of energy"),
+    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch. "
+                         "Bottom: dissipated power by the energy of the contacts' motion. Colour: the larger ball of "
+                         f"a pair; grey: contacts with the wall. From {span}.", title="Spectra of energy"),
             page.table(*power_table(spectra), title="Power that contacts dissipate, mW",
-                       note="Between balls of two diameters, and of balls and the wall."),
+                       note="Between balls of two diameters, and between balls and the wall."),
             page.table(None, balance_rows(spectra, drive), title="Where the drive's power goes",
-                       note="In a steady state contacts take what the drive gives. They miss each other by what single "
-                            "dumps "
-                            "tell of it: more dumps, at shorter intervals, bring them together.")]
+                       note="In a steady state the contacts take the drive's power. The two numbers differ because "
+                            "dumps are samples: more dumps at shorter intervals reduce the difference.")]
 
 
 def contact_span(case: MillCase) -> tuple[float, float]:
-    """DEM times between which contacts are read: the last DUMPS dumps since the charge is steady, if it ever is."""
+    """DEM times between which contacts are read: the last DUMPS dumps, of a charge that becomes steady only those
+    since then."""
     times = case.contact_times
     if len(times) < 3:
         raise RuntimeError(f"{case.contacts}/contacts: {len(times)} dumps, expected 3 or more")
@@ -64,7 +62,7 @@ def spectra_figure(spectra: Spectra) -> Figure:
             seen = np.where(curve[1:-1] > 0, unit * curve[1:-1], np.nan)
             axis.step(middles, seen, where="mid", color=colour, label=label, lw=1.4)
         axis.set(xscale="log", yscale="log")
-        # Single touches of least energy would draw the axis out
+        # Single touches of very low energy would stretch the axis
         axis.set_ylim(bottom=max(axis.get_ylim()[0], 1e-6 * unit * values.max(initial=0)))
     top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
     top.set_ylabel("collisions, 1/s per bin")
@@ -82,14 +80,14 @@ def power_table(spectra: Spectra) -> tuple[list[str], list[tuple]]:
 
 
 def balance_rows(spectra: Spectra, drive: float) -> list[tuple[str, str]]:
-    """Rows of what contacts take and what the drive gives (`drive`, W)."""
+    """Rows of the contacts' power and the drive's power (`drive`, W)."""
     parts = {part: spectra.power[part] for part in PARTS}
     taken = spectra.total_power()
     rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} "
                                                            f"mW")
             for part, values in parts.items()]
-    return rows + [("of the friction, at contacts that slide", f"{100 * spectra.sliding:.0f} %"),
+    return rows + [("share of the friction at sliding contacts", f"{100 * spectra.sliding:.0f} %"),
                    ("all contacts", f"{1e3 * taken:.4g} mW"),
-                   ("drive, less what the charge gains", f"{1e3 * drive:.4g} mW"),
+                   ("drive, minus the gain of the charge's energy", f"{1e3 * drive:.4g} mW"),
                    ("contacts over drive", f"{taken / drive:.3f}"),
                    ("collisions", f"{spectra.collisions.sum():.3g} per second")]

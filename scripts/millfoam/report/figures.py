@@ -12,10 +12,10 @@ from ..plots import mill_plots
 from ..readings.axial import AxialProfile
 
 Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
-# Okabe & Ito's colours, which colour-blind readers can tell apart
+# Okabe & Ito's colours, which colour-blind readers can distinguish
 BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
 COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
-# Figures are as wide as a card, so that their words can be read on a telephone, too
+# Figures are as wide as a card, so that their text is readable on a phone
 plt.rcParams.update({"font.size": 10.5, "legend.fontsize": 9, "legend.frameon": False})
 
 
@@ -39,8 +39,8 @@ def running_mean(times: np.ndarray, values: np.ndarray, width: float) -> np.ndar
 
 
 def quarter_turns(case: MillCase, name: str) -> tuple[np.ndarray, np.ndarray]:
-    """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without
-    the first steps' start-up on; of a shorter run over what there is, from its half on."""
+    """Times (s) of slurryBalance, and a column's mean over the quarter turn before each. They begin where the mean is
+    free of the first steps; in a run shorter than that, at its half."""
     times = case.balance["Time"]
     mean = running_mean(times, case.balance[name], case.turn / 4)
     clear = times[0] + 1.05 * case.turn / 4
@@ -49,8 +49,8 @@ def quarter_turns(case: MillCase, name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def late_limits(times: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half
-    and nought span, and on either side half as much again as far as there are values."""
+    """Limits of an axis that shows the second half of the time and zero. On either side they reach further by half of
+    that span, as far as there are values. The start-up may lie beyond."""
     late = values[times >= times[0] / 2 + times[-1] / 2]
     low, high = min(0, late.min()), max(0, late.max())
     more = (high - low) / 2
@@ -60,17 +60,18 @@ def late_limits(times: np.ndarray, values: np.ndarray) -> tuple[float, float]:
 def energy(case: MillCase) -> Figure:
     """Power and energies of the dry run against time."""
     figure, (top, bottom) = axes_of(2)
-    time, told = case.energy["time_s"], case.energy
-    top.plot(time, told["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
+    time, columns = case.energy["time_s"], case.energy
+    top.plot(time, columns["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
     whole = time >= min(1.05 * case.turn / 4, time[-1] / 2)
-    top.plot(time[whole], running_mean(time, told["power_W"], case.turn / 4)[whole], color=BLUE,
-             label="mean over a quarter of a turn")
-    late = told["power_W"][len(time) // 4:]
+    top.plot(time[whole], running_mean(time, columns["power_W"], case.turn / 4)[whole], color=BLUE,
+             label="mean over a quarter turn")
+    late = columns["power_W"][len(time) // 4:]
     top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
     top.set_ylabel("power, W")
     top.legend(loc="lower right")
-    bottom.plot(time, told["kinetic_J"], color=RED, label="kinetic")
-    bottom.plot(time, told["potential_J"] - told["potential_J"][0], color=GREEN, label="potential, less the first")
+    bottom.plot(time, columns["kinetic_J"], color=RED, label="kinetic")
+    bottom.plot(time, columns["potential_J"] - columns["potential_J"][0], color=GREEN,
+                label="potential, from its first value")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
     bottom.legend(loc="lower right")
     if case.results.get("steady"):
@@ -95,17 +96,17 @@ def overlaps(case: MillCase) -> Figure:
 
 def holdup(case: MillCase) -> Figure:
     """Hold-up, feed and discharge of the slurry against time."""
-    told, is_open = case.balance, case.is_open and not case.is_slice
+    columns, is_open = case.balance, case.is_open and not case.is_slice
     figure, axes = axes_of(2 if is_open else 1)
-    axes[0].plot(told["Time"], 1e6 * told["holdUp"], color=BLUE)
+    axes[0].plot(columns["Time"], 1e6 * columns["holdUp"], color=BLUE)
     axes[0].set_ylabel("hold-up, ml")
-    if not is_open:  # a closed mill: the line would be stretched to its round-off
-        axes[0].set_ylim(0, 1.2e6 * told["holdUp"].max())
+    if not is_open:  # in a closed mill, an automatic axis would show round-off
+        axes[0].set_ylim(0, 1.2e6 * columns["holdUp"].max())
     else:
         for key, colour in (("feed", GREEN), ("discharge", RED)):
             times, mean = quarter_turns(case, key)
             axes[1].plot(times, 1e6 * mean, color=colour, label=key)
-        axes[1].set_ylabel("ml/s, mean over a\nquarter of a turn")
+        axes[1].set_ylabel("ml/s, mean over a\nquarter turn")
         axes[1].set_ylim(bottom=0)
         axes[1].legend()
     axes[-1].set_xlabel("flow time, s")
@@ -113,11 +114,11 @@ def holdup(case: MillCase) -> Figure:
 
 
 def centre_and_power(case: MillCase) -> Figure:
-    """Centre of the slurry and the power that it takes against time."""
-    told = case.balance
+    """Centre of the slurry and the power given to it, against time."""
+    columns = case.balance
     figure, (top, bottom) = axes_of(2)
-    top.plot(told["Time"], -1e3 * np.sign(case.omega) * told["x"], color=BLUE, label="x (below 0: rising side)")
-    top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
+    top.plot(columns["Time"], -1e3 * np.sign(case.omega) * columns["x"], color=BLUE, label="x (below 0: rising side)")
+    top.plot(columns["Time"], 1e3 * columns["y"], color=RED, label="y")
     top.set_ylabel("centre of the slurry, mm")
     top.legend()
     times, power = quarter_turns(case, "power")
@@ -129,12 +130,12 @@ def centre_and_power(case: MillCase) -> Figure:
 
 def reynolds(case: MillCase) -> Figure:
     """Particle Reynolds numbers in slurry against time."""
-    told = case.balance
+    columns = case.balance
     figure, (axis,) = axes_of()
-    axis.plot(told["Time"], told["Re_mean"], color=BLUE, label="mean over the balls")
-    axis.plot(told["Time"], told["Re_95"], color=RED, label="95 % of the balls below")
+    axis.plot(columns["Time"], columns["Re_mean"], color=BLUE, label="mean over the balls")
+    axis.plot(columns["Time"], columns["Re_95"], color=RED, label="95 % of the balls below")
     axis.set(xlabel="flow time, s", ylabel="particle Reynolds number",
-             ylim=(0, 1.1 * max(np.percentile(told["Re_95"], 99.5), told["Re_mean"].max())))
+             ylim=(0, 1.1 * max(np.percentile(columns["Re_95"], 99.5), columns["Re_mean"].max())))
     axis.legend()
     return figure
 
@@ -151,7 +152,7 @@ def holdup_along(profile: AxialProfile, z: np.ndarray, model: np.ndarray) -> Fig
 
 
 def axial(profile: AxialProfile, fits: Sequence[Curve], along: str) -> Figure:
-    """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves
+    """Height of the slurry's centre of mass, hold-up and head along the axis; along: the axis' label; fits: curves
     (label, z, height)."""
     figure, (height, held, head) = axes_of(3, height=2.3)
     z = 1e3 * profile.z
@@ -172,7 +173,7 @@ def axial(profile: AxialProfile, fits: Sequence[Curve], along: str) -> Figure:
 
 
 def axial_against_time(places: np.ndarray, times: np.ndarray, values: np.ndarray, along: str) -> Figure:
-    """Height of the centre of mass over the axis, which is called `along`, and time."""
+    """Height of the centre of mass over the axis and time; along: the axis' label."""
     figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
     image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower,
@@ -184,7 +185,7 @@ def axial_against_time(places: np.ndarray, times: np.ndarray, values: np.ndarray
 
 
 def _legend_above(axis: Axes, labels: Sequence[str]) -> None:
-    """A legend where it hides no curve; short names stand side by side."""
+    """A legend above the panel, where it hides no curve; short names are in two columns."""
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2 if max(map(len, labels)) < 22 else 1)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Maps of the report: what is averaged over the axis, in the mill's outline with its sense of rotation."""
+"""Maps of the report: averages over the axis, in the mill's outline with its sense of rotation."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
@@ -21,8 +21,7 @@ def draw_mill(axis: Axes, case: MillCase) -> None:
 
 def map_figure(case: MillCase, x: np.ndarray, y: np.ndarray, values: np.ndarray, label: str, colours: str,
                limits: tuple[float, float]) -> Figure:
-    """Values [ny, nx] on pixels between x [nx + 1] and y [ny + 1] (m) in a case's mill, with a colour bar called
-    `label`."""
+    """Values [ny, nx] on pixels between x [nx + 1] and y [ny + 1] (m) in a case's mill; label: of the colour bar."""
     figure, axis = plt.subplots(figsize=(5.2, 4.4), constrained_layout=True)
     image = axis.pcolormesh(1e3 * x, 1e3 * y, values, cmap=colours, vmin=limits[0], vmax=limits[1])
     slack = 0.005 * (limits[1] - limits[0])
@@ -58,7 +57,7 @@ def speed_figure(case: MillCase, x: np.ndarray, y: np.ndarray, velocity: np.ndar
 
 
 def z_velocity_figure(case: MillCase, slurry: SlurryMap) -> Figure:
-    """The slurry's velocity along the axis where its share of the fluid is over a half."""
+    """The slurry's velocity along the axis where its share of the fluid is over 0.5."""
     velocity = 1e3 * np.where(slurry.share > 0.5, slurry.velocity[..., 2], np.nan)
     limit = np.nanpercentile(np.abs(velocity), 99) if np.isfinite(velocity).any() else 1
     return map_figure(case, slurry.x, slurry.y, velocity, "velocity along the axis, mm/s", DIFFERENCE, (-limit, limit))
@@ -66,7 +65,7 @@ def z_velocity_figure(case: MillCase, slurry: SlurryMap) -> Figure:
 
 def difference_figure(case: MillCase, x: np.ndarray, y: np.ndarray, values: np.ndarray, label: str,
                       least: float = 0.0) -> Figure:
-    """Differences, red where positive, on a scale about nought up to their 99th percentile, `least` at least."""
+    """Differences, red if positive, on a scale about zero up to their 99th percentile, but at least up to `least`."""
     limit = max(np.nanpercentile(np.abs(values), 99) if np.isfinite(values).any() else 0, least) or 1
     return map_figure(case, x, y, values, label, DIFFERENCE, (-limit, limit))
 

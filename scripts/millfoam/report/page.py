@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A self-contained HTML page out of headings, tables, figures, verdicts and an animation; html/ holds its parts."""
+"""A self-contained HTML page of headings, tables, figures, verdicts and an animation; html/ holds its parts."""
 import base64
 import html
 import io
@@ -18,7 +18,7 @@ from .verdict import Check
 from .words import typeset
 
 Section = tuple[str, str, list[str]]  # id, heading, cards
-MARKS = {"holds": "✓ holds", "look": "! look", "fails": "✗ fails", "unknown": "– not told"}
+MARKS = {"holds": "✓ holds", "look": "! look", "fails": "✗ fails", "unknown": "– not known"}
 
 
 def part(name: str) -> str:
@@ -43,7 +43,7 @@ def text(words: str) -> str:
 
 
 def encode(figure: Figure, dpi: int = 140, colours: int = 256) -> str:
-    """A matplotlib figure as a data URL of a PNG with a palette of so many colours."""
+    """A matplotlib figure as a data URL of a PNG with a palette of `colours` colours."""
     drawn, buffer = io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, dpi=dpi, format="png")
     image = Image.open(drawn).convert("RGB").quantize(colours, dither=Image.Dither.NONE)
@@ -57,7 +57,7 @@ def card_title(title: str | None) -> str:
 
 
 def picture(figure: Figure, caption: str, *, title: str | None = None) -> str:
-    """A card with a figure. The caption, plain text, also tells those who cannot see it what it shows."""
+    """A card with a figure. The caption, plain text, is also its description for screen readers."""
     alt = text(f"{title}: {caption}" if title else caption)
     encoded = encode(figure)
     plt.close(figure)
@@ -110,8 +110,8 @@ def folded(title: str, content: str) -> str:
 
 
 def page(title: str, subtitle: str, sections: Iterable[Section], foot: str, first: Sequence[str] = ()) -> str:
-    """The whole document. sections: (id, heading, [cards]); those without cards are left out. first: sentences that
-    stand above the title."""
+    """The whole document. sections: (id, heading, [cards]); those without cards are left out. first: sentences above
+    the title."""
     shown = [(name, heading, cards) for name, heading, cards in sections if cards]
     links = "".join(f'<li><a href="#{name}">{text(heading)}</a></li>' for name, heading, _ in shown)
     filled = (fill("section", name=name, heading=text(heading), cards="".join(cards)) for name, heading, cards in shown)

@@ -14,7 +14,7 @@ UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s
 
 
 def typeset(words: Any) -> str:
-    """Text with minus signs before numbers that stand alone, none before nought, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
+    """Text with minus signs before single numbers, none before zero, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
     words = re.sub(r"(?<=\d)e([+-]\d+)", lambda found: "·10" + str(int(found.group(1))).translate(SUPERSCRIPT),
                    str(words))
     words = re.sub(r"(?<![\w.\-/])-(?=\d)", "−", words)
@@ -23,14 +23,13 @@ def typeset(words: Any) -> str:
 
 
 def decimals(error: float) -> int:
-    """Digits after the point that a value with this error has: the error keeps one digit, two where it begins with 1
-    or 2."""
+    """Digits after the point of a value with this error: the error has one digit, or two if it begins with 1 or 2."""
     exponent = int(np.floor(np.log10(error)))
     return max(0, -exponent + (1 if round(error / 10.0**exponent, 9) < 3 else 0))
 
 
 def uncertain(value: float, error: float, unit: str) -> str:
-    """A value with its standard error and unit; three digits where the error is not known or nought."""
+    """A value with its standard error and unit; three digits if the error is unknown or zero."""
     gap = "" if unit == "°" else " "
     if not (np.isfinite(error) and error > 0):
         return f"{value:.3g}{gap}{unit}"
@@ -39,7 +38,7 @@ def uncertain(value: float, error: float, unit: str) -> str:
 
 
 def millilitres(volume: float, digits: int = 3) -> str:
-    """A volume (m3) in ml with so many digits, and with all before the point."""
+    """A volume (m3) in ml with `digits` digits, and with all digits before the point."""
     value = 1e6 * volume
     return f"{value:.0f} ml" if abs(value) >= 10.0 ** (digits - 1) else f"{value:.{digits}g} ml"
 
@@ -59,7 +58,7 @@ def quantity(key: str, value: Any) -> tuple[str, str]:
 
 
 def span_of_time(seconds: float) -> str:
-    """Seconds below a minute, else minutes; logs round to whole seconds."""
+    """Seconds below one minute, otherwise minutes. The logs round to whole seconds."""
     if seconds < 1:
         return "below 1 s"
     return f"{seconds:.0f} s" if seconds < 60 else f"{seconds / 60:.1f} min"
