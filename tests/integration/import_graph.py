@@ -33,7 +33,7 @@ def python_files(root, *tops):
 
 
 class Modules:
-    """Finds the files that Python's imports stand for: in the file's folder, in PACKAGES, or wherever one file alone has the
+    """Finds the files of Python's imports: in the file's folder, in PACKAGES, or anywhere if only one file has the
     name."""
 
     def __init__(self, root, files):

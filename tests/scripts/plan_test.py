@@ -155,7 +155,7 @@ class Arithmetic(Folder):
         self.assertEqual(list(stages), ["mesh", "start", "flow", "pictures and report"])
         self.assertAlmostEqual(stages["flow"]["time_s"], 1000 * STEP * 2.0)
         self.assertEqual(content["charge_from"], "../dry")
-        self.assertIn("come from ../dry", text)
+        self.assertIn("are those of ../dry", text)
 
     def test_table_and_total(self):
         self.write(mill())

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run of the 30 cm mill shows along its axis: axial.csv, axial.png (height of the slurry's centre of mass with
+"""Profiles of a run of the 30 cm mill along its axis: axial.csv, axial.png (height of the slurry's centre of mass with
 two and three Gaussians, hold-up, head), z_velocity.png, frames and an animation in CASE/pictures, and the numbers in a
 table."""
 import argparse

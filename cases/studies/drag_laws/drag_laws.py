@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tabulates and draws every drag law against Reynolds number, solidity and velocity, and finds where Ergun crosses
+"""Tabulates and draws every drag law over Reynolds number, solidity and velocity, and finds where Ergun crosses
 Beetstra at solidity 0.5.
 
 All numbers and ranges come from `millDrag`. Exit code 1 when the crossing is not the one that Malahe's thesis

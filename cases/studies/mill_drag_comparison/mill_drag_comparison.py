@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: where the
-slurry stands, what power it takes, and the particle Reynolds numbers in the bed.
+"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: place of
+the slurry, its power, and the particle Reynolds numbers in the bed.
 
-Runs are kept in the folder runs/ (millstudies.mill_runs): a run that is whole is not repeated. Exit code 1 when one
+Runs are kept in the folder runs/ (millstudies.mill_runs): a complete run is not repeated. Exit code 1 if one
 failed; the table and the figure then show the others."""
 import argparse
 import csv

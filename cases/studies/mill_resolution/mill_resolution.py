@@ -3,8 +3,8 @@
 """The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed
 order and error bar of the slurry's height, toe and shoulder.
 
-Runs are kept with those of mill_drag_comparison, with the same dry run (millstudies.mill_runs): a
-run that is whole is not repeated. Exit code 1 when one failed; then there is no judgement of what it belongs to."""
+Runs are kept with those of mill_drag_comparison, with the same dry run (millstudies.mill_runs). A complete run is not
+repeated. Exit code 1 if one failed; then there is no result for its series."""
 import argparse
 import csv
 import sys

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mills with changes, and runs of the 12 cm mill's slice with them, each made once and kept.
 
-A run changes a list of settings `path=value`, as every tool takes them after --set. The resulting mill, mill.json, is in
-the run's folder, and its fingerprints show what was made from the same inputs:
+A run changes a list of settings `path=value`, as every tool takes them after --set. The resulting mill, mill.json, is
+in the run's folder, and its fingerprints show what was made from the same inputs:
 
     charge_FINGERPRINT/      a dry run
     averages_FINGERPRINT/    solids.h5 of a charge, a window and a voxel size

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with balls of three moduli: maps of solidity and velocity against the stiffest's, power,
-overlap and cost; and the same mill with another seed, which says how far two equal mills are apart. Runs that are whole
-are kept."""
+"""The 12 cm mill's slice with balls of three moduli: maps of solidity and velocity compared with the stiffest's,
+power, overlap and cost. The same mill with another seed shows the difference of two equal mills. Complete runs are
+kept."""
 import argparse
 import csv
 from pathlib import Path

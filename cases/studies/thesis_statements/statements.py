@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the thesis' statements about slurry against runs of the 30 cm mill and of the 12 cm mill's slice: a table on
+"""Compares the thesis' statements about slurry with runs of the 30 cm mill and of the 12 cm mill's slice: a table on
 the screen, statements.csv and statements.md."""
 import argparse
 import csv

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bingham slurry between an inner cylinder that turns and an outer one at rest, against the closed form.
+"""Bingham slurry between an inner cylinder that turns and an outer one at rest, compared with the closed form.
 
 With the torque 2 pi T per length the shear stress is T/r^2. Where it is above the yield stress, up to r0 =
 sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
 
     w(r) = tau0/(2 mu) [(r0/r)^2 - 1 - 2 ln(r0/r)]        for r < r0, else 0
 
-(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) With both regularisations, and with softer plugs: the error has to go
-down with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
+(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) Runs have both regularisations and softer plugs: the error must
+decrease with the regularisation, and every profile must be that of its own flow curve. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, against the closed form.
+"""Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, compared with the closed form.
 
-With the plates at y = -h and h, force per volume G, yield stress tau0 and plastic viscosity mu, the slurry moves as a
-plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); next to it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu) (Bird,
-Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). With slurryFoam also softer plugs: the error has
-to go down with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one
-misses."""
+The plates are at y = -h and h, the force per volume is G, the yield stress tau0 and the plastic viscosity mu. The
+slurry moves as a plug of half width y0 = tau0/G with the speed G (h - y0)^2/(2 mu). Between plug and plates u = G ((h -
+y0)^2 - (|y| - y0)^2)/(2 mu) (Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). slurryFoam
+also runs softer plugs: the error must decrease with the regularisation, and every profile must be that of its own flow
+curve. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
 """Slurry carried along by a bed that turns like a solid about an upright axis, between walls that slip.
 
 A full cylinder spins up as u = Omega r (1 - exp(-beta t/(epsilon rho))); in a half-full one the surface settles to the
-paraboloid z = z0 + Omega^2 r^2/(2 g). Exit code 1 when one misses."""
+paraboloid z = z0 + Omega^2 r^2/(2 g). Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collapse of a water column twice as high as wide: position of the front against Martin & Moyce 1952.
+"""Collapse of a water column twice as high as wide: position of the front compared with Martin & Moyce 1952.
 
-Exit code 1 when slurryFoam misses the measurements by more than they differ among themselves allows."""
+Exit code 1 if slurryFoam differs from the measurements by more than their own spread allows."""
 import csv
 import shutil
 import sys

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balls displace slurry: the pool's level against the volumes of slurry and of the balls below it.
+"""Balls displace slurry: the pool's level compared with the volumes of slurry and of the balls below it.
 
 In a closed box a bed moves from the air into the pool, in an open one a bed appears in the pool. With the slurry's
-volume V and the balls' volume V_s below the level, level = (V + V_s)/area, at every time: the slurry fills what the
-balls leave free from below. Exit code 1 when a level, the slurry's volume or the range of the phase fraction misses."""
+volume V and the balls' volume V_s below the level, level = (V + V_s)/area, at every time: the slurry fills the space
+between the balls from below. Exit code 1 if a level, the slurry's volume or the
+range of the phase fraction is wrong."""
 import shutil
 import sys
 from dataclasses import dataclass

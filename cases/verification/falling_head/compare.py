@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slurry falls through a bed in a column: its surface against the equations of a rigid column.
+"""Slurry falls through a bed in a column: its surface compared with the equations of a rigid column.
 
 With superficial speed U and surface at z, both fluids in the column move as one:
 
@@ -9,7 +9,7 @@ With superficial speed U and surface at z, both fluids in the column move as one
 M is the inertia (density times length over voidage), G gravity's and the ends' pressure, f the drag law's, b the
 difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the
 bed, an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the
-bed drains freely at its lower end, of h + L. Exit code 1 when a run misses the tolerance."""
+bed drains freely at its lower end, of h + L. Exit code 1 if a run exceeds the tolerance."""
 import shutil
 import sys
 from dataclasses import dataclass

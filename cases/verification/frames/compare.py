@@ -3,9 +3,9 @@
 """A smooth drum that drags viscous slurry along: on a mesh that turns with it, and on one at rest whose wall has its
 velocity.
 
-Both are the same flow, so the surface has to stand at the same height, within half a cell, and the slurry's volume has
-to stay. Compared whenever the drum has turned by a quarter, where the cells of both meshes lie upon each other. Exit
-code 1 when something misses."""
+Both are the same flow, so the surface must have the same height, within half a cell, and the slurry's volume must not
+change. They are compared after every quarter turn of the drum, when the cells of both meshes coincide. Exit code 1 if a
+check fails."""
 import shutil
 import sys
 from dataclasses import dataclass

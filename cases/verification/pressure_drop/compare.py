@@ -3,7 +3,7 @@
 """Runs beds of moving balls in closed boxes and compares the pressure drop across each with its drag law.
 
 The law's own gradient is beta v/e with beta from `millDrag`, whose F is checked elsewhere against independent values.
-Exit code 1 when a bed misses the tolerance of its solver."""
+Exit code 1 if a bed exceeds the tolerance of its solver."""
 import csv
 import shutil
 import subprocess

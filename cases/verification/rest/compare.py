@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is at rest in a mill at rest stays at rest: on the mill's own mesh, first slurry alone, then a pool under air.
+"""Slurry at rest in a mill at rest stays at rest: on the mill's own mesh, first slurry alone, then a pool under air.
 
 Slurry alone must stay below 1e-6 m/s. The pool's free surface, exactly flat at the start, does not stay at rest with
 interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported and
-guarded against getting worse. Exit code 1 when something misses."""
+must not increase. Exit code 1 if a check fails."""
 import argparse
 import math
 import shutil

@@ -4,8 +4,8 @@
 
 Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
 surface tension, with and without a bed of balls at rest, with the mesh standing still and with the mesh turning inside
-walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 when slurryFoam misses
-what it must hold."""
+walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 if slurryFoam exceeds
+its limits."""
 import argparse
 import shutil
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of the pools at rest, and what slurryFoam must hold."""
+"""The table of the pools at rest, and slurryFoam's limits."""
 import csv
 import math
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface at rest that a mesh turns past: without gravity nothing moves, and what is left is the transport of the
-slurry.
+"""A surface at rest that a mesh turns past: without gravity nothing moves, so that only the slurry's transport acts.
 
-After one turn every cell is where it was. What its share of slurry has changed by, summed up over the surface, is how
-far the transport has moved the surface: geometric (slurryFoam, interIsoFoam) against compressive MULES (interFoam).
-Writes transport.txt; exit code 1 when slurryFoam moves it by more than half of what interFoam does, or loses slurry."""
+After one turn every cell is where it was. The change of its share of slurry, summed over the surface, is the distance
+by which the transport has moved the surface: geometric (slurryFoam, interIsoFoam) compared with compressive MULES
+(interFoam). Writes transport.txt. Exit code 1 if slurryFoam moves it by more than half of interFoam's distance, or
+loses slurry."""
 import argparse
 import math
 import re

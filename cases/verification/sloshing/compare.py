@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small standing waves in a box and in the round section of a mill, against linear theory.
+"""Small standing waves in a box and in the round section of a mill, compared with linear theory.
 
 Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also with the round mesh turning inside
-its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 when one misses."""
+its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady flow through a duct whose voidage changes along it: velocity and pressure against the closed form.
+"""Steady flow through a duct whose voidage changes along it: velocity and pressure compared with the closed form.
 
 With superficial velocity U along x and voidage e(x), u = U/e and
 
@@ -8,7 +8,7 @@ With superficial velocity U along x and voidage e(x), u = U/e and
 
 with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
 sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on
-slanted ones through whose columns the sharp edge runs. Exit code 1 when a run misses."""
+slanted ones through whose columns the sharp edge runs. Exit code 1 if a run fails."""
 import itertools
 import shutil
 import sys

@@ -87,7 +87,7 @@ def main() -> None:
     if before > BUSY * cores:
         print(f"Other programs were running (load {before:.1f} on {cores} cores): a free machine takes less time")
     if options.charge:
-        print(f"The charge and its averages are those of {options.charge}; the time for that case is not counted here")
+        print(f"The charge and its averages are those of {options.charge}; the costs of that case are not counted here")
 
 
 if __name__ == "__main__":
