@@ -140,7 +140,7 @@ TEST(sharpPressure, aDropHasThePressureOfItsCurvature)
     const scalar radius = 0.33, tension = 0.07;
     pressureCase box({{14, 14, 14}, {1, 1, 1}});
     fillWhere(
-        box.alpha, 6,
+        box.alpha, 12,
         [=](const point& p)
         { return magSqr(p - point(0.5, 0.51, 0.49)) < sqr(radius); });
     box.see(vector::zero, tension);

@@ -194,7 +194,7 @@ TEST(slurrySurface, aDropCurvesTwiceAndABubbleTheOtherWay)
     volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
     const scalar radius = 0.33;
     fillWhere(
-        alpha, 6,
+        alpha, 12,
         [=](const point& p)
         { return magSqr(p - point(0.5, 0.51, 0.49)) < sqr(radius); });
     EXPECT_LT(

@@ -80,8 +80,8 @@ TEST(surfaceTransport, keepsTheVolumeAroundACyclicBox)
     fillBelow(alpha, unit(vector(0.8, 0.5, 0.1)), 0.5);
     const slurrySurface surface(alpha, vector::zero);
     surfaceTransport transport(surface, alpha);
-    // Along the lattice's x: nothing through the walls
-    const vector U(2 * skewed(vector(1, 0, 0)));
+    // Along the lattice's x, out of the wet left end: nothing through the walls
+    const vector U(-2 * skewed(vector(1, 0, 0)));
     const surfaceScalarField slurry(transport.flux(
         uniformFlux(box.mesh(), U), vectorField(box.mesh().nCells(), U)));
 
