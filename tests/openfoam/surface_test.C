@@ -73,6 +73,17 @@ Pair<scalar> curvatureError(const slurrySurface& surface, const scalar expected)
     return {total / n - expected, largest};
 }
 
+//- The inner face between two cells, the first its owner
+label faceBetween(const fvMesh& mesh, const label own, const label nei)
+{
+    label facei = 0;
+    while (mesh.owner()[facei] != own || mesh.neighbour()[facei] != nei)
+    {
+        ++facei;
+    }
+    return facei;
+}
+
 } // End anonymous namespace
 
 // * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
@@ -159,22 +170,40 @@ TEST(slurrySurface, crossesLinesWhereALevelDoes)
 
 TEST(slurrySurface, cyclicFacesSeeWhatInnerFacesSee)
 {
+    // The same surface twice, moved by half the length: what was an inner face
+    // between the cells 2 and 3 of a row is a face of the cyclic pair
     smallCase box({{6, 6, 2}, {1, 1, 0.3}, skewed, true});
+    const fvMesh& mesh = box.mesh();
     volScalarField alpha(box.field<scalar>("alpha.slurry", dimless, 0));
-    // Level lines along the lattice's x, so that the field is periodic
-    const vector along(skewed(vector(1, 0, 0)));
-    const vector n(unit(along ^ vector(0, 0, -1)));
-    fillBelow(alpha, n, 0.52 * (skewed(vector(0, 1, 0)) & n));
-    const slurrySurface surface(alpha, vector::zero);
-
-    const surfaceScalarField line(surface.wetLine());
-    const label patchi = box.mesh().boundaryMesh().findPatchID("left");
-    const labelUList& cells = box.mesh().boundary()[patchi].faceCells();
-    forAll(cells, i)
+    volScalarField moved(box.field<scalar>("moved", dimless, 0));
+    const label right = mesh.boundaryMesh().findPatchID("right");
+    const labelUList& cells = mesh.boundary()[right].faceCells();
+    label crossed = 0;
+    for (const scalar d : {0.35, 0.41, 0.46, 0.52, 0.6})
     {
-        const label inner = box.mesh().owner().find(cells[i]);
-        EXPECT_NEAR(line.boundaryField()[patchi][i], line[inner], 1e-12);
+        fillBelow(alpha, unit(vector(0.8, 0.5, 0.1)), d);
+        forAll(alpha, celli)
+        {
+            const label i = celli % 6;
+            moved[celli] = alpha[celli - i + (i + 3) % 6];
+        }
+        moved.correctBoundaryConditions();
+        const slurrySurface here(alpha, vector::zero);
+        const slurrySurface there(moved, vector::zero);
+        const surfaceScalarField lines[] = {here.wetLine(), there.wetLine()};
+        const surfaceScalarField bends[] = {
+            here.curvature(), there.curvature()};
+        forAll(cells, i)
+        {
+            const label inner = faceBetween(mesh, cells[i] - 3, cells[i] - 2);
+            const scalar line = lines[1].boundaryField()[right][i];
+            EXPECT_NEAR(line, lines[0][inner], 1e-12);
+            EXPECT_NEAR(
+                bends[1].boundaryField()[right][i], bends[0][inner], 1e-9);
+            crossed += line > 0 && line < 1;
+        }
     }
+    EXPECT_GT(crossed, 5);
 }
 
 TEST(slurrySurface, aPlaneHasNoCurvature)
