@@ -116,6 +116,51 @@ TEST(sharpPressure, aPoolAtRestIsInBalanceAtEveryFace)
     }
 }
 
+TEST(sharpPressure, slopesGoWithTheDensitiesOnBothSides)
+{
+    // p_rgh as both fluids accelerate alike: its slope is A times the density.
+    // Across a face the slope along the skewness is that of the line's density
+    pressureCase box({{8, 10, 8}, {1, 1, 1}, skewed});
+    const fvMesh& mesh = box.mesh();
+    const scalar height = 0.7371, A = 2;
+    fillBelow(box.alpha, vector(0, 1, 0), height);
+    box.see(gravity, 0);
+    forAll(box.p_rgh, celli)
+    {
+        box.p_rgh[celli] = box.pressure->density()[celli] *
+                           (A * (mesh.C()[celli].y() - height) + 9.81 * height);
+    }
+    box.p_rgh.correctBoundaryConditions();
+
+    // Known are cells inside whose lines to dry ones are mostly wet
+    const surfaceScalarField line(box.surface->wetLine());
+    labelHashSet other(atBoundary(mesh));
+    forAll(mesh.neighbour(), facei)
+    {
+        if (line[facei] > 0 && line[facei] < 0.5)
+        {
+            other.insert(mesh.owner()[facei]);
+            other.insert(mesh.neighbour()[facei]);
+        }
+    }
+    const surfaceScalarField found(box.pressure->skewSlope());
+    label crossed = 0;
+    forAll(mesh.neighbour(), facei)
+    {
+        if (!other.found(mesh.owner()[facei]) &&
+            !other.found(mesh.neighbour()[facei]))
+        {
+            const scalar density =
+                airDensity + line[facei] * (slurryDensity - airDensity);
+            EXPECT_NEAR(
+                found[facei],
+                mesh.nonOrthCorrectionVectors()[facei].y() * A * density, 1e-7);
+            crossed += line[facei] > 0 && line[facei] < 1;
+        }
+    }
+    EXPECT_GT(crossed, 5);
+}
+
 TEST(sharpPressure, aCellThatChangesSidesKeepsItsStaticPressure)
 {
     pressureCase box({{2, 8, 2}, {1, 1, 1}});
