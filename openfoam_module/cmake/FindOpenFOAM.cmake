@@ -9,7 +9,7 @@
 #
 # The flags: OpenFOAM 1912's field operators let the result of `tensorField & tmp<vectorField>` reuse its operand's
 # storage under __restrict__; GCC 12's loop vectoriser then reads what it has overwritten. Every unit that includes
-# OpenFOAM headers is therefore compiled without it.
+# OpenFOAM headers is therefore compiled without it. Clang (clang-tidy) reads the headers after deprecations.H.
 
 if(DEFINED ENV{WM_PROJECT_DIR} AND IS_DIRECTORY "$ENV{WM_PROJECT_DIR}/src/OpenFOAM/lnInclude")
   set(OpenFOAM_ROOT_DIR "$ENV{WM_PROJECT_DIR}")
@@ -60,7 +60,15 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   target_compile_definitions(OpenFOAM::OpenFOAM INTERFACE OPENFOAM=${OpenFOAM_API} WM_DP WM_LABEL_SIZE=${label_size}
                                                           WM_ARCH_OPTION=64 NoRepository)
   # The last -O on the command line counts: this one follows the build type's -O3.
-  target_compile_options(OpenFOAM::OpenFOAM INTERFACE -O2 -fno-tree-loop-vectorize -ftemplate-depth-100)
+  target_compile_options(OpenFOAM::OpenFOAM INTERFACE -O2 -ftemplate-depth-100)
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    target_compile_options(OpenFOAM::OpenFOAM INTERFACE -fno-vectorize
+                                                        "SHELL:-include ${CMAKE_CURRENT_LIST_DIR}/deprecations.H")
+  else()
+    target_compile_options(OpenFOAM::OpenFOAM INTERFACE -fno-tree-loop-vectorize)
+  endif()
+  # With sanitizers at -O2, GCC 12 takes std::function inside std::regex for uninitialized.
+  target_compile_options(OpenFOAM::OpenFOAM INTERFACE $<$<BOOL:${MILLFOAM_SANITIZE}>:-Wno-maybe-uninitialized>)
   target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
   target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)
 endif()

@@ -20,7 +20,7 @@
 /// Hill-Koch-Ladd, Benyahia and Tenneti are published as totals, Fand, Kozeny-Carman and Darcy as pressure
 /// gradients.
 ///
-/// Each function is defined for 0 <= phi < 1 and every Re >= 0; the range in which it is to be believed
+/// Each function is defined for 0 <= phi < 1 and every Re >= 0; the range in which it is valid
 /// stands in its comment and, machine-readable, in the table. Its ends are those usually quoted for the
 /// publication, or were chosen here where it gives words only; then the comment says so.
 namespace millfoam::drag {
@@ -82,7 +82,7 @@ double tang(double phi, double re);
 /// Range: phi <= 0.5 and Re <= 300.
 double tenneti(double phi, double re);
 
-/// Where a correlation is to be believed: both ends included, 0 and infinity where an end is open.
+/// Where a correlation is valid: both ends included, 0 and infinity where an end is open.
 struct Range {
   double phi_min, phi_max;  ///< solidity
   double re_min, re_max;    ///< Reynolds number
@@ -97,7 +97,7 @@ struct Law {
   std::string_view name;                    ///< as the user writes it
   double (*factor)(double phi, double re);  ///< F(phi, Re) for 0 <= phi < 1, Re >= 0
   std::string_view reference;               ///< author and year
-  Range range;                              ///< where it is to be believed
+  Range range;                              ///< where it is valid
 };
 
 /// Every law, in the order in which tables and plots show them.

@@ -7,7 +7,7 @@
 namespace millfoam::record {
 
 /// While it lives, no other program may have a lock on the same case. The lock is the system's (flock), not
-/// the file's existence: what a killed program leaves blocks nobody.
+/// the file's existence: a file that a killed program leaves does not block.
 class CaseLock {
  public:
   /// @param folder  of the case; its file postProcessing/flow/.lock is locked

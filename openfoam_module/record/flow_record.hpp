@@ -41,7 +41,7 @@ struct Drag {
   double reynolds_min = 0, reynolds_max = std::numeric_limits<double>::infinity();
 };
 
-/// Bounds of the time-step that controlDict asks for.
+/// Bounds of the time-step that controlDict sets.
 struct StepLimits {
   double courant = 0;
   double surface_courant = 0;

@@ -28,7 +28,7 @@ void print_help(const ToolHelp& help, std::ostream& out) {
 
 }  // namespace
 
-bool told_of_itself(int argc, const char* const* argv, const ToolHelp& help, std::ostream& out) {
+bool printed_help_or_version(int argc, const char* const* argv, const ToolHelp& help, std::ostream& out) {
   const auto asked = [&](const char* option) {
     return std::any_of(argv + 1, argv + std::max(argc, 1),
                        [&](const std::string& word) { return word == option; });

@@ -7,7 +7,7 @@
 
 namespace millfoam::record {
 
-/// What a tool built on OpenFOAM says of itself.
+/// The help of a tool that is built on OpenFOAM.
 struct ToolHelp {
   std::string name;
   std::string purpose;              ///< one sentence, without a full stop
@@ -16,8 +16,8 @@ struct ToolHelp {
   std::vector<std::string> writes;  ///< the same
 };
 
-/// Answers `--help` and `--version`, which OpenFOAM itself refuses, on `out`. To be asked before OpenFOAM
-/// looks at the arguments. Returns whether one of them was there: then there is nothing else to do.
-bool told_of_itself(int argc, const char* const* argv, const ToolHelp& help, std::ostream& out);
+/// Prints the answer to `--help` or `--version`, which OpenFOAM itself refuses, on `out`. Call it before
+/// OpenFOAM reads the arguments. Returns whether one of them was there: then there is nothing else to do.
+bool printed_help_or_version(int argc, const char* const* argv, const ToolHelp& help, std::ostream& out);
 
 }  // namespace millfoam::record

@@ -17,6 +17,7 @@ Description
 \*---------------------------------------------------------------------------*/
 
 #include "argList.H"
+#include "bitSet.H"
 #include "boundBox.H"
 #include "fvMesh.H"
 #include "planeCut.H"
@@ -31,10 +32,10 @@ using namespace Foam;
 //- Shake all points but those of the boundary by a quarter of a cell
 static void shake(fvMesh& mesh)
 {
-    boolList fixed(mesh.nPoints(), false);
+    bitSet fixed(mesh.nPoints());
     for (label facei = mesh.nInternalFaces(); facei < mesh.nFaces(); ++facei)
     {
-        UIndirectList<bool>(fixed, mesh.faces()[facei]) = true;
+        fixed.set(mesh.faces()[facei]);
     }
     const scalar reach = 0.25 * std::cbrt(min(mesh.cellVolumes()));
     Random random(2026);
@@ -42,7 +43,7 @@ static void shake(fvMesh& mesh)
     forAll(points, pointi)
     {
         const vector by(random.position(-vector::one, vector::one));
-        if (!fixed[pointi])
+        if (!fixed.test(pointi))
         {
             points[pointi] += reach * by;
         }

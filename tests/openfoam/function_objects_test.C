@@ -175,7 +175,8 @@ TEST(slurryTorque, refusesWallsThatAreNotThere)
     const slurryFields fields(box.mesh(), dictionary::null);
     const std::string error = errorOf(
         [&] { slurryTorque(fields, entriesOf("walls (roof); speed 1;")); });
-    EXPECT_NE(error.find("no patch is called so"), std::string::npos) << error;
+    EXPECT_NE(error.find("no patch has such a name"), std::string::npos)
+        << error;
 }
 
 TEST(slurryBalance, addsUpWhatComesAndGoes)

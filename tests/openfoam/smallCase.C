@@ -34,8 +34,8 @@ class lattice
     face
     across(const labelVector& c, const direction axis, const label side) const
     {
-        const direction b = (axis + 1) % 3;
-        const direction d = (axis + 2) % 3;
+        const auto b = direction((axis + 1) % 3);
+        const auto d = direction((axis + 2) % 3);
         face result(4);
         for (label i = 0; i < 4; ++i)
         {
@@ -125,7 +125,7 @@ void Foam::smallCase::makeMesh(const smallBox& box)
     for (label patchi = 0; patchi < 6; ++patchi)
     {
         starts.append(cells.faces.size());
-        cells.addSide(patchi / 2, patchi % 2);
+        cells.addSide(direction(patchi / 2), patchi % 2);
     }
     starts.append(cells.faces.size());
 

@@ -190,17 +190,17 @@ TEST(slurrySurface, cyclicFacesSeeWhatInnerFacesSee)
         moved.correctBoundaryConditions();
         const slurrySurface here(alpha, vector::zero);
         const slurrySurface there(moved, vector::zero);
-        const surfaceScalarField lines[] = {here.wetLine(), there.wetLine()};
-        const surfaceScalarField bends[] = {
-            here.curvature(), there.curvature()};
+        const surfaceScalarField line(here.wetLine());
+        const surfaceScalarField movedLine(there.wetLine());
+        const surfaceScalarField bend(here.curvature());
+        const surfaceScalarField movedBend(there.curvature());
         forAll(cells, i)
         {
             const label inner = faceBetween(mesh, cells[i] - 3, cells[i] - 2);
-            const scalar line = lines[1].boundaryField()[right][i];
-            EXPECT_NEAR(line, lines[0][inner], 1e-12);
-            EXPECT_NEAR(
-                bends[1].boundaryField()[right][i], bends[0][inner], 1e-9);
-            crossed += line > 0 && line < 1;
+            const scalar found = movedLine.boundaryField()[right][i];
+            EXPECT_NEAR(found, line[inner], 1e-12);
+            EXPECT_NEAR(movedBend.boundaryField()[right][i], bend[inner], 1e-9);
+            crossed += found > 0 && found < 1;
         }
     }
     EXPECT_GT(crossed, 5);

@@ -19,7 +19,7 @@ const ToolHelp help{
 std::string printed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/slurryStart");
   std::ostringstream out;
-  return told_of_itself(static_cast<int>(words.size()), words.data(), help, out) ? out.str()
+  return printed_help_or_version(static_cast<int>(words.size()), words.data(), help, out) ? out.str()
                                                                                  : "-" + out.str();
 }
 

@@ -73,10 +73,10 @@ void Foam::movingBed::checkCover()
     missed.unset(empty_);
     const labelList uncovered(missed.sortedToc());
     const label n = returnReduce(uncovered.size(), sumOp<label>());
-    if (n == 0 || told_)
+    if (n == 0 || reported_)
         return;
 
-    told_ = true;
+    reported_ = true;
     readableText text;
     text << n << " of " << returnReduce(mesh_.nCells(), sumOp<label>())
          << " cells lie outside the grid of the solids: "
@@ -141,7 +141,7 @@ Foam::movingBed::movingBed(const dictionary& dict, const fvMesh& mesh)
           : nullptr),
   uncovered_(beyondNames_.getOrDefault("uncovered", dict_, beyond::error)),
   empty_(emptyCells()),
-  told_(false),
+  reported_(false),
   sums_(),
   solidity_(zero<scalar>("solidity", dimless, true)),
   voidage_(zero<scalar>("voidage", dimless, false)),
@@ -221,7 +221,7 @@ void Foam::movingBed::requireSolids() const
 }
 
 
-void Foam::movingBed::tell(millfoam::record::StepRow& row) const
+void Foam::movingBed::addTo(millfoam::record::StepRow& row) const
 {
     if (!empty() && conservation_.valid() && source_->knowsVolume())
     {

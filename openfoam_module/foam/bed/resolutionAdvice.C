@@ -18,8 +18,8 @@ namespace Foam
 //- Digits of the sizes
 static constexpr label digits_ = 3;
 
-//- Solidity of a dense charge, and balls in an average that the drag laws were
-//  derived for at the least
+//- Solidity of a dense charge, and the fewest balls in an average that the drag
+//  laws were derived for
 static constexpr scalar dense_ = 0.6;
 static constexpr scalar fewBalls_ = 8;
 

@@ -83,10 +83,11 @@ void Foam::solidsConservation::checkSize(
         << "the solids fill " << found << " m3 of the mesh but the ledger says "
         << volume << " m3: the correction would be " << percent.str().c_str()
         << ". " << advice().c_str()
-        << "Does the grid of the solids cover the mesh, were the walls given"
-        << " to millAverage (--inside), is the mesh turned to the solids' time?"
-        << " A larger correction is allowed by largestCorrection, and a mesh"
-        << " that holds only a part of the charge by ledgerCorrection no"
+        << "Check that the grid of the solids covers the mesh, that millAverage"
+        << " had the walls (--inside) and that the mesh is turned to the "
+           "solids'"
+        << " time. largestCorrection allows a larger correction;"
+        << " ledgerCorrection no is for a mesh that holds a part of the charge"
         << exit(FatalIOError);
 }
 

@@ -30,7 +30,8 @@ Foam::ballLoad::ballLoad(
         FatalIOErrorInFunction(dict)
             << "ballDensity is " << density_ << " kg/m3 and gravity " << g_
             << " m/s2; expected a density above 0 and, for the balls' weight,"
-            << " gravity. Without the entry the force on the balls is not told"
+            << " gravity. Without the entry the force on the balls is not "
+               "reported"
             << exit(FatalIOError);
     }
 }

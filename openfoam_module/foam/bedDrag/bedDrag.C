@@ -225,7 +225,7 @@ Foam::string Foam::bedDrag::description() const
 }
 
 
-millfoam::record::Drag Foam::bedDrag::told() const
+millfoam::record::Drag Foam::bedDrag::forRecord() const
 {
     millfoam::record::Drag result;
     result.law = law_->name;
@@ -241,7 +241,7 @@ millfoam::record::Drag Foam::bedDrag::told() const
 }
 
 
-void Foam::bedDrag::tell(millfoam::record::StepRow& row) const
+void Foam::bedDrag::addTo(millfoam::record::StepRow& row) const
 {
     const lawRange::shares shares = range_.present();
     row.solids = solids_;

@@ -19,8 +19,7 @@ Foam::string Foam::lawRange::bounds() const
 {
     const millfoam::drag::Range& range = law_.range;
     readableText text;
-    const auto tell =
-        [&](const sum volume, const char* name, const scalar bound)
+    const auto add = [&](const sum volume, const char* name, const scalar bound)
     {
         if (sums_[volume] > 0)
         {
@@ -28,10 +27,10 @@ Foam::string Foam::lawRange::bounds() const
                  << " in " << 100 * share(volume) << " %";
         }
     };
-    tell(phiLow, "solidity below", range.phi_min);
-    tell(phiHigh, "solidity above", range.phi_max);
-    tell(reLow, "Re below", range.re_min);
-    tell(reHigh, "Re above", range.re_max);
+    add(phiLow, "solidity below", range.phi_min);
+    add(phiHigh, "solidity above", range.phi_max);
+    add(reLow, "Re below", range.re_min);
+    add(reHigh, "Re above", range.re_max);
     return text.str();
 }
 
@@ -77,7 +76,8 @@ void Foam::lawRange::count(
 
 void Foam::lawRange::end(const scalar deltaT)
 {
-    reduce(sums_, sumOp<scalarField>());
+    Pstream::listCombineGather(sums_, plusEqOp<scalar>());
+    Pstream::listCombineScatter(sums_);
 
     largest_ = max(largest_, share(outside));
     integral_ += share(outside) * deltaT;
@@ -90,8 +90,8 @@ void Foam::lawRange::end(const scalar deltaT)
             << name_.c_str() << " is used beyond its range in "
             << 100 * share(outside) << " % of the slurry in the bed ("
             << label(sums_[cells]) << " cells): " << bounds().c_str()
-            << ". Compare with another law (millDrag --ranges); how much it is"
-            << " is told in every time-step" << endl;
+            << ". Compare with another law (millDrag --ranges). Every time-step"
+            << " reports the share" << endl;
     }
 }
 

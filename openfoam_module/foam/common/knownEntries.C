@@ -16,7 +16,7 @@ namespace
 //- Letters to change, add or take away between two words (Levenshtein)
 label distance(const word& a, const word& b)
 {
-    labelList row(identity(b.size() + 1));
+    labelList row(identity(label(b.size()) + 1));
     for (unsigned i = 0; i < a.size(); ++i)
     {
         label diagonal = row[0];
@@ -75,13 +75,13 @@ void Foam::refuseMisspelt(const dictionary& dict, const wordList& known)
 {
     for (const entry& one : dict)
     {
-        const word name(one.keyword());
+        const word& name = one.keyword();
         const word meant(known.found(name) ? word::null : nearest(name, known));
         if (!meant.empty())
         {
             FatalIOErrorInFunction(dict)
                 << "unknown entry '" << name << "'; expected '" << meant
-                << "'? Entries of your own for use in this file want another"
+                << "'? Entries of your own for use in this file need another"
                 << " name" << exit(FatalIOError);
         }
     }

@@ -158,7 +158,7 @@ static instantList chooseTimes(const argList& args, const meshAssembly& mesh)
 
 int main(int argc, char* argv[])
 {
-    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    if (millfoam::record::printed_help_or_version(argc, argv, help, std::cout))
     {
         return 0;
     }

@@ -99,7 +99,7 @@ static void stopWith(const std::optional<std::string>& reason)
 //- Add up the values of all ranks on the master
 static void gather(std::vector<double>& values)
 {
-    scalarList sums(UList<scalar>(values.data(), values.size()));
+    scalarList sums(UList<scalar>(values.data(), label(values.size())));
     Pstream::listCombineGather(sums, plusEqOp<scalar>());
     std::copy(sums.begin(), sums.end(), values.begin());
 }
@@ -117,8 +117,8 @@ Foam::scalar Foam::averageSegments::windowEnd(const scalar t) const
 
 void Foam::averageSegments::dropLater() const
 {
-    // The name of the time that a flow goes on from is rounded: what ends a
-    // little later may have ended there, but not what lies mostly beyond
+    // The name of the time from which a flow resumes is rounded. A segment that
+    // ends a little later may have ended there, one mostly beyond it did not
     const scalar now = time_.value() + max(0.5 * time_.deltaTValue(), instant_);
     for (const std::filesystem::path& path : files())
     {
@@ -131,7 +131,7 @@ void Foam::averageSegments::dropLater() const
                 WarningInFunction
                     << path.string() << " goes beyond the time "
                     << time_.timeName()
-                    << " s at which the flow goes on, and is removed: its"
+                    << " s from which the flow resumes, and is removed: its"
                     << " window will be marked as not filled" << endl;
             }
         }

@@ -123,9 +123,9 @@ Foam::functionObjects::axialProfiles::axialProfiles(
     place(dict);
     open();
     const scalar all = gSum(fields_.volumes()());
-    const scalar told = returnReduce(sum(sums()[holdUp]), maxOp<scalar>());
+    const scalar sliced = returnReduce(sum(sums()[holdUp]), maxOp<scalar>());
     Info << "axialProfiles: slices from " << begin_ << " to "
-         << begin_ + slices_ * thickness_ << " m; " << all - told
+         << begin_ + slices_ * thickness_ << " m; " << all - sliced
          << " m3 of slurry lie beyond them now" << endl;
     strict_.relax();
 }
@@ -141,17 +141,17 @@ bool Foam::functionObjects::axialProfiles::execute()
 
 bool Foam::functionObjects::axialProfiles::write()
 {
-    const FixedList<scalarField, nQuantities> told(sums());
+    const FixedList<scalarField, nQuantities> found(sums());
     forAll(files_, i)
     {
         if (files_[i].valid())
         {
             writeCurrentTime(files_[i]());
-            forAll(told[holdUp], slice)
+            forAll(found[holdUp], slice)
             {
-                const scalar slurry = told[holdUp][slice];
+                const scalar slurry = found[holdUp][slice];
                 const scalar mean =
-                    slurry > VSMALL ? told[i][slice] / slurry : 0;
+                    slurry > VSMALL ? found[i][slice] / slurry : 0;
                 files_[i]() << tab << (i == holdUp ? slurry : mean);
             }
             files_[i]() << endl;

@@ -132,7 +132,7 @@ Foam::functionObjects::slurryBalance::slurryBalance(
     {
         WarningInFunction << "time " << runTime.timeName()
                           << " was written without a balance"
-                          << " to go on from: it begins here" << endl;
+                          << ": the integrals begin here" << endl;
     }
     begin();
     strict_.relax();

@@ -11,8 +11,7 @@
 template <class FieldType>
 const FieldType& Foam::slurryFields::find(const word& name) const
 {
-    const FieldType* field = mesh_.findObject<FieldType>(name);
-    if (!field)
+    if (!mesh_.foundObject<FieldType>(name))
     {
         FatalErrorInFunction
             << "the flow has no " << FieldType::typeName << " '" << name
@@ -20,7 +19,7 @@ const FieldType& Foam::slurryFields::find(const word& name) const
             << "; give the right name by the entries phase, U, p or p_rgh"
             << exit(FatalError);
     }
-    return *field;
+    return mesh_.lookupObject<FieldType>(name);
 }
 
 

@@ -27,7 +27,8 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
     if (found.empty())
     {
         FatalIOErrorInFunction(dict)
-            << "walls is " << names << ": no patch is called so, there are "
+            << "walls is " << names
+            << ": no patch has such a name; expected some of "
             << patches.names() << exit(FatalIOError);
     }
     return found;

@@ -94,7 +94,7 @@ Foam::fv::particleDrag::~particleDrag()
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::fv::particleDrag::addSup(
-    const volScalarField& rho, fvMatrix<vector>& eqn, const label fieldi)
+    const volScalarField&, fvMatrix<vector>& eqn, const label)
 {
     const volVectorField& U = eqn.psi();
 

@@ -86,8 +86,8 @@ Foam::tmp<Foam::surfaceScalarField> Foam::flowPressure::flux(
         makeRoom(room, free, wallFlux);
     }
 
-    // Without a pressure to go on from, its slopes are known after a first
-    // solution without the faces' skewness
+    // A fresh pressure knows its slopes after a first solution without the
+    // faces' skewness
     if (fresh_)
     {
         solve(

@@ -18,7 +18,7 @@
 namespace Foam
 {
 
-//- Add what the case and the program tell of themselves
+//- Add what is known of the case and the program
 static void complete(millfoam::record::FlowSetup& setup, const Time& time)
 {
     setup.solver = "slurryFoam";

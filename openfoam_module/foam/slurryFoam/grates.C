@@ -30,7 +30,7 @@ Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
         FatalIOErrorInFunction(dict)
             << "darcy is " << result.darcy << " 1/m2 and forchheimer "
             << result.forchheimer
-            << " 1/m; expected neither below 0 and one above"
+            << " 1/m; expected both 0 or above, and one above 0"
             << exit(FatalIOError);
     }
     return result;
@@ -61,18 +61,19 @@ Foam::grates::grates(
   fluids_(fluids),
   layers_()
 {
-    for (const word& ofLayer : {"cellZone", "darcy", "forchheimer"})
+    for (const char* ofLayer : {"cellZone", "darcy", "forchheimer"})
     {
         if (dict.found(ofLayer, keyType::LITERAL))
         {
             FatalIOErrorInFunction(dict)
-                << ofLayer << " stands by itself; expected it within a grate's"
+                << ofLayer
+                << " is outside of a grate; expected it within a grate's"
                 << " braces, name { cellZone ...; }" << exit(FatalIOError);
         }
     }
     for (const entry& one : dict)
     {
-        // Numbers that other entries refer to may stand beside the grates
+        // The dictionary may also have numbers that other entries refer to
         if (one.isDict())
         {
             layers_.append(readLayer(one.dict()));

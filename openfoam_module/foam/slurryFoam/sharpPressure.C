@@ -310,12 +310,11 @@ Foam::sharpPressure::reconstruct(const surfaceScalarField& flux) const
     tensorField areas(mesh_.nCells(), Zero);
     vectorField sums(mesh_.nCells(), Zero);
     const auto add = [&](const label celli, const scalar mass,
-                         const scalar length, const vector& S,
-                         const scalar flow)
+                         const scalar line, const vector& S, const scalar flow)
     {
         // A surface through the centre of a cell leaves its faces on one side
-        // no mass: they have a little, lest a direction be without faces
-        const scalar weight = max(mass, 0.01 * inertia_[celli]) * length;
+        // no mass. They keep a little, so that every direction has faces
+        const scalar weight = max(mass, 0.01 * inertia_[celli]) * line;
         areas[celli] += weight * S * S;
         sums[celli] += weight * flow * S;
     };

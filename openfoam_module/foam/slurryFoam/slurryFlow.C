@@ -24,7 +24,7 @@ namespace Foam
 //- Surface tension, N/m, out of transportProperties
 static dimensionedScalar surfaceTension(const dictionary& dict)
 {
-    const dimensionedScalar sigma("sigma", dimForce / dimLength, dict);
+    dimensionedScalar sigma("sigma", dimForce / dimLength, dict);
     if (!(sigma.value() >= 0))
     {
         FatalIOErrorInFunction(dict)
@@ -284,11 +284,11 @@ millfoam::record::StepRow Foam::slurryFlow::report()
          << " m3, alpha from " << row.alpha_min << " to " << 1 << " + "
          << row.alpha_above << ", fluid without room " << row.without_room
          << " m3" << endl;
-    bed_.tell(row);
+    bed_.addTo(row);
     if (drag_.valid())
     {
         drag_->report(bed_, alpha_, U_);
-        drag_->tell(row);
+        drag_->addTo(row);
     }
     if (load_.valid() && mesh_.time().writeTime())
     {
@@ -303,15 +303,15 @@ millfoam::record::StepRow Foam::slurryFlow::report()
 }
 
 
-void Foam::slurryFlow::tell(millfoam::record::FlowSetup& setup) const
+void Foam::slurryFlow::addTo(millfoam::record::FlowSetup& setup) const
 {
     if (!bed_.empty())
     {
-        setup.solids = bed_.told();
+        setup.solids = bed_.forRecord();
     }
     if (drag_.valid())
     {
-        setup.drag = drag_->told();
+        setup.drag = drag_->forRecord();
     }
 }
 

@@ -56,7 +56,7 @@ static const millfoam::record::ToolHelp help{
 
 int main(int argc, char* argv[])
 {
-    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    if (millfoam::record::printed_help_or_version(argc, argv, help, std::cout))
     {
         return 0;
     }
@@ -73,7 +73,7 @@ int main(int argc, char* argv[])
     slurryFlow flow(mesh);
     timeStep step(runTime);
     millfoam::record::FlowSetup setup;
-    flow.tell(setup);
+    flow.addTo(setup);
     flowRecorder recorder(runTime, setup);
     FixedList<scalar, 3> courant(flow.courantNumbers());
 

@@ -24,20 +24,20 @@ void Foam::timeStep::watch(const scalar deltaT, const word& cause)
         FatalErrorInFunction
             << "time-step " << deltaT << " s, median so far " << median
             << " s, because of the " << cause << ": the flow has diverged at "
-            << time_.value() << " s. Go on from an earlier written time with"
+            << time_.value() << " s. Resume from an earlier written time with"
             << " smaller maxCo and maxAlphaCo, and look at U there"
             << exit(FatalError);
     }
 
     const bool isShort = deltaT < median / 20;
-    if (isShort && !told_)
+    if (isShort && !reported_)
     {
         WarningInFunction << "time-step " << deltaT
                           << " s is below a twentieth of its"
                           << " median so far, " << median
                           << " s, because of the " << cause << endl;
     }
-    told_ = isShort;
+    reported_ = isShort;
 }
 
 
@@ -46,7 +46,7 @@ void Foam::timeStep::watch(const scalar deltaT, const word& cause)
 Foam::timeStep::timeStep(Time& time)
 : time_(time),
   steps_(),
-  told_(false)
+  reported_(false)
 {
 }
 

@@ -283,7 +283,7 @@ static const millfoam::record::ToolHelp help{
 
 int main(int argc, char* argv[])
 {
-    if (millfoam::record::told_of_itself(argc, argv, help, std::cout))
+    if (millfoam::record::printed_help_or_version(argc, argv, help, std::cout))
     {
         return 0;
     }
@@ -308,8 +308,8 @@ int main(int argc, char* argv[])
     if (!(mag(g.value()) > 0))
     {
         FatalIOErrorInFunction(dict)
-            << "constant/g is " << g.value() << "; a start needs gravity to"
-            << " tell below from above" << exit(FatalIOError);
+            << "constant/g is " << g.value() << "; expected gravity, which says"
+            << " where below is" << exit(FatalIOError);
     }
     const IOdictionary bedDict(optionalDictionary("bedProperties", mesh));
     const movingBed bed(bedDict, mesh);

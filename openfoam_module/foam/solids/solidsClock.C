@@ -174,7 +174,7 @@ Foam::solidsClock::moment Foam::solidsClock::at(const scalar t) const
 void Foam::solidsClock::checkSpan(const Time& time) const
 {
     recorded(time.startTime().value());
-    // Without a set end (stopAt nextWrite and its kin) only the run can tell
+    // Without a set end (stopAt nextWrite and others) only the run knows
     if (time.endTime().value() < GREAT)
     {
         recorded(time.endTime().value());
@@ -182,7 +182,7 @@ void Foam::solidsClock::checkSpan(const Time& time) const
 }
 
 
-millfoam::record::Solids Foam::solidsClock::told() const
+millfoam::record::Solids Foam::solidsClock::forRecord() const
 {
     millfoam::record::Solids result;
     result.begin = time0_;

@@ -317,9 +317,9 @@ Foam::vector Foam::solidsRecord::spacing() const
 }
 
 
-millfoam::record::Solids Foam::solidsRecord::told() const
+millfoam::record::Solids Foam::solidsRecord::forRecord() const
 {
-    millfoam::record::Solids result = clock_->told();
+    millfoam::record::Solids result = clock_->forRecord();
     result.source = description();
     result.file = file_;
     const millfoam::averaging::SolidsHeader& header = reader_->header();

@@ -43,7 +43,7 @@ const Foam::labelList& Foam::solidsSource::uncovered() const
 }
 
 
-millfoam::record::Solids Foam::solidsSource::told() const
+millfoam::record::Solids Foam::solidsSource::forRecord() const
 {
     millfoam::record::Solids result;
     result.source = description();
