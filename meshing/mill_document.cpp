@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace millfoam::meshing {
 namespace {
@@ -105,6 +107,12 @@ std::vector<std::string> names_of(const std::string& path) {
   return names;
 }
 
+/// The path of the section or list that a key is in; empty for a section of the root.
+std::string section_around(const std::string& path) {
+  const std::size_t cut = path.find_last_of(".[");
+  return cut == std::string::npos ? "" : path.substr(0, cut);
+}
+
 /// Where the value of the key stands among those that were read.
 nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
   nlohmann::ordered_json::json_pointer pointer;
@@ -112,25 +120,56 @@ nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
   return pointer;
 }
 
-[[noreturn]] void refuse_change(const std::string& change, const std::string& reason) {
-  throw MillError("--set " + change + ": " + reason);
+/// The number of an item of a list.
+/// @param place  of the change, for messages
+std::size_t item_number(const std::string& place, const YAML::Node& list, const std::string& name) {
+  std::size_t number = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
+  if (error != std::errc{} || stop != end || number >= list.size())
+    throw MillError(place + ": '" + name + "': expected a number of the list's items, from 0 to " +
+                    std::to_string(list.size() - 1) + ", as in classes[0]");
+  return number;
 }
 
 /// The item or entry of that name in a node, made where it is missing in a map.
-YAML::Node child(const std::string& change, YAML::Node node, const std::string& name) {
-  if (node.IsSequence()) {
-    const bool number = std::isdigit(static_cast<unsigned char>(name.front())) != 0;
-    if (!number || std::stoul(name) >= node.size())
-      refuse_change(change, "'" + name + "': expected a number of the list's items, from 0 to " +
-                                std::to_string(node.size() - 1) + ", as in classes[0]");
-    return node[std::stoul(name)];
-  }
+YAML::Node child(const std::string& place, YAML::Node node, const std::string& name) {
+  if (node.IsSequence()) return node[item_number(place, node, name)];
   if (!node.IsMap() && !node.IsNull())
-    refuse_change(change,
-                  "'" + name + "' is set in '" + node.Scalar() + "', which holds no keys: expected a map");
+    throw MillError(place + ": '" + name + "' is set in '" + node.Scalar() +
+                    "', which holds no keys: expected a map");
   if (!node[name].IsDefined()) node[name] = YAML::Node(YAML::NodeType::Map);
   return node[name];
 }
+
+/// Gives the key at a path a value, or removes it from its map where there is none.
+void assign(const std::string& place, const YAML::Node& root, const std::vector<std::string>& names,
+            const std::optional<YAML::Node>& value) {
+  YAML::Node node;
+  node.reset(root);
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) node.reset(child(place, node, names[i]));
+  const std::string& last = names.back();
+  child(place, node, last);
+  if (node.IsSequence())
+    node[item_number(place, node, last)] = value.value_or(YAML::Node());
+  else if (value)
+    node[last] = *value;
+  else
+    node.remove(last);
+}
+
+std::string joined_names(const YAML::Node& map) {
+  std::string all;
+  for (const auto& entry : map) all += (all.empty() ? "" : ", ") + entry.first.Scalar();
+  return all;
+}
+
+std::string line_of(const YAML::Node& node) {
+  return std::to_string(node.Mark().line + 1);
+}
+
+/// Path of the changes that apply a variant.
+const std::string variant_path = "variant";
 
 }  // namespace
 
@@ -151,7 +190,17 @@ MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> 
   source_fingerprint_ = fingerprint(text);
   root_ = load(file_, text);
   if (root_["format"].IsDefined()) take_resolved();
-  for (const std::string& change : set_) apply(change);
+  const YAML::Node variants = root_["variants"];
+  root_.remove("variants");
+  std::vector<std::string> own;
+  for (const std::string& change : set_) {
+    const std::size_t sign = change.find('=');
+    if (sign != std::string::npos && change.substr(0, sign) == variant_path)
+      apply_variant(variants, change.substr(sign + 1));
+    else
+      own.push_back(change);
+  }
+  for (const std::string& change : own) apply(change);
 }
 
 MillDocument::~MillDocument() = default;
@@ -178,51 +227,65 @@ void MillDocument::take_resolved() {
 }
 
 void MillDocument::apply(const std::string& change) {
+  const std::string place = "--set " + change;
   const std::size_t sign = change.find('=');
   const auto names =
       sign == std::string::npos ? std::vector<std::string>() : names_of(change.substr(0, sign));
   if (names.empty())
-    refuse_change(change, "expected PATH=VALUE, as in flow.law=Hill or charge.classes[0].mass=0.1");
+    throw MillError(place + ": expected PATH=VALUE, as in flow.law=Hill or charge.classes[0].mass=0.1");
   YAML::Node value;
   try {
     value = YAML::Load(change.substr(sign + 1));
   } catch (const YAML::ParserException& error) {
-    refuse_change(change, "the value is not valid YAML: " + error.msg);
+    throw MillError(place + ": the value is not valid YAML: " + error.msg);
   }
-  YAML::Node node;
-  node.reset(root_);
-  for (std::size_t i = 0; i + 1 < names.size(); ++i) node.reset(child(change, node, names[i]));
-  const std::string& last = names.back();
-  if (node.IsSequence()) {
-    child(change, node, last);
-    node[std::stoul(last)] = value;
-  } else {
-    child(change, node, last);
-    if (change.substr(sign + 1) == "~")
-      node.remove(last);
-    else
-      node[last] = value;
-  }
+  const bool removed = change.substr(sign + 1) == "~";
+  assign(place, root_, names, removed ? std::nullopt : std::optional<YAML::Node>(value));
   changed_[change.substr(0, sign)] = change;
 }
 
+void MillDocument::apply_variant(const YAML::Node& variants, const std::string& name) {
+  const std::string change = "--set " + variant_path + "=" + name;
+  if (!variants.IsDefined() || !variants.IsMap())
+    throw MillError(change + ": " + source_ +
+                    " has no variants: expected a map of them under its key 'variants'");
+  const YAML::Node variant = variants[name];
+  if (!variant.IsDefined())
+    throw MillError(change + ": no variant of " + source_ + ": expected one of " + joined_names(variants));
+  if (!variant.IsMap())
+    throw MillError(source_ + ":" + line_of(variant) + ": key 'variants." + name +
+                    "': expected a map of paths and values, as in {flow.law: Hill}");
+  for (const auto& entry : variant) {
+    const std::string path = entry.first.Scalar();
+    const std::string place = source_ + ":" + line_of(entry.first);
+    const auto names = names_of(path);
+    if (names.empty())
+      throw MillError(place + ": key '" + path + "' of the variant " + name +
+                      ": expected a path, as in flow.law or charge.classes[0].mass");
+    assign(place, root_, names, entry.second);
+    variant_lines_[path] = entry.first.Mark().line + 1;
+    lines_[path] = variant_lines_[path];
+  }
+}
+
 void MillDocument::note_line(const std::string& path, int line) {
-  if (!resolved_) lines_[path] = line;
+  if (!resolved_ && variant_lines_.count(path) == 0) lines_[path] = line;
 }
 
 std::string MillDocument::place(const std::string& path) const {
-  for (std::string at = path; !at.empty();) {
+  // What is inside of a changed value has lines of the change, not of the file
+  for (std::string at = path; !at.empty(); at = section_around(at)) {
     for (const auto* changes : {&changed_, &earlier_changed_}) {
       const auto change = changes->find(at);
       if (change != changes->end()) return "--set " + change->second;
     }
+  }
+  for (std::string at = path; !at.empty(); at = section_around(at)) {
     const auto line = lines_.find(at);
     if (line != lines_.end()) return source_ + ":" + std::to_string(line->second);
     // A section that only a change of one of its keys has made
     const auto inside = changed_.lower_bound(at + '.');
     if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
-    const std::size_t cut = at.find_last_of(".[");
-    at = cut == std::string::npos ? "" : at.substr(0, cut);
   }
   return source_ + ":1";
 }

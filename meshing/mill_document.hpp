@@ -20,7 +20,9 @@ class MillDocument {
  public:
   /// @param file  YAML, or a resolved mill (JSON), whose keys are read again
   /// @param set   changes "path=value", in their order: "flow.law=Hill", "charge.classes[0].mass=0.1",
-  ///              "dem={duration: 4}"; the value is YAML, and `~` removes the key
+  ///              "dem={duration: 4}"; the value is YAML, and `~` removes the key. "variant=NAME" takes the
+  ///              values of the map NAME under the file's key `variants` as if they stood in the file; other
+  ///              changes come after all variants
   /// Throws MillError for a file that cannot be read, is not UTF-8 or no single YAML map, and for a change
   /// that is none.
   MillDocument(std::filesystem::path file, std::vector<std::string> set);
@@ -54,6 +56,7 @@ class MillDocument {
  private:
   void take_resolved();
   void apply(const std::string& change);
+  void apply_variant(const YAML::Node& variants, const std::string& name);
 
   std::string file_;
   std::string source_;
@@ -63,6 +66,7 @@ class MillDocument {
   std::vector<std::string> set_;
   YAML::Node root_;
   std::map<std::string, int> lines_;
+  std::map<std::string, int> variant_lines_;            ///< path -> line in the variant that set it
   std::map<std::string, std::string> changed_;          ///< path -> the change that set it
   std::map<std::string, std::string> earlier_changed_;  ///< the same, of a resolved mill
   std::unique_ptr<nlohmann::ordered_json> keys_;
