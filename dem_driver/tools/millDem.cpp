@@ -41,6 +41,7 @@ struct Options {
   int ranks = 1;
   bool deck_only = false;
   bool resume = false;
+  bool or_anew = false;
   std::string plan_file;
 };
 
@@ -116,6 +117,20 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
 }
 
+/// The step at which the run resumes; nothing where it begins anew: without `--resume`, or with `--or-anew`
+/// where it cannot be resumed.
+std::optional<long> first_step(const Options& options, const dem_driver::CaseFolder& folder,
+                               const dem_driver::DemPlan& plan, const std::string& deck) {
+  if (!options.resume) return std::nullopt;
+  try {
+    return resumable(folder, plan, deck);
+  } catch (const std::exception& reason) {
+    if (!options.or_anew) throw;
+    std::cout << reason.what() << ". The dry run begins anew\n";
+    return std::nullopt;
+  }
+}
+
 void run(const Options& options, const meshing::MillDescription& description) {
   const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
@@ -128,7 +143,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
 
   fs::create_directories(folder.dem());
   const dem_driver::FolderLock lock(folder);
-  const auto step = options.resume ? resumable(folder, plan, deck.str()) : std::nullopt;
+  const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.turning_steps && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
     return;
@@ -218,7 +233,8 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.footer("millDem plan mill.yaml [-np N] predicts what the run will cost.");
   add_common(app, options);
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
-  app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
+  auto* resume = app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
+  app.add_flag("--or-anew", options.or_anew, "begin anew a run that cannot be resumed")->needs(resume);
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");
