@@ -113,15 +113,13 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
       usual_rayleigh_fraction);
   dem.settle_time = in.number("settle_time", time_from_zero(), usual_settling * fall_time(geometry));
   dem.duration = in.number("duration", time_above_zero(), usual_dem_turns * turn);
-  dem.record_interval = in.number("record_interval",
-                                  {"a time above 0 and not above the duration, " + shown(dem.duration) + " s",
-                                   [&](double v) { return v > 0 && v <= dem.duration; }},
+  dem.record_interval = in.number("record_interval", part_of("duration", dem.duration),
                                   std::min(turn / records_per_turn, dem.duration));
-  dem.contact_interval =
-      in.number("contact_interval",
-                {"0 for no contacts, or a time in s up to the duration, " + shown(dem.duration) + " s",
-                 [&](double v) { return v >= 0 && v <= dem.duration; }},
-                0);
+  const Rule interval = part_of("duration", dem.duration);
+  dem.contact_interval = in.number(
+      "contact_interval",
+      {"0 for no contacts, or " + interval.expected, [&](double v) { return v == 0 || interval.holds(v); }},
+      0);
   dem.seed = in.integer(
       "seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }}, 1);
   return dem;
@@ -227,7 +225,7 @@ MillDescription describe_mill(const std::filesystem::path& file, const std::vect
   const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
                                 "slurry", "air", "resolution", "flow"});
   MillDescription description{read_root(root, file.stem().string()), document};
-  description.mill.fingerprint = fingerprints(document->keys());
+  description.mill.fingerprint = fingerprints(document->keys(), description.mill);
   return description;
 }
 

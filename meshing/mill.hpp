@@ -71,6 +71,7 @@ struct SizeClass {
 /// released.
 struct Charge {
   std::vector<SizeClass> classes;
+  double packing = 0;       ///< solidity at rest, of which the volumes of the bulk and of its pores follow
   double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
   double start_radius = 0;  ///< m
   double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
@@ -179,9 +180,10 @@ struct Flow {
   double max_courant = 0;       ///< limits of the time-step
   double max_surface_courant = 0;
   double max_voidage_change = 0;
-  double max_time_step = 0;   ///< s
-  double write_interval = 0;  ///< between written fields, s
-  int slices = 0;             ///< along the axis, of profiles
+  double largest_correction = 0;  ///< of the balls' volume on the mesh, a share of it
+  double max_time_step = 0;       ///< s
+  double write_interval = 0;      ///< between written fields, s
+  int slices = 0;                 ///< along the axis, of profiles
   FlowAverages averages;
 };
 

@@ -17,6 +17,9 @@ constexpr double most_counted = 9e15;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
+/// Solidity of a charge at rest, where mill.yaml leaves it open.
+constexpr double usual_packing = 0.6;
+
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
 /// images.
 Rule ball_diameter(const Geometry& geometry) {
@@ -37,7 +40,7 @@ Rule class_mass(const Geometry& geometry, double density, double share) {
 }
 
 std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry, double density) {
-  for (const char* other : {"fill", "diameter", "packing"}) {
+  for (const char* other : {"fill", "diameter"}) {
     if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
   }
   const double share =
@@ -53,22 +56,18 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry,
 }
 
 /// Mass in kg of balls that fill the asked share of the mill in bulk.
-double read_fill_mass(const Section& in, const Geometry& geometry, double density) {
+double read_fill_mass(const Section& in, const Geometry& geometry, double density, double packing) {
   if (in.has("reference_length")) in.refuse("reference_length", "it beside classes only, not beside fill");
   const double fill =
       in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
-  const double packing = in.number("packing",
-                                   {"the solidity of a resting charge, above 0 and up to 0.74",
-                                    [](double v) { return v > 0 && v <= 0.74; }},
-                                   0.6);
   return fill * packing * density * analytic_volume(geometry);
 }
 
 /// Makes the masses of the file's classes fill the share that --set gives, with their sizes and their shares.
-void fill_with_classes(Section& in, const Geometry& geometry, double density) {
+void fill_with_classes(Section& in, const Geometry& geometry, double density, double packing) {
   in.displace("fill", {"reference_length"});
-  const double wanted = read_fill_mass(in, geometry, density);
-  for (const char* read : {"fill", "packing"}) in.drop(read);
+  const double wanted = read_fill_mass(in, geometry, density, packing);
+  in.drop("fill");
   double mass = 0;
   for (const SizeClass& size : read_classes(in, geometry, density)) mass += size.mass;
   for (Section& item : list_classes(in))
@@ -76,10 +75,10 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density) {
 }
 
 /// What --set gives takes the place of the file's other way to say how much charge there is.
-void choose_charge(Section& in, const Geometry& geometry, double density) {
-  in.displace("classes", {"fill", "diameter", "packing"});
+void choose_charge(Section& in, const Geometry& geometry, double density, double packing) {
+  in.displace("classes", {"fill", "diameter"});
   if (in.is_set("fill") && in.has("classes") && !in.is_set("classes") && !in.has("diameter"))
-    fill_with_classes(in, geometry, density);
+    fill_with_classes(in, geometry, density, packing);
   else
     in.displace("fill", {"classes", "reference_length"});
 }
@@ -87,13 +86,17 @@ void choose_charge(Section& in, const Geometry& geometry, double density) {
 }  // namespace
 
 Charge read_charge(Section in, const Geometry& geometry, double density) {
-  choose_charge(in, geometry, density);
   Charge charge;
+  charge.packing = in.number("packing",
+                             {"the solidity of a resting charge, above 0 and up to 0.74",
+                              [](double v) { return v > 0 && v <= 0.74; }},
+                             usual_packing);
+  choose_charge(in, geometry, density, charge.packing);
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
   else
-    charge.classes = {
-        {in.number("diameter", ball_diameter(geometry)), read_fill_mass(in, geometry, density)}};
+    charge.classes = {{in.number("diameter", ball_diameter(geometry)),
+                       read_fill_mass(in, geometry, density, charge.packing)}};
   double volume = 0;
   double largest = 0;
   for (const SizeClass& size : charge.classes) {
@@ -158,10 +161,11 @@ ChargeNumbers count_charge(const Mill& mill) {
   numbers.sauter_diameter =
       mass_over_diameter > 0 ? numbers.mass / mass_over_diameter : numbers.largest_diameter;
   numbers.volume = numbers.mass / mill.ball.density;
-  const double bulk = resting_solidity * analytic_volume(mill.geometry);
+  const double solidity = mill.charge.packing;
+  const double bulk = solidity * analytic_volume(mill.geometry);
   numbers.load = numbers.volume / bulk;
   numbers.load_asked = asked / mill.ball.density / bulk;
-  numbers.pore_volume = numbers.volume * (1 - resting_solidity) / resting_solidity;
+  numbers.pore_volume = numbers.volume * (1 - solidity) / solidity;
   return numbers;
 }
 

@@ -9,9 +9,6 @@ namespace millfoam::meshing {
 
 class Section;
 
-/// Solidity of a charge at rest, of which the volumes of its bulk and of its pores follow.
-inline constexpr double resting_solidity = 0.6;
-
 /// The charge of the section `charge`, by classes or by fill.
 /// @param density  of the balls, kg/m^3
 /// Throws MillError for an impossible value, for both ways, and for balls that do not fit.

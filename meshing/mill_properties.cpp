@@ -46,6 +46,8 @@ class Entries {
 };
 
 void write_fluids(Entries& out, const Mill& mill) {
+  out.number("gravity", gravity);
+  out.list("gravityVector", std::array<double, 3>{0, -gravity, 0});
   out.number("ballDensity", mill.ball.density);
   out.number("slurryDensity", mill.slurry.density);
   out.number("slurryViscosity", mill.slurry.plastic_viscosity);
@@ -110,6 +112,7 @@ void write_flow(Entries& out, const Mill& mill) {
   out.number("maxCourant", flow.max_courant);
   out.number("maxSurfaceCourant", flow.max_surface_courant);
   out.number("maxVoidageChangeOfStep", flow.max_voidage_change);
+  out.number("largestCorrection", flow.largest_correction);
   out.number("maxTimeStep", flow.max_time_step);
   out.number("firstTimeStep", flow.max_time_step / 10);
   out.number("fieldsInterval", flow.write_interval);

@@ -18,17 +18,30 @@ std::string exact(const Eigen::Vector3d& vector) {
   return exact(vector.x()) + ' ' + exact(vector.y()) + ' ' + exact(vector.z());
 }
 
+namespace {
+
+void write_through(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
+  std::ofstream stream(file);
+  write(stream);
+  stream.close();
+  if (!stream)
+    throw std::runtime_error(file.string() + ": cannot be written: no permission, or the disk is full");
+}
+
+}  // namespace
+
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
-  const std::filesystem::path partial = file.string() + ".partial";
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
-  {
-    std::ofstream stream(partial);
-    write(stream);
-    stream.close();
-    if (!stream)
-      throw std::runtime_error(partial.string() + ": cannot be written: no permission, or the disk is full");
+  namespace fs = std::filesystem;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path());
+  // A device or a pipe must not be replaced, nor a link by what it points to
+  const fs::path whole = fs::exists(file) ? fs::canonical(file) : file;
+  if (fs::exists(whole) && !fs::is_regular_file(whole)) {
+    write_through(whole, write);
+    return;
   }
-  std::filesystem::rename(partial, file);
+  const fs::path partial = whole.string() + ".partial";
+  write_through(partial, write);
+  fs::rename(partial, whole);
 }
 
 }  // namespace millfoam::meshing

@@ -2,6 +2,8 @@
 #include "meshing/resolved_mill.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -60,7 +62,7 @@ Json speed_numbers(const Mill& mill) {
           {"turn_s", mill.turn()}};
 }
 
-Json charge_numbers(const ChargeNumbers& charge) {
+Json charge_numbers(const ChargeNumbers& charge, double packing) {
   Json classes = Json::array();
   for (const BallCount& size : charge.classes)
     classes.push_back({{"diameter_m", size.diameter},
@@ -74,7 +76,7 @@ Json charge_numbers(const ChargeNumbers& charge) {
           {"volume_m3", charge.volume},
           {"load", charge.load},
           {"load_asked", charge.load_asked},
-          {"resting_solidity", resting_solidity},
+          {"resting_solidity", packing},
           {"pore_volume_m3", charge.pore_volume},
           {"fines_mass_kg", charge.fines_mass},
           {"fines_share", whole > 0 ? charge.fines_mass / whole : 0},
@@ -94,6 +96,13 @@ Json contact_numbers(const Contact& contact) {
   return {{"restitution", contact.restitution},
           {"friction", contact.friction},
           {"rolling_friction", contact.rolling_friction}};
+}
+
+Json materials_numbers(const Mill& mill) {
+  return {{"ball", material_numbers(mill.ball)},
+          {"wall", material_numbers(mill.wall)},
+          {"ball_ball", contact_numbers(mill.ball_ball)},
+          {"ball_wall", contact_numbers(mill.ball_wall)}};
 }
 
 Json voxel_numbers(const Voxels& voxels) {
@@ -135,6 +144,7 @@ Json flow_numbers(const Mill& mill) {
           {"max_courant", flow.max_courant},
           {"max_surface_courant", flow.max_surface_courant},
           {"max_voidage_change", flow.max_voidage_change},
+          {"largest_correction", flow.largest_correction},
           {"max_time_step_s", flow.max_time_step},
           {"write_interval_s", flow.write_interval},
           {"slices", flow.slices},
@@ -145,13 +155,10 @@ Json flow_numbers(const Mill& mill) {
 Json derived_numbers(const Mill& mill) {
   return {{"geometry", geometry_numbers(mill)},
           {"speed", speed_numbers(mill)},
-          {"charge", charge_numbers(count_charge(mill))},
-          {"materials",
-           {{"ball", material_numbers(mill.ball)},
-            {"wall", material_numbers(mill.wall)},
-            {"ball_ball", contact_numbers(mill.ball_ball)},
-            {"ball_wall", contact_numbers(mill.ball_wall)}}},
+          {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
+          {"materials", materials_numbers(mill)},
           {"averages", averages_numbers(mill)},
+          {"gravity_m_s2", gravity},
           {"slurry",
            {{"density_kg_m3", mill.slurry.density},
             {"plastic_viscosity_Pa_s", mill.slurry.plastic_viscosity},
@@ -164,18 +171,22 @@ Json derived_numbers(const Mill& mill) {
 
 }  // namespace
 
-MillFingerprints fingerprints(const Json& keys) {
+MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
+  // Names of materials stand for numbers
+  const Json materials = materials_numbers(mill);
   Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
   of["resolution"].erase("layers");
   MillFingerprints result;
   result.walls = fingerprint(of.dump());
-  for (const char* section : {"speed", "charge", "materials", "dem"}) of[section] = keys.at(section);
+  for (const char* section : {"speed", "charge", "dem"}) of[section] = keys.at(section);
+  of["materials"] = materials;
   of["dem"].erase("duration");
   result.charge = fingerprint(of.dump());
   of["dem"] = keys.at("dem");
   of["averages"] = keys.at("averages");
   result.averages = fingerprint(of.dump());
   of = keys;
+  of["materials"] = materials;
   of.erase("title");
   result.flow = fingerprint(of.dump());
   return result;
@@ -206,8 +217,23 @@ Json resolved_mill(const MillDescription& description, const std::string& progra
           {"derived", derived_numbers(description.mill)}};
 }
 
+namespace {
+
+/// A file that is no resolved mill, such as the description of the mill itself, is not replaced.
+void require_replaceable(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0) return;
+  std::ifstream in(file);
+  const Json content = Json::parse(in, nullptr, false);
+  if (!content.is_object() || content.value("format", "") != "millfoam-mill")
+    throw std::runtime_error("--resolved " + file.string() +
+                             ": exists and is no resolved mill; expected another file");
+}
+
+}  // namespace
+
 void write_resolved_mill(const MillDescription& description, const std::string& program,
                          const std::filesystem::path& file) {
+  require_replaceable(file);
   const std::string text = resolved_mill(description, program).dump(2) + '\n';
   if (file == "-")
     std::cout << text << std::flush;

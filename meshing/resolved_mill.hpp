@@ -10,7 +10,7 @@
 namespace millfoam::meshing {
 
 /// The fingerprints of a mill whose keys have these values.
-MillFingerprints fingerprints(const nlohmann::ordered_json& keys);
+MillFingerprints fingerprints(const nlohmann::ordered_json& keys, const Mill& mill);
 nlohmann::ordered_json to_json(const MillFingerprints& fingerprints);
 
 /// The resolved mill: every key with its value, defaults filled in; derived numbers with units in their

@@ -37,6 +37,12 @@ inline Rule time_from_zero() {
   return {"a time in s of 0 or more and up to " + shown(longest_time) + " s",
           [](double v) { return v >= 0 && v <= longest_time; }};
 }
+/// An interval of which a run may have a million.
+inline Rule part_of(const std::string& what, double whole) {
+  const double least = whole / 1e6;
+  return {"a time in s from " + shown(least) + " s to that of the " + what + ", " + shown(whole) + " s",
+          [=](double v) { return v >= least && v <= whole * (1 + 1e-9); }};
+}
 inline Rule positive_below(const std::string& what, double bound, const std::string& unit,
                            const std::string& of) {
   return {what + " above 0 and below " + of + ", " + shown(bound) + unit,

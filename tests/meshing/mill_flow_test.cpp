@@ -65,8 +65,15 @@ TEST(Defaults, voxels_hold_8_to_64_balls_and_cover_the_mill) {
   const double side = 2 * voxels.upper[0] / voxels.shape[0];
   const double volume = side * side * voxels.upper[2] / voxels.shape[2];
   const double ball = std::acos(-1.0) / 6 * std::pow(0.025, 3);
-  EXPECT_GE(resting_solidity * volume / ball, 8);
-  EXPECT_LE(resting_solidity * volume / ball, 64);
+  EXPECT_GE(mill.charge.packing * volume / ball, 8);
+  EXPECT_LE(mill.charge.packing * volume / ball, 64);
+}
+
+TEST(Defaults, voxels_show_the_wall_of_a_small_mill_with_large_balls) {
+  // 2.5 balls, 100 mm, would be a sixth of the diameter
+  EXPECT_EQ(mill_of(bare_mill, {"charge.diameter=0.04"}).averages.voxels.shape[0], 8);
+  // No voxel is smaller than a ball
+  EXPECT_EQ(mill_of(bare_mill, {"charge.diameter=0.099", "geometry.length=0.2"}).averages.voxels.shape[0], 8);
 }
 
 TEST(Voxels, by_counts_end_at_the_shell) {
@@ -75,6 +82,13 @@ TEST(Voxels, by_counts_end_at_the_shell) {
   EXPECT_EQ(mill.averages.voxels.lower[0], -0.3);
   EXPECT_NE(refusal_of(bare_mill + "averages: {counts: {across: 33, along: 2}, voxel_size: 0.01}\n")
                 .find("'averages.voxel_size' = 0.01: expected either voxel_size or counts"),
+            std::string::npos);
+}
+
+TEST(Voxels, of_the_slurry_are_as_thick_as_the_layers_where_their_number_is_open) {
+  const Mill mill = mill_of(bare_mill, {"flow.averages.counts.across=20", "resolution.layers=7"});
+  EXPECT_EQ(mill.flow.averages.voxels.shape, (std::array<int, 3>{20, 20, 7}));
+  EXPECT_NE(refusal_of(bare_mill, {"averages.counts.across=20"}).find("'averages.counts.along' is missing"),
             std::string::npos);
 }
 
@@ -110,6 +124,25 @@ TEST(Flow, laws_are_those_of_the_table) {
 
 TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
   EXPECT_DOUBLE_EQ(mill_of(bare_mill, {"flow.duration=0.5"}).flow.averages.start, 0.25);
+}
+
+TEST(Flow, change_of_the_voidage_limits_steps_of_slurryFoam_only) {
+  const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);
+  // The solver of one call leaves the file's key out
+  EXPECT_EQ(refusal_of(text, {"flow.solver=interFoam"}), "accepted");
+  for (const auto& refused : {refusal_of(bare_mill + "flow: {max_voidage_change: 0.2, solver: interFoam}\n"),
+                              refusal_of(text, {"flow.solver=interFoam", "flow.max_voidage_change=0.3"})})
+    EXPECT_NE(refused.find("expected it with flow.solver slurryFoam only"), std::string::npos) << refused;
+}
+
+TEST(Flow, intervals_of_a_run_are_a_millionth_of_it_or_more) {
+  for (const char* key : {"dem.record_interval", "dem.contact_interval", "flow.write_interval",
+                          "flow.max_time_step", "flow.averages.window", "flow.averages.interval"}) {
+    const std::string refused = refusal_of(bare_mill, {std::string(key) + "=1e-12"});
+    EXPECT_NE(refused.find("a time in s from "), std::string::npos) << key << ": " << refused;
+  }
+  EXPECT_EQ(mill_of(bare_mill).dem.contact_interval, 0);
 }
 
 TEST(Flow, feed_needs_an_inlet) {
@@ -246,6 +279,49 @@ TEST(Set, says_what_it_is_when_it_is_none) {
   EXPECT_NE(refusal_of(example_mill, {"title.a=1"}).find("holds no keys"), std::string::npos);
 }
 
+TEST(Set, of_an_item_takes_the_lists_numbers_only) {
+  const std::string text =
+      with(bare_mill, "{fill: 0.3, diameter: 0.025}", "{classes: [{diameter: 0.025, mass: 5}]}");
+  for (const char* item : {"1", "99999999999999999999999", "0x0", "-1", "a"}) {
+    const std::string refused = refusal_of(text, {"charge.classes." + std::string(item) + ".mass=1"});
+    EXPECT_NE(refused.find("expected a number of the list's items, from 0 to 0"), std::string::npos)
+        << refused;
+  }
+}
+
+const std::string mill_with_variants = bare_mill + R"(flow: {duration: 2}
+variants:
+  slow: {speed.fraction_of_critical: 0.5, flow.duration: 3}
+  thick:
+    slurry.plastic_viscosity: 0.1
+    slurry.yield_stress: 5
+)";
+
+TEST(Variants, change_keys_as_if_they_stood_in_the_file) {
+  EXPECT_DOUBLE_EQ(mill_of(mill_with_variants).slurry.yield_stress, 1);
+  const Mill mill = mill_of(mill_with_variants, {"variant=slow", "variant=thick"});
+  EXPECT_DOUBLE_EQ(mill.flow.duration, 3);
+  EXPECT_DOUBLE_EQ(mill.slurry.plastic_viscosity, 0.1);
+  EXPECT_NEAR(mill.angular_velocity / critical_speed(mill.geometry), 0.5, 1e-12);
+  // Other changes come after all of them, and take the place of alternatives
+  EXPECT_DOUBLE_EQ(mill_of(mill_with_variants, {"flow.duration=4", "variant=slow"}).flow.duration, 4);
+  const Mill turns = mill_of(mill_with_variants, {"variant=slow", "flow.turns=2"});
+  EXPECT_DOUBLE_EQ(turns.flow.duration, 2 * turns.turn());
+}
+
+TEST(Variants, are_refused_by_line_and_name) {
+  EXPECT_NE(refusal_of(mill_with_variants, {"variant=fast"}).find("expected one of slow, thick"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"variant=fast"}).find("has no variants"), std::string::npos);
+  const std::string list = bare_mill + "variants:\n  slow: [1, 2]\n";
+  EXPECT_EQ(refusal_of(list, {"variant=slow"}).rfind("mill.yaml:7: key 'variants.slow': expected a map", 0),
+            0U);
+  const std::string wrong = bare_mill + "variants:\n  slow:\n    flow.law: Stokes\n";
+  EXPECT_EQ(refusal_of(wrong, {"variant=slow"}).rfind("mill.yaml:8: key 'flow.law' = Stokes", 0), 0U)
+      << refusal_of(wrong, {"variant=slow"});
+  EXPECT_EQ(refusal_of(wrong), "accepted");
+}
+
 TEST(Encoding, is_named_when_it_is_not_utf8) {
   EXPECT_NE(refusal_of("title: M\xFChle\n" + bare_mill)
                 .find("mill.yaml:1: byte 0xFC is no UTF-8, as in a text in Latin-1"),
@@ -313,6 +389,16 @@ speed:)"),
     }
   }
   EXPECT_GT(tried.size(), 60U);
+}
+
+TEST(Charge, packing_is_that_of_bulk_and_pores) {
+  const ChargeNumbers dense = count_charge(mill_of(bare_mill, {"charge.packing=0.55"}));
+  EXPECT_NEAR(dense.load, 0.3, 0.005);
+  EXPECT_DOUBLE_EQ(dense.pore_volume, dense.volume * 0.45 / 0.55);
+  const std::string classes = with(bare_mill, "{fill: 0.3, diameter: 0.025}",
+                                   "{packing: 0.5, classes: [{diameter: 0.025, mass: 5}]}");
+  const ChargeNumbers loose = count_charge(mill_of(classes));
+  EXPECT_DOUBLE_EQ(loose.pore_volume, loose.volume);
 }
 
 TEST(Charge, counts_whole_balls_and_names_fines) {

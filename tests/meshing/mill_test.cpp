@@ -341,7 +341,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"record_interval: 0.002", "record_interval: 2", "'dem.record_interval' = 2"},
         Refused{"seed: 20121", "contact_interval: -1\n  seed: 20121", "'dem.contact_interval' = -1"},
         Refused{"seed: 20121", "contact_interval: 2\n  seed: 20121",
-                "'dem.contact_interval' = 2: expected 0 for no contacts, or a time in s up to the duration"},
+                "'dem.contact_interval' = 2: expected 0 for no contacts, or a time in s from 1.6e-06 s to "
+                "that of the duration"},
         Refused{"seed: 20121", "seed: 0", "'dem.seed' = 0"},
         Refused{"level: -0.012", "level: 0.061",
                 "'slurry.level' = 0.061: expected a height in m within the radius"},

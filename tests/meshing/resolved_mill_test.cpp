@@ -76,6 +76,19 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
+TEST(Fingerprints, are_of_the_materials_numbers_by_whatever_name) {
+  const auto of = [](const std::vector<std::string>& set) {
+    return describe(example_mill, set).mill.fingerprint.charge;
+  };
+  const std::string named = of({"materials={ball: glass, wall: HDPE}"});
+  EXPECT_EQ(of({"materials={ball: glass, wall: HDPE, ball_ball: glass-glass, ball_wall: glass-HDPE}"}),
+            named);
+  EXPECT_EQ(of({"materials={ball: glass, wall: {density: 950, youngs_modulus: 1e9, poisson_ratio: 0.42}}",
+                "materials.ball_wall=glass-HDPE"}),
+            named);
+  EXPECT_NE(of({"materials={ball: glass, wall: nylon}"}), named);
+}
+
 TEST(Place, of_a_resolved_mill_is_that_in_its_source) {
   const TemporaryFolder folder;
   const MillDescription first = describe(example_mill, {"dem.seed=7"});
@@ -93,6 +106,8 @@ TEST(Place, of_a_key_is_its_line_its_change_or_the_section_around_it) {
   EXPECT_EQ(mill.document->place("dem.seed"), "--set dem.seed=7");
   EXPECT_EQ(mill.document->place("dem.contact_interval"), file + ":22");
   EXPECT_EQ(mill.document->place("charge.classes[1]"), file + ":16");
+  const MillDescription map = describe(example_mill, {"dem={duration: 2}"});
+  EXPECT_EQ(map.document->place("dem.duration"), "--set dem={duration: 2}");
 }
 
 }  // namespace
