@@ -15,6 +15,7 @@
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_check.hpp"
 #include "dem_driver/wall_fit.hpp"
+#include "meshing/output_file.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -113,14 +114,7 @@ std::string wall_checksums(const CaseFolder& folder, const std::vector<std::stri
 }
 
 void write_whole_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
-  const fs::path unfinished = file.string() + ".part";
-  {
-    std::ofstream out(unfinished);
-    write(out);
-    out.close();
-    if (!out) throw std::runtime_error(unfinished.string() + ": cannot be written");
-  }
-  fs::rename(unfinished, file);
+  meshing::write_file(file, write);
 }
 
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {

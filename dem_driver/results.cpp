@@ -11,6 +11,7 @@
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/time_step.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -61,6 +62,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"potential_energy_J", results.potential_steadiness.mean},
                {"ball_overlap_largest_m", results.ball_overlaps.largest},
                {"ball_overlap_99_m", results.ball_overlaps.percentile(0.99)},
+               {"allowed_overlap", allowed_overlap_ratio},
                {"wall_overlap_largest_m", results.wall_overlaps.largest},
                {"wall_overlap_99_m", results.wall_overlaps.percentile(0.99)},
                {"resting_speed_m_s", results.resting_speed}});

@@ -9,6 +9,10 @@
 
 namespace millfoam::averaging {
 
+/// Balls in the averaging volumes from which the drag laws were derived.
+inline constexpr double fewest_balls = 8;
+inline constexpr double most_balls = 64;
+
 /// What a user should know of a window before trusting it.
 struct WindowSummary {
   TimeWindow time;                 ///< begin and end, s, and records

@@ -138,6 +138,7 @@ std::string as_json(const SolidsSummary& summary) {
   json["volume_in_m3"] = mean_volume_in(summary);
   json["largest_outside"] = largest_share(summary, &Ledger::outside);
   json["largest_clipped"] = largest_share(summary, &Ledger::clipped);
+  json["balls_of_laws"] = {fewest_balls, most_balls};
   json["balls_per_cell"] = all.balls_per_cell;
   json["mean_solidity"] = all.mean_solidity;
   json["largest_solidity"] = all.largest_solidity;
