@@ -11,8 +11,8 @@
 
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pi.hpp"
-#include "meshing/mill_charge.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 

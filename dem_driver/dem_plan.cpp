@@ -5,7 +5,7 @@
 
 #include "dem_driver/deck.hpp"
 #include "dem_driver/mill_key.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -17,9 +17,9 @@
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
 #include "dem_driver/segments.hpp"
-#include "meshing/cross_section.hpp"
-#include "meshing/wall_files.hpp"
-#include "meshing/wall_surface.hpp"
+#include "meshing/mill_mesh/cross_section.hpp"
+#include "meshing/walls/wall_files.hpp"
+#include "meshing/walls/wall_surface.hpp"
 
 namespace millfoam::dem_driver {
 

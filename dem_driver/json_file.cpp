@@ -5,8 +5,8 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/plan_report.hpp"
-#include "meshing/mill_shape.hpp"
-#include "meshing/resolved_mill.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {

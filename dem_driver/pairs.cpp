@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "dem_driver/mill_key.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -9,7 +9,7 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/steady_state.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -7,7 +7,7 @@
 
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::dem_driver {
 

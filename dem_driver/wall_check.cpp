@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshing/stl_file.hpp"
+#include "meshing/surface/stl_file.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "meshing/resolved_mill.hpp"
+#include "meshing/mill/resolved_mill.hpp"
 
 namespace millfoam::averaging {
 namespace {

@@ -26,7 +26,7 @@
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_fit.hpp"
-#include "meshing/mill_document.hpp"
+#include "meshing/mill/mill_document.hpp"
 #include "meshing/tools/mill_options.hpp"
 
 namespace {

@@ -26,7 +26,7 @@ class MadeUpTree(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for header in ("meshing/mill.hpp", "averaging/box_grid.hpp", "openfoam_module/drag/drag_laws.hpp",
+        for header in ("meshing/mill/mill.hpp", "averaging/box_grid.hpp", "openfoam_module/drag/drag_laws.hpp",
                        "dem_driver/deck.hpp", "openfoam_module/foam/solids.H"):
             self.write(header, "#pragma once\n")
 
@@ -47,7 +47,7 @@ class MadeUpTree(unittest.TestCase):
         self.assertEqual(violations(self.root), [])
 
     def test_averaging_must_not_include_meshing(self):
-        self.assert_refused("averaging/a.cpp", '"meshing/mill.hpp"', "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", '"meshing/mill/mill.hpp"', "averaging must not know meshing")
 
     def test_averaging_must_not_include_dem_driver(self):
         self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"', "averaging/tools must not know dem_driver")
@@ -59,7 +59,7 @@ class MadeUpTree(unittest.TestCase):
         self.assert_refused("averaging/a.cpp", '"../meshing/mill.hpp"', "averaging must not know meshing")
 
     def test_angle_brackets_do_not_hide_the_room(self):
-        self.assert_refused("averaging/a.cpp", "<meshing/mill.hpp>", "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", "<meshing/mill/mill.hpp>", "averaging must not know meshing")
 
     def test_a_header_that_is_not_there_still_counts(self):
         self.assert_refused("averaging/a.cpp", '"meshing/gone.hpp"', "averaging must not know meshing")
@@ -71,7 +71,7 @@ class MadeUpTree(unittest.TestCase):
         self.assert_refused("dem_driver/a.cpp", '"averaging/box_grid.hpp"', "dem_driver must not know averaging")
 
     def test_openfoam_module_must_not_include_meshing(self):
-        self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill.hpp"', "openfoam_module must not know meshing")
+        self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill/mill.hpp"', "openfoam_module must not know meshing")
 
     def test_drag_knows_only_the_standard_library(self):
         self.assert_refused("openfoam_module/drag/a.cpp", "<hdf5.h>", "standard library only")
@@ -91,14 +91,14 @@ class MadeUpTree(unittest.TestCase):
         self.assertEqual(violations(self.root), ["meshing/a.cpp: names Foam::, which only .H and .C may know"])
 
     def test_the_ways_that_are_open(self):
-        self.assert_allowed("dem_driver/a.cpp", '"meshing/mill.hpp"')
+        self.assert_allowed("dem_driver/a.cpp", '"meshing/mill/mill.hpp"')
         self.assert_allowed("openfoam_module/foam/a.C", '"averaging/box_grid.hpp"')
         self.assert_allowed("openfoam_module/foam/b.C", '"openfoam_module/drag/drag_laws.hpp"')
         self.assert_allowed("openfoam_module/foam/c.H", '"volFields.H"')
         self.assert_allowed("openfoam_module/drag/a.cpp", "<cmath>")
         self.assert_allowed("openfoam_module/drag/tools/a.cpp", "<CLI/CLI.hpp>")
         self.assert_allowed("averaging/b.cpp", "<hdf5.h>")
-        self.assert_allowed("tests/meshing/a.cpp", '"meshing/mill.hpp"')
+        self.assert_allowed("tests/meshing/a.cpp", '"meshing/mill/mill.hpp"')
 
 
 if __name__ == "__main__":

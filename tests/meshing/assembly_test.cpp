@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/assembly.hpp"
+#include "meshing/polygons/assembly.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "meshing/face_geometry.hpp"
-#include "meshing/mill_mesh.hpp"
+#include "meshing/faces/face_geometry.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"
 

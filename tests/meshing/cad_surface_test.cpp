@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/cad_surface.hpp"
+#include "meshing/walls/cad_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cstring>
 #include <fstream>
 
-#include "meshing/face_geometry.hpp"
-#include "meshing/mesh_quality.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/surface_check.hpp"
-#include "meshing/wall_files.hpp"
+#include "meshing/faces/face_geometry.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/volume/mesh_quality.hpp"
+#include "meshing/walls/surface_check.hpp"
+#include "meshing/walls/wall_files.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"

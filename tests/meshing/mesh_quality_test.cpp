@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mesh_quality.hpp"
+#include "meshing/volume/mesh_quality.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mesh_report.hpp"
+#include "meshing/results/mesh_report.hpp"
 
 #include <gtest/gtest.h>
 
-#include "meshing/mill_mesh.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
 #include "tests/meshing/test_geometry.hpp"
 
 namespace millfoam::meshing {

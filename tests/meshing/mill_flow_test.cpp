@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "meshing/mill.hpp"
-#include "meshing/mill_charge.hpp"
-#include "meshing/mill_document.hpp"
-#include "meshing/mill_shape.hpp"
+#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_shape.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mill_mesh.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "meshing/mesh_quality.hpp"
-#include "meshing/mill_shape.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "meshing/volume/mesh_quality.hpp"
 #include "tests/meshing/test_geometry.hpp"
 
 namespace millfoam::meshing {

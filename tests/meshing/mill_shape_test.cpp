@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mill_shape.hpp"
+#include "meshing/mill/mill_shape.hpp"
 
 #include <gtest/gtest.h>
 

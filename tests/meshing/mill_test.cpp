@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "meshing/materials.hpp"
+#include "meshing/mill/materials.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {

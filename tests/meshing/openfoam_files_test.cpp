@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/openfoam_files.hpp"
+#include "meshing/volume/openfoam_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "meshing/mill_mesh.hpp"
-#include "meshing/mill_properties.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/results/mill_properties.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/openings.hpp"
+#include "meshing/mill_mesh/openings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <set>
 #include <sstream>
 
-#include "meshing/mesh_quality.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/mill_shape.hpp"
-#include "meshing/pi.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/surface/pi.hpp"
+#include "meshing/volume/mesh_quality.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"
 

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <fstream>
 
-#include "meshing/assembly.hpp"
-#include "meshing/face_file.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/obj_file.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/polygons/assembly.hpp"
+#include "meshing/polygons/face_file.hpp"
+#include "meshing/polygons/obj_file.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"

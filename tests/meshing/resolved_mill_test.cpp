@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/resolved_mill.hpp"
+#include "meshing/mill/resolved_mill.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "meshing/mill_document.hpp"
+#include "meshing/mill/mill_document.hpp"
 #include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/wall_surface.hpp"
+#include "meshing/walls/wall_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <map>
 #include <sstream>
 
-#include "meshing/mesh_quality.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/surface_check.hpp"
-#include "meshing/wall_files.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/volume/mesh_quality.hpp"
+#include "meshing/walls/surface_check.hpp"
+#include "meshing/walls/wall_files.hpp"
 #include "tests/meshing/test_geometry.hpp"
 #include "tests/meshing/test_mill.hpp"
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "meshing/mill/mill.hpp"
+#include "meshing/mill_mesh/divisions.hpp"
+
+namespace millfoam::meshing {
+
+/// Quadrilaterals that fill the mill's cross-section at DEM time 0, the lifters left out.
+///
+/// Three blocks, from the axis outwards: a square core with bulging sides; a ring of cells from the core to
+/// the lifters' tops (an O-grid: the core's corners are its four irregular points); and between each two
+/// lifters a block up to the shell whose outer lines end at the lifters' sides. A smooth drum has no such
+/// blocks: its ring ends at the shell.
+///
+/// Where the mill has openings, the ring consists of bands between their circles (opening_circles), and the
+/// core lies inside the smallest. The points of a circle are equally spaced and lie so far outside it that
+/// their polygon has the circle's area.
+struct CrossSection {
+  enum class Part { shell, lifters };
+  /// A side of one quadrilateral that lies on a wall; the interior is to the left of the way from the first
+  /// point to the second.
+  struct WallEdge {
+    std::array<int, 2> points;
+    Part part;
+  };
+
+  std::vector<Eigen::Vector2d> points;    ///< m; those on the shell lie on its circle
+  std::vector<std::array<int, 4>> quads;  ///< anticlockwise
+  std::vector<int> columns;  ///< of each quadrilateral: its column around the axis, between the lines
+                             ///< `column` and `column` + 1; -1 in the core
+  std::vector<WallEdge> walls;
+  Divisions divisions;
+
+  /// Number of columns.
+  int around() const { return 4 * divisions.core; }
+  /// Angle, rad, of line 0 on the openings' circles; the line ends at lifter 1's first corner.
+  double first_line_angle() const;
+};
+
+/// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure), by cell size or
+/// counts.
+CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution);
+
+}  // namespace millfoam::meshing

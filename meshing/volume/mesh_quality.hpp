@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "meshing/volume/volume_mesh.hpp"
+
+namespace millfoam::meshing {
+
+/// Area vectors and centroids of the faces, volumes and centroids of the cells, as OpenFOAM computes them:
+/// faces from triangles about the mean of their points, cells from pyramids about the mean of their faces'
+/// centroids.
+struct MeshMeasures {
+  std::vector<Eigen::Vector3d> face_area;    ///< m^2, along the face's normal
+  std::vector<Eigen::Vector3d> face_centre;  ///< m
+  std::vector<double> cell_volume;           ///< m^3, negative for a cell turned inside out
+  std::vector<Eigen::Vector3d> cell_centre;  ///< m
+};
+MeshMeasures measure(const VolumeMesh& mesh);
+
+/// What a flow solver asks of a mesh, with OpenFOAM's definitions (primitiveMeshTools in its source).
+struct MeshQuality {
+  double volume = 0;         ///< of all cells, m^3
+  double smallest_cell = 0;  ///< volume, m^3
+  double smallest_edge = 0;  ///< m
+  double largest_edge = 0;   ///< m
+  double max_non_orthogonality =
+      0;                    ///< degrees between a face's normal and the line between its two cells' centres
+  double max_skewness = 0;  ///< distance of that line from the face's centre over the face's half-width
+  double max_volume_ratio = 1;  ///< of the larger of two neighbouring cells to the smaller
+
+  /// Where the smallest cell and these maxima are, m.
+  Eigen::Vector3d smallest_cell_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_non_orthogonality_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_skewness_at = Eigen::Vector3d::Zero();
+  Eigen::Vector3d max_volume_ratio_at = Eigen::Vector3d::Zero();
+};
+MeshQuality quality(const VolumeMesh& mesh);
+
+/// Volume of the cells before z = `length`, m^3: of the mill without compartments behind its grates.
+double chamber_volume(const VolumeMesh& mesh, double length);
+
+/// Largest values that a mill's mesh may have.
+inline constexpr double allowed_non_orthogonality = 45;  // degrees
+inline constexpr double allowed_skewness = 1;
+inline constexpr double allowed_volume_ratio = 3;
+inline constexpr double allowed_volume_error = 0.005;  // relative to the closed form
+
+/// Throws std::runtime_error with the value, the limit, the place and advice for a mesh that is no good;
+/// `analytic_volume` in m^3. From z = `length`, m, on, cells are those of pulp lifters.
+void require_quality(const MeshQuality& quality, double analytic_volume,
+                     double length = std::numeric_limits<double>::infinity());
+
+}  // namespace millfoam::meshing
