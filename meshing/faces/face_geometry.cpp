@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <sstream>
 
 #include "meshing/faces/polygon_filling.hpp"
 
@@ -116,13 +115,6 @@ std::vector<std::array<int, 3>> triangles_of(const Points& points, const Face& f
     for (int& p : triangle) p = face[static_cast<std::size_t>(p)];
   }
   return triangles;
-}
-
-std::string described(const Vector3d& point) {
-  std::ostringstream text;
-  text.precision(9);
-  text << '(' << point.x() << ' ' << point.y() << ' ' << point.z() << ')';
-  return text.str();
 }
 
 }  // namespace millfoam::meshing

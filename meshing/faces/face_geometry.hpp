@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <string>
 #include <vector>
 
 namespace millfoam::meshing {
@@ -34,8 +33,5 @@ bool crosses_itself(const Points& points, const Face& face);
 /// Triangles that fill a face within its sides, concave or not; fewer than usual where it has no area or
 /// crosses itself.
 std::vector<std::array<int, 3>> triangles_of(const Points& points, const Face& face);
-
-/// Text of a point for messages: `(0.1 0 -0.05)`.
-std::string described(const Eigen::Vector3d& point);
 
 }  // namespace millfoam::meshing

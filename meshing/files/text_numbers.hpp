@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <charconv>
-#include <cmath>
+#include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <string_view>
 
-namespace millfoam::meshing {
+namespace millfoam {
 
 /// The finite number that a word is as a whole, whatever the locale; nothing for any other word.
-inline std::optional<double> to_number(const std::string& word) {
-  double value = 0;
-  const char* begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
+std::optional<double> to_number(std::string_view word);
 
-}  // namespace millfoam::meshing
+/// The shortest decimal form of a number that reads back to its last bit.
+std::string exact(double value);
+
+/// The three components of a vector in that form, separated by blanks.
+std::string exact(const Eigen::Vector3d& vector);
+
+/// A number as a message shows it: the shortest decimal form that reads back to it within six digits.
+std::string shown(double value);
+
+/// Text of a point for messages: `(0.1 0 -0.05)`.
+std::string described(const Eigen::Vector3d& point);
+
+}  // namespace millfoam

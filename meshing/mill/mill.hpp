@@ -2,13 +2,9 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "meshing/mill/mill_error.hpp"
 
 namespace millfoam::meshing {
 
@@ -222,23 +218,5 @@ inline constexpr double gravity = 9.81;
 
 /// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.
 double critical_speed(const Geometry& geometry);
-
-class MillDocument;
-
-/// A mill and what it was read from.
-struct MillDescription {
-  Mill mill;
-  std::shared_ptr<const MillDocument> document;
-};
-
-/// Reads and checks a mill description. Every key is documented in meshing/README.md.
-/// @param file  mill.yaml, or a resolved mill (mill.json)
-/// @param set   changes "path=value" (MillDocument)
-/// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or
-/// one that is impossible (negative size, lifter longer than the radius, …).
-MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set = {});
-
-/// The mill alone.
-Mill read_mill(const std::filesystem::path& file, const std::vector<std::string>& set = {});
 
 }  // namespace millfoam::meshing

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/surface/pi.hpp"

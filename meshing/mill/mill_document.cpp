@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "meshing/mill/mill_fingerprints.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -133,14 +134,6 @@ YAML::Node child(const std::string& change, YAML::Node node, const std::string& 
 }
 
 }  // namespace
-
-std::string fingerprint(const std::string& bytes) {
-  std::uint64_t sum = 14695981039346656037U;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-  return text;
-}
 
 MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> set)
     : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {

@@ -68,7 +68,4 @@ class MillDocument {
   std::unique_ptr<nlohmann::ordered_json> keys_;
 };
 
-/// FNV-1a hash of bytes, 16 hexadecimal digits: tells two states of a text apart.
-std::string fingerprint(const std::string& bytes);
-
 }  // namespace millfoam::meshing

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill/mill_shape.hpp"

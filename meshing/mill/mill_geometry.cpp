@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill/rules.hpp"
-#include "meshing/mill_mesh/openings.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {

@@ -8,6 +8,7 @@
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
 
@@ -163,30 +164,6 @@ Json derived_numbers(const Mill& mill) {
 }
 
 }  // namespace
-
-MillFingerprints fingerprints(const Json& keys) {
-  Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
-  of["resolution"].erase("layers");
-  MillFingerprints result;
-  result.walls = fingerprint(of.dump());
-  for (const char* section : {"speed", "charge", "materials", "dem"}) of[section] = keys.at(section);
-  of["dem"].erase("duration");
-  result.charge = fingerprint(of.dump());
-  of["dem"] = keys.at("dem");
-  of["averages"] = keys.at("averages");
-  result.averages = fingerprint(of.dump());
-  of = keys;
-  of.erase("title");
-  result.flow = fingerprint(of.dump());
-  return result;
-}
-
-Json to_json(const MillFingerprints& fingerprints) {
-  return {{"walls", fingerprints.walls},
-          {"charge", fingerprints.charge},
-          {"averages", fingerprints.averages},
-          {"flow", fingerprints.flow}};
-}
 
 Json result_head(const std::string& format, const std::string& program, const Json& mill) {
   return {{"format", format}, {"program", program + " " + version()}, {"mill", mill}};

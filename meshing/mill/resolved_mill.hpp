@@ -5,13 +5,9 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 
 namespace millfoam::meshing {
-
-/// The fingerprints of a mill whose keys have these values.
-MillFingerprints fingerprints(const nlohmann::ordered_json& keys);
-nlohmann::ordered_json to_json(const MillFingerprints& fingerprints);
 
 /// The resolved mill: every key with its value, defaults filled in; derived numbers with units in their
 /// names; fingerprints. It can be read again as a mill description and gives the same mill. Layout:

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::meshing {

@@ -9,7 +9,6 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace millfoam::meshing {
 namespace {
@@ -67,12 +66,6 @@ std::string shown(const YAML::Node& node) {
 }
 
 }  // namespace
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 Section::Section(std::shared_ptr<MillDocument> document, const Keys& known)
     : Section(document->root(), document, "", known) {}

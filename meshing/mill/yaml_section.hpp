@@ -88,7 +88,4 @@ class Section {
   Keys known_;
 };
 
-/// A number as a message shows it: the shortest decimal form that reads back to it within six digits.
-std::string shown(double value);
-
 }  // namespace millfoam::meshing

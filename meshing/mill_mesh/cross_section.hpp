@@ -5,10 +5,17 @@
 #include <array>
 #include <vector>
 
-#include "meshing/mill/mill.hpp"
-#include "meshing/mill_mesh/divisions.hpp"
-
 namespace millfoam::meshing {
+
+/// How many cells each block of a CrossSection has along its sides.
+struct Divisions {
+  int lifter = 0;          ///< along a lifter's top; 0 for a smooth drum
+  int gap = 0;             ///< along the shell between two lifters; 0 for a smooth drum
+  int height = 0;          ///< along a lifter's side; 0 for a smooth drum
+  int core = 0;            ///< along a side of the core: a quarter of the perimeter
+  std::vector<int> bands;  ///< between the core and the lifters' tops: in each band between two circles
+                           ///< (opening_circles), from the core outwards
+};
 
 /// Quadrilaterals that fill the mill's cross-section at DEM time 0, the lifters left out.
 ///
@@ -41,9 +48,5 @@ struct CrossSection {
   /// Angle, rad, of line 0 on the openings' circles; the line ends at lifter 1's first corner.
   double first_line_angle() const;
 };
-
-/// The cross-section of a mill whose lifters do not overlap (as read_mill makes sure), by cell size or
-/// counts.
-CrossSection make_cross_section(const Geometry& geometry, const Resolution& resolution);
 
 }  // namespace millfoam::meshing

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill_mesh/o_grid.hpp"
-#include "meshing/mill_mesh/openings.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {

@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "meshing/mill/mill.hpp"
+#include "meshing/mill_mesh/cross_section.hpp"
 
 namespace millfoam::meshing {
-
-/// How many cells each block of a CrossSection has along its sides.
-struct Divisions {
-  int lifter = 0;          ///< along a lifter's top; 0 for a smooth drum
-  int gap = 0;             ///< along the shell between two lifters; 0 for a smooth drum
-  int height = 0;          ///< along a lifter's side; 0 for a smooth drum
-  int core = 0;            ///< along a side of the core: a quarter of the perimeter
-  std::vector<int> bands;  ///< between the core and the lifters' tops: in each band between two circles
-                           ///< (opening_circles), from the core outwards
-};
 
 /// Divisions whose cells are about `cell_size` (m) wide on the lifters and the shell. The perimeter is a
 /// multiple of four, as the core needs, and no cell spans more than a fortieth of the shell, so that the

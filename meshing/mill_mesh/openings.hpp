@@ -20,26 +20,8 @@ struct Openings {
   double outlet_area = 0;  ///< of the pulp lifters' end inside the discharge radius
 };
 
-/// Smallest circle that the O-grid holds, in units of the distance from the axis to the lifters' tops. A
-/// smaller inlet is made of whole quadrilaterals of the core.
-inline constexpr double smallest_circle = 0.25;
-
-/// Relative difference of radii below which two circles become one, the smaller: an area inside is then at
-/// most 1 % wrong, and cells between the two would be needles.
-inline constexpr double same_circle = 0.005;
-
 /// Largest relative error in area of an inlet that is made of whole quadrilaterals.
 inline constexpr double allowed_inlet_error = 0.05;
-
-/// Radii of inlet, grates and discharge opening, ascending, m: circles that sides of quadrilaterals follow.
-/// An inlet smaller than the smallest circle has none. A periodic slice has those of the whole mill.
-std::vector<double> opening_circles(const Geometry& geometry);
-
-/// Area of the inlet as mill.yaml asks for it, m^2; 0 without one.
-double asked_inlet_area(const Geometry& geometry);
-
-/// Area of all grates as mill.yaml asks for it, holes and bars together, m^2; 0 without grates.
-double asked_grate_area(const Geometry& geometry);
 
 /// Finds the openings in the mill's own cross-section. An inlet without a circle becomes the quadrilaterals
 /// nearest to the axis whose area is nearest to the asked one, those at equal distances together. Sectors and

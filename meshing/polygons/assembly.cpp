@@ -6,9 +6,10 @@
 #include <queue>
 #include <tuple>
 
+#include "meshing/faces/union_find.hpp"
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/polygons/face_pairs.hpp"
 #include "meshing/polygons/polygon_check.hpp"
-#include "meshing/surface/union_find.hpp"
 #include "meshing/surface/welding.hpp"
 #include "meshing/volume/baffles.hpp"
 
@@ -31,8 +32,8 @@ void separate(const FacePairs& pairs, Assembly& assembly) {
 }
 
 WeldedSet welded_set(const PolygonSet& set, double tolerance, Assembly& assembly) {
-  const Welding welding =
-      weld(set.points, tolerance > 0 ? tolerance : default_tolerance * extent(set.points));
+  const surface::Welding welding =
+      surface::weld(set.points, tolerance > 0 ? tolerance : default_tolerance * surface::extent(set.points));
   assembly.points_joined = static_cast<int>(welding.joined());
   WeldedSet welded{set, welding.points, {}};
   for (const Polygon& polygon : set.polygons) {
@@ -50,7 +51,7 @@ struct Sides {
   std::vector<double> volume;  ///< of each cell, m^3
 };
 
-Sides find_sides(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
+Sides find_sides(const WeldedSet& welded, const surface::EdgeTable& edges, Problems& problems) {
   const Shells shells = find_shells(welded.points, welded.faces, edges);
   check_crossings(welded, edges, shells.overlaps, problems);
   problems.stop();
@@ -195,7 +196,7 @@ Assembly assemble(const PolygonSet& set, double tolerance) {
   const FacePairs pairs = find_pairs(whole, check_faces(whole, problems), problems);
   problems.stop();
   const WeldedSet welded{pairs.set, whole.points, pairs.faces};
-  const EdgeTable edges = find_edges(welded.faces);
+  const surface::EdgeTable edges = surface::find_edges(welded.faces);
   check_closed(welded, edges, problems);
   problems.stop();
   Sides sides = find_sides(welded, edges, problems);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "meshing/faces/union_find.hpp"
 #include "meshing/surface/pi.hpp"
-#include "meshing/surface/union_find.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -26,18 +26,18 @@ const Vector3d& at(const Points& points, int p) {
 
 struct Leaf {
   double angle;
-  const FaceSide* side;
+  const surface::FaceSide* side;
 };
 
 /// The faces at an edge by their angle about it, right-handed from the lower to the higher point.
-std::vector<Leaf> sorted_about(const Points& points, const std::vector<Face>& faces, const EdgeTable& edges,
-                               std::size_t edge) {
+std::vector<Leaf> sorted_about(const Points& points, const std::vector<Face>& faces,
+                               const surface::EdgeTable& edges, std::size_t edge) {
   const Vector3d axis = (at(points, edges.first(edge).high) - at(points, edges.first(edge).low)).normalized();
   const Vector3d u = axis.unitOrthogonal();
   const Vector3d v = axis.cross(u);
   std::vector<Leaf> leaves;
   for (std::size_t i = edges.begin[edge]; i < edges.begin[edge + 1]; ++i) {
-    const FaceSide& side = edges.sides[i];
+    const surface::FaceSide& side = edges.sides[i];
     const Vector3d area = area_vector(points, faces[static_cast<std::size_t>(side.face)]);
     const Vector3d direction = (side.forward ? 1 : -1) * area.cross(axis);
     leaves.push_back({std::atan2(direction.dot(v), direction.dot(u)), &side});
@@ -47,7 +47,7 @@ std::vector<Leaf> sorted_about(const Points& points, const std::vector<Face>& fa
 }
 
 /// The side of a face that looks on, or back, in rotation about its edge.
-std::size_t looking(const FaceSide& side, bool on) {
+std::size_t looking(const surface::FaceSide& side, bool on) {
   return 2 * static_cast<std::size_t>(side.face) + (side.forward == on ? in_front : behind);
 }
 
@@ -118,7 +118,7 @@ class Containers {
 }  // namespace
 
 std::vector<std::array<std::size_t, 2>> spaces_about(const Points& points, const std::vector<Face>& faces,
-                                                     const EdgeTable& edges, std::size_t edge,
+                                                     const surface::EdgeTable& edges, std::size_t edge,
                                                      std::vector<Overlap>* overlaps) {
   const std::vector<Leaf> leaves = sorted_about(points, faces, edges, edge);
   std::vector<std::array<std::size_t, 2>> spaces;
@@ -134,7 +134,7 @@ std::vector<std::array<std::size_t, 2>> spaces_about(const Points& points, const
   return spaces;
 }
 
-Shells find_shells(const Points& points, const std::vector<Face>& faces, const EdgeTable& edges) {
+Shells find_shells(const Points& points, const std::vector<Face>& faces, const surface::EdgeTable& edges) {
   Shells shells;
   UnionFind sides(2 * faces.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {

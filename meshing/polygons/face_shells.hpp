@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "meshing/faces/face_edges.hpp"
 #include "meshing/faces/face_geometry.hpp"
+#include "meshing/surface/face_edges.hpp"
 
 namespace millfoam::meshing {
 
@@ -34,11 +34,11 @@ struct Shells {
 
   int count() const { return static_cast<int>(volume.size()); }
 };
-Shells find_shells(const Points& points, const std::vector<Face>& faces, const EdgeTable& edges);
+Shells find_shells(const Points& points, const std::vector<Face>& faces, const surface::EdgeTable& edges);
 
 /// Numbers of the sides about an edge in pairs that bound the same space, in the order of rotation.
 std::vector<std::array<std::size_t, 2>> spaces_about(const Points& points, const std::vector<Face>& faces,
-                                                     const EdgeTable& edges, std::size_t edge,
+                                                     const surface::EdgeTable& edges, std::size_t edge,
                                                      std::vector<Overlap>* overlaps = nullptr);
 
 /// The cells that shells bound.

@@ -78,12 +78,6 @@ Decoder decoder(Type type) {
   return {8, number_of<double>};
 }
 
-std::string plain(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : stream_(file, std::ios::binary) {
@@ -231,7 +225,7 @@ class Reader {
 
   int to_index(double value, const std::string& what, const std::string& expected) const {
     if (!(value >= 0 && value < 2147483647 && value == std::floor(value)))
-      refuse(what + ' ' + plain(value) + ": expected " + expected + " from 0");
+      refuse(what + ' ' + shown(value) + ": expected " + expected + " from 0");
     return static_cast<int>(value);
   }
 

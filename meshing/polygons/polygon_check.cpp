@@ -5,7 +5,9 @@
 #include <set>
 
 #include "meshing/faces/face_crossings.hpp"
-#include "meshing/surface/union_find.hpp"
+#include "meshing/faces/t_junctions.hpp"
+#include "meshing/faces/union_find.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -28,7 +30,7 @@ std::string around(const WeldedSet& welded, int face) {
   return "around " + described(middle(welded.points, welded.faces[index(face)]));
 }
 
-std::string described_edge(const WeldedSet& welded, const FaceSide& edge) {
+std::string described_edge(const WeldedSet& welded, const surface::FaceSide& edge) {
   return "from " + described(welded.points[index(edge.low)]) + " to " +
          described(welded.points[index(edge.high)]);
 }
@@ -68,7 +70,7 @@ bool check_face(const WeldedSet& welded, int f, Problems& problems) {
 }
 
 /// Edges with one face that hang together by their ends.
-std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const EdgeTable& edges,
+std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const surface::EdgeTable& edges,
                                                   const std::set<std::size_t>& explained) {
   UnionFind points(welded.points.size());
   std::vector<std::size_t> open;
@@ -86,7 +88,7 @@ std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const
 
 /// Whether a chain of free edges goes around a hole: it has no ends and is of several faces. Otherwise it is
 /// the rim of a face that hangs free.
-bool is_hole(const EdgeTable& edges, const std::vector<std::size_t>& chain) {
+bool is_hole(const surface::EdgeTable& edges, const std::vector<std::size_t>& chain) {
   std::map<int, int> edges_at;
   std::set<int> faces;
   for (std::size_t e : chain) {
@@ -99,10 +101,10 @@ bool is_hole(const EdgeTable& edges, const std::vector<std::size_t>& chain) {
   return !has_end && faces.size() > 1;
 }
 
-void add_chain(const WeldedSet& welded, const EdgeTable& edges, const std::vector<std::size_t>& chain,
-               Problems& problems) {
+void add_chain(const WeldedSet& welded, const surface::EdgeTable& edges,
+               const std::vector<std::size_t>& chain, Problems& problems) {
   const bool hole = is_hole(edges, chain);
-  const FaceSide& first = edges.first(chain.front());
+  const surface::FaceSide& first = edges.first(chain.front());
   Vector3d centre = Vector3d::Zero();
   for (std::size_t e : chain) {
     centre += welded.points[index(edges.first(e).low)] + welded.points[index(edges.first(e).high)];
@@ -116,11 +118,12 @@ void add_chain(const WeldedSet& welded, const EdgeTable& edges, const std::vecto
 }
 
 /// T-junctions into the problems; returns the edges with one face that they explain.
-std::set<std::size_t> add_t_junctions(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
+std::set<std::size_t> add_t_junctions(const WeldedSet& welded, const surface::EdgeTable& edges,
+                                      Problems& problems) {
   std::set<std::size_t> explained;
   std::set<int> on_edges;
   for (const TJunction& junction : find_t_junctions(welded.points, edges)) {
-    const FaceSide& edge = edges.first(junction.edge);
+    const surface::FaceSide& edge = edges.first(junction.edge);
     problems.add("T-junction", place(welded, edge.face) + ": a T-junction: the edge " +
                                    described_edge(welded, edge) + " has the point " +
                                    described(welded.points[index(junction.point)]) +
@@ -219,13 +222,13 @@ std::vector<std::vector<int>> faces_of_equal_points(const std::vector<Face>& fac
   return groups;
 }
 
-void check_closed(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
+void check_closed(const WeldedSet& welded, const surface::EdgeTable& edges, Problems& problems) {
   const std::set<std::size_t> explained = add_t_junctions(welded, edges, problems);
   for (const auto& chain : free_chains(welded, edges, explained)) add_chain(welded, edges, chain, problems);
 }
 
-void check_crossings(const WeldedSet& welded, const EdgeTable& edges, const std::vector<Overlap>& overlaps,
-                     Problems& problems) {
+void check_crossings(const WeldedSet& welded, const surface::EdgeTable& edges,
+                     const std::vector<Overlap>& overlaps, Problems& problems) {
   for (const Overlap& overlap : overlaps) {
     problems.add("overlapping faces", place(welded, overlap.faces[0]) + ": the face overlaps with " +
                                           place(welded, overlap.faces[1]) + " at the edge " +
@@ -248,8 +251,8 @@ void check_dangling(const WeldedSet& welded, const std::vector<int>& cell_of_sid
   }
 }
 
-void check_manifold(const WeldedSet& welded, const EdgeTable& edges, const std::vector<int>& cell_of_side,
-                    Problems& problems) {
+void check_manifold(const WeldedSet& welded, const surface::EdgeTable& edges,
+                    const std::vector<int>& cell_of_side, Problems& problems) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.faces(e) < 3) continue;
     std::vector<int> cells;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "meshing/faces/face_edges.hpp"
 #include "meshing/polygons/face_shells.hpp"
 #include "meshing/polygons/polygon_set.hpp"
+#include "meshing/surface/face_edges.hpp"
 
 namespace millfoam::meshing {
 
@@ -43,15 +43,15 @@ std::set<int> check_faces(const WeldedSet& welded, Problems& problems);
 void check_doubled(const WeldedSet& welded, Problems& problems);
 void add_doubled(const WeldedSet& welded, int face, int other, Problems& problems);
 /// Edges with one face, and T-junctions, which explain most of those.
-void check_closed(const WeldedSet& welded, const EdgeTable& edges, Problems& problems);
+void check_closed(const WeldedSet& welded, const surface::EdgeTable& edges, Problems& problems);
 /// Faces that overlap at an edge, or cross.
-void check_crossings(const WeldedSet& welded, const EdgeTable& edges, const std::vector<Overlap>& overlaps,
-                     Problems& problems);
+void check_crossings(const WeldedSet& welded, const surface::EdgeTable& edges,
+                     const std::vector<Overlap>& overlaps, Problems& problems);
 /// Faces with the same cell on both sides. `cell_of_side` has two entries a face, see FaceSideNumber.
 void check_dangling(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
 /// Edges about which the same cell, or the outside, comes more than once.
-void check_manifold(const WeldedSet& welded, const EdgeTable& edges, const std::vector<int>& cell_of_side,
-                    Problems& problems);
+void check_manifold(const WeldedSet& welded, const surface::EdgeTable& edges,
+                    const std::vector<int>& cell_of_side, Problems& problems);
 /// Polygons of the group `internal` with a cell on one side only.
 void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
 /// No errors, but what a missing face looks like: faces at the boundary of groups that have more faces

@@ -9,6 +9,7 @@
 
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/opening_circles.hpp"
 #include "meshing/surface/pi.hpp"
 #include "meshing/walls/surface_check.hpp"
 

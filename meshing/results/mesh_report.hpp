@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill_mesh/openings.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/volume/volume_mesh.hpp"

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 

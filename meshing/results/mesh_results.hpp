@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill_mesh/openings.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/walls/wall_surface.hpp"

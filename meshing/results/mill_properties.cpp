@@ -4,6 +4,7 @@
 #include <string>
 
 #include "meshing/files/output_file.hpp"
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill_mesh/openings.hpp"
 
 namespace millfoam::meshing {

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/surface/stl_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <set>
-#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "meshing/files/text_numbers.hpp"
 
-namespace millfoam::meshing {
+namespace millfoam::surface {
 namespace {
 
 constexpr std::size_t header_size = 84;  // 80 characters and the number of triangles
 constexpr std::size_t triangle_size = 50;
 
-/// First words of lines that say nothing more.
-const std::set<std::string> structural_words{"", "solid", "endsolid", "outer", "endloop", "endfacet"};
+[[noreturn]] void refuse(const std::string& place, const std::string& what) {
+  throw SurfaceError(place + ": " + what);
+}
 
 /// A number of a binary file, which STL defines as little-endian, like the machines that OpenFOAM runs on.
 template <typename Number>
@@ -30,130 +32,175 @@ Number number_at(const std::string& bytes, std::size_t offset) {
   return number;
 }
 
-bool is_binary(const std::string& bytes) {
+bool is_whole_binary(const std::string& bytes) {
   return bytes.size() >= header_size &&
          bytes.size() == header_size + triangle_size * number_at<std::uint32_t>(bytes, header_size - 4);
 }
 
-std::string in_small_letters(std::string word) {
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+/// What is wrong with a binary file of another length.
+[[noreturn]] void refuse_length(const std::string& bytes, const std::string& file) {
+  const std::string there = ": there are " + std::to_string(bytes.size()) + " bytes, expected ";
+  if (bytes.size() < header_size)
+    refuse(file, "is cut short" + there + "at least the 84 of a binary STL's header");
+  const std::size_t triangles = number_at<std::uint32_t>(bytes, header_size - 4);
+  const std::size_t needed = header_size + triangle_size * triangles;
+  refuse(file, (bytes.size() < needed ? "is cut short" : "is too long") + there + std::to_string(needed) +
+                   " for the " + std::to_string(triangles) + " triangles announced in its header");
+}
+
+std::vector<StlTriangle> read_binary(const std::string& bytes, const std::string& file) {
+  std::vector<StlTriangle> triangles;
+  for (std::size_t at = header_size; at < bytes.size(); at += triangle_size) {
+    StlTriangle& triangle = triangles.emplace_back();
+    std::size_t place = at + 12;  // behind the normal
+    for (Eigen::Vector3d& corner : triangle.corners) {
+      for (double& x : corner) {
+        x = static_cast<double>(number_at<float>(bytes, place));
+        place += sizeof(float);
+      }
+      if (!corner.allFinite())
+        refuse(file + ": triangle " + std::to_string(triangles.size()), "a coordinate that is not finite");
+    }
+  }
+  return triangles;
+}
+
+bool is_blank(char c) {
+  return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Takes the next word off the front of a line; empty when there is none.
+std::string_view take_word(std::string_view& line) {
+  const auto begin = std::find_if_not(line.begin(), line.end(), is_blank);
+  const auto end = std::find_if(begin, line.end(), is_blank);
+  const auto before = static_cast<std::size_t>(begin - line.begin());
+  const auto length = static_cast<std::size_t>(end - begin);
+  const std::string_view word = line.substr(before, length);
+  line.remove_prefix(before + length);
   return word;
 }
 
-/// As text begins; blank files have no triangles in either form.
-bool begins_with_solid(const std::string& bytes) {
-  const auto begin = bytes.find_first_not_of(" \t\r\n");
-  return begin == std::string::npos || in_small_letters(bytes.substr(begin, 5)) == "solid";
+std::string in_small_letters(std::string_view word) {
+  std::string small(word);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
 }
 
-class Reader {
+/// Text: "solid NAME", then the facets, and "endsolid NAME"; any number of solids.
+class TextReader {
  public:
-  Reader(std::string file, const std::string& group, double scale, PolygonSet& set)
-      : file_(std::move(file)), group_(group_index(set, group)), scale_(scale), set_(set) {}
+  TextReader(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
 
-  void read_binary(const std::string& bytes) {
-    for (std::size_t at = header_size; at < bytes.size(); at += triangle_size) {
-      begin_triangle(0);
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        Eigen::Vector3d point;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          point[static_cast<int>(axis)] = number_at<float>(bytes, at + 12 + 12 * corner + 4 * axis);
-        if (!point.allFinite())
-          refuse(": triangle " + std::to_string(count_), "a coordinate that is not finite");
-        add_corner(point);
+  std::vector<StlTriangle> read() && {
+    while (next_line()) {
+      if (in_solid_) {
+        take_line_of_solid();
+      } else {
+        require("solid", "'solid', or a binary file with a header of 84 bytes");
+        in_solid_ = true;
       }
     }
-  }
-
-  void read_text(const std::string& text) {
-    std::istringstream lines(text);
-    int number = 0;
-    std::size_t corners = 3;
-    for (std::string line; std::getline(lines, line);) {
-      ++number;
-      const std::string at = ':' + std::to_string(number);
-      std::istringstream words(line);
-      std::string keyword;
-      words >> keyword;
-      const std::string as_written = keyword;
-      keyword = in_small_letters(keyword);
-      if (keyword == "facet") {
-        if (corners != 3)
-          refuse(at, "the facet before this has " + std::to_string(corners) +
-                         (corners == 1 ? " corner" : " corners") + ": expected 3");
-        begin_triangle(number);
-        corners = 0;
-      } else if (keyword == "vertex") {
-        if (++corners > 3) refuse(at, "a fourth corner of a facet: expected 3");
-        add_corner(read_corner(words, at));
-      } else if (structural_words.count(keyword) == 0) {
-        refuse(at, "'" + as_written + "': expected the text of an STL file");
-      }
-    }
-    if (corners != 3) refuse(':' + std::to_string(number), "the file ends within a facet");
-  }
-
-  int count() const { return count_; }
-
-  [[noreturn]] void refuse(const std::string& at, const std::string& what) const {
-    throw PolygonError(file_ + at + ": " + what);
+    if (step_ > 0) refuse_here("the file ends within a facet");
+    if (in_solid_) refuse_here("is cut short: the text ends here, expected 'endsolid'");
+    return std::move(triangles_);
   }
 
  private:
-  void begin_triangle(int line) {
-    ++count_;
-    set_.polygons.push_back({{}, group_, line, count_});
+  /// First words of the lines of a facet.
+  static constexpr std::array<const char*, 7> facet{"facet",  "outer",   "vertex",  "vertex",
+                                                    "vertex", "endloop", "endfacet"};
+  static constexpr std::size_t first_corner = 2;
+  static constexpr std::size_t after_corners = 5;
+
+  /// Goes to the next line that is not blank and takes its first word; false at the end.
+  bool next_line() {
+    word_ = {};
+    while (!text_.empty()) {
+      const std::size_t end = text_.find('\n');
+      rest_ = text_.substr(0, end);
+      text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
+      ++number_;
+      word_ = take_word(rest_);
+      if (!word_.empty()) break;
+    }
+    keyword_ = in_small_letters(word_);
+    return !word_.empty();
   }
 
-  Eigen::Vector3d read_corner(std::istringstream& words, const std::string& at) const {
-    Eigen::Vector3d point;
-    for (double& x : point) {
-      std::string word;
-      words >> word;
+  void take_line_of_solid() {
+    if (step_ == 0 && keyword_ == "endsolid") {
+      in_solid_ = false;
+      return;
+    }
+    const std::size_t corners = step_ - first_corner;
+    if (keyword_ == "facet" && step_ > 0 && step_ < after_corners)
+      refuse_here("the facet before this has " + std::to_string(step_ < first_corner ? 0 : corners) +
+                  (corners == 1 ? " corner" : " corners") + ": expected 3");
+    if (keyword_ == "vertex" && step_ == after_corners) refuse_here("a fourth corner of a facet: expected 3");
+    require(facet[step_], step_ == 0 ? "'facet' or 'endsolid'" : '\'' + std::string(facet[step_]) + '\'');
+    if (step_ == 0) triangles_.push_back({{}, number_});
+    if (keyword_ == "vertex") triangles_.back().corners[corners] = read_corner();
+    step_ = (step_ + 1) % facet.size();
+  }
+
+  Eigen::Vector3d read_corner() {
+    Eigen::Vector3d corner;
+    for (double& x : corner) {
+      const std::string_view word = take_word(rest_);
       const auto number = to_number(word);
-      if (!number) refuse(at, "'" + word + "': expected three coordinates, finite numbers");
+      if (!number) refuse_here(quoted(word) + ": expected three coordinates, finite numbers");
       x = *number;
     }
-    return point;
+    const std::string_view more = take_word(rest_);
+    if (!more.empty()) refuse_here(quoted(more) + " after three coordinates: expected the end of the line");
+    return corner;
   }
 
-  void add_corner(const Eigen::Vector3d& point) {
-    set_.polygons.back().points.push_back(static_cast<int>(set_.points.size()));
-    set_.points.push_back(scale_ * point);
+  void require(std::string_view keyword, const std::string& expected) const {
+    if (keyword_ != keyword) refuse_here(quoted(word_) + ": expected " + expected);
   }
 
+  static std::string quoted(std::string_view word) { return '\'' + std::string(word.substr(0, 60)) + '\''; }
+
+  [[noreturn]] void refuse_here(const std::string& what) const {
+    refuse(file_ + ':' + std::to_string(number_), what);
+  }
+
+  std::string_view text_;  ///< what is left of it
   std::string file_;
-  int group_;
-  double scale_;
-  PolygonSet& set_;
-  int count_ = 0;
+  int number_ = 0;  ///< of the present line, from 1
+  std::string_view word_;
+  std::string_view rest_;  ///< of the present line
+  std::string keyword_;    ///< the word in small letters
+  bool in_solid_ = false;
+  std::size_t step_ = 0;  ///< in `facet`
+  std::vector<StlTriangle> triangles_;
 };
+
+std::string read_bytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) refuse(file.string(), "cannot be opened");
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) refuse(file.string(), "cannot be read to its end");
+  return bytes;
+}
+
+std::vector<StlTriangle> read_any(const std::string& bytes, const std::string& file) {
+  if (is_whole_binary(bytes)) return read_binary(bytes, file);
+  // No text holds a zero; the number of triangles in a binary header does, below 16 millions
+  const std::size_t zero = bytes.find('\0');
+  if (zero < header_size) refuse_length(bytes, file);
+  if (zero != std::string::npos)
+    refuse(file, "has a zero at byte " + std::to_string(zero) + ": expected a text, or a whole binary file");
+  return TextReader(bytes, file).read();
+}
 
 }  // namespace
 
-void read_stl(const std::filesystem::path& file, const std::string& group, double scale, PolygonSet& set) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  Reader reader(file.string(), group, scale, set);
-  if (!stream.is_open() || stream.bad()) reader.refuse("", "cannot be read");
-  if (is_binary(bytes)) {
-    reader.read_binary(bytes);
-  } else if (bytes.find('\0') < header_size) {
-    // No text holds a zero; the number of triangles in a binary header does, below 16 millions
-    const std::string there = ": there are " + std::to_string(bytes.size()) + " bytes, expected ";
-    if (bytes.size() < header_size)
-      reader.refuse("", "is cut short" + there + "at least the 84 of a binary STL's header");
-    const std::size_t triangles = number_at<std::uint32_t>(bytes, header_size - 4);
-    const std::size_t needed = header_size + triangle_size * triangles;
-    reader.refuse("", (bytes.size() < needed ? "is cut short" : "is too long") + there +
-                          std::to_string(needed) + " for the " + std::to_string(triangles) +
-                          " triangles announced in its header");
-  } else if (begins_with_solid(bytes)) {
-    reader.read_text(bytes);
-  } else {
-    reader.refuse("", "is no STL file: expected 'solid', or a binary file with a header of 84 bytes");
-  }
-  if (reader.count() == 0) reader.refuse("", "has no triangles");
+std::vector<StlTriangle> read_stl(const std::filesystem::path& file) {
+  std::vector<StlTriangle> triangles = read_any(read_bytes(file), file.string());
+  if (triangles.empty()) refuse(file.string(), "has no triangles");
+  return triangles;
 }
 
-}  // namespace millfoam::meshing
+}  // namespace millfoam::surface

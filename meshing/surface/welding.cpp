@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace millfoam::meshing {
+namespace millfoam::surface {
 namespace {
 
 using Eigen::Vector3d;
@@ -97,4 +97,4 @@ Welding weld(const std::vector<Vector3d>& points, double tolerance) {
   return welding;
 }
 
-}  // namespace millfoam::meshing
+}  // namespace millfoam::surface

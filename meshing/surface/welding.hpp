@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace millfoam::meshing {
+namespace millfoam::surface {
 
 /// Points of which those closer than a tolerance have become one.
 struct Welding {
@@ -25,4 +25,4 @@ Welding weld(const std::vector<Eigen::Vector3d>& points, double tolerance);
 /// The diagonal of the points' bounding box, m; 0 for no points.
 double extent(const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace millfoam::meshing
+}  // namespace millfoam::surface

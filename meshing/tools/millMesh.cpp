@@ -11,6 +11,7 @@
 
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/results/mesh_report.hpp"
 #include "meshing/results/mesh_results.hpp"
 #include "meshing/results/mill_properties.hpp"

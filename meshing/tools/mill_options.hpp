@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/polygons/assembly.hpp"
 #include "meshing/polygons/face_file.hpp"
 #include "meshing/polygons/obj_file.hpp"

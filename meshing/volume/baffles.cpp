@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "meshing/surface/union_find.hpp"
+#include "meshing/faces/union_find.hpp"
 
 namespace millfoam::meshing {
 namespace {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "meshing/faces/face_geometry.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::meshing {
 namespace {

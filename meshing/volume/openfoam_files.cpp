@@ -5,6 +5,7 @@
 #include <string>
 
 #include "meshing/files/output_file.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::meshing {
 namespace {

@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "meshing/faces/face_crossings.hpp"
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/polygons/polygon_check.hpp"
-#include "meshing/surface/stl_file.hpp"
+#include "meshing/polygons/stl_polygons.hpp"
 #include "meshing/surface/welding.hpp"
 #include "meshing/walls/surface_bodies.hpp"
 #include "meshing/walls/surface_check.hpp"
@@ -56,7 +57,7 @@ PolygonSet read_parts(const std::vector<PartFile>& parts, double scale, Ends end
     if (ends == Ends::periodic && (part.part == "feedEnd" || part.part == "dischargeEnd"))
       throw std::runtime_error("part '" + part.part +
                                "': a slice with periodic ends has shell and lifters only");
-    read_stl(part.file, part.part, scale, set);
+    add_stl(part.file, part.part, scale, set);
     set.files.push_back(part.file.string());
   }
   return set;
@@ -94,7 +95,7 @@ struct Welded {
 };
 
 Welded weld_corners(const PolygonSet& set, double nearest, CadReport& report) {
-  const Welding welding = weld(set.points, nearest);
+  const surface::Welding welding = surface::weld(set.points, nearest);
   if (welding.moved > 0)
     report.repairs.push_back(sentence(
         counted(static_cast<std::size_t>(welding.moved), "corner", "corners"), " nearer than ", nearest,
@@ -121,12 +122,12 @@ Welded weld_corners(const PolygonSet& set, double nearest, CadReport& report) {
   return welded;
 }
 
-void check_edges(const WeldedSet& welded, const EdgeTable& edges, Problems& problems) {
+void check_edges(const WeldedSet& welded, const surface::EdgeTable& edges, Problems& problems) {
   check_doubled(welded, problems);
   check_closed(welded, edges, problems);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.faces(e) <= 2) continue;
-    const FaceSide& edge = edges.first(e);
+    const surface::FaceSide& edge = edges.first(e);
     problems.add(
         "edge with more than two triangles",
         sentence(place(welded.set, edge.face), ": the edge from ", described(welded.points[index(edge.low)]),
@@ -138,13 +139,13 @@ void check_edges(const WeldedSet& welded, const EdgeTable& edges, Problems& prob
 /// A face over each closed rim at the two ends of a periodic slice: where all edges with one triangle that
 /// lie in the plane of an end, to `tolerance`, meet in pairs.
 std::vector<Face> rim_covers(const Welded& welded, const CadReport& report, double tolerance) {
-  const EdgeTable edges = find_edges(welded.faces);
+  const surface::EdgeTable edges = surface::find_edges(welded.faces);
   std::vector<Face> covers;
   for (const double level : {report.low.z(), report.high.z()}) {
     const auto in_plane = [&](int p) { return std::abs(welded.points[index(p)].z() - level) <= tolerance; };
     std::map<int, std::vector<int>> next;
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      const FaceSide& edge = edges.first(e);
+      const surface::FaceSide& edge = edges.first(e);
       if (edges.faces(e) != 1 || !in_plane(edge.low) || !in_plane(edge.high)) continue;
       next[edge.low].push_back(edge.high);
       next[edge.high].push_back(edge.low);
@@ -177,16 +178,22 @@ void check_areas(const WeldedSet& welded, Problems& problems) {
 }
 
 /// Bodies are cut at edges with more than two triangles, so that their number there means nothing.
-bool has_branching_edge(const EdgeTable& edges) {
+bool has_branching_edge(const surface::EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.faces(e) > 2) return true;
   }
   return false;
 }
 
-/// Turns whole bodies, and reports on all of them. `edges` are those of the triangles and the covers of rims.
-void orient_bodies(Welded& welded, const std::vector<Face>& covers, const EdgeTable& edges,
-                   Problems& problems, CadReport& report) {
+/// Where a triangle stands, for messages.
+std::string at(const Welded& welded, int face) {
+  return sentence(place(welded.set, face), ", around ",
+                  described(middle(welded.points, welded.faces[index(face)])));
+}
+
+/// The bodies of the triangles; `edges` are theirs and the covers'. Triangles that face against their
+/// neighbours are turned.
+Bodies orient_triangles(Welded& welded, const std::vector<Face>& covers, const surface::EdgeTable& edges) {
   std::vector<Face> faces = welded.faces;
   faces.insert(faces.end(), covers.begin(), covers.end());
   Bodies found = find_bodies(welded.points, edges, faces);
@@ -198,19 +205,15 @@ void orient_bodies(Welded& welded, const std::vector<Face>& covers, const EdgeTa
   for (Body& body : found.bodies) drop_covers(body.faces);
   faces.resize(welded.faces.size());
   welded.faces = std::move(faces);
-  const auto at = [&](int face) {
-    return sentence(place(welded.set, face), ", around ",
-                    described(middle(welded.points, welded.faces[index(face)])));
-  };
-  if (!found.against_neighbours.empty())
-    report.repairs.push_back(
-        sentence(counted(found.against_neighbours.size(), "triangle that faced against its neighbours was",
-                         "triangles that faced against their neighbours were"),
-                 " turned, the first ", at(found.against_neighbours.front())));
+  return found;
+}
+
+/// Turns closed bodies that face the wrong way, and adds up the volume. Returns how many were turned.
+int turn_bodies(Welded& welded, const std::vector<Body>& bodies, Problems& problems, CadReport& report) {
   int turned = 0;
-  for (const Body& body : found.bodies) {
+  for (const Body& body : bodies) {
     if (!body.two_sided)
-      problems.add("one side only", sentence("the surface that contains ", at(body.faces.front()),
+      problems.add("one side only", sentence("the surface that contains ", at(welded, body.faces.front()),
                                              ", has one side only: its triangles cannot all face outwards"));
     if (!body.two_sided || !body.closed) continue;
     const bool wrong = (body.inside_of % 2 == 0) != (body.volume > 0);
@@ -220,6 +223,31 @@ void orient_bodies(Welded& welded, const std::vector<Face>& covers, const EdgeTa
     for (int face : body.faces)
       std::reverse(welded.faces[index(face)].begin(), welded.faces[index(face)].end());
   }
+  return turned;
+}
+
+/// Of several bodies, what each of the first ten consists of.
+std::string listed(const Welded& welded, const std::vector<Body>& bodies) {
+  std::string list;
+  for (std::size_t b = 0; b < std::min<std::size_t>(bodies.size(), 10); ++b) {
+    const Body& body = bodies[b];
+    list += sentence(b == 0 ? "" : "; ", counted(body.faces.size(), "triangle", "triangles"), " with ",
+                     at(welded, body.faces.front()), body.inside_of > 0 ? ", inside another" : "");
+  }
+  return list;
+}
+
+/// Turns triangles and whole bodies, and reports on all of them. `edges` are those of the triangles and the
+/// covers of rims.
+void orient_bodies(Welded& welded, const std::vector<Face>& covers, const surface::EdgeTable& edges,
+                   Problems& problems, CadReport& report) {
+  const Bodies found = orient_triangles(welded, covers, edges);
+  if (!found.against_neighbours.empty())
+    report.repairs.push_back(
+        sentence(counted(found.against_neighbours.size(), "triangle that faced against its neighbours was",
+                         "triangles that faced against their neighbours were"),
+                 " turned, the first ", at(welded, found.against_neighbours.front())));
+  const int turned = turn_bodies(welded, found.bodies, problems, report);
   if (turned > 0 && found.bodies.size() == 1)
     report.repairs.push_back("the whole surface faced into the mill's interior and was turned");
   if (turned > 0 && found.bodies.size() > 1)
@@ -227,13 +255,8 @@ void orient_bodies(Welded& welded, const std::vector<Face>& covers, const EdgeTa
                                       " bodies faced into the mill's interior and ",
                                       turned == 1 ? "was" : "were", " turned"));
   if (found.bodies.size() == 1 || has_branching_edge(edges)) return;
-  std::string list;
-  for (std::size_t b = 0; b < std::min<std::size_t>(found.bodies.size(), 10); ++b) {
-    const Body& body = found.bodies[b];
-    list += sentence(b == 0 ? "" : "; ", counted(body.faces.size(), "triangle", "triangles"), " with ",
-                     at(body.faces.front()), body.inside_of > 0 ? ", inside another" : "");
-  }
-  report.warnings.push_back(sentence(found.bodies.size(), " bodies that do not hang together: ", list));
+  report.warnings.push_back(
+      sentence(found.bodies.size(), " bodies that do not hang together: ", listed(welded, found.bodies)));
 }
 
 WallSurface to_walls(const Welded& welded) {
@@ -273,13 +296,13 @@ CadReport examine(const std::vector<PartFile>& parts, double scale, double toler
   if (set.polygons.empty()) throw std::runtime_error("no part was given: expected PART=FILE.stl");
   CadReport report;
   check_frame(set, report);
-  const double nearest = tolerance > 0 ? tolerance : default_tolerance * extent(set.points);
+  const double nearest = tolerance > 0 ? tolerance : default_tolerance * surface::extent(set.points);
   Welded welded = weld_corners(set, nearest, report);
   const std::vector<Face> covers =
       ends == Ends::periodic ? rim_covers(welded, report, nearest) : std::vector<Face>();
   std::vector<Face> all = welded.faces;
   all.insert(all.end(), covers.begin(), covers.end());
-  const EdgeTable edges = find_edges(all);
+  const surface::EdgeTable edges = surface::find_edges(all);
   Problems problems;
   const WeldedSet view{welded.set, welded.points, welded.faces};
   check_edges(view, edges, problems);

@@ -23,12 +23,12 @@ struct Neighbour {
   bool disagrees;
 };
 
-std::vector<std::vector<Neighbour>> find_neighbours(const EdgeTable& edges, std::size_t faces) {
+std::vector<std::vector<Neighbour>> find_neighbours(const surface::EdgeTable& edges, std::size_t faces) {
   std::vector<std::vector<Neighbour>> neighbours(faces);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.faces(e) != 2) continue;
-    const FaceSide& one = edges.sides[edges.begin[e]];
-    const FaceSide& other = edges.sides[edges.begin[e] + 1];
+    const surface::FaceSide& one = edges.sides[edges.begin[e]];
+    const surface::FaceSide& other = edges.sides[edges.begin[e] + 1];
     const bool disagrees = one.forward == other.forward;
     neighbours[index(one.face)].push_back({other.face, disagrees});
     neighbours[index(other.face)].push_back({one.face, disagrees});
@@ -97,7 +97,7 @@ void count_containers(const Points& points, const std::vector<Face>& faces, std:
 
 }  // namespace
 
-Bodies find_bodies(const Points& points, const EdgeTable& edges, std::vector<Face>& faces) {
+Bodies find_bodies(const Points& points, const surface::EdgeTable& edges, std::vector<Face>& faces) {
   Bodies found;
   const auto neighbours = find_neighbours(edges, faces.size());
   Turned turned(faces.size(), -1);

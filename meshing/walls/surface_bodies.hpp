@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "meshing/faces/face_edges.hpp"
 #include "meshing/faces/face_geometry.hpp"
+#include "meshing/surface/face_edges.hpp"
 
 namespace millfoam::meshing {
 
@@ -24,6 +24,6 @@ struct Bodies {
 
 /// Finds the bodies and orients each in itself: `faces` whose normal disagrees with the most of their body
 /// are reversed.
-Bodies find_bodies(const Points& points, const EdgeTable& edges, std::vector<Face>& faces);
+Bodies find_bodies(const Points& points, const surface::EdgeTable& edges, std::vector<Face>& faces);
 
 }  // namespace millfoam::meshing

@@ -13,6 +13,7 @@
 
 #include "meshing/faces/cgal_mesh.hpp"
 #include "meshing/faces/face_geometry.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::meshing {
 namespace {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "meshing/files/output_file.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::meshing {
 namespace {

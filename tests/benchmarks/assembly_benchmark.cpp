@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/polygons/assembly.hpp"
 #include "meshing/polygons/obj_file.hpp"
 #include "tests/meshing/polygon_support.hpp"

@@ -56,7 +56,7 @@ class MadeUpTree(unittest.TestCase):
         self.assert_refused("averaging/a.hpp", '"openfoam_module/drag/drag_laws.hpp"', "openfoam_module/drag")
 
     def test_a_relative_path_does_not_hide_the_room(self):
-        self.assert_refused("averaging/a.cpp", '"../meshing/mill.hpp"', "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", '"../meshing/mill/mill.hpp"', "averaging must not know meshing")
 
     def test_angle_brackets_do_not_hide_the_room(self):
         self.assert_refused("averaging/a.cpp", "<meshing/mill/mill.hpp>", "averaging must not know meshing")
@@ -66,6 +66,12 @@ class MadeUpTree(unittest.TestCase):
 
     def test_meshing_includes_no_other_room(self):
         self.assert_refused("meshing/a.cpp", '"averaging/box_grid.hpp"', "meshing must not know averaging")
+
+    def test_surfaces_know_no_other_part_of_meshing(self):
+        self.assert_refused("meshing/surface/a.cpp", '"meshing/mill/mill.hpp"', "meshing/surface must not know meshing")
+
+    def test_files_know_nothing_else(self):
+        self.assert_refused("meshing/files/a.cpp", '"meshing/surface/pi.hpp"', "meshing/files must not know meshing/surface")
 
     def test_dem_driver_must_not_include_averaging(self):
         self.assert_refused("dem_driver/a.cpp", '"averaging/box_grid.hpp"', "dem_driver must not know averaging")
@@ -98,6 +104,7 @@ class MadeUpTree(unittest.TestCase):
         self.assert_allowed("openfoam_module/drag/a.cpp", "<cmath>")
         self.assert_allowed("openfoam_module/drag/tools/a.cpp", "<CLI/CLI.hpp>")
         self.assert_allowed("averaging/b.cpp", "<hdf5.h>")
+        self.assert_allowed("averaging/c.cpp", '"meshing/surface/stl_file.hpp"')
         self.assert_allowed("tests/meshing/a.cpp", '"meshing/mill/mill.hpp"')
 
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
-#include "meshing/mill_mesh/cross_section.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 
 namespace millfoam::meshing {
 

@@ -11,6 +11,7 @@
 
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/surface/pi.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "tests/meshing/test_geometry.hpp"

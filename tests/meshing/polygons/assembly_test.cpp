@@ -9,6 +9,7 @@
 
 #include "meshing/faces/face_geometry.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "tests/meshing/test_geometry.hpp"
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/faces/face_edges.hpp"
+#include "meshing/faces/t_junctions.hpp"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector3d;
+using surface::EdgeTable;
+using surface::FaceSide;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
 /// Nearer than this, in lengths of the edge, a point counts as on it: far above rounding, far below what a
@@ -43,25 +44,6 @@ bool lies_on(const Vector3d& point, const Vector3d& a, const Vector3d& b) {
 }
 
 }  // namespace
-
-EdgeTable find_edges(const std::vector<Face>& faces) {
-  EdgeTable table;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t i = 0; i < faces[f].size(); ++i) {
-      const int a = faces[f][i], b = faces[f][(i + 1) % faces[f].size()];
-      table.sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), a < b});
-    }
-  }
-  const auto ends = [](const FaceSide& side) { return std::make_tuple(side.low, side.high); };
-  std::sort(table.sides.begin(), table.sides.end(), [&](const FaceSide& a, const FaceSide& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
-  for (std::size_t i = 0; i < table.sides.size(); ++i) {
-    if (i == 0 || ends(table.sides[i]) != ends(table.sides[i - 1])) table.begin.push_back(i);
-  }
-  table.begin.push_back(table.sides.size());
-  return table;
-}
 
 std::vector<TJunction> find_t_junctions(const Points& points, const EdgeTable& edges) {
   std::vector<Box> point_boxes, edge_boxes;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/walls/surface_check.hpp"
 #include "meshing/walls/wall_files.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
-#include "meshing/faces/face_geometry.hpp"
-
-namespace millfoam::meshing {
+namespace millfoam::surface {
 
 /// One face's side: the edge between the points `low` < `high`.
 struct FaceSide {
@@ -26,16 +26,20 @@ struct EdgeTable {
   const FaceSide& first(std::size_t edge) const { return sides[begin[edge]]; }
 };
 
-/// Takes the time of sorting the faces' sides.
-EdgeTable find_edges(const std::vector<Face>& faces);
+/// The edges of sides in any order. Takes the time of sorting them.
+EdgeTable table_of(std::vector<FaceSide> sides);
 
-/// A point that lies on an edge without being an end of it.
-struct TJunction {
-  int point = 0;
-  std::size_t edge = 0;
-};
+/// The edges of faces, lists of point indices around each.
+template <typename Face>
+EdgeTable find_edges(const std::vector<Face>& faces) {
+  std::vector<FaceSide> sides;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t i = 0; i < faces[f].size(); ++i) {
+      const int a = faces[f][i], b = faces[f][(i + 1) % faces[f].size()];
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(f), a < b});
+    }
+  }
+  return table_of(std::move(sides));
+}
 
-/// Points of faces that are nearer to an edge, between its ends, than 1e-6 of its length.
-std::vector<TJunction> find_t_junctions(const Points& points, const EdgeTable& edges);
-
-}  // namespace millfoam::meshing
+}  // namespace millfoam::surface

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
-#include "meshing/mill/mill.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "tests/meshing/test_mill.hpp"
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/polygons/face_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <fstream>
 
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/polygons/assembly.hpp"
-#include "meshing/polygons/face_file.hpp"
 #include "meshing/polygons/obj_file.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"

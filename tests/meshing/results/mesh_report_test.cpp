@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "tests/meshing/test_geometry.hpp"
 
 namespace millfoam::meshing {

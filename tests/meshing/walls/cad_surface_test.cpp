@@ -9,6 +9,7 @@
 
 #include "meshing/faces/face_geometry.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/walls/surface_check.hpp"
 #include "meshing/walls/wall_files.hpp"
@@ -311,14 +312,21 @@ TEST(Examine, refuses_files_that_it_cannot_read_with_the_line) {
   EXPECT_EQ(refusal_of(""), "shell.stl: has no triangles");
   EXPECT_EQ(refusal_of("solid\nendsolid\n"), "shell.stl: has no triangles");
   EXPECT_EQ(refusal_of("binary"),
-            "shell.stl: is no STL file: expected 'solid', or a binary file with a header of 84 bytes");
-  EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 nan\n"),
-            "shell.stl:3: 'nan': expected three coordinates, finite numbers");
-  EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 0\nfacet\n"),
-            "shell.stl:4: the facet before this has 1 corner: expected 3");
-  EXPECT_EQ(refusal_of("solid\nvertex 0 0 0\n"), "shell.stl:2: a fourth corner of a facet: expected 3");
-  EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 0\n"), "shell.stl:3: the file ends within a facet");
-  EXPECT_EQ(refusal_of("solid\ntriangle\n"), "shell.stl:2: 'triangle': expected the text of an STL file");
+            "shell.stl:1: 'binary': expected 'solid', or a binary file with a header of 84 bytes");
+  EXPECT_EQ(refusal_of("solid\nfacet\nouter loop\nvertex 0 0 nan\n"),
+            "shell.stl:4: 'nan': expected three coordinates, finite numbers");
+  EXPECT_EQ(refusal_of("solid\nfacet\nouter loop\nvertex 0 0 0 1\n"),
+            "shell.stl:4: '1' after three coordinates: expected the end of the line");
+  EXPECT_EQ(refusal_of("solid\nfacet\nouter loop\nvertex 0 0 0\nfacet\n"),
+            "shell.stl:5: the facet before this has 1 corner: expected 3");
+  EXPECT_EQ(refusal_of("solid\nvertex 0 0 0\n"), "shell.stl:2: 'vertex': expected 'facet' or 'endsolid'");
+  EXPECT_EQ(refusal_of("solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n"),
+            "shell.stl:7: a fourth corner of a facet: expected 3");
+  EXPECT_EQ(refusal_of("solid\nfacet\nvertex 0 0 0\n"), "shell.stl:3: 'vertex': expected 'outer'");
+  EXPECT_EQ(refusal_of("solid\nfacet\nouter loop\nvertex 0 0 0\n"),
+            "shell.stl:4: the file ends within a facet");
+  EXPECT_EQ(refusal_of("solid\n"), "shell.stl:1: is cut short: the text ends here, expected 'endsolid'");
+  EXPECT_EQ(refusal_of("solid\ntriangle\n"), "shell.stl:2: 'triangle': expected 'facet' or 'endsolid'");
   std::string cut = binary_stl(box(0.2, 0.1));
   const std::string announced = std::to_string(cut.size()) + " for the 12 triangles announced in its header";
   const auto sizes = [&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "meshing/mill/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 
 #include <gtest/gtest.h>
 
