@@ -70,7 +70,7 @@ FolderLock::FolderLock(const CaseFolder& folder)
     if (tenth == longest_wait) {
       close(file_);
       throw std::runtime_error(folder.dem().string() +
-                               ": another millDem runs there, expected one at a time");
+                               ": another millDem runs in this folder, expected one at a time");
     }
     usleep(100000);
   }

@@ -40,9 +40,9 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
 /// Every `dump.*.txt` in the dumps folder.
 std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
 
-/// The right to run in a folder, of this process and the programs that it begins: none of them may write
-/// there beside another. Waits some seconds for what a killed run has left behind. Throws std::runtime_error
-/// when another run holds it.
+/// Lock of a folder for this process and the programs that it starts, so that no other run writes there.
+/// Waits some seconds for programs that a killed run has left behind. Throws std::runtime_error when another
+/// run has the lock.
 class FolderLock {
  public:
   explicit FolderLock(const CaseFolder& folder);

@@ -92,7 +92,7 @@ std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<
       room -= static_cast<double>(now) * volume;
       if (left == 0) break;
       room = round_solidity * (cylinder - inside / heap_solidity);
-      // Below this a round would bring next to nothing, so that rounds would go on for ever.
+      // Below this, a round would insert almost nothing, and the number of rounds would have no limit.
       if (room < volume || room < 0.005 * cylinder)
         throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
                        "a start cylinder (its volume is " + shown(cylinder) +

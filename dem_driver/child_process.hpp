@@ -13,10 +13,10 @@ namespace millfoam::dem_driver {
 /// Where `program` is on PATH, or nothing.
 std::optional<std::filesystem::path> find_on_path(const std::string& program);
 
-/// A program that runs beside this one and whose output is read line by line as it comes. It is started
-/// without a shell, so that no character of an argument or a folder has a meaning. It talks to a
-/// pseudo-terminal, because programs hold back their output when they write to a pipe. Its stdin is empty.
-/// Destroying a child that still runs ends it.
+/// A program that runs at the same time as this one; its output is read line by line. It is started without
+/// a shell, so that no character of an argument or a folder has a meaning. It writes to a pseudo-terminal,
+/// because programs buffer their output when they write to a pipe. Its stdin is empty. Destroying a child
+/// that still runs ends it.
 class ChildProcess {
  public:
   /// Starts `arguments[0]` (a path) in folder `directory`, with `environment` ("NAME=value") added to this

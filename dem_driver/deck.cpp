@@ -103,9 +103,9 @@ void write_matrix(std::ostream& out, const char* id, const char* property, const
 
 /// Thickness of the layer in which neighbours are looked for ahead of time, m. A tenth of the largest ball's
 /// diameter, but 0.4 to 1 of the smallest's. In the measurements (dem_driver/README.md) that is the fastest
-/// for 2 to 8 mm, and for 1.25 to 10 mm within 5 % of the fastest, which was half as thick again: a thicker
-/// layer makes longer lists of neighbours, which cost memory. LIGGGHTS allows no other style than `bin`
-/// beside walls of triangles, and other bins than its own were slower.
+/// for 2 to 8 mm. For 1.25 to 10 mm it is within 5 % of the fastest, which was 1.5 times as thick. A thicker
+/// layer makes longer lists of neighbours, which need memory. With walls of triangles, LIGGGHTS allows only
+/// the style `bin`, and other bins than its own were slower.
 double neighbour_skin(const ChargePlan& charge) {
   const double smallest = charge.classes.back().diameter;
   return std::clamp(0.1 * charge.classes.front().diameter, 0.4 * smallest, smallest);
@@ -243,7 +243,7 @@ void write_contact_dump(std::ostream& out, const DemPlan& plan, const ContactTab
   out << "\"\n";
 }
 
-/// The contacts and, because LIGGGHTS tells no spin of a contact's balls, the balls at the same steps.
+/// The contacts and, because LIGGGHTS writes no spin of a contact's balls, the balls at the same steps.
 void write_contacts(std::ostream& out, const DemPlan& plan) {
   if (plan.contact_steps == 0) return;
   out << "shell mkdir ../contacts\n";

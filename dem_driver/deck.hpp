@@ -63,15 +63,15 @@ inline constexpr int overlap_bins = 1000;
 inline constexpr double overlap_range = 0.2;
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
-/// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes beside itself, from step 0 on,
+/// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes into its own folder, from step 0 on,
 /// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with
 /// contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first
 /// atom types, one for each modulus, the wall is the last.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 
-/// Writes the deck that goes on from `restart.<step>`, which holds balls, walls where they have turned to,
-/// and contacts. Its own files carry `step` in the place of 0.
+/// Writes the deck that resumes from `restart.<step>`, which contains balls, turned walls and contacts. Its
+/// own files have `step` in the place of 0.
 void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                        const std::vector<std::string>& parts, int ranks, long step);
 

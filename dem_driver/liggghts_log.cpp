@@ -42,7 +42,7 @@ std::string indented(const std::string& line) {
   return "  " + line + '\n';
 }
 
-/// LIGGGHTS mixes warnings into its table, so a row is told by being all numbers.
+/// LIGGGHTS mixes warnings into its table, so only a line of numbers is a row.
 bool is_row(const std::vector<std::string>& words, std::size_t columns) {
   if (words.size() != columns) return false;
   return std::all_of(words.begin(), words.end(), [](const std::string& word) {

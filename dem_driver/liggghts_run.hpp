@@ -31,10 +31,10 @@ struct ProgressOutput {
 void require_programs(int ranks);
 
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
-/// `in.resume` where the run goes on from step `resumed_at`; everything it prints goes to
-/// DIR/dem/log.liggghts, after what an earlier part has left there. Shows progress and stops at the first
-/// sign of a useless run. Every dump and restart file is checked when it is written (OutputCheck), and the
-/// last restart file that is whole is kept. Throws RunError when `liggghts` (or `mpirun`) is not on PATH,
+/// `in.resume` when the run resumes from step `resumed_at`. Its output is appended to DIR/dem/log.liggghts.
+/// Shows progress, and stops at the first sign of a useless run. Every dump and restart file is checked when
+/// it is written (OutputCheck), and the last complete restart file is kept. Throws RunError when `liggghts`
+/// (or `mpirun`) is not on PATH,
 /// when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number than asked,
 /// or when the number of dumps is not the plan's; the message has the log's name and last lines, or mpirun's
 /// first ones.

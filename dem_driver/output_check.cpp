@@ -90,14 +90,14 @@ bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long 
   return true;
 }
 
-/// Throws RunError with what it means for the run that a file is not whole.
+/// Throws RunError that says what an incomplete file means for the run.
 [[noreturn]] void stop(const CaseFolder& folder, const DemPlan& plan, const fs::path& file,
                        const std::string& complaint) {
   const auto step = last_good_restart(folder, plan);
   throw RunError(file.string() + ": " + complaint + "; " + free_in_words(folder.root, plan.charge.balls()) +
                  ".\nThe run was stopped. With more room, --resume " +
                  (step ? "continues from step " + std::to_string(*step)
-                       : std::string("begins anew: there is no whole restart file yet")));
+                       : std::string("begins again: there is no complete restart file")));
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::string dump_complaint(const fs::path& file, long entries) {
   const long expected = header_lines + found;
   const long lines = std::count(text.begin(), text.end(), '\n');
   if (lines != expected || text.back() != '\n')
-    return size + " with " + std::to_string(lines) + " whole lines, expected " + std::to_string(expected);
+    return size + " with " + std::to_string(lines) + " complete lines, expected " + std::to_string(expected);
   return {};
 }
 

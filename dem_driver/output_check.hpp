@@ -28,8 +28,8 @@ std::string restart_complaint(const std::filesystem::path& file, long balls);
 /// removed.
 std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& plan);
 
-/// Checks what LIGGGHTS writes while it runs, because LIGGGHTS itself does not: on a full disk it goes on and
-/// leaves files empty or cut short.
+/// Checks the files that LIGGGHTS writes while it runs, because LIGGGHTS itself does not: on a full disk it
+/// continues and leaves files empty or cut short.
 class OutputCheck {
  public:
   /// Of a run that begins with step `start`.

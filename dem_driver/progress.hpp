@@ -15,7 +15,7 @@ class Progress {
   /// `total` is the number of steps of the whole job; `terminal` says whether `out` is one.
   Progress(std::ostream& out, bool terminal, long total);
 
-  /// Shows that `done` steps are done; `what` names what is going on.
+  /// Shows that `done` steps are done; `what` names the present part of the job.
   void show(long done, const std::string& what);
 
   /// Ends the line on a terminal.

@@ -118,7 +118,7 @@ void print_time_step(std::ostream& out, const TimeStep& step) {
       << " % of the diameter (" << step.overlap.pair << ")\n";
   if (step.overlap.ratio > allowed_overlap_ratio)
     out << "WARNING: more than the " << 100 * allowed_overlap_ratio
-        << " % that softened balls are good for; raise dem.youngs_modulus\n";
+        << " % up to which softened balls are accurate; raise dem.youngs_modulus\n";
 }
 
 }  // namespace millfoam::dem_driver

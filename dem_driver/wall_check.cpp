@@ -29,7 +29,7 @@ std::string read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// By its first word LIGGGHTS tells a text from a binary file.
+/// The first word, by which LIGGGHTS distinguishes text and binary files.
 std::string first_word(const std::string& text) {
   const std::string blanks = " \t\r\n\f";
   const auto begin = text.find_first_not_of(blanks);
@@ -40,7 +40,7 @@ std::string first_word(const std::string& text) {
 void check_binary(const std::string& bytes, const std::string& name) {
   if (first_word(bytes) == "solid")
     refuse(name, "is a binary STL whose header begins with 'solid'",
-           "another header, because LIGGGHTS takes this for a text");
+           "another header, because LIGGGHTS reads such a file as text");
 }
 
 /// Of a text: the last line that is not blank, and the lines with which LIGGGHTS takes a triangle as whole.

@@ -2,12 +2,13 @@
 """Shows a mill in ParaView: walls, charge and slurry together.
 
     paraview --script=scripts/paraview_mill.py     in a case's folder, or with MILL_CASE=FOLDER in the environment
-    Macros > Import new macro…                     the same from ParaView's menu, of the folder that ParaView was started in
-    pvbatch scripts/paraview_mill.py CASE PICTURE.png     a picture of the last time; without a display behind `xvfb-run -a`
+    Macros > Import new macro…                     the same from ParaView's menu, for the folder in which it was started
+    pvbatch scripts/paraview_mill.py CASE PICTURE.png     a picture of the last time; without a display by `xvfb-run -a`
 
-ParaView's own readers are enough: that of OpenFOAM for the case (an empty file CASE/mill.foam tells it where), that of XDMF for
-solids.xdmf and slurry.xdmf. Walls are translucent; the charge is where the solidity is above 0.3, coloured by its speed; the
-slurry's surface is where its share passes 0.5. The averages' times are DEM times: they are shifted to the flow's."""
+It uses ParaView's own readers: that of OpenFOAM for the case (which needs an empty file CASE/mill.foam), and that of
+XDMF for solids.xdmf and slurry.xdmf. Walls are translucent. The charge is where the solidity is above 0.3, coloured by
+its speed. The slurry's surface is where its share is 0.5. The averages' times are DEM times; they are shifted to flow
+times."""
 import os
 import sys
 from pathlib import Path
@@ -19,13 +20,14 @@ WALLS = ("shell", "lifters")
 
 
 def flow_of(case):
-    """Reader of the OpenFOAM case, or None where there is no flow."""
+    """Reader of the OpenFOAM case, or None without a flow."""
     if not (case / "constant" / "polyMesh").is_dir():
         return None
     handle = case / "mill.foam"
     handle.touch()
     reader = simple.OpenFOAMReader(registrationName="flow", FileName=str(handle))
-    if (case / "processor0").is_dir() and not any((case / name / "alpha.slurry").is_file() for name in os.listdir(case) if name != "0"):
+    reconstructed = any((case / name / "alpha.slurry").is_file() for name in os.listdir(case) if name != "0")
+    if (case / "processor0").is_dir() and not reconstructed:
         reader.CaseType = "Decomposed Case"
     reader.UpdatePipelineInformation()
     reader.MeshRegions = [region for region in reader.MeshRegions.Available
@@ -58,7 +60,7 @@ def show_slurry(flow, view):
 
 
 def show_charge(case, view, time0):
-    """The dense charge out of solids.xdmf, coloured by its speed."""
+    """The dense charge of solids.xdmf, coloured by its speed."""
     path = case / "solids.xdmf"
     if not path.is_file():
         found = case / "solids.h5"
@@ -91,7 +93,7 @@ def time0_of(case):
 
 
 def show(case):
-    """Opens all that the case has in a view; returns the view."""
+    """Shows everything that the case has in a view; returns the view."""
     view = simple.GetActiveViewOrCreate("RenderView")
     view.ViewSize = [1100, 800]
     view.UseColorPaletteForBackground = 0
@@ -123,7 +125,7 @@ def main():
     words = [word for word in sys.argv[1:] if not word.startswith("-")]
     case = Path(words[0] if words else os.environ.get("MILL_CASE", ".")).resolve()
     if not (case / "constant").is_dir() and not (case / "solids.xdmf").is_file():
-        raise SystemExit(f"paraview_mill: {case} is no mill's case: neither constant/ nor solids.xdmf is there")
+        raise SystemExit(f"paraview_mill: {case} is no mill's case: it has neither constant/ nor solids.xdmf")
     view = show(case)
     if len(words) > 1:
         simple.SaveScreenshot(words[1], view, ImageResolution=[1100, 800])

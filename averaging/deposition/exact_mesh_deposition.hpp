@@ -14,10 +14,10 @@ namespace millfoam::averaging {
 
 /// Deposits spheres exactly: a cell gets the volume of the sphere that lies in it.
 ///
-/// From the cell that holds the centre the search goes on through all facets that the sphere meets; where it
-/// meets the boundary, or the centre is outside, the cells around it are looked through. Each facet is worked
-/// out once, for both of its cells (`cut_facet`); where that is delicate, all cells around are summed up
-/// robustly (`sphere_triangle_volume`). The sum over cells is the sphere's volume to rounding, 1e-12 of it.
+/// The search begins in the cell with the centre and continues through all facets that the sphere meets. If
+/// the sphere meets the boundary, or the centre is outside, all cells around it are searched. Each facet is
+/// computed once, for both of its cells (`cut_facet`). Where that is not robust, all cells around are summed
+/// with a robust method (`sphere_triangle_volume`). The sum over cells is the sphere's volume to 1e-12 of it.
 class ExactMeshDeposition : public MeshDeposition {
  public:
   /// @param mesh, period_z       as of MeshDeposition, with its errors

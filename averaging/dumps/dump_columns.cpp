@@ -97,7 +97,7 @@ class Matcher {
       if (position_.empty()) position_ = name;
       columns_.scaled = name.size() > 1 && name[1] == 's';
     }
-    if (!earlier.empty()) refuse("column '" + std::string(name) + "' is there twice");
+    if (!earlier.empty()) refuse("column '" + std::string(name) + "' appears twice");
     earlier = name;
   }
 

@@ -36,7 +36,7 @@ std::string_view next_title(TextLines& lines, const char* expected) {
 
 template <typename Value>
 void require_once(const TextLines& lines, const std::optional<Value>& value, const char* title) {
-  if (value) throw DumpError(lines.place() + "'ITEM: " + title + "' is there twice before the particles");
+  if (value) throw DumpError(lines.place() + "'ITEM: " + title + "' appears twice before the particles");
 }
 
 long long next_count(TextLines& lines, const char* what) {

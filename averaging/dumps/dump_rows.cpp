@@ -23,7 +23,7 @@ const char* pass_blanks(const char* text) {
   return text;
 }
 
-/// Passes over a word; the text goes on at least to a line end.
+/// Passes over a word; the text continues at least to a line end.
 const char* pass_word(const char* text) {
   while (!is_blank(*text) && *text != '\n' && *text != '\r') ++text;
   return text;
@@ -68,7 +68,7 @@ void DumpRows::read(ParticleRecord& record) {
   }
   if (const auto twins = find_duplicates(record.particles)) {
     refuse(first_line + twins->second, "particle " + std::to_string(record.particles[twins->first].id) +
-                                           " is there twice, also on line " +
+                                           " appears twice, also on line " +
                                            std::to_string(first_line + twins->first));
   }
 }

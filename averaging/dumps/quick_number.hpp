@@ -60,8 +60,7 @@ class QuickNumber {
   static constexpr std::array<std::uint64_t, 8> small_powers{1,     10,     100,     1000,
                                                              10000, 100000, 1000000, 10000000};
 
-  /// Appends the digits that stand at `text` to `digits`, one by one. Too many overflow, which their count
-  /// tells.
+  /// Appends the digits at `text` to `digits`, one by one. Too many digits overflow; their count shows it.
   static const char* read_few_digits(const char* text, std::uint64_t& digits) {
     for (unsigned digit = 0; (digit = static_cast<unsigned char>(*text) - unsigned{'0'}) <= 9; ++text) {
       digits = digits * 10 + digit;

@@ -125,11 +125,11 @@ double agreed_timestep(std::optional<double> given, const std::optional<RunMetad
   const bool known = metadata && metadata->timestep;
   if (!given && !known) {
     message << "the DEM time-step is not known: give --dt SECONDS, or a file 'run.json' with the key "
-               "'timestep_s' beside the dumps";
+               "'timestep_s' in the folder of the dumps";
   } else if (given && !(*given > 0 && std::isfinite(*given))) {
     message << "--dt is " << *given << ", expected a positive time in s";
   } else if (given && known && std::abs(*given - *metadata->timestep) > 1e-9 * *metadata->timestep) {
-    message << "--dt is " << *given << " s, but " << metadata->file.string() << " says timestep_s "
+    message << "--dt is " << *given << " s, but " << metadata->file.string() << " has timestep_s "
             << *metadata->timestep << " s; they must be the same";
   } else {
     return known ? *metadata->timestep : *given;
@@ -146,7 +146,7 @@ std::optional<double> agreed_angular_velocity(std::optional<double> given,
   } else if (given && metadata && metadata->angular_velocity &&
              std::abs(*given - *metadata->angular_velocity) > 1e-9 * std::abs(*given)) {
     message << "--speed is " << *given << " rad/s, but " << metadata->file.string()
-            << " says angular_velocity_rad_s " << *metadata->angular_velocity
+            << " has angular_velocity_rad_s " << *metadata->angular_velocity
             << " rad/s; they must be the same";
   } else if (given) {
     return given;

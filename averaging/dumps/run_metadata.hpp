@@ -7,8 +7,8 @@
 
 namespace millfoam::averaging {
 
-/// What the DEM driver writes about its run in `run.json` beside its dumps, an object of JSON; other keys are
-/// allowed.
+/// The DEM driver's notes about its run: `run.json` in the folder of the dumps, an object of JSON. Other keys
+/// are allowed.
 struct RunMetadata {
   std::filesystem::path file;              ///< where it was read
   std::string run_id;                      ///< of the dry run: FNV-1a of the file's bytes, 16 hex digits

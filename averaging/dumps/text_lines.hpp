@@ -12,8 +12,8 @@ namespace millfoam::averaging {
 /// Walks through a text line by line and knows where it is. The text may come in pieces.
 class TextLines {
  public:
-  /// Gives a text that begins with the rest of the present one, which it may move, and goes on after it; the
-  /// rest itself when there is no more.
+  /// Returns a text that begins with the rest of the present one, which it may move, and continues after it;
+  /// the rest itself when there is no more.
   using More = std::function<std::string_view(std::string_view rest)>;
 
   /// @param name  of the file, for `place`

@@ -7,7 +7,7 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// An id that is there twice; `lowest` is the lowest one, `span` the number of ids from it to the highest.
+/// An id that appears twice; `lowest` is the lowest one, `span` the number of ids from it to the highest.
 std::optional<long long> doubled_dense_id(const std::vector<Particle>& particles, long long lowest,
                                           unsigned long long span) {
   std::vector<bool> seen(span);

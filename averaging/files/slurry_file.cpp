@@ -21,8 +21,8 @@ namespace {
 constexpr const char* slurry_format = "millfoam-slurry";
 constexpr const char* segment_format = "millfoam-slurry-segment";
 
-/// Deposit of a window by which segments may miss each other: a flow goes on from the name of a time, which
-/// is rounded.
+/// Share of a window by which segments may differ at their ends: a flow resumes from the name of a time,
+/// which is rounded.
 constexpr double gap = 1e-3;
 
 /// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.
@@ -231,7 +231,7 @@ void SlurrySegment::add(const SlurrySegment& other) {
 long long window_of(const SlurrySegment& segment, double window, const std::string& name) {
   const auto number = static_cast<long long>(std::floor(segment.begin / window + gap));
   if (segment.end > (static_cast<double>(number + 1) + gap) * window) {
-    throw SlurryFileError(name + ": goes from " + std::to_string(segment.begin) + " to " +
+    throw SlurryFileError(name + ": reaches from " + std::to_string(segment.begin) + " to " +
                           std::to_string(segment.end) + " s and so lies in two windows of " +
                           std::to_string(window) + " s; expected the windows of the run before");
   }

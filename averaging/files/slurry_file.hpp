@@ -69,9 +69,9 @@ struct SlurryHeader {
   std::string mill_flow = {};  ///< fingerprint of the mill; empty: not known
 };
 
-/// Puts a flow's segments, in order of time, together: means over windows [k w, (k+1) w) of flow time, and
-/// over all from `start` on. Writes slurry.h5 and beside it slurry.xdmf; memory does not grow with the number
-/// of windows. Windows that the segments do not fill, also between their ends, are marked. Throws
+/// Joins a flow's segments, in order of time: means over windows [k w, (k+1) w) of flow time, and over all
+/// from `start` on. Writes slurry.h5 and, in the same folder, slurry.xdmf; memory does not grow with the
+/// number of windows. Windows that the segments do not fill, also between their ends, are marked. Throws
 /// SlurryFileError, also when there is no segment, when one lies in two windows or begins before the one
 /// before it ends.
 void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,

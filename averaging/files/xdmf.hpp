@@ -9,8 +9,8 @@
 
 namespace millfoam::averaging {
 
-/// The name of the .xdmf beside a solids file: NAME.xdmf for NAME.h5.
-/// Throws SolidsFileError when the solids file itself is called so.
+/// The name of the .xdmf of a solids file: NAME.xdmf for NAME.h5.
+/// Throws SolidsFileError when the solids file itself has this name.
 std::filesystem::path xdmf_path(const std::filesystem::path& solids_file);
 
 /// A data set [window][cells], or of vectors [window][cells][3], as ParaView is to show it.
@@ -20,13 +20,13 @@ struct XdmfField {
   bool vector = false;   ///< three components per cell
 };
 
-/// Writes NAME.xdmf beside the file of fields NAME.h5: per window, at `times` (s), the fields per cell of the
+/// Writes NAME.xdmf for the file of fields NAME.h5: per window, at `times` (s), the fields per cell of the
 /// grid in its group /grid. Returns its name. Throws SolidsFileError when it cannot be written.
 std::filesystem::path write_xdmf(const std::filesystem::path& fields_file, const std::string& title,
                                  const Grid& grid, const std::vector<double>& times,
                                  const std::vector<XdmfField>& fields);
 
-/// Writes NAME.xdmf beside the complete solids file NAME.h5, so that ParaView shows its fields per voxel,
+/// Writes NAME.xdmf for the complete solids file NAME.h5, so that ParaView shows its fields per voxel,
 /// with the windows as time-steps at the DEM times at which they begin. Returns its name. Throws
 /// SolidsFileError when the solids file cannot be read or the .xdmf cannot be written.
 std::filesystem::path write_xdmf(const std::filesystem::path& solids_file);

@@ -24,12 +24,12 @@ enum class Interpolation {
 
 /// Solids at `point` (m, lab frame) out of one window on `grid`, a box or a cylinder.
 ///
-/// `linear` interpolates phi, phi*u, phi/d32 and phi*d43 and divides afterwards, so that an empty voxel takes
-/// part with its lack of particles and not with a velocity of 0: beside it the velocity stays the particles'
-/// own. Within the outer half of the outermost voxels the values are those of their centres; along a periodic
-/// axis (the angle of a cylinder always is) the last voxel is the first one's neighbour. Where walls cut the
-/// voxels, each takes part in proportion to its share inside: what lies in the wall is not known, and not
-/// empty. The window's fields must have the grid's size.
+/// `linear` interpolates phi, phi*u, phi/d32 and phi*d43 and divides afterwards, so that an empty voxel
+/// counts with a solidity of 0 and not with a velocity of 0: next to it the velocity is still that of the
+/// particles. Within the outer half of the outermost voxels the values are those of their centres; along a
+/// periodic axis (the angle of a cylinder always is) the last voxel is the first one's neighbour. Where walls
+/// cut the voxels, each takes part in proportion to its share inside: what lies in the wall is not known, and
+/// not empty. The window's fields must have the grid's size.
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,

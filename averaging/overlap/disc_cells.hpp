@@ -17,7 +17,8 @@ namespace millfoam::averaging {
 ///     a circle of radius r                               r (r - D) dphi + D r (dphi - d sin(phi))
 ///
 /// Neighbours run along a common piece in opposite senses, so the areas add up to the disc's. The two last
-/// ones are small where D and r are large beside rho, which keeps small discs far from the origin exact.
+/// ones are small where D and r are large compared with rho, which keeps small discs far from the origin
+/// exact.
 /// An object serves one thread.
 class DiscCells {
  public:

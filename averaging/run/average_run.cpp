@@ -63,8 +63,8 @@ class Collector {
       if (b < next_block_) done_ += records;
     }
     if (earlier) {
-      progress.note("taking up an unfinished run: " + std::to_string(done_) + " of " +
-                    std::to_string(total_) + " dumps are averaged already");
+      progress.note("resuming an unfinished run: " + std::to_string(done_) + " of " + std::to_string(total_) +
+                    " dumps are averaged already");
     }
   }
 
@@ -107,7 +107,7 @@ class Collector {
     std::optional<Checkpoint> earlier = read_checkpoint(resume_);
     if (!earlier) return std::nullopt;
     if (earlier->signature != signature_) {
-      progress_.note("an unfinished run was of other dumps or settings: starting afresh");
+      progress_.note("an unfinished run had other dumps or settings: starting again");
       return std::nullopt;
     }
     for (std::size_t s = 0; s < earlier->rows.size(); ++s) {
@@ -115,7 +115,7 @@ class Collector {
       if (WindowJournal::holds(journal, id, cells, !setup_.limits.whole_volumes.empty(), earlier->rows[s]))
         continue;
       progress_.note("the finished windows in " + journal.string() +
-                     " are not those of the unfinished run: starting afresh");
+                     " are not those of the unfinished run: starting again");
       return std::nullopt;
     }
     return earlier;

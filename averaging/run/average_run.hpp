@@ -44,15 +44,15 @@ struct WindowsRequest {
   std::filesystem::path output;  ///< the solids file
 };
 
-/// Everything that `millAverage` is told.
+/// The input of `millAverage`.
 struct AverageRequest {
   /// @param cells  where balls are deposited
   explicit AverageRequest(GridRequest cells) : grid(std::move(cells)) {}
 
-  std::string dumps;               ///< pattern of the dumps' names, see `find_dumps`
-  std::optional<double> timestep;  ///< of the DEM run, s; unless given, out of run.json beside the dumps
-  std::optional<double> angular_velocity;             ///< of the mill about z, rad/s; likewise
-  GridRequest grid;                                   ///< where balls are deposited
+  std::string dumps;                       ///< pattern of the dumps' names, see `find_dumps`
+  std::optional<double> timestep;          ///< of the DEM run, s; unless given, from the dumps' run.json
+  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
+  GridRequest grid;                        ///< where balls are deposited
   DepositionMethod method = DepositionMethod::exact;  ///< of spheres; superquadrics are always sampled
   int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics
   std::vector<std::filesystem::path> walls;  ///< STL files, or a mesh file, within which voxels count
@@ -78,9 +78,9 @@ struct AverageProgress {
 /// returns these summaries (none on ranks other than the first). Holds one record and the moments of one run
 /// of records for each thread, and the windows under way.
 ///
-/// A run that was killed is taken up where it was: beside each output lie its finished windows (`.journal`)
-/// and, beside the first, how far the run had come (`.resume`), as long as it is not finished. The files do
-/// not depend on the numbers of threads and ranks, nor on where a run was taken up.
+/// A run that was killed resumes. For this, the finished windows of each output (`.journal`) and a checkpoint
+/// (`.resume`, of the first output) are kept in the outputs' folder until the run is finished. The results do
+/// not depend on the numbers of threads and ranks, nor on resumed runs.
 ///
 /// Before anything is written it refuses outputs whose names belong to files of other kinds or that another
 /// process is writing, and a grid that cannot be meant for the balls (`largest_outside`, `smallest_fill`).

@@ -71,13 +71,14 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
                                   " is one of several files, expected it alone, or STL files");
     }
     surface = read_surface(request.walls);
-    if (surface.caps > 0) note("the walls are open at an end across z, and taken to be closed flat there");
+    if (surface.caps > 0)
+      note("the walls are open at an end across z; they count as closed by a plane there");
   }
   std::shared_ptr<const Motion> motion;
   if (settings.angular_velocity.value_or(0) != 0) {
     motion = parse_motion({rotation(*settings.angular_velocity)});
   } else if (!settings.angular_velocity) {
-    note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
+    note("the walls count as at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
   return std::make_shared<MovingWalls>(grid, surface, motion, time);
 }
@@ -114,7 +115,7 @@ std::vector<std::string> motion_of(const MeshRequest& mesh, const RunSettings& s
   if (mesh.at_rest) return {};
   if (!mesh.motion.empty()) return mesh.motion;
   if (!settings.angular_velocity) {
-    note("the mesh is taken to be at rest: neither --motion, --speed nor run.json says how it moves");
+    note("the mesh counts as at rest: neither --motion, --speed nor run.json gives its motion");
     return {};
   }
   note("the mesh turns with the mill: " + rotation(*settings.angular_velocity) + " rad/s");
@@ -145,9 +146,8 @@ void require_fitting(const MeshRequest& mesh, const AverageRequest& request, boo
   }
   if (!deforms) return;
   if (!mesh.motion.empty() || mesh.at_rest) {
-    throw std::invalid_argument(
-        "--motion is there, but " + mesh.file.string() +
-        " gives points at several times, which say how it moves; expected one of them");
+    throw std::invalid_argument("--motion is given, but " + mesh.file.string() +
+                                " gives points at several times, which are its motion; expected one of them");
   }
   if (mesh.smoothed) {
     throw std::invalid_argument("--smooth needs a mesh that keeps its shape, and " + mesh.file.string() +

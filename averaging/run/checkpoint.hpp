@@ -9,7 +9,7 @@
 
 namespace millfoam::averaging {
 
-/// How far a run has come, so that the next one can go on where it was killed.
+/// State of a run, from which the next one resumes after it was killed.
 struct Checkpoint {
   std::string signature;                  ///< of what is averaged and how
   std::size_t next_block = 0;             ///< all before it are merged

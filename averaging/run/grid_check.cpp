@@ -58,7 +58,7 @@ std::string extents(const Grid& grid, const ParticleRecord& record) {
   Extent balls;
   for (const Particle& ball : record.particles) balls.add(ball.position.data(), ball.radius);
   return "the grid spans " + std::visit([](const auto& kind) { return extent_in_words(kind); }, grid) +
-         ", the balls " + balls.in_words() + "; metres expected";
+         ", the balls " + balls.in_words() + "; expected metres";
 }
 
 double grid_volume(const Grid& grid) {
@@ -81,7 +81,7 @@ std::string misfit(const CellSetup& setup, const ParticleRecord& record, double 
   if (ledger.outside > largest_outside * ledger.volume_in) {
     text << 100 * ledger.outside / ledger.volume_in
          << " % of the balls' volume lies outside the grid: " << extents(setup.grid, record)
-         << ". Where only a part of the balls is meant: --tolerance SHARE";
+         << ". To average only a part of the balls, give --tolerance SHARE";
     return text.str();
   }
   const double fill = ledger.volume_in / grid_volume(setup.grid);

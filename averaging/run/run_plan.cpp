@@ -12,8 +12,9 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Records in a block: as many as let merging cost little beside the records themselves, but few enough to
-/// give work to many threads and ranks. Of the run alone, so that the result does not depend on these.
+/// Records in a block: so many that merging takes little time compared with the records themselves, but few
+/// enough for many threads and ranks. It depends only on the run, so that the result does not depend on
+/// threads and ranks.
 std::size_t block_size(const std::vector<WindowPlan>& plans) {
   std::size_t records = 0;
   for (const WindowPlan& plan : plans) {

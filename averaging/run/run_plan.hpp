@@ -16,7 +16,7 @@ namespace millfoam::averaging {
 /// The dumps of a run and how they are cut into windows and blocks.
 struct RunPlan {
   std::vector<DumpFile> dumps;          ///< in order of time
-  std::optional<RunMetadata> metadata;  ///< of run.json, where it lies beside the dumps
+  std::optional<RunMetadata> metadata;  ///< of run.json, if it is in the folder of the dumps
   RunSettings settings;                 ///< what request and metadata agree on
   std::vector<WindowPlan> series;       ///< windows of each length
   std::vector<RecordBlock> blocks;      ///< of all of them, in order of time

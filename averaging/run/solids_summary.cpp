@@ -54,12 +54,12 @@ std::vector<Remark> size_advice(const WindowSummary& all, double smoothing) {
   const double edge = std::cbrt(fewest_balls / all.ball_density);
   if (per_volume < fewest_balls) {
     found.push_back(
-        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived on %g to "
+        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived from %g to "
                           "%g: take cells of %.2g m or more (on a mesh: --smooth %.2g)",
                           per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi))});
   } else if (per_volume > most_balls) {
     found.push_back(
-        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived on %g to "
+        {false, formatted("%.2g balls in an averaging volume; the drag laws were derived from %g to "
                           "%g: cells down to %.2g m (on a mesh: --smooth %.2g) would show more",
                           per_volume, fewest_balls, most_balls, edge, edge / std::sqrt(pi))});
   }
@@ -67,7 +67,7 @@ std::vector<Remark> size_advice(const WindowSummary& all, double smoothing) {
     found.push_back(
         {false,
          formatted("%.1f %% of the occupied cells are smaller than a ball: coarser cells, or a mesh "
-                   "with --smooth of 2 to 3 diameters, give fields on which a drag law means something",
+                   "with --smooth of 2 to 3 diameters, give fields for which drag laws hold",
                    100 * static_cast<double>(all.small_cells) / static_cast<double>(all.occupied_cells))});
   }
   return found;
@@ -75,9 +75,10 @@ std::vector<Remark> size_advice(const WindowSummary& all, double smoothing) {
 
 void remark_on_solidity(double largest, std::vector<Remark>& found) {
   if (largest >= 1) {
-    found.push_back({true,
-                     "the largest solidity leaves no room for the fluid, a flow will refuse it: use cells "
-                     "larger than the balls, or --cap"});
+    found.push_back(
+        {true,
+         "the largest solidity leaves no room for the fluid, and a flow will refuse it: take cells "
+         "larger than the balls, or --cap"});
   } else if (largest > densest) {
     found.push_back({false, formatted("the largest solidity is above that of the densest packing of equal "
                                       "spheres, %g: the cells are small for the balls, or the balls overlap",

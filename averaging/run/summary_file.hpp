@@ -8,8 +8,8 @@
 
 namespace millfoam::averaging {
 
-/// The name of the summary beside a solids file: NAME.json for NAME.h5. Throws SolidsFileError when the
-/// solids file itself is called so.
+/// The name of the summary of a solids file: NAME.json for NAME.h5. Throws SolidsFileError when the solids
+/// file itself has this name.
 std::filesystem::path summary_path(const std::filesystem::path& solids_file);
 
 /// Throws SolidsFileError when there is something at `path` that is no summary of a solids file.

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 nlohmann::json read_object(const fs::path& file) {
   std::ifstream in(file);
   if (!in)
-    throw std::invalid_argument(file.string() +
-                                ": cannot be read: expected what millDem writes at the end of a run");
+    throw std::invalid_argument(
+        file.string() + ": cannot be read; expected the file that millDem writes at the end of a run");
   nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object())
     throw std::invalid_argument(file.string() + ": is no JSON object; run millDem again");
@@ -60,7 +60,7 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, double durat
   const double count = std::floor((duration - start) / window * (1 + 1e-9));
   if (count < 1)
     throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
-                                exact(duration) + " s has " + exact(duration - start) + " s left from " +
+                                exact(duration) + " s has only " + exact(duration - start) + " s from " +
                                 exact(start) + " s on: raise dem.duration, or lower averages.window");
   options.windows = {exact(window)};
   options.start = start;
@@ -81,7 +81,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     options.dumps = (dumps / "dump.*.txt").string();
     if (!own_windows) take_windows(mill, dumps, run.value("duration_s", mill.dem.duration), options);
   } else if (!own_windows) {
-    throw std::invalid_argument("--dumps: with dumps of another folder give --window and --start too");
+    throw std::invalid_argument("--dumps: with dumps of another folder, give also --window and --start");
   }
   if (!own_grid) take_grid(mill, options);
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();

@@ -31,7 +31,7 @@ class MpiCommunicator : public Communicator {
  private:
   void wait_until_sent();
 
-  /// What is on its way to rank 0 while this rank goes on.
+  /// Data on its way to rank 0 while this rank continues.
   std::vector<double> sending_;
   std::vector<MPI_Request> requests_;
   int rank_ = 0;

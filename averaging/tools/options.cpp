@@ -107,11 +107,11 @@ GridRequest grid(const Options& options) {
       (options.box.empty() ? 0 : 1) + (options.cylinder.empty() ? 0 : 1) + (options.mesh.empty() ? 0 : 1);
   if (kinds != 1) {
     throw std::invalid_argument(std::string(kinds == 0 ? "none" : "more than one") +
-                                " of --box, --cylinder and --mesh is there, expected one of them");
+                                " of --box, --cylinder and --mesh is given, expected one of them");
   }
   if (!options.mesh.empty()) return mesh_request(options);
   if (!options.motion.empty() || options.period || options.smoothing) {
-    throw std::invalid_argument("--motion, --period and --smooth are for --mesh; voxels stay where they are");
+    throw std::invalid_argument("--motion, --period and --smooth are for --mesh; voxels do not move");
   }
   if (!options.box.empty()) return box_grid(options);
   return cylinder_grid(options);
@@ -136,17 +136,18 @@ std::vector<std::filesystem::path> matching_files(const std::vector<std::string>
 void declare_mill(CLI::App& app, Options& options) {
   app.set_version_flag("--version", program());
   meshing::add_mill_options(app, options.mill);
-  app.add_option("--case", options.case_folder,
-                 "folder with dumps/ and walls/ of the mill, which receives solids.h5; what the mill says is "
-                 "averaged unless options below say otherwise")
+  app.add_option(
+         "--case", options.case_folder,
+         "folder with dumps/ and walls/ of the mill, which receives solids.h5; the mill's averages are "
+         "made unless the options below change them")
       ->capture_default_str();
 }
 
 void declare_files(CLI::App& app, Options& options) {
   app.add_option("--dumps", options.dumps, "pattern of the dumps' names, in quotes: 'post/dump*.txt'");
   app.add_option("--dt", options.timestep,
-                 "DEM time-step, s; unless given, out of run.json beside the dumps");
-  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, out of run.json");
+                 "DEM time-step, s; unless given, from run.json in the folder of the dumps");
+  app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, from run.json");
   app.add_option("-o,--output", options.output,
                  "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
 }
@@ -180,27 +181,28 @@ void declare_method(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--template", options.template_points, "points along a sphere's diameter, to sample")
       ->capture_default_str();
-  app.add_option("--cap", options.solidity_cap, "largest solidity: what is above moves to neighbours [none]");
+  app.add_option("--cap", options.solidity_cap,
+                 "largest solidity; the volume above it moves to neighbours [none]");
 }
 
 void declare_windows(CLI::App& app, Options& options) {
   app.add_option("--window", options.windows,
                  "lengths of the time windows, s, or 'whole' for one over the run; several in one pass");
   app.add_option("--start", options.start, "DEM time at which the first window begins, s [first dump]");
-  app.add_option("--end", options.end, "DEM time from which on dumps are left out, s [none]");
+  app.add_option("--end", options.end, "DEM time from which dumps are left out, s [none]");
 }
 
 void declare_run(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "of this process [OMP_NUM_THREADS or all cores]")
       ->check(CLI::Range(1, 1024));
-  app.add_option("--checkpoint", options.checkpoint_interval, "time between notes of how far the run is, s")
+  app.add_option("--checkpoint", options.checkpoint_interval, "time between checkpoints of the run, s")
       ->capture_default_str();
   CLI::Option* const report =
       app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
   app.add_option("--json", options.json, "with --report: also write them to this file")->needs(report);
   app.add_option("--tolerance", options.tolerance,
                  "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
-                 "--report, else none]");
+                 "--report, otherwise none]");
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
   if (step > plan.turning_steps) {
     const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
     throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
-                               "no less than the " + seconds(step) + " s that the run in " +
-                                   folder.root.string() + " has come to" + otherwise);
+                               "at least the " + seconds(step) + " s that the run in " +
+                                   folder.root.string() + " has reached" + otherwise);
   }
   const long expected = step / plan.step.steps_per_record + 1;
   const long found = dem_driver::count_dumps_until(folder, step);
@@ -84,22 +84,23 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
   if (!complaint.empty()) throw std::runtime_error(complaint + otherwise);
 }
 
-/// The step at which a run of this very deck goes on; nothing when there is none to go on with.
+/// The step at which a run of this same deck resumes; nothing when there is no run to resume.
 std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
                               const std::string& deck) {
   const auto restarts = dem_driver::find_restarts(folder);
   if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
   if (identity(read_text(folder.deck())) != identity(deck))
     throw std::runtime_error(folder.deck().string() +
-                             ": the run there is of another mill.yaml or other walls than these" + otherwise);
+                             ": the existing run has another mill.yaml or other walls" + otherwise);
   const auto step = dem_driver::last_good_restart(folder, plan);
   if (!step || *step != restarts.back().step)
-    std::cout << restarts.back().file.string() << ": it, or a dump before it, is not whole and is not used\n";
+    std::cout << restarts.back().file.string()
+              << ": this file, or a dump before it, is not complete and is not used\n";
   if (step) require_resumable(folder, plan, *step);
   return step;
 }
 
-/// Makes the folder ready for LIGGGHTS: from `step` on, or anew.
+/// Prepares the folder for LIGGGHTS: to resume at `step`, or for a new run.
 void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (step) {
     dem_driver::remove_results(folder);
@@ -125,7 +126,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const dem_driver::FolderLock lock(folder);
   const auto step = options.resume ? resumable(folder, plan, deck.str()) : std::nullopt;
   if (step && *step == plan.turning_steps && fs::exists(folder.run_file())) {
-    std::cout << folder.run_file().string() << ": the run is whole, nothing to do\n";
+    std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
@@ -213,7 +214,7 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.footer("millDem plan mill.yaml [-np N] predicts what the run will cost.");
   add_common(app, options);
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
-  app.add_flag("--resume", options.resume, "go on with a run that was broken off; a whole one is kept");
+  app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -32,7 +32,7 @@ void sign(int file, const std::string& program) {
 
 CaseLock::CaseLock(const std::filesystem::path& folder, const std::string& program) {
   const std::filesystem::path path = folder / "postProcessing" / "flow" / ".lock";
-  std::error_code failed;  // told by what follows
+  std::error_code failed;  // open() below reports the failure
   if (std::filesystem::is_directory(folder)) std::filesystem::create_directories(path.parent_path(), failed);
   file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) throw std::runtime_error(path.string() + ": cannot be written");

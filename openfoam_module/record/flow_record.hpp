@@ -56,7 +56,7 @@ struct FlowSetup {
   std::string openfoam_patch;    ///< of that version; empty: none
   std::string openfoam_build;    ///< of a source tree; empty: a package
   int ranks = 1;
-  double begin = 0;                 ///< flow time from which this run goes on, s
+  double begin = 0;                 ///< flow time at which this run begins or resumes, s
   std::optional<double> asked_end;  ///< endTime, s
   double angular_velocity = 0;      ///< of the mesh about z, right-handed, rad/s; 0: at rest
   std::string mill_charge;          ///< fingerprints of constant/millProperties; empty: not known
@@ -72,7 +72,7 @@ class FlowRecord {
  public:
   /// Begins the record of a run in `case_folder`/postProcessing/flow/`start`, anew, and removes the records
   /// of runs that began later: their steps are computed again.
-  /// @param start  name of the time from which the run goes on
+  /// @param start  name of the time at which the run begins or resumes
   /// Throws std::runtime_error when a file cannot be written.
   FlowRecord(const std::filesystem::path& case_folder, const std::string& start, const FlowSetup& setup);
 

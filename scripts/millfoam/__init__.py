@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readers and plots for what millFoam's stages write."""
+"""What millFoam's stages leave: readers (files), readings, plots, the report, and the plan of a run."""

@@ -4,20 +4,25 @@ import argparse
 import os
 import shutil
 import subprocess
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any, TypeVar
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 
 class RunError(RuntimeError):
     """A program that failed; the message names its log and shows the log's end."""
 
 
-def write_parameters(case, **values):
-    """Writes CASE/parameters, which the template's dictionaries include: one `key value;` a line."""
+def write_parameters(case: Path | str, **values: Any) -> None:
+    """Writes CASE/parameters, which the template's dictionaries include: one `key value;` on each line."""
     (Path(case) / "parameters").write_text("".join(f"{key} {value};\n" for key, value in values.items()))
 
 
-def run(case, *command):
+def run(case: Path | str, *command: Any) -> str:
     """Runs a command in a case folder into log.NAME (the program's) and returns the log's text."""
     name = Path(str(command[0])).name
     log = Path(case) / f"log.{name}"
@@ -32,8 +37,13 @@ def run(case, *command):
     return text
 
 
-def case_options(description, quick=None):
-    """Options of a verification case's script: `jobs`, and `quick` where a text says what its quick form leaves out."""
+def set_options(changes: Iterable[str]) -> list[str]:
+    """Settings `path=value` of a mill as a tool's options."""
+    return [word for change in changes for word in ("--set", change)]
+
+
+def case_options(description: str | None, quick: str | None = None) -> argparse.Namespace:
+    """Options of a verification case's script: `jobs`, and `quick` if there is a text about the quick form."""
     parser = argparse.ArgumentParser(description=description)
     if quick:
         parser.add_argument("--quick", action="store_true", help=quick)
@@ -41,7 +51,7 @@ def case_options(description, quick=None):
     return parser.parse_args()
 
 
-def fresh_runs(here):
+def fresh_runs(here: Path | str) -> Path:
     """The folder `runs` of a verification case, empty."""
     work = Path(here) / "runs"
     shutil.rmtree(work, ignore_errors=True)
@@ -49,7 +59,7 @@ def fresh_runs(here):
     return work
 
 
-def run_jobs(function, items, jobs):
+def run_jobs(function: Callable[[Item], Result], items: Iterable[Item], jobs: int) -> list[Result]:
     """[function(item), …] in the items' order, so many at a time."""
     with ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(function, items))

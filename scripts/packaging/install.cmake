@@ -51,8 +51,10 @@ install(FILES ${CMAKE_SOURCE_DIR}/scripts/case_functions ${CMAKE_SOURCE_DIR}/scr
         DESTINATION ${share}/scripts)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/mill_case ${CMAKE_SOURCE_DIR}/scripts/millfoam DESTINATION ${share}/scripts
         PATTERN __pycache__ EXCLUDE)
-foreach(mill mill_12cm mill_30cm)
-  install(FILES ${CMAKE_SOURCE_DIR}/cases/mills/${mill}/mill.yaml DESTINATION ${share}/mills/${mill})
+file(GLOB mills CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/cases ${CMAKE_SOURCE_DIR}/cases/mills/*/mill.yaml)
+foreach(mill ${mills})
+  cmake_path(GET mill PARENT_PATH folder)
+  install(FILES ${CMAKE_SOURCE_DIR}/cases/${mill} DESTINATION ${share}/${folder})
 endforeach()
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

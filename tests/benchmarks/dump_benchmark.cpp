@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reading dumps, in bytes of text per second, beside reading the same files by zlib alone.
+// Reading dumps, in bytes of text per second, compared with reading the same files by zlib alone.
 #include <benchmark/benchmark.h>
 #include <stdlib.h>
 #include <zlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finding points in meshes and depositing balls in their cells, each beside another way to do the same. The
+// Finding points in meshes and depositing balls in their cells, each compared with another method. The
 // meshes are drums of hexahedra that have turned; the argument n makes about 10 n^3 cells: 5, 11, 22 and 46
 // give 10^3, 10^4, 10^5 and 10^6. One item is a point or a ball; times are the thread's own.
 #include <CGAL/AABB_traits.h>
@@ -160,7 +160,7 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using CgalTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-/// The facets' triangles in CGAL's tree: the facet that a ray meets first tells the cell by the side that the
+/// The facets' triangles in CGAL's tree: the facet that a ray meets first gives the cell by the side that the
 /// ray comes from.
 struct CgalLocator {
   Triangles triangles;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Depositing balls in the voxels of a box and a cylinder, each method beside a plain way to do the same.
+// Depositing balls in the voxels of a box and a cylinder, each method compared with a simple one.
 // The argument is 100 d/dx, ball over voxel; the balls have random places. One item is a ball or, where the
 // name says so, a point.
 #include <benchmark/benchmark.h>

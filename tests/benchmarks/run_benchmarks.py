@@ -16,10 +16,10 @@ import time
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+matplotlib.use("Agg")
 
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
@@ -110,13 +110,15 @@ def repeat_dumps(folder, there, wanted):
     for record in range(there, wanted):
         text = (folder / f"dump.{100 * (record % there)}.txt").read_text()
         begin = text.index("\n") + 1
-        (folder / f"dump.{100 * record}.txt").write_text(f"{text[:begin]}{100 * record}{text[text.index(chr(10), begin):]}")
+        later = f"{text[:begin]}{100 * record}{text[text.index(chr(10), begin):]}"
+        (folder / f"dump.{100 * record}.txt").write_text(later)
 
 
 def timed(command, folder):
     """Wall time, s, and peak resident memory, kB, of a command."""
     begin = time.monotonic()
-    process = subprocess.Popen([str(word) for word in command], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen([str(word) for word in command], cwd=folder, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
     if status != 0:
         raise RuntimeError(f"{command} failed")
@@ -131,7 +133,8 @@ def average(folder, *options, dumps="dump.*.txt"):
 def cores(results):
     """One and two threads, one and two ranks: interleaved runs, medians, and whether the files agree."""
     mpirun = ("mpirun", "--oversubscribe", "--bind-to", "none", "-np")
-    variants = {"1 thread": ((), "1"), "2 threads": ((), "2"), "1 rank": ((*mpirun, "1"), "1"), "2 ranks": ((*mpirun, "2"), "1")}
+    variants = {"1 thread": ((), "1"), "2 threads": ((), "2"), "1 rank": ((*mpirun, "1"), "1"),
+                "2 ranks": ((*mpirun, "2"), "1")}
     times, files = {name: [] for name in variants}, set()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -145,7 +148,8 @@ def cores(results):
     lines = ["| 600 dumps of 20 000 balls, 33 x 33 x 8 voxels | time, s | times faster |", "|---|---|---|"]
     for variant, values in times.items():
         base = median["1 rank" if "rank" in variant else "1 thread"]
-        lines.append(f"| {variant} | {median[variant]:.2f} ({min(values):.2f} to {max(values):.2f}) | {base / median[variant]:.2f} |")
+        lines.append(f"| {variant} | {median[variant]:.2f} ({min(values):.2f} to {max(values):.2f}) | "
+                     f"{base / median[variant]:.2f} |")
     return [*lines, "", f"{len(files)} different file(s) written."]
 
 
@@ -186,13 +190,15 @@ def main(names):
     unknown = [name for name in names if name not in PARTS]
     if unknown:
         sys.exit(f"run_benchmarks: '{unknown[0]}' is not a part; expected some of {', '.join(PARTS)}")
-    results = Path(shutil.which("overlap_benchmark") or sys.exit("run_benchmarks: no benchmark programs on the PATH")).parents[1] / "results"
+    program = shutil.which("overlap_benchmark") or sys.exit("run_benchmarks: no benchmark programs on the PATH")
+    results = Path(program).parents[1] / "results"
     results.mkdir(exist_ok=True)
     for name in names or PARTS:
         lines = PARTS[name](results)
         (results / f"{name}.md").write_text("\n".join(lines) + "\n")
         print(f"\n## {name}\n", *lines, sep="\n")
-    together = "\n".join(f"## {name}\n\n{(results / f'{name}.md').read_text()}" for name in PARTS if (results / f"{name}.md").exists())
+    together = "\n".join(f"## {name}\n\n{(results / f'{name}.md').read_text()}"
+                         for name in PARTS if (results / f"{name}.md").exists())
     (results / "benchmarks.md").write_text(together)
     print(f"\n{results / 'benchmarks.md'}")
 

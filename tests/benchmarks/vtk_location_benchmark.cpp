@@ -71,7 +71,7 @@ vtkNew<vtkUnstructuredGrid> grid_of(const MeshGeometry& geometry) {
   return grid;
 }
 
-/// @param cells_per_bin  of the locator's grid; VTK takes 10 unless told
+/// @param cells_per_bin  of the locator's grid; VTK takes 10 by default
 Located locate_by_vtk(vtkUnstructuredGrid* grid, const std::vector<Eigen::Vector3d>& points,
                       int cells_per_bin) {
   vtkNew<vtkStaticCellLocator> locator;

@@ -100,9 +100,9 @@ TEST_F(FailingRun, ADumpThatHadNoRoomStopsTheRunAtOnce) {
                 " 250 1e-3 0'\nsleep 60");
   const auto file = folder_.dumps() / ("dump." + std::to_string(plan_.step.steps_per_record) + ".txt");
   EXPECT_EQ(message.find(file.string() + ": 512 bytes with "), 0u) << message;
-  EXPECT_NE(message.find("whole lines, expected 259; "), std::string::npos) << message;
+  EXPECT_NE(message.find("complete lines, expected 259; "), std::string::npos) << message;
   EXPECT_NE(message.find(" free"), std::string::npos) << message;
-  EXPECT_NE(message.find("--resume begins anew: there is no whole restart file yet"), std::string::npos)
+  EXPECT_NE(message.find("--resume begins again: there is no complete restart file"), std::string::npos)
       << message;
 }
 

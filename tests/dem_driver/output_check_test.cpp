@@ -73,7 +73,7 @@ TEST_F(OutputCheckTest, ADumpThatLacksALineInItsMiddleIsTold) {
   std::string text = dump_of(5);
   text.erase(text.find("3 1 "), text.find("4 1 ") - text.find("3 1 "));
   write(file_, text);
-  EXPECT_NE(dump_complaint(file_, 5).find("with 13 whole lines, expected 14"), std::string::npos);
+  EXPECT_NE(dump_complaint(file_, 5).find("with 13 complete lines, expected 14"), std::string::npos);
 }
 
 TEST_F(OutputCheckTest, ARestartFileOfSeveralRanksIsTakenWithAllItsBallsOnly) {

@@ -49,7 +49,7 @@ TEST(DragLaws, ReproduceThePublishedPointsToTenDigits) {
     ++checked[point.law];
   }
   for (const drag::Law& law : drag::laws()) {
-    // Darcy is Ergun's viscous part, held against Ergun below.
+    // Darcy is Ergun's viscous part, compared with Ergun below.
     if (law.name == "Darcy") continue;
     EXPECT_GE(checked[std::string(law.name)], 48) << law.name;
   }

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get wrong."""
+"""millAverage as a program: ranks and threads, a run that is killed, a disk that is full, options that users get
+wrong."""
 import json
 import resource
 import signal
@@ -114,14 +115,14 @@ class MillAverage(unittest.TestCase):
             self.assertEqual(process.wait(), -signal.SIGKILL, "the run ended before it was killed")
             self.assertFalse((self.folder / "solids.h5").exists())
             sizes.append((self.folder / "solids.h5.journal").stat().st_size)
-        self.assertEqual(sizes, sorted(sizes), "a later run goes on where the one before was killed")
+        self.assertEqual(sizes, sorted(sizes), "a later run resumes where the one before was killed")
         last = self.average("--checkpoint", "0")
-        self.assertIn("taking up an unfinished run", last.stderr)
+        self.assertIn("resuming an unfinished run", last.stderr)
         self.assertEqual(self.bytes("solids.h5"), self.bytes("whole_run.h5"))
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
                          [name + end for name in ("solids", "whole_run") for end in (".h5", ".json", ".xdmf")])
 
-    def test_a_full_disk_is_told_and_leaves_nothing_that_looks_whole(self):
+    def test_a_full_disk_is_reported_and_leaves_nothing_that_looks_whole(self):
         self.average(output="whole_run.h5")
         size = (self.folder / "whole_run.h5").stat().st_size
 
@@ -213,10 +214,10 @@ class MillAverage(unittest.TestCase):
 
     def test_a_grid_that_is_not_where_the_balls_are_is_refused(self):
         millimetres = ["--box", "-1000", "-1000", "0", "1000", "1000", "1000", "--shape", "9", "8", "3"]
-        self.refused(self.command(grid=millimetres), "far too large", "x -1000 to 1000", "metres expected")
-        beside = ["--box", "2", "-1", "0", "3", "1", "1", "--shape", "9", "8", "3"]
-        self.refused(self.command(grid=beside), "100 % of the balls' volume lies outside", "x 2 to 3",
-                     "metres expected")
+        self.refused(self.command(grid=millimetres), "far too large", "x -1000 to 1000", "expected metres")
+        shifted = ["--box", "2", "-1", "0", "3", "1", "1", "--shape", "9", "8", "3"]
+        self.refused(self.command(grid=shifted), "100 % of the balls' volume lies outside", "x 2 to 3",
+                     "expected metres")
         self.assertEqual(list(self.folder.iterdir()), [])
         part = ["--box", "0.3", "-1", "0", "1", "1", "1", "--shape", "9", "8", "3"]
         self.refused(self.command(grid=part), "outside", "--tolerance")
@@ -261,7 +262,8 @@ class MillAverage(unittest.TestCase):
         self.refused(self.command(output="folder"), "'folder' is a folder")
         self.refused(self.command("--speed", "3"), "--speed is 3 rad/s", "run.json", "2 rad/s")
         self.refused(self.command("--inside", "no*.stl"), "--inside 'no*.stl' matches no file")
-        self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape", "a mesh has its own")
+        self.refused(self.command(grid=["--mesh", "mesh.h5", "--shape", "1", "1", "1"]), "--shape",
+                     "a mesh has its own")
         self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")
         self.refused(self.command(grid=BOX[:7]), "--shape is missing", "nx ny nz")
 

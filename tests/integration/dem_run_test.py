@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""millDem killed, without room on the disk and resumed, on a drum of a few hundred balls; and what it predicts against what the
-run then takes."""
+"""millDem killed, without room on the disk and resumed, on a drum of a few hundred balls; and what it predicts against
+what the run then takes."""
 import fcntl
 import json
 import os
@@ -18,10 +18,11 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import compare, solids
-from millfoam.dem_tracks import read_tracks
+from millfoam.files import solids_file
+from millfoam.files.tracks import read_tracks
+from millfoam.readings import compare
+from millfoam.readings.tracer import tracer_map
 from millfoam.run import RunError, run
-from millfoam.tracer import tracer_map
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -99,8 +100,8 @@ class DemRun(unittest.TestCase):
         self.assertTrue(children)
         process.send_signal(signal.SIGKILL)
         process.wait()
-        gone = lambda: not any(Path(f"/proc/{pid}").exists() for pid in children)
-        self.assertTrue(wait_for(gone, 30), "LIGGGHTS outlives millDem")
+        places = [Path(f"/proc/{pid}") for pid in children]
+        self.assertTrue(wait_for(lambda: not any(place.exists() for place in places), 30), "LIGGGHTS outlives millDem")
 
     def run_and_watch(self, case):
         """Runs the mill; the largest memory that LIGGGHTS took while it ran, GB."""
@@ -155,8 +156,8 @@ class DemRun(unittest.TestCase):
         self.assertFalse((case / "dumps" / "run.json").exists())
         first = self.last_restart(case)
         # What the killed run computed after its last restart file
-        later = sorted((read_dump(path) for path in (case / "dumps").glob("dump.*.txt") if path.read_text().endswith("\n")),
-                       key=lambda dump: dump[0])
+        whole = (path for path in (case / "dumps").glob("dump.*.txt") if path.read_text().endswith("\n"))
+        later = sorted(map(read_dump, whole), key=lambda dump: dump[0])
         expected = next((dump for dump in later if dump[0] > first and len(dump[1]) == len(later[0][1])), None)
         self.start_and_kill(case, 3, ranks=2)
         if expected:
@@ -180,23 +181,23 @@ class DemRun(unittest.TestCase):
         self.assertTrue(wait_for(lambda: self.last_restart(case), 120))
         for pid in descendants(process.pid):
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (20000, 20000))
-        _, told = process.communicate(timeout=60)
+        _, output = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 1)
-        self.assertRegex(told, r"error: \./(dumps|contacts|dem)/\S+: \d+ bytes.*expected .*; .* free")
+        self.assertRegex(output, r"error: \./(dumps|contacts|dem)/\S+: \d+ bytes.*expected .*; .* free")
         kept = self.last_restart(case)
-        self.assertIn(f"--resume continues from step {kept}\n", told)
+        self.assertIn(f"--resume continues from step {kept}\n", output)
         self.assertFalse((case / "dumps" / "run.json").exists())
-        self.assertNotIn("100 %", told)
+        self.assertNotIn("100 %", output)
         # As a later one would be, had millDem been killed before it saw it
         cut = case / "dem" / f"restart.{kept + 100}"
         cut.write_bytes((case / "dem" / f"restart.{kept}").read_bytes()[:-100])
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
-        self.assertIn(f"{cut.name}: it, or a dump before it, is not whole and is not used", log)
+        self.assertIn(f"{cut.name}: this file, or a dump before it, is not complete and is not used", log)
         self.assertIn(f"resumed at step {kept},", log)
         self.assertFalse(cut.exists())
         self.assert_whole(case)
 
-    def test_what_cannot_fit_on_the_disk_and_walls_of_another_mill_are_told_before_anything_is_removed(self):
+    def test_what_cannot_fit_on_the_disk_and_walls_of_another_mill_are_reported_before_anything_is_removed(self):
         short = MILL.replace("duration: 1.0", "duration: 0.05")
         case = self.make_case(short)
         run(case, "millDem", "mill.yaml", "--case", ".")
@@ -204,13 +205,15 @@ class DemRun(unittest.TestCase):
         fine = MILL.replace("diameter: 0.002, mass: 0.002", "diameter: 0.0005, mass: 0.02")  # 113 000 balls more
         (case / "mill.yaml").write_text(fine.replace("duration: 1.0, record_interval: 0.005",
                                                      "duration: 4000, record_interval: 0.004"))
-        with self.assertRaisesRegex(RunError, r"the disk has room for .* GB, expected at least 1.47e.04 GB for 1000001 dumps of"):
+        with self.assertRaisesRegex(RunError,
+                                    r"the disk has room for .* GB, expected at least 1.47e.04 GB for 1000001 dumps of"):
             run(case, "millDem", "mill.yaml", "--case", ".")
         self.assertEqual(sorted(case.glob("*/*")), before)
         (case / "mill.yaml").write_text(short)
         run(case, "millMesh", "surface", "shell=walls/shell.stl", "lifters=walls/lifters.stl", "--scale", "1.25",
             "--ends", "periodic", "--case", ".")
-        with self.assertRaisesRegex(RunError, r"shell.stl: the walls have a radius of 0.0375 m .*expected .*radius 0.03 m"):
+        with self.assertRaisesRegex(RunError,
+                                    r"shell.stl: the walls have a radius of 0.0375 m .*expected .*radius 0.03 m"):
             run(case, "millDem", "mill.yaml", "--case", ".")
         self.assertEqual(sorted(case.glob("*/*")), before)
 
@@ -222,7 +225,8 @@ class DemRun(unittest.TestCase):
         self.assert_whole(case)
 
         (case / "mill.yaml").write_text(MILL.replace("fraction_of_critical: 0.7", "fraction_of_critical: 0.8"))
-        done = subprocess.run(["millDem", "mill.yaml", "--case", ".", "--resume"], cwd=case, capture_output=True, text=True)
+        done = subprocess.run(["millDem", "mill.yaml", "--case", ".", "--resume"], cwd=case, capture_output=True,
+                              text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("cannot be resumed", done.stderr)
         self.assert_whole(case)
@@ -235,7 +239,8 @@ class DemRun(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in (case / "dumps").iterdir()), before)
 
         (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
-        with self.assertRaisesRegex(RunError, r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected no less than the 0.1 s"):
+        with self.assertRaisesRegex(RunError,
+                                    r"mill.yaml:\d+: key 'dem.duration' = 0.05: expected at least the 0.1 s"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         (case / "mill.yaml").write_text(MILL)
         lost = next((case / "contacts").glob("walls.*.txt"))
@@ -249,13 +254,13 @@ class DemRun(unittest.TestCase):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertTrue((case / "dumps" / "run.json").is_file())
 
-    def test_a_wall_that_is_cut_and_a_missing_program_are_told_before_anything_is_removed(self):
+    def test_a_wall_that_is_cut_and_a_missing_program_are_reported_before_anything_is_removed(self):
         case = self.make_case(MILL.replace("duration: 1.0", "duration: 0.05"))
         run(case, "millDem", "mill.yaml", "--case", ".")
         before = sorted(case.glob("*/*"))
-        told = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True, text=True,
-                              env={**os.environ, "PATH": "/no/such/folder"})
-        self.assertIn("liggghts is not on PATH", told.stderr)
+        done = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True,
+                              text=True, env={**os.environ, "PATH": "/no/such/folder"})
+        self.assertIn("liggghts is not on PATH", done.stderr)
         self.assertEqual(sorted(case.glob("*/*")), before)
         shell = case / "walls" / "shell.stl"
         shell.write_bytes(shell.read_bytes()[:-200])
@@ -266,10 +271,14 @@ class DemRun(unittest.TestCase):
     def test_what_cannot_be_is_refused_with_the_line_or_the_option(self):
         case = self.make_case()
         for old, new, message in (
-                ("youngs_modulus: 1e7", "youngs_modulus: 1e6", "mill.yaml:10: key 'dem.youngs_modulus' = 1e.06: expected"),
-                ("duration: 1.0", "duration: 1e5", r"mill.yaml:\d+: key 'dem.\w+' = \S+: expected at most 1e.0[69] (steps|dumps)"),
-                ("contact_interval: 0.012", "contact_interval: 1e-9", "mill.yaml:11: key 'dem.contact_interval' = 1e-09: exp"),
-                ("mass: 0.002}", "mass: 1e-9}", r"mill.yaml:7: key 'charge.classes\[1\]' = 1e-09 kg of balls of 0.002 m")):
+                ("youngs_modulus: 1e7", "youngs_modulus: 1e6",
+                 "mill.yaml:10: key 'dem.youngs_modulus' = 1e.06: expected"),
+                ("duration: 1.0", "duration: 1e5",
+                 r"mill.yaml:\d+: key 'dem.\w+' = \S+: expected at most 1e.0[69] (steps|dumps)"),
+                ("contact_interval: 0.012", "contact_interval: 1e-9",
+                 "mill.yaml:11: key 'dem.contact_interval' = 1e-09: exp"),
+                ("mass: 0.002}", "mass: 1e-9}",
+                 r"mill.yaml:7: key 'charge.classes\[1\]' = 1e-09 kg of balls of 0.002 m")):
             (case / "mill.yaml").write_text(MILL.replace(old, new))
             with self.assertRaisesRegex(RunError, message):
                 run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only")
@@ -296,10 +305,10 @@ class DemRun(unittest.TestCase):
 
     def test_the_plan_names_steps_time_disk_and_memory_of_the_run(self):
         case = self.make_case()
-        told = run(case, "millDem", "plan", "mill.yaml", "--json", "plan.json")
+        output = run(case, "millDem", "plan", "mill.yaml", "--json", "plan.json")
         plan = read_json(case / "plan.json")
         self.assertEqual((plan["format"], plan["ranks"], plan["balls"]), ("millfoam-dem-plan", 1, 398))
-        self.assertIn(f"  steps      {plan['steps']}\n", told)
+        self.assertIn(f"  steps      {plan['steps']}\n", output)
         predicted = {"disk": plan["disk_bytes"] / 1e9, "memory": plan["memory_bytes"] / 1e9}
         peak = self.run_and_watch(case)
         self.assertLess(max(predicted["memory"] / peak, peak / predicted["memory"]), 1.5)
@@ -316,11 +325,13 @@ class DemRun(unittest.TestCase):
 
 
 class Tracer(unittest.TestCase):
-    """Tracers in a charge of 221 balls of 4 mm, nine tenths of its volume, and 177 of 2 mm, against millAverage's map of all.
+    """Tracers in a charge of 221 balls of 4 mm, nine tenths of its volume, and 177 of 2 mm, against millAverage's map
+    of all.
 
-    Differences measured on this drum from 0.5 s on, compare.difference in solidity: all balls of 4 mm 0.010 over one turn as
-    over four, velocities 0.005 and 0.006; all of 2 mm 0.075, as small balls lie elsewhere; one ball of 4 mm, mean of all, 0.163
-    over one turn, 0.130 over two, 0.080 over six, velocities 0.05 and 0.06 over two; of every tenth 0.217 over half a turn."""
+    Differences measured on this drum from 0.5 s on, compare.difference in solidity: all balls of 4 mm 0.010 over one
+    turn as over four, velocities 0.005 and 0.006; all of 2 mm 0.075, as small balls lie elsewhere; one ball of 4 mm,
+    mean of all, 0.163 over one turn, 0.130 over two, 0.080 over six, velocities 0.05 and 0.06 over two; of every tenth
+    0.217 over half a turn."""
     BEGIN, END = 0.5, 1.5
     SIZE, SINGLE = 0.004, slice(None, None, 10)  # m; of the tracks, one by one
 
@@ -332,13 +343,14 @@ class Tracer(unittest.TestCase):
             "seed: 3,\n   contact_interval: 0.012", "seed: 3"))
         run(cls.case, "millMesh", "mill.yaml", "--case", ".")
         run(cls.case, "millDem", "mill.yaml", "--case", ".")
-        run(cls.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.033, -0.033, 0, 0.033, 0.033, 0.03, "--shape",
-            11, 11, 5, "--periodic", "z", "--inside", "walls/*.stl", "--start", cls.BEGIN, "--window", 0.05, "-o", "solids.h5")
+        run(cls.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.033, -0.033, 0, 0.033, 0.033, 0.03,
+            "--shape", 11, 11, 5, "--periodic", "z", "--inside", "walls/*.stl", "--start", cls.BEGIN,
+            "--window", 0.05, "-o", "solids.h5")
         balls = np.loadtxt(cls.case / "dumps" / "dump.0.txt", skiprows=9)  # id, …, radius
         cls.volume = np.sum(4 / 3 * np.pi * balls[:, -1] ** 3)
         cls.ids = {size: balls[np.isclose(2 * balls[:, -1], size), 0].astype(int) for size in (0.004, 0.002)}
         cls.turn = 2 * np.pi / abs(read_json(cls.case / "dumps" / "run.json")["angular_velocity_rad_s"])
-        cls.whole = solids.read_map(cls.case / "solids.h5", cls.BEGIN, cls.END)
+        cls.whole = solids_file.read_map(cls.case / "solids.h5", cls.BEGIN, cls.END)
         with h5py.File(cls.case / "solids.h5") as file:
             grid = file["grid"]
             cls.edges = [np.linspace(*ends, count + 1) for *ends, count in zip(*(grid.attrs[name] for name in (
@@ -358,8 +370,8 @@ class Tracer(unittest.TestCase):
 
     def test_all_balls_of_a_diameter_are_near_the_average_of_all(self):
         self.assertEqual([len(ids) for ids in self.ids.values()], [221, 177])
-        # Three times what was measured: room for another platform's arithmetic, after which balls take other ways, and still a
-        # quarter of what one ball differs by
+        # Three times what was measured: room for another platform's arithmetic, after which balls take other ways, and
+        # still a quarter of what one ball differs by
         found = self.apart(self.tracks(0.004))
         self.assertLess(found.solidity, 0.03)
         self.assertLess(max(found.velocity_x, found.velocity_y), 0.02)
@@ -376,8 +388,8 @@ class Tracer(unittest.TestCase):
                  for some in (self.tracks(0.004, turns=0.5), tracks)]
         self.assertGreater(apart[1], 4 * all_of_them)
         # Of independent times the root of four, 2; measured: 1.7
-        print(f"one ball over half a turn and {(self.END - self.BEGIN) / self.turn:.1f} turns: {apart[0]:.3f}, {apart[1]:.3f}; "
-              f"all balls {all_of_them:.3f}")
+        print(f"one ball over half a turn and {(self.END - self.BEGIN) / self.turn:.1f} turns: {apart[0]:.3f}, "
+              f"{apart[1]:.3f}; all balls {all_of_them:.3f}")
         self.assertGreater(apart[0] / apart[1], 1.3)
         self.assertLess(apart[0] / apart[1], 2.5)
 
@@ -389,7 +401,8 @@ class Tracer(unittest.TestCase):
             weight = np.where(known, one.balls(), 0)[..., None]
             own, theirs = (np.nan_to_num(velocity[..., :2]) for velocity in (one.velocity, self.whole.velocity))
             slopes.append(np.sum(weight * own * theirs) / np.sum(weight * theirs ** 2))
-        print(f"velocity of one ball over the charge's: {np.mean(slopes):.3f}, from {min(slopes):.3f} to {max(slopes):.3f}")
+        print(f"velocity of one ball over the charge's: {np.mean(slopes):.3f}, from {min(slopes):.3f} to "
+              f"{max(slopes):.3f}")
         # Of all 221: mean 0.98, from 0.55 to 1.09
         self.assertAlmostEqual(np.mean(slopes), 1, delta=0.1)
         self.assertGreater(min(slopes), 0.3)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose answers
-are known."""
+"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose
+answers are known."""
 import importlib.util
 import json
 import shutil
@@ -16,14 +16,14 @@ from unittest import mock
 import numpy as np
 
 from dem_run_test import MILL
-from millfoam import axial
-from millfoam.compare import difference
-from millfoam.dry_runs import is_whole, make_dry_run
-from millfoam.mill import read_mill
-from millfoam.mill_runs import resolved, write_mill
-from millfoam.published_mills import averages, published_loads
+from millfoam.files.mill import read_mill
+from millfoam.files.solids_file import SolidsMap
+from millfoam.readings import axial
+from millfoam.readings.compare import difference
 from millfoam.run import RunError, run
-from millfoam.solids import SolidsMap
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.mill_runs import resolved, write_mill
+from millstudies.published_mills import averages, published_loads
 
 ROOT = Path(__file__).resolve().parents[2]
 STARS = "\n// ************************************************************************* //\n"
@@ -48,7 +48,8 @@ class Runs(FolderTest):
     def drum(self, duration, *changes):
         """The drum's Mill, averaged over its second part."""
         (self.folder / "drum.yaml").write_text(MILL)
-        return resolved(self.folder / "drum.yaml", (f"dem.duration={duration}", averages(6, duration / 2, duration / 2), *changes))
+        return resolved(self.folder / "drum.yaml",
+                        (f"dem.duration={duration}", averages(6, duration / 2, duration / 2), *changes))
 
     def test_a_run_is_made_once_and_its_dumps_go(self):
         mill = self.drum(0.2)
@@ -73,8 +74,8 @@ class Runs(FolderTest):
     def test_a_run_that_was_broken_off_is_resumed_with_another_duration_but_not_as_another_mill(self):
         made = []
         write_mill(self.drum(0.1), self.folder / "drum")
-        with mock.patch("millfoam.mill_runs.run", lambda folder, *command: made.append(command)), \
-                mock.patch("millfoam.dry_runs.run", side_effect=RunError("stopped")):
+        with mock.patch("millstudies.mill_runs.run", lambda folder, *command: made.append(command)), \
+                mock.patch("millstudies.dry_runs.run", side_effect=RunError("stopped")):
             with self.assertRaisesRegex(RunError, "of another mill"):
                 make_dry_run(self.folder / "drum", self.drum(0.1, "dem.seed=4"), ranks=1)
             self.assertEqual(made, [])
@@ -173,7 +174,8 @@ class Readings12cm(FolderTest):
     def test_patterns_choose_and_all_are_those_without_a_variant(self):
         parser = SimpleNamespace(error=mock.Mock(side_effect=KeyError))
         self.assertEqual(len(self.study.chosen(["all"], self.cases, parser)), 12)
-        self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)), 1 + len(self.study.VARIANTS))
+        self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)),
+                         1 + len(self.study.VARIANTS))
         with self.assertRaises(KeyError):
             self.study.chosen(["nothing"], self.cases, parser)
         self.assertIn("no run is named 'nothing'", parser.error.call_args.args[0])
@@ -199,7 +201,8 @@ class Difference(unittest.TestCase):
     def map(self, solidity, velocity):
         edges = np.linspace(-1, 1, 5)
         shape = (4, 4)
-        return SolidsMap(edges, edges, np.ones(shape), np.full(shape, solidity), np.broadcast_to(velocity, (*shape, 3)).copy(), 0, 1)
+        return SolidsMap(edges, edges, np.ones(shape), np.full(shape, solidity),
+                         np.broadcast_to(velocity, (*shape, 3)).copy(), 0, 1)
 
     def test_a_map_is_not_apart_from_itself(self):
         one = self.map(0.5, (1.0, 0.5, 0))
@@ -265,7 +268,8 @@ class HalfWritten(FolderTest):
         script = "set -eu -o pipefail\n" + functions[begin:functions.index("\nparallel() {")] + "drop_half_written\n"
         done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
-        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir() if path.name[0].isdigit())
+        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir()
+                                  if path.name[0].isdigit())
                 for processor in (0, 1)}
 
     def test_a_time_that_a_rank_wrote_half_goes_from_all_ranks(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same after a
-restart and on two ranks, and what cannot be is refused."""
+"""What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same
+after a restart and on two ranks, and what cannot be is refused."""
 import re
 import shutil
 import tempfile
@@ -11,10 +11,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.tables import read_columns, read_table
+from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from millfoam.tables import read_columns, read_table
 from mill_case import replace, run_mill
 from slurry_case import SLURRY, SlurryTest
 
@@ -23,7 +23,7 @@ FEED, HALF, END, WINDOW = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s
 CHANGES = ("resolution={counts: {gap: 2, lifter: 1, height: 1, ring: 10}, layers: 9}", "geometry.pulp_lifters.layers=2",
            "flow.balls=no", f"flow.feed={FEED}", f"flow.duration={END}", f"flow.write_interval={HALF}",
            f"flow.averages={{start: 0, window: {WINDOW}}}")
-SPEED = -2.5  # that a balance in a box is told, rad/s
+SPEED = -2.5  # of the balance in a box, rad/s
 OBJECTS = f"""
 functions
 {{
@@ -60,11 +60,11 @@ class FedMill(unittest.TestCase):
         cls.columns = read_columns(cls.case, "slurryBalance")
 
     def test_slurry_is_balanced(self):
-        told = self.columns
+        columns = self.columns
         # A little slurry may come back at the outlet for a step
-        np.testing.assert_allclose(told["feed"], FEED, rtol=1e-4)
-        np.testing.assert_allclose(told["fed"], FEED * told["Time"], rtol=1e-4)
-        self.assertLess(np.abs(told["missing"]).max(), 1e-9 * told["holdUp"][0])
+        np.testing.assert_allclose(columns["feed"], FEED, rtol=1e-4)
+        np.testing.assert_allclose(columns["fed"], FEED * columns["Time"], rtol=1e-4)
+        self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
 
     def test_hold_up_is_that_of_the_written_fields(self):
         flow = MillFlow(self.case)
@@ -81,7 +81,8 @@ class FedMill(unittest.TestCase):
         _, holdup = read_table(self.case, "axialProfiles", "holdUp")
         _, height = read_table(self.case, "axialProfiles", "height")
         np.testing.assert_allclose(holdup[:, 1:].sum(axis=1), self.columns["holdUp"], rtol=1e-10)
-        np.testing.assert_allclose((holdup * height)[:, 1:].sum(axis=1) / holdup[:, 1:].sum(axis=1), self.columns["y"], rtol=1e-8)
+        np.testing.assert_allclose((holdup * height)[:, 1:].sum(axis=1) / holdup[:, 1:].sum(axis=1), self.columns["y"],
+                                   rtol=1e-8)
 
     def test_voxels_hold_what_the_cells_hold(self):
         with h5py.File(self.case / "slurry.h5") as file:
@@ -105,7 +106,8 @@ class FedMill(unittest.TestCase):
         columns = read_columns(case, "slurryBalance")
         for name in ("holdUp", "fed", "x", "y", "z"):
             expected = np.interp(columns["Time"], self.columns["Time"], self.columns[name])
-            np.testing.assert_allclose(columns[name], expected, rtol=0, atol=rtol * np.abs(expected).max(), err_msg=name)
+            np.testing.assert_allclose(columns[name], expected, rtol=0, atol=rtol * np.abs(expected).max(),
+                                       err_msg=name)
         self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
         with h5py.File(case / "slurry.h5") as found, h5py.File(self.case / "slurry.h5") as expected:
             for name in FIELDS:
@@ -129,7 +131,8 @@ class FedMill(unittest.TestCase):
         shutil.rmtree(case / f"{END:g}")
         for table in case.glob("postProcessing/*/0/*.dat"):  # as far as the killed run would have come
             lines = table.read_text().splitlines(keepends=True)
-            table.write_text("".join(line for line in lines if line.startswith("#") or float(line.split()[0]) <= 1.2 * HALF))
+            table.write_text("".join(line for line in lines
+                                     if line.startswith("#") or float(line.split()[0]) <= 1.2 * HALF))
         run(case, "slurryFoam")
         self.assert_same(case, 1e-9)
         columns = read_columns(case, "slurryBalance")
@@ -169,7 +172,7 @@ class FedMill(unittest.TestCase):
 
     def refused(self, pattern, new):
         case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
-        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns(f"{END:g}"))  # it would go on from the half
+        shutil.copytree(self.case, case, ignore=shutil.ignore_patterns(f"{END:g}"))  # the flow would resume there
         replace(case / "system" / "controlDict", (pattern, new))
         with self.assertRaises(RunError) as caught:
             run(case, "slurryFoam")
@@ -190,19 +193,18 @@ class FedMill(unittest.TestCase):
             with self.subTest(new):
                 self.assertIn(words, self.refused(pattern, new))
 
-
     def test_balls_before_the_inlet_take_nothing_from_the_feed(self):
         case = self.folder / "balls"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", "0.0*"))
         (case / "constant" / "bedProperties").write_text(
             "FoamFile { version 2; format ascii; class dictionary; object bedProperties; }\n"
-            "blocks { front { box (-1 -1 -1) (1 0 0.1); edge 0.05; edgeAxes (0 1 1); solidity 0.55; diameter 0.005; velocity (0 0 0); } }\n"
-            "drag { law Beetstra; }\n")
+            "blocks { front { box (-1 -1 -1) (1 0 0.1); edge 0.05; edgeAxes (0 1 1); solidity 0.55; diameter 0.005; "
+            "velocity (0 0 0); } }\ndrag { law Beetstra; }\n")
         end_at(case, HALF)
         run(case, "slurryFoam")
-        told = read_columns(case, "slurryBalance")
-        np.testing.assert_allclose(told["feed"], FEED, rtol=1e-6)
-        self.assertLess(np.abs(told["missing"]).max(), 1e-9 * told["holdUp"][0])
+        columns = read_columns(case, "slurryBalance")
+        np.testing.assert_allclose(columns["feed"], FEED, rtol=1e-6)
+        self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
         flow = MillFlow(case)
         solidity = foam.read_field(flow.frames[-1][1] / "solidity", flow.mesh.cells)
         self.assertGreater(solidity.max(), 0.5)
@@ -216,26 +218,27 @@ class FedMill(unittest.TestCase):
 
 
 class InABox(SlurryTest):
-    def told(self, case):
+    def columns_of(self, case):
         """Columns of a balance in a run of the case."""
         control = case.path / "system" / "controlDict"
         control.write_text(control.read_text() + """
-            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed %g; writePrecision 12; } }""" % SPEED)
+            functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); speed %g;
+            writePrecision 12; } }""" % SPEED)
         self.assert_runs(case, "slurryFoam")
         return read_columns(case.path, "slurryBalance")
 
     def test_without_balls_the_walls_give_all_the_torque(self):
-        told = self.told(self.slurry_case(end_time=0.1))
-        walls = sum(values for name, values in told.items() if name.startswith("torque_") and name != "torque_all")
-        late = told["Time"] > 0.02  # the impulsive start is over
-        np.testing.assert_allclose(walls[late], told["torque_all"][late], rtol=0.02)
-        for name in told:
+        columns = self.columns_of(self.slurry_case(end_time=0.1))
+        walls = sum(values for name, values in columns.items() if name.startswith("torque_") and name != "torque_all")
+        late = columns["Time"] > 0.02  # the impulsive start is over
+        np.testing.assert_allclose(walls[late], columns["torque_all"][late], rtol=0.02)
+        for name in columns:
             if name.startswith("torque_"):
-                power = told["power" if name == "torque_all" else name.replace("torque", "power")]
-                np.testing.assert_allclose(power, told[name] * SPEED, rtol=1e-9)
+                power = columns["power" if name == "torque_all" else name.replace("torque", "power")]
+                np.testing.assert_allclose(power, columns[name] * SPEED, rtol=1e-9)
         # A pool that sloshes: its weight's moment is no more than near
-        weight = SLURRY * told["holdUp"] * 9.81 * told["x"]
-        self.assertGreater(np.abs(told["torque_all"][late] / weight[late] - 1).max(), 0.01)
+        weight = SLURRY * columns["holdUp"] * 9.81 * columns["x"]
+        self.assertGreater(np.abs(columns["torque_all"][late] / weight[late] - 1).max(), 0.01)
 
     def voxels(self, lower, upper):
         """A case with voxels in a box, and its run; the pool lies below 6 cm in 14 x 10 x 2 cm."""
@@ -278,17 +281,19 @@ class InABox(SlurryTest):
         case = self.slurry_case(end_time=0.01)
         case.bed("block { box (-1 -1 -1) (1 0.03 1); edge 0.02; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; "
                  "velocity (0.2 0 0); }")
-        told = self.told(case)
+        columns = self.columns_of(case)
         time = case.path / "0.01"
         cells = int(np.prod(case.shape))
         phi, alpha, d = (foam.read_field(time / name, cells) for name in ("solidity", "alpha.slurry", "solidsDiameter"))
-        slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells), axis=1)
+        slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells),
+                              axis=1)
         wet = (alpha > 0.5) & (phi > 0)
         reynolds = SLURRY * (1 - phi) * slip * d / 1.4e-3
-        self.assertAlmostEqual(told["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
-        self.assertAlmostEqual(told["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]), delta=1e-6 * reynolds.max())
+        self.assertAlmostEqual(columns["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
+        self.assertAlmostEqual(columns["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]),
+                               delta=1e-6 * reynolds.max())
         below = [phi[wet][chosen].sum() / phi[wet].sum() for chosen in (
-            reynolds[wet] < told["Re_95"][-1] * (1 - 1e-9), reynolds[wet] <= told["Re_95"][-1] * (1 + 1e-9))]
+            reynolds[wet] < columns["Re_95"][-1] * (1 - 1e-9), reynolds[wet] <= columns["Re_95"][-1] * (1 + 1e-9))]
         self.assertLessEqual(below[0], 0.95)
         self.assertGreaterEqual(below[1], 0.95)
 

@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 from openfoam_case import OpenFoamTest, require_environment, rotating_mesh
 
 OMEGA, DELTA_T, STEPS, TIME0 = 20.0, 2e-3, 5, 1.0

@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 from openfoam_case import OpenFoamTest, require_environment, rotating_mesh
 
 TOPOLOGY = ("face_begin", "face_points", "owner", "neighbour", "patch/name", "patch/first", "patch/faces")

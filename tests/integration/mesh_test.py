@@ -54,10 +54,10 @@ class Mesh(unittest.TestCase):
         drawn = shell.read_text().replace("solid shell", "solid cad")
         shell.write_text(drawn)
         (case / "walls" / "feedEnd.stl").write_text(drawn)
-        told = run(case, "millMesh", SLICE, "--case", ".")
-        self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", told.replace("./", ""))
-        self.assertIn("removed: walls/feedEnd.stl, no wall of this mill", told.replace("./", ""))
-        self.assertNotIn(lifters.name, told)
+        output = run(case, "millMesh", SLICE, "--case", ".")
+        self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", output.replace("./", ""))
+        self.assertIn("removed: walls/feedEnd.stl, no wall of this mill", output.replace("./", ""))
+        self.assertNotIn(lifters.name, output)
 
     def test_periodic_slice(self):
         self.check()

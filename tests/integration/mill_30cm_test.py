@@ -13,10 +13,11 @@ import h5py
 import numpy as np
 from PIL import Image
 
-from millfoam import axial, foam
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam
+from millfoam.files.tables import read_columns
+from millfoam.files.written_times import MillFlow
+from millfoam.readings import axial
 from millfoam.run import run
-from millfoam.tables import read_columns
 from mill_case import run_mill
 
 CASE = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm"
@@ -34,7 +35,7 @@ class FedMill(unittest.TestCase):
         # As Allrun's variant fluid_only_75
         cls.stages = run_mill(cls.case, CASE / "mill.yaml", *CHANGES, until="start")
         cls.start = (cls.case / "log.start").read_text()
-        for end in (HALF, END):  # the second goes on from the first's last time
+        for end in (HALF, END):  # the second resumes from the first's last time
             run(cls.case, "foamDictionary", "-entry", "endTime", "-set", end, "system/controlDict")
             run(cls.case, "slurryFoam")
         cls.flow = MillFlow(cls.case)
@@ -47,9 +48,9 @@ class FedMill(unittest.TestCase):
         np.testing.assert_allclose(times, [0, WRITTEN, HALF, HALF + WRITTEN, END], atol=1e-12)
 
     def test_what_was_measured_goes_on_from_the_first_end(self):
-        told = read_columns(self.case, "slurryBalance")
-        np.testing.assert_allclose(told["fed"], FEED * told["Time"], rtol=1e-4)
-        self.assertLess(np.abs(told["missing"]).max(), 1e-6 * told["holdUp"][0])
+        columns = read_columns(self.case, "slurryBalance")
+        np.testing.assert_allclose(columns["fed"], FEED * columns["Time"], rtol=1e-4)
+        self.assertLess(np.abs(columns["missing"]).max(), 1e-6 * columns["holdUp"][0])
         with h5py.File(self.case / "slurry.h5") as file:
             self.assertEqual(list(file["window/ends_short"][:]), [0])
             np.testing.assert_allclose((file["window/begin"][0], file["window/end"][0]), (0, END), atol=1e-9)
@@ -76,8 +77,8 @@ class FedMill(unittest.TestCase):
         self.assertAlmostEqual(profile.height.mean(), -0.09, delta=0.01)
 
     def test_profiles_are_drawn_of_one_run_and_of_several(self):
-        told = run(self.case, sys.executable, CASE / "axial.py", ".")
-        self.assertRegex(told, r"feed 65\.3 ml/s, discharge")
+        output = run(self.case, sys.executable, CASE / "axial.py", ".")
+        self.assertRegex(output, r"feed 65\.3 ml/s, discharge")
         for name in ("axial.csv", "axial.png", "z_velocity.png"):
             self.assertGreater((self.case / "pictures" / name).stat().st_size, 300, name)
         run(self.case, sys.executable, CASE / "axial_together.py", ".", self.case, "-o", "both.png")

@@ -14,12 +14,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam, solids
-from millfoam.data_files import read_json
-from millfoam.mill_flow import MillFlow
+from millfoam.files import foam, solids_file
+from millfoam.files.data_files import read_json
+from millfoam.files.slurry_file import read_slurry_map
+from millfoam.files.tables import read_columns
+from millfoam.files.written_times import MillFlow
 from millfoam.run import RunError, run
-from millfoam.slurry import read_slurry_map
-from millfoam.tables import read_columns
 from mill_case import run_mill
 import mills_test
 
@@ -44,7 +44,7 @@ class ShortMill(unittest.TestCase):
         for name, changes in VARIANTS.items():
             run_mill(cls.folder / name, MILL, *CHANGES, *changes, charge=None if name == "law" else cls.folder / "law")
             cls.flows[name] = MillFlow(cls.folder / name)
-        cls.solids = solids.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
+        cls.solids = solids_file.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
         cls.print_summary()
 
     @classmethod
@@ -126,8 +126,8 @@ class ShortMill(unittest.TestCase):
 
     def test_slurry_is_balanced(self):
         for name, flow in self.flows.items():
-            told = read_columns(flow.case, "slurryBalance")
-            self.assertLess(np.abs(told["missing"]).max(), 1e-6 * told["holdUp"][0], name)
+            columns = read_columns(flow.case, "slurryBalance")
+            self.assertLess(np.abs(columns["missing"]).max(), 1e-6 * columns["holdUp"][0], name)
 
     def test_slurry_on_voxels_is_where_it_is_in_the_cells(self):
         flow = self.flows["law"]
@@ -137,8 +137,8 @@ class ShortMill(unittest.TestCase):
     def test_reports_are_written(self):
         for name, words in (("law", "multiplier: 1.0"), ("off", "multiplier: 0.0"), ("stock", "solver: interFoam")):
             text = (self.folder / name / "report.html").read_text()
-            for told in ("Slurry is conserved", "Tangential velocity", "Hold-up", "data:image/png", words):
-                self.assertTrue(told in text, f"{name}: {told}")
+            for part in ("Slurry is conserved", "Tangential velocity", "Hold-up", "data:image/png", words):
+                self.assertTrue(part in text, f"{name}: {part}")
 
 
 class Again(unittest.TestCase):
@@ -161,8 +161,8 @@ class Again(unittest.TestCase):
 
     def allrun(self, *options):
         """(stages that were made, stages that were kept) of an Allrun."""
-        told = run(self.case, "./Allrun", *options)
-        return tuple(re.findall(rf"^{word} (\w+):", told, re.M) for word in ("Running", "Keeping"))
+        output = run(self.case, "./Allrun", *options)
+        return tuple(re.findall(rf"^{word} (\w+):", output, re.M) for word in ("Running", "Keeping"))
 
     def refused(self, *command):
         """What a program says that fails, without its line breaks."""
@@ -196,8 +196,8 @@ class Again(unittest.TestCase):
     def test_two_at_a_time_are_refused(self):
         with open(self.case / ".stages" / "lock", "w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            told = self.refused("./Allrun")
-        self.assertIn("another Allrun is at work in", told)
+            output = self.refused("./Allrun")
+        self.assertIn("another Allrun is running in", output)
 
     def test_solids_of_an_older_dry_run_are_found(self):
         self.allrun("--until", "charge", "--set", "dem.seed=7")
@@ -206,23 +206,23 @@ class Again(unittest.TestCase):
         for time in foam.times(self.case):
             shutil.rmtree(time[1])
         shutil.copytree(self.case / "0.orig", self.case / "0")
-        told = self.refused("slurryStart")
+        output = self.refused("slurryStart")
         old, new = (read_json(folder / "mill.json", "mill")["fingerprint"]["averages"]
                     for folder in (self.whole, self.case))
         self.assertNotEqual(old, new)
         for words in ("solids.h5", old, new, "millAverage"):
-            self.assertIn(words, told)
+            self.assertIn(words, output)
 
     def test_averages_of_dumps_of_another_mill_are_refused(self):
-        told = self.refused("millAverage", "mill.yaml", "--case", ".", "--set", "dem.seed=7")
-        self.assertIn("run millDem again", told)
+        output = self.refused("millAverage", "mill.yaml", "--case", ".", "--set", "dem.seed=7")
+        self.assertIn("run millDem again", output)
 
     def test_a_flow_at_another_speed_than_the_charge_is_refused(self):
         properties = self.case / "constant" / "millProperties"
         run(self.case, "foamDictionary", "-entry", "omega", "-set", "2.5", properties)
-        told = self.refused("slurryFoam")
+        output = self.refused("slurryFoam")
         for words in ("2.5", "4.00287", "millAverage"):
-            self.assertIn(words, told)
+            self.assertIn(words, output)
 
     def test_a_finished_flow_is_not_started_over(self):
         before = (self.case / "0.05" / "alpha.slurry").read_bytes()

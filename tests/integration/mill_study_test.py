@@ -10,16 +10,18 @@ from unittest import mock
 import numpy as np
 
 from dry_study_test import load
-from millfoam import mill_runs, slurry_shape
-from millfoam.convergence import judge
-from millfoam.mill import read_mill
-from millfoam.mill_flow import MillFlow
-from millfoam.mill_runs import Setting
-from millfoam.run import RunError, run
+from millfoam.files.mill import read_mill
+from millfoam.files.written_times import MillFlow
+from millfoam.readings import shell_angles, slurry_in_cells
+from millfoam.run import RunError, run, set_options
+from millstudies import mill_runs
+from millstudies.convergence import judge
+from millstudies.mill_runs import Setting
 
 TILT = 25.0  # of a pool's surface, degrees: it stands higher on the rising side
 TIMES = (0.1, 0.2, 0.3)
-FIELD = "FoamFile {{ version 2.0; format ascii; class vol{kind}Field; }}\ninternalField nonuniform List<{item}> {count}\n(\n{rows}\n);\n"
+FIELD = ("FoamFile {{ version 2.0; format ascii; class vol{kind}Field; }}\n"
+         "internalField nonuniform List<{item}> {count}\n(\n{rows}\n);\n")
 
 
 def write_field(path, values):
@@ -38,32 +40,33 @@ def keys_of(mill, path=""):
 
 class ToeAndShoulder(unittest.TestCase):
     def ring(self, *arcs):
-        """Share in the ring's bins: 1 within the arcs (begin, end) in degrees, 0 outside, straight over four bins between."""
-        angles, share = slurry_shape.bin_centres(), 0.0
+        """Share in the ring's bins: 1 within the arcs (begin, end) in degrees, 0 outside, straight over four bins
+        between."""
+        angles, share = shell_angles.bin_centres(), 0.0
         for begin, end in arcs:
             from_middle = np.abs((angles - (begin + end) / 2 + 180) % 360 - 180)
-            share = share + np.clip(((end - begin) / 2 - from_middle) / (4 * slurry_shape.BIN) + 0.5, 0, 1)
+            share = share + np.clip(((end - begin) / 2 - from_middle) / (4 * shell_angles.BIN) + 0.5, 0, 1)
         return share
 
     def test_ends_of_an_arc_are_found_between_the_bins(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((-41.3, 67.9))), (-41.3, 67.9), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((-41.3, 67.9))), (-41.3, 67.9), atol=1e-9)
 
     def test_slurry_may_reach_past_the_top(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((10.4, 200.2))), (10.4, -159.8), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((10.4, 200.2))), (10.4, -159.8), atol=1e-9)
 
     def test_a_smaller_arc_is_not_the_slurry(self):
-        np.testing.assert_allclose(slurry_shape.toe_and_shoulder(self.ring((-20, 50), (90, 110))), (-20, 50), atol=1e-9)
+        np.testing.assert_allclose(shell_angles.toe_and_shoulder(self.ring((-20, 50), (90, 110))), (-20, 50), atol=1e-9)
 
     def test_no_slurry_and_nothing_else_have_no_ends(self):
-        bins = len(slurry_shape.bin_centres())
-        self.assertTrue(np.all(np.isnan(slurry_shape.toe_and_shoulder(np.zeros(bins)))))
-        self.assertTrue(np.all(np.isnan(slurry_shape.toe_and_shoulder(np.ones(bins)))))
+        bins = len(shell_angles.bin_centres())
+        self.assertTrue(np.all(np.isnan(shell_angles.toe_and_shoulder(np.zeros(bins)))))
+        self.assertTrue(np.all(np.isnan(shell_angles.toe_and_shoulder(np.ones(bins)))))
 
     def test_angles_count_from_straight_down_to_the_rising_side(self):
         clockwise, other = -1.0, 1.0
-        self.assertAlmostEqual(slurry_shape.shell_angle(0.0, -1.0, clockwise), 0)
-        self.assertAlmostEqual(slurry_shape.shell_angle(-1.0, 0.0, clockwise), 90)
-        self.assertAlmostEqual(slurry_shape.shell_angle(1.0, 0.0, other), 90)
+        self.assertAlmostEqual(shell_angles.shell_angle(0.0, -1.0, clockwise), 0)
+        self.assertAlmostEqual(shell_angles.shell_angle(-1.0, 0.0, clockwise), 90)
+        self.assertAlmostEqual(shell_angles.shell_angle(1.0, 0.0, other), 90)
 
 
 class TiltedPool(unittest.TestCase):
@@ -75,24 +78,24 @@ class TiltedPool(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, case)
         (case / "constant").mkdir()
         shutil.copy(mill_runs.TEMPLATE / "constant" / "bedProperties", case / "constant")
-        run(case, "millMesh", mill_runs.MILL, "--case", ".", *mill_runs.set_options(mill_runs.FINE))
+        run(case, "millMesh", mill_runs.MILL, "--case", ".", *set_options(mill_runs.FINE))
         for time in (0.0, *TIMES):
             (case / f"{time:g}").mkdir()
             (case / f"{time:g}" / "alpha.slurry").write_text("")
         cls.flow = MillFlow(case)
         for time, path in cls.flow.frames:
             cls.write_frame(time, path)
-        cls.shape = slurry_shape.read_shape(cls.flow, TIMES[0])
+        cls.shape = slurry_in_cells.read_shape(cls.flow, TIMES[0])
 
     @classmethod
     def write_frame(cls, time, path):
         flow = cls.flow
-        points, column = slurry_shape.samples(flow)
+        points, column = slurry_in_cells.samples(flow)
         x, y = flow.turned(points, time).T
         tilt = np.radians(TILT)
         # The mill turns clockwise: it rises at x < 0
         below = y + x * np.tan(tilt) < 0
-        share = np.bincount(column, below, minlength=len(flow.column_centres)) / slurry_shape.SAMPLES**2
+        share = np.bincount(column, below, minlength=len(flow.column_centres)) / slurry_in_cells.SAMPLES**2
         x, y = flow.turned(flow.centres[:, :2], time).T
         cells = len(flow.centres)
         write_field(path / "alpha.slurry", share[flow.column])
@@ -111,7 +114,7 @@ class TiltedPool(unittest.TestCase):
         self.assertAlmostEqual(np.degrees(np.arctan2(-x, -y)), TILT, delta=0.5)
 
     def test_torque_is_the_weights_and_the_gain_of_angular_momentum(self):
-        frame = slurry_shape.read_frame(self.flow, *self.flow.frames[1])
+        frame = slurry_in_cells.read_frame(self.flow, *self.flow.frames[1])
         mass = 1239 * 0.6 * self.flow.volumes.sum() / 2
         x, y = self.flow.centres[:, :2].T
         inertia = 1239 * (frame.slurry * (x**2 + y**2)).sum()
@@ -120,11 +123,13 @@ class TiltedPool(unittest.TestCase):
         self.assertAlmostEqual(self.shape.numbers["torque"][0] / expected, 1, delta=2e-3)
 
     def test_slurry_on_the_rising_side_takes_power(self):
-        self.assertAlmostEqual(self.shape.numbers["power"][0] / (self.shape.numbers["torque"][0] * self.flow.omega / 0.024), 1)
-        self.assertGreater(self.shape.numbers["power"][0], 0)
+        torque, power = (self.shape.numbers[name][0] for name in ("torque", "power"))
+        self.assertAlmostEqual(power / (torque * self.flow.omega / 0.024), 1)
+        self.assertGreater(power, 0)
 
     def test_reynolds_number_is_that_of_the_slip(self):
-        np.testing.assert_allclose(self.shape.reynolds_percentiles((5, 50, 95)), 1239 * 0.6 * 0.1 * 0.005 / 0.0014, rtol=1e-9)
+        np.testing.assert_allclose(self.shape.reynolds_percentiles((5, 50, 95)), 1239 * 0.6 * 0.1 * 0.005 / 0.0014,
+                                   rtol=1e-9)
 
     def test_share_map_is_a_tilted_half(self):
         wet = self.shape.share[np.isfinite(self.shape.share)]
@@ -207,7 +212,8 @@ class MadeOnce(unittest.TestCase):
         for setting in (Setting("one"), Setting("coarse", flow=mill_runs.COARSE)):
             self.made(setting)
             beds.append(run(self.case, "foamDictionary", "constant/bedProperties", "-keywords").split())
-        self.assertEqual((self.case_of("one") / "solids.h5").resolve(), (self.case_of("coarse") / "solids.h5").resolve())
+        self.assertEqual((self.case_of("one") / "solids.h5").resolve(),
+                         (self.case_of("coarse") / "solids.h5").resolve())
         self.assertIn("fingerprint", beds[0])
         self.assertEqual([line for line in beds[0] if line not in beds[1]], ["fingerprint"])
 
@@ -219,8 +225,9 @@ class MadeOnce(unittest.TestCase):
         limits = {f"flow.{key}" for key in mill_runs.LIMITS}
         changed = {key for key in plain if plain[key] != other.get(key)}
         # The mesh's cells and layers set the usual voxels and slices of the flow's averages
-        self.assertEqual(changed, {"resolution.cell_size", "resolution.layers", "flow.law", "flow.multiplier", "flow.slices",
-                                   "flow.averages.voxel_size", *limits})
+        self.assertEqual(changed,
+                         {"resolution.cell_size", "resolution.layers", "flow.law", "flow.multiplier", "flow.slices",
+                          "flow.averages.voxel_size", *limits})
         self.assertEqual(plain.keys(), other.keys())
         for key in limits:
             self.assertAlmostEqual(other[key], plain[key] / 2)
@@ -229,7 +236,8 @@ class MadeOnce(unittest.TestCase):
         folder = mill_runs.ROOT / "cases" / "studies"
         drag, resolution = (load(folder / name / f"{name}.py") for name in ("mill_drag_comparison", "mill_resolution"))
         for mesh, prefix, cells in (((), "", 0.003), (mill_runs.COARSE, "coarse_", 0.0045)):
-            settings = {one.name: one for one in [*drag.settings(mesh, prefix), *resolution.study(bool(prefix))[0].values()]}
+            settings = {one.name: one
+                        for one in [*drag.settings(mesh, prefix), *resolution.study(bool(prefix))[0].values()]}
             mills = {name: mill_runs.resolved(mill_runs.MILL, (*mill_runs.BASE, *one.averages, *one.flow))
                      for name, one in settings.items()}
             self.assertEqual(len({mill.fingerprint["flow"] for mill in mills.values()}), len(mills))

@@ -15,9 +15,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam import foam
-from millfoam.data_files import read_csv, read_json
-from millfoam.tables import read_columns
+from millfoam.files import foam
+from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.tables import read_columns
 
 NEW_MILL = Path(__file__).resolve().parents[2] / "scripts" / "new_mill"
 GRAVITY = 9.81  # m/s2; the critical speed is sqrt(g/R)
@@ -57,14 +57,14 @@ class MillRun:
         cls.case = folder / "case"
         (folder / "mine.yaml").write_text(cls.YAML)
         environment = {**os.environ, "MILLFOAM_NP": str(cls.RANKS)}
-        cls.told = ""
+        cls.output = ""
         for command in ([NEW_MILL, folder / "mine.yaml", cls.case], [cls.case / "Allrun"]):
             done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            cls.told += done.stdout
+            cls.output += done.stdout
             if done.returncode:
                 raise AssertionError(f"{command[0].name} of {cls.__name__} ended with {done.returncode}:\n"
-                                     f"{cls.told[-3000:]}")
+                                     f"{cls.output[-3000:]}")
         cls.mesh = foam.read_mesh(cls.case)
         cls.steps = read_csv(cls.case / "postProcessing" / "flow" / "0" / "steps.csv")
 
@@ -83,11 +83,11 @@ class MillRun:
         return dict(zip(lines[head].split()[2:], table.T))
 
     def test_no_stage_failed_and_none_was_left_out(self):
-        steps = re.findall(r"^Running (\w+):", self.told, re.M)
+        steps = re.findall(r"^Running (\w+):", self.output, re.M)
         parallel = [["flow"], ["decompose", "flow", "reconstruct"]][self.RANKS > 1]
         self.assertEqual(steps, ["walls", "charge", "average", "mesh", "check", "start", *parallel, "pictures",
                                  "report"])
-        self.assertNotIn("Traceback", self.told)
+        self.assertNotIn("Traceback", self.output)
 
     def test_the_report_is_of_this_mill(self):
         text = (self.case / "report.html").read_text()

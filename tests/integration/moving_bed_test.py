@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The bed that a flow sees: solids between windows, their volume corrected to the ledger's, cells that they do not cover,
-and beds from the dictionary that move, grow and turn."""
+"""The bed that a flow sees: solids between windows, their volume corrected to the ledger's, cells that they do not
+cover, and beds from the dictionary that move, grow and turn."""
 import re
 import unittest
 
@@ -119,13 +119,14 @@ class Ledger(RecordTest):
         np.testing.assert_allclose(found[0], 1.015 * phi.sum() - 1.8, rtol=1e-12)
 
     def test_the_largest_solidity_may_be_given(self):
-        found, = self.fields(self.ledger_case(1, entries="ledgerCorrection yes; largestSolidity 0.58;"), "solidity", STEP)
+        found, = self.fields(self.ledger_case(1, entries="ledgerCorrection yes; largestSolidity 0.58;"), "solidity",
+                             STEP)
         np.testing.assert_allclose(found, [0.62 / 6, 3.1 / 6, 0, 0.58], rtol=1e-12)
 
-    def test_the_log_tells_the_present_and_the_largest_correction(self):
+    def test_the_log_has_the_present_and_the_largest_correction(self):
         log = self.assert_runs(self.ledger_case(1.01, 0.995, end_time=0.02), "millInterFoam").log
-        told = [tuple(map(float, found)) for found in re.findall(r"volume corrected by (\S+) %, at most (\S+) %", log)]
-        np.testing.assert_allclose([told[0], told[-1]], [(1, 1), (-0.5, 1)], rtol=1e-9)
+        added = [tuple(map(float, pair)) for pair in re.findall(r"volume corrected by (\S+) %, at most (\S+) %", log)]
+        np.testing.assert_allclose([added[0], added[-1]], [(1, 1), (-0.5, 1)], rtol=1e-9)
 
     def test_particleDrag_leaves_the_solids_as_they_are(self):
         found, = self.fields(self.ledger_case(1.5, entries=""), "solidity", STEP)
@@ -141,7 +142,8 @@ class Ledger(RecordTest):
         """The refusal of solids on uniform voxels, of which the ledger says 3 % more, holds the words."""
         phi = solids.uniform(0.3, shape=shape)
         case = self.box(cells=cells, delta_t=STEP, end_time=STEP)
-        solids.write(case.path / "solids.h5", **BOX, solidity=phi, deposited=np.array([1.03 * 0.3 * 0.04 ** 3]), **options)
+        solids.write(case.path / "solids.h5", **BOX, solidity=phi, deposited=np.array([1.03 * 0.3 * 0.04 ** 3]),
+                     **options)
         case.drag('law Ergun; solids "solids.h5"; interpolation cell; ledgerCorrection yes;')
         log = case.run("millInterFoam").log
         message = " ".join(log[log.index("FOAM FATAL"):].split())
@@ -174,7 +176,8 @@ class Ledger(RecordTest):
         case = self.ledger_case(1.03, entries="ledgerCorrection yes; largestCorrection 0.04;")
         found, = self.fields(case, "solidity", STEP)
         np.testing.assert_allclose(found, 1.03 * self.phi, rtol=1e-12)
-        self.assert_refused(self.ledger_case(1.05, entries="ledgerCorrection yes; largestCorrection 0.04;"), "above 4 %")
+        self.assert_refused(self.ledger_case(1.05, entries="ledgerCorrection yes; largestCorrection 0.04;"),
+                            "above 4 %")
         self.assert_refused(self.ledger_case(1, entries="ledgerCorrection yes; largestCorrection 2;"),
                             "largestCorrection is 2", "from 0 to 1")
 
@@ -363,7 +366,8 @@ class Blocks(BlockTest):
         np.testing.assert_allclose(case.field("solidity", STEP), phi, rtol=1e-14)
         np.testing.assert_allclose(case.field("solidsVelocity", STEP),
                                    np.column_stack([first * 0.1, second * 0.2, 0 * phi]) / phi[:, None], rtol=1e-14)
-        np.testing.assert_allclose(case.field("solidsDiameter", STEP), phi / (first / 0.004 + second / 0.002), rtol=1e-14)
+        np.testing.assert_allclose(case.field("solidsDiameter", STEP), phi / (first / 0.004 + second / 0.002),
+                                   rtol=1e-14)
 
     def test_a_volume_that_is_given_is_kept(self):
         # Half of the second cell is in the block but not its centre
@@ -420,7 +424,8 @@ class Law(BlockTest):
         self.assertIn("WenYu is used beyond its range in 100 % of the slurry in the bed (2 cells): solidity above 0.2",
                       log)
         self.assertEqual(log.count("beyond WenYu's range 2 cells, 100 % of the slurry in the bed"), 2)
-        self.assertIn("beyond WenYu's range: at most 100 % of the slurry in the bed, in the mean over 2e-05 s 100 %", log)
+        self.assertIn("beyond WenYu's range: at most 100 % of the slurry in the bed, in the mean over 2e-05 s 100 %",
+                      log)
 
     def test_within_its_range_is_not_warned_of(self):
         log = self.run_log("law Ergun;").log
@@ -429,7 +434,8 @@ class Law(BlockTest):
 
     def test_polydispersity_is_a_factor_of_the_diameters(self):
         # One size: d43 = d32
-        ratio = self.run_log("law Ergun; polydispersity yes;").forces()[0, 0] / self.run_log("law Ergun;").forces()[0, 0]
+        own, plain = (self.run_log(f"law Ergun;{more}").forces()[0, 0] for more in (" polydispersity yes;", ""))
+        ratio = own / plain
         self.assertAlmostEqual(ratio, 1 + 0.064 * 0.5, delta=2e-5)
 
     def test_pore_viscosity_without_a_yield_stress_is_the_plastic_one(self):

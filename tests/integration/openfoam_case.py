@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 
 DENSITY, VISCOSITY = 1000.0, 1e-3
 FLUIDS = f"slurry {{ rho {DENSITY}; mu {VISCOSITY}; }} air {{ rho 1.2; mu 1.8e-5; }}"

@@ -51,7 +51,7 @@ static void shake(fvMesh& mesh)
 }
 
 
-//- Counts a difference above the tolerance, and tells it
+//- Counts a difference above the tolerance, and prints it
 static label differs(
     const char* what, const scalar found, const scalar expected,
     const scalar tolerance)

@@ -42,7 +42,8 @@ class SlurryCase(BoxCase):
     """A closed box, gravity along -y, with a pool whose surface is tilted, and no bed yet."""
 
     def __init__(self, folder, *, upper=(0.14, 0.1, 0.02), cells=(14, 10, 2), delta_t=0.002, end_time=0.02,
-                 level=lambda x: 0.045 + 0.2 * (x - 0.07), bingham=BINGHAM, motion="dynamicFvMesh staticFvMesh;", **options):
+                 level=lambda x: 0.045 + 0.2 * (x - 0.07), bingham=BINGHAM, motion="dynamicFvMesh staticFvMesh;",
+                 **options):
         self.shape, self.upper = np.array(cells), np.array(upper)
         super().__init__(folder, upper=upper, cells=cells, gravity=(0, -9.81, 0), alpha=self.below(level),
                          delta_t=delta_t, end_time=end_time, write_interval=5,
@@ -107,8 +108,8 @@ class SlurryCase(BoxCase):
 
     def field_file(self, name, kind, dimensions, value, patches):
         """A further field at time 0; patches: its boundaryField."""
-        self.write(f"0/{name}", f"dimensions [{dimensions}]; internalField uniform {value}; boundaryField {{ {patches} }}",
-                   kind)
+        self.write(f"0/{name}",
+                   f"dimensions [{dimensions}]; internalField uniform {value}; boundaryField {{ {patches} }}", kind)
 
 
 class SlurryTest(OpenFoamTest):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam goes on after a restart and on two ranks as it would have, and loses nothing: in a closed box with a moving
-bed, on meshes that stand still and turn."""
+"""slurryFoam gives the same after a restart and on two ranks, and loses nothing: in a closed box with a
+moving bed, on meshes that stand still and turn."""
 import re
 import shutil
 import unittest
@@ -9,16 +9,17 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 from openfoam_case import require_environment, rotating_mesh
-from slurry_case import AIR, SLURRY, SlurryTest
+from slurry_case import SlurryTest
 
 MILL = Path(__file__).resolve().parents[2] / "scripts" / "mill_case"
 # Soft edges and a way that goes through the surface; it stays inside the box.
 BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005;"
          " velocity (0.3 0.3 0); moves yes; }")
 # Reaches into the walls wherever the box has turned to; as soft as the cells that pass through its edge.
-PILE = "block { box (-1 -1 -1) (1 0.05 1); edge 0.03; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; velocity (0.1 0 0); }"
+PILE = ("block { box (-1 -1 -1) (1 0.05 1); edge 0.03; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; "
+        "velocity (0.1 0 0); }")
 
 
 class Restart(SlurryTest):
@@ -112,7 +113,6 @@ class Ranks(SlurryTest):
         for name in ("U", "p_rgh", "alpha.slurry", "phi"):
             scale = np.abs(one[name]).max()
             np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-7 * scale, err_msg=name)
-
 
     def test_nor_do_they_on_a_mesh_that_turns_through_a_bed(self):
         one, two = (self.run_case(ranks, PILE, motion=rotating_mesh(3)) for ranks in (1, 2))

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates of
-porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write down."""
+"""slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates
+of porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write
+down."""
 import unittest
 
 import numpy as np
@@ -17,8 +18,8 @@ NEWTONIAN = "yieldStress 0; plasticViscosity 1.4e-3; regularisation biviscosity;
 
 class ColumnTest(SlurryTest):
     def column(self, *, level, across=2, **options):
-        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across), level=lambda x: level + 0 * x,
-                                **options)
+        case = self.slurry_case(upper=(WIDTH, HEIGHT, WIDTH), cells=(across, ROWS, across),
+                                level=lambda x: level + 0 * x, **options)
         for side in ("left", "right", "back", "front"):
             case.at_patch(side, U=SLIP)
         return case
@@ -49,9 +50,9 @@ class Piston(ColumnTest):
         return case
 
     def assert_carried(self, case, tolerance, solidity=0, level_tolerance=1e-5):
-        """The slurry's superficial velocity is the piston's in the last step; it lies flat, as high as before over the
-        piston, since the balls' volume stays in it. The four columns' mean height is held to 1e-5 of a cell, each one's to
-        `level_tolerance`."""
+        """In the last step, the slurry's superficial velocity is the piston's. Its surface is flat and as high above
+        the piston as before, because the balls' volume stays in it: the four columns' mean height to 1e-5 of a cell,
+        that of each column to `level_tolerance`."""
         slurry = case.steps()["slurry_m3"]
         np.testing.assert_allclose(slurry, slurry[0], rtol=1e-8)
 
@@ -95,9 +96,9 @@ class Feed(ColumnTest):
         case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
                       alpha="type fixedValue; value uniform 1;")
         self.assert_runs(case, "slurryFoam")
-        told = case.steps()
-        found = told["slurry_m3"]
-        self.assertLess(max(-told["alpha_min"].min(), told["alpha_max_minus_1"].max()), 1e-6)
+        columns = case.steps()
+        found = columns["slurry_m3"]
+        self.assertLess(max(-columns["alpha_min"].min(), columns["alpha_max_minus_1"].max()), 1e-6)
         steps = np.arange(1, len(found) + 1)
         expected = AREA * (self.level + self.speed * self.step * steps)
         row = HEIGHT / ROWS
@@ -155,7 +156,7 @@ class Grate(ColumnTest):
 
 
 class Divergence(ColumnTest):
-    def test_is_told_and_ends_the_run(self):
+    def test_is_reported_and_ends_the_run(self):
         case = self.column(level=HEIGHT, end_time=0.2)
         case.open_top()
         case.adjusted(0.2, 0.2)

@@ -88,19 +88,19 @@ class Steps(SlurryTest):
         mean = np.average(steps["beyond_law"], weights=steps["deltaT_s"])
         self.assertAlmostEqual(record["beyond_law"]["mean"], mean, delta=1e-12)
 
-    def test_force_on_the_balls_is_told_at_written_times(self):
+    def test_force_on_the_balls_is_written_at_written_times(self):
         case, steps, record, _ = self.run_pool()
-        told = np.isfinite(steps["force_mean"])
-        np.testing.assert_allclose(steps["time_s"][told], [self.half, self.end], rtol=1e-9)
+        known = np.isfinite(steps["force_mean"])
+        np.testing.assert_allclose(steps["time_s"][known], [self.half, self.end], rtol=1e-9)
         mean = np.average(case.field("forceOverWeight", self.end), weights=case.field("solidity", self.end))
         self.assertAlmostEqual(steps["force_mean"][-1], mean, delta=1e-9)
-        self.assertAlmostEqual(record["force_on_balls"]["mean"], steps["force_mean"][told].mean(), delta=1e-12)
+        self.assertAlmostEqual(record["force_on_balls"]["mean"], steps["force_mean"][known].mean(), delta=1e-12)
         self.assertEqual(record["force_on_balls"]["times"], 2)
 
     def test_the_solver_of_the_pressure_is_counted(self):
         _, steps, _, log = self.run_pool()
-        told = [int(line.rsplit(" ", 1)[1]) for line in log.splitlines() if "Solving for p_rgh" in line]
-        self.assertEqual(steps["pressure_iterations"].sum(), sum(told))
+        iterations = [int(line.rsplit(" ", 1)[1]) for line in log.splitlines() if "Solving for p_rgh" in line]
+        self.assertEqual(steps["pressure_iterations"].sum(), sum(iterations))
         self.assertLess(steps["pressure_residual"].max(), 1e-11)
 
     def test_two_ranks_leave_the_same(self):

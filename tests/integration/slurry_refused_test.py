@@ -151,7 +151,6 @@ class Record(RefusedTest):
                                   "outOfRange")
         self.assertNotIn("Time = ", result.log)
 
-
     def test_another_speed_of_the_mill(self):
         case = self.record(entries="omega -6.4;", attributes={"angular_velocity": -6.1})
         self.assert_says(case, "bedProperties", "omega is -6.4 rad/s", "solids.h5", "-6.1 rad/s", "millAverage again")
@@ -249,7 +248,6 @@ class Start(RefusedTest):
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
         case.write("system/slurryStartDict", "start pool; level 0.02;")
         self.assert_says(case, "constant/g", "gravity", program="slurryStart")
-
 
     def begun(self, *times):
         case = self.small()

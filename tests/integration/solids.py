@@ -43,8 +43,9 @@ def _write(path, grid, solidity, volumes, *, velocity=(0, 0, 0), diameter=DIAMET
            timestep=1e-5, whole_run=False, deposited=None, **attributes):
     """One window of `window` seconds after another from `time0` on, without gaps.
 
-    velocity and diameter are the same everywhere, or full arrays like solidity; deposited: what the ledger says, m^3 per
-    window, unless it is the solids' volume; attributes: of the root, such as angular_velocity (rad/s), mill_averages."""
+    velocity and diameter are the same everywhere, or full arrays like solidity; deposited: what the ledger says, m^3
+    per window, unless it is the solids' volume; attributes: of the root, such as angular_velocity (rad/s),
+    mill_averages."""
     windows = len(solidity)
     with h5py.File(path, "w") as file:
         file.attrs.update(format="millfoam-solids", version=np.int32(2), complete=np.int32(1), time0=time0,

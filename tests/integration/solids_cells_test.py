@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import solids
-from millfoam import foam
+from millfoam.files import foam
 from openfoam_case import OpenFoamTest, require_environment, rotating_mesh
 
 FIELDS = ("solidity", "solidsVelocity", "solidsDiameter")

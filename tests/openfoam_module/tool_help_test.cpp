@@ -15,8 +15,8 @@ namespace {
 const ToolHelp help{
     "slurryStart", "Sets slurry", {"[-case DIR]"}, {"system/slurryStartDict  how"}, {"0/alpha.slurry"}};
 
-/// What the tool says of itself; "-" where it goes on to work.
-std::string told(std::vector<const char*> words) {
+/// What the tool prints about itself; "-" if it starts its work.
+std::string printed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/slurryStart");
   std::ostringstream out;
   return told_of_itself(static_cast<int>(words.size()), words.data(), help, out) ? out.str()
@@ -24,23 +24,23 @@ std::string told(std::vector<const char*> words) {
 }
 
 TEST(ToolHelp, SaysWhatTheToolReadsAndWrites) {
-  EXPECT_THAT(told({"--help"}),
+  EXPECT_THAT(printed({"--help"}),
               ::testing::HasSubstr("Sets slurry.\n\nUsage: slurryStart [-case DIR]\n\nReads:\n"
                                    "  system/slurryStartDict  how\n\nWrites:\n  0/alpha.slurry\n"));
 }
 
 TEST(ToolHelp, IsFoundAmongOtherOptions) {
-  EXPECT_THAT(told({"-case", "x", "--help"}), ::testing::HasSubstr("Reads:"));
+  EXPECT_THAT(printed({"-case", "x", "--help"}), ::testing::HasSubstr("Reads:"));
 }
 
 TEST(ToolHelp, TellsTheVersionOfTheProgram) {
-  EXPECT_EQ(told({"--version"}), std::string("slurryStart ") + millfoam::version() + "\n");
+  EXPECT_EQ(printed({"--version"}), std::string("slurryStart ") + millfoam::version() + "\n");
 }
 
 TEST(ToolHelp, LeavesEverythingElseToOpenFoam) {
-  EXPECT_EQ(told({}), "-");
-  EXPECT_EQ(told({"-help"}), "-");
-  EXPECT_EQ(told({"-case", "x"}), "-");
+  EXPECT_EQ(printed({}), "-");
+  EXPECT_EQ(printed({"-help"}), "-");
+  EXPECT_EQ(printed({"-case", "x"}), "-");
 }
 
 TEST(Rotation, PositiveIsAnticlockwiseWithXToTheRightAndYUp) {

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from millfoam.axial import fit_gaussians, gaussians
+from millfoam.readings.axial import fit_gaussians, gaussians
 
 Z = np.linspace(0.005, 0.3, 33)
 TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of a charge are written, and are not blank; errors of all readings over windows that are alike are nought."""
+"""Pictures of a charge are written, and are not blank; errors of all readings over windows that are alike are
+zero."""
 import io
 import unittest
 
@@ -8,9 +9,10 @@ import numpy as np
 from PIL import Image
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.charge import charge_with_errors, read_charge
-from millfoam.charge_plots import charge_figure, tangential_figure
-from millfoam.mill_plots import circle, save
+from millfoam.files.outline import circle
+from millfoam.plots.charge_plots import charge_figure, tangential_figure
+from millfoam.plots.mill_plots import save
+from millfoam.readings.charge import charge_with_errors, read_charge
 
 
 class Pictures(unittest.TestCase):

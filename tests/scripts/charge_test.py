@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from millfoam.charge import circulation_centre, read_charge, stream_function, tangential_profile
-from millfoam.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
-from millfoam.solids import ANTICLOCKWISE, SolidsMap
+from millfoam.files.solids_file import ANTICLOCKWISE, SolidsMap
+from millfoam.readings.charge import circulation_centre, read_charge, stream_function, tangential_profile
+from millfoam.readings.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
 
 RADIUS, WALL, PHI = 0.15, 0.008, 0.55
 
@@ -33,7 +33,7 @@ def charge_map(solidity, velocity, voxels=65, part=8):
 
 
 def below(line):
-    """Solidity PHI below the line y = line(x), nought above."""
+    """Solidity PHI below the line y = line(x), zero above."""
     return lambda x, y: np.where(y < line(x), PHI, 0.0)
 
 
@@ -61,7 +61,7 @@ class Centre(unittest.TestCase):
     def test_of_a_rigidly_turning_half_disc_is_where_it_turns_about(self):
         centre = (-0.03, -0.06)
         found = circulation_centre(charge_map(below(lambda x: 0 * x), turning(5, centre)), RADIUS)
-        # Voxels cut by the surface tell the velocity of their lower part only
+        # Voxels cut by the surface have the velocity of their lower part only
         np.testing.assert_allclose(found, centre, atol=1e-5)
 
     def test_of_a_closed_stream_is_that_of_its_stream_function(self):
@@ -80,7 +80,7 @@ class Centre(unittest.TestCase):
         exact = np.where((y < 0) & (np.hypot(x, y) < RADIUS), 300 * PHI * y * (RADIUS**2 - x**2 - y**2), 0)
         apart = np.abs(stream_function(charge) - exact) / np.abs(exact).max()
         self.assertAlmostEqual(stream_function(charge).min() / exact.min(), 1, delta=0.02)
-        # Where the flux ends within a voxel, at shell and surface, no more than its share of the depth can be told
+        # Where the flux ends within a voxel, at shell and surface, only its share of the depth is known
         self.assertLess(apart.max(), 2 / 33)
 
     def test_there_is_none_where_nothing_turns_with_the_mill(self):
@@ -170,13 +170,13 @@ class Surface(unittest.TestCase):
     def test_a_thin_charge_has_none_and_does_not_centrifuge(self):
         thin = charge_map(lambda x, y: np.where((np.hypot(x, y) > 0.144) & (y < -0.1), PHI, 0), turning(5, (0, 0)))
         with self.assertRaisesRegex(RuntimeError, "no free surface.*the charge covers 2[5-9] % of the shell: it is too "
-                                                  "thin") as told:
+                                                  "thin") as caught:
             free_surface(thin, RADIUS, WALL)
-        self.assertNotIn("centrifug", str(told.exception))
+        self.assertNotIn("centrifug", str(caught.exception))
         with self.assertRaisesRegex(RuntimeError,
-                                    "no centre of circulation.*the charge covers 2[5-9] % of the shell") as told:
+                                    "no centre of circulation.*the charge covers 2[5-9] % of the shell") as caught:
             circulation_centre(thin, RADIUS)
-        self.assertNotIn("centrifug", str(told.exception))
+        self.assertNotIn("centrifug", str(caught.exception))
 
 
 class Tangential(unittest.TestCase):
@@ -202,7 +202,7 @@ class Tangential(unittest.TestCase):
     def test_rigid_rotation_has_the_speed_of_the_mill(self):
         profile = tangential_profile(charge_map(below(lambda x: 0 * x), turning(5, (0, -0.06))), RADIUS, WALL)
         np.testing.assert_allclose(profile.shear_rate, 5, atol=0.15)
-        # Voxels that the surface halves tell the velocity of their lower half
+        # Voxels that the surface halves have the velocity of their lower half
         np.testing.assert_allclose(profile.velocity, 5 * (profile.distance - 0.06), atol=5 * 2 * RADIUS / 65 / 2)
 
     def test_the_mills_sense_is_positive_along_any_line(self):

@@ -11,10 +11,11 @@ from types import SimpleNamespace
 import numpy as np
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.compare import CLOSEST, compare, difference, difference_maps, read_measured, surface_difference
-from millfoam.free_surface import free_surface, toe_and_shoulder
-from millfoam.report import held_against
-from millfoam.solids import SolidsMap
+from millfoam.files.measured_map import read_measured
+from millfoam.files.solids_file import SolidsMap
+from millfoam.readings.compare import CLOSEST, compare, difference, difference_maps, surface_difference
+from millfoam.readings.free_surface import free_surface, toe_and_shoulder
+from millfoam.report import measurements
 
 
 def uniform(solidity, speed):
@@ -78,10 +79,10 @@ class Surface(unittest.TestCase):
 
     def test_of_such_as_do_not_stand_over_each_other_is_refused(self):
         surface = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
-        beside = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
-        beside.points = beside.points + (0.4, 0)
-        with self.assertRaisesRegex(RuntimeError, "do not stand over each other"):
-            surface_difference(surface, beside)
+        shifted = free_surface(charge_map(below(lambda x: -0.03 + 0 * x), turning(5, (0, 0))), RADIUS)
+        shifted.points = shifted.points + (0.4, 0)
+        with self.assertRaisesRegex(RuntimeError, "have no common range of x"):
+            surface_difference(surface, shifted)
 
 
 class Measured(unittest.TestCase):
@@ -117,7 +118,9 @@ class Measured(unittest.TestCase):
 
     def test_only_what_is_known_of_the_surface_is_read(self):
         # Without this the edge of the lower rows is taken for the surface
-        line = lambda x: -0.03 - 0.4 * x
+        def line(x):
+            return -0.03 - 0.4 * x
+
         charge = charge_map(below(line), turning(5, (-0.03, -0.06)), voxels=32)
         whole = free_surface(charge, RADIUS)
         for rows, columns in ((slice(14), slice(None)), (slice(None), slice(18)), (slice(None), slice(14, None))):
@@ -142,9 +145,11 @@ class Measured(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="measured-")
         self.addCleanup(folder.cleanup)
         x, y = np.meshgrid(*charge.centres())
-        table = np.column_stack([values.ravel() for values in (x, y, charge.solidity, *np.moveaxis(charge.velocity, -1, 0)[:2])])
+        table = np.column_stack([values.ravel()
+                                 for values in (x, y, charge.solidity, *np.moveaxis(charge.velocity, -1, 0)[:2])])
         path = Path(folder.name) / "measured.csv"
-        rows = [",".join("" if np.isnan(value) else f"{value:.9g}" for value in row) for row in table[charge.inside.ravel() > 0]]
+        rows = [",".join("" if np.isnan(value) else f"{value:.9g}" for value in row)
+                for row in table[charge.inside.ravel() > 0]]
         path.write_text("\n".join(["x_m,y_m,solidity,vx,vy", *rows]) + "\n")
         found = compare(charge, read_measured(path, charge), RADIUS)
         self.assertEqual(found.difference.missing, 0)
@@ -168,7 +173,7 @@ class Measured(unittest.TestCase):
         charge = charge_map(below(lambda x: -0.01 + 0 * x), turning(5, (0, -0.06)), voxels=32)
         other = replace(charge, solidity=charge.solidity.copy(), velocity=np.full_like(charge.velocity, np.nan))
         other.solidity[13:] = np.nan
-        rows = dict(held_against.difference_rows(SimpleNamespace(charge=charge, radius=RADIUS), other,
+        rows = dict(measurements.difference_rows(SimpleNamespace(charge=charge, radius=RADIUS), other,
                                                  difference_maps(charge, other)))
         self.assertEqual((rows["velocity, x"], rows["velocity, y"]), ("not known", "not known"))
         self.assertIn("not known", rows["free surface"])
@@ -180,13 +185,14 @@ class Measured(unittest.TestCase):
                 (["x_m,y_m,vx,vy", first], "line 1: no column solidity in 'x_m,y_m,vx,vy'"),
                 ([], "line 1: no column x_m"),
                 ([head], "measured.csv: no voxels"),
-                ([head, first, "0.375,0.125,much,0,0"], "line 3, column solidity: 'much'; expected a number from 0 to 1"),
+                ([head, first, "0.375,0.125,much,0,0"],
+                 "line 3, column solidity: 'much'; expected a number from 0 to 1"),
                 ([head, "0.125,0.125,1.2,0,0"], "line 2, column solidity: '1.2'; expected a number from 0 to 1"),
                 ([head, "0.125,0.125,0.4,nan,0"], "line 2, column vx: 'nan'; expected a number"),
                 ([head, "0.125,0.125,0.4,1"], "line 2, column vy: ''; expected a number"),
                 ([head, "0.2,0.125,0.4,0,0"], "line 2, column x_m: 0.2 m is no voxel's centre; expected 4 voxels"),
                 ([head, "0.125,1.125,0.4,0,0"], "line 2, column y_m: 1.125 m is no voxel's centre"),
-                ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was told before")):
+                ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was given before")):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 self.read(*rows)
 

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
-from millfoam.contacts import Contacts, read_contacts, read_materials
+from millfoam.files.contact_dumps import read_materials
+from millfoam.readings.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
+from millfoam.readings.contacts import Contacts, read_contacts
 from report_cases import write_json
 
 RADIUS, DENSITY, OVERLAP = 0.01, 2500.0, 1e-4
@@ -46,8 +47,8 @@ class Case(unittest.TestCase):
         write_json(self.case / "dumps" / "run.json", "dumps", timestep_s=1e-5, interval=100, angular_velocity_rad_s=-6)
 
     def write(self, kind, head, rows, step=100):
-        lines = ["ITEM: TIMESTEP", step, "ITEM: NUMBER OF ENTRIES", len(rows), "ITEM: BOX BOUNDS ff ff pp", "-1 1", "-1 1", "0 1",
-                 "ITEM: " + head + " "]
+        lines = ["ITEM: TIMESTEP", step, "ITEM: NUMBER OF ENTRIES", len(rows), "ITEM: BOX BOUNDS ff ff pp", "-1 1",
+                 "-1 1", "0 1", "ITEM: " + head + " "]
         text = [" ".join(f"{float(value):.9g}" for value in row) + " " for row in rows]
         (self.case / "contacts" / f"{kind}.{step}.txt").write_text("\n".join(map(str, lines + text)) + "\n")
 
@@ -117,7 +118,8 @@ class Refused(Case):
         whole = path.read_text()
         materials = read_materials(self.case / "dem" / "in.mill")
         one = whole.replace("ENTRIES\n0", "ENTRIES\n1")
-        for text, message in ((whole.replace("ENTRIES\n0", "ENTRIES\n2"), "pairs.100.txt: 9 lines, expected a dump of 2"),
+        for text, message in ((whole.replace("ENTRIES\n0", "ENTRIES\n2"),
+                               "pairs.100.txt: 9 lines, expected a dump of 2"),
                               (whole.replace("[10]", "[11]"), r"pairs.100.txt:9: .*expected 10 among"),
                               (one + "1 2 3\n", "pairs.100.txt:10: '1 2 3', expected 10"),
                               (one + "1 9 0 1 0 0 0 0 0 1e-4\n", "balls.100.txt: no ball 9")):
@@ -156,7 +158,8 @@ class Spectra(Case):
         begins = np.random.default_rng(3).uniform(0, records * interval, number)
         open_at = [[] for _ in range(records)]
         for ball, begin in enumerate(begins):
-            for record in range(int(np.ceil(begin / interval)), min(records, int((begin + self.duration) // interval) + 1)):
+            for record in range(int(np.ceil(begin / interval)),
+                                min(records, int((begin + self.duration) // interval) + 1)):
                 open_at[record].append((ball, ball + number))
         found = spectra(((moments(keys), moments([])) for keys in open_at), interval, energy_edges())
         return found, number / (records * interval)
@@ -171,7 +174,8 @@ class Spectra(Case):
             self.assertGreater(found.collisions[1, 1, bin_], 0)
 
     def test_a_contact_that_lasts_is_one_collision_and_one_from_the_start_is_none(self):
-        records = [(moments(keys), moments([])) for keys in ([(1, 2)], [(1, 2), (3, 4)], [(1, 2), (3, 4)], [(1, 2), (3, 4)])]
+        records = [(moments(keys), moments([]))
+                   for keys in ([(1, 2)], [(1, 2), (3, 4)], [(1, 2), (3, 4)], [(1, 2), (3, 4)])]
         found = spectra(records, 1.0, energy_edges())
         self.assertAlmostEqual(found.collisions.sum(), 1 / 2)
 
@@ -190,8 +194,9 @@ class Spectra(Case):
         found = read_spectra(self.case, 0.001, 0.003)
         self.assertEqual((found.dumps, round(found.interval, 9)), (3, 0.001))
         self.assertAlmostEqual(found.dissipation().sum(), 0.2, places=6)
-        (self.case / "dumps" / "energy.csv").write_text("time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n"
-                                                        "0.1,1,9,1,2,0\n0.2,1,5,1.1,2,0\n0.3,1,7,1.1,2.3,0\n")
+        (self.case / "dumps" / "energy.csv").write_text(
+            "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n"
+            "0.1,1,9,1,2,0\n0.2,1,5,1.1,2,0\n0.3,1,7,1.1,2.3,0\n")
         self.assertAlmostEqual(power_to_dissipate(self.case), 6 - 0.4 / 0.2)
         with self.assertRaisesRegex(RuntimeError, "1 records from 0.25"):
             power_to_dissipate(self.case, 0.25)

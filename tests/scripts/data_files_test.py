@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.axial import discharge, slurry_volumes
-from millfoam.data_files import DataError, number, read_csv, read_json
-from millfoam.flow_record import read_flow_record
-from millfoam.mill import fnv1a, read_mill
-from millfoam.slurry_shape import count_steps
+from millfoam.files.data_files import DataError, number, read_csv, read_json
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.mill import fnv1a, read_mill
+from millfoam.readings.axial import discharge, slurry_volumes
+from millfoam.readings.slurry_in_cells import count_steps
 from report_cases import OMEGA, PRINTS, change_json, write_mill, write_steps
 
 
@@ -57,7 +57,7 @@ class Csv(Folder):
 
     def test_a_line_that_is_no_row_of_numbers_is_named(self):
         for text, words in (("a,b\n1,2\n3\n", "line 3 has 1 numbers; expected 2"),
-                            ("a,b\n1,much\n", "line 2: .*much"), ("", "no line")):
+                            ("a,b\n1,much\n", "line 2: .*much"), ("", "no complete line")):
             self.file.write_text(text)
             with self.assertRaisesRegex(DataError, words):
                 read_csv(self.file)
@@ -154,7 +154,7 @@ class Flow(Folder):
         with self.assertRaisesRegex(RuntimeError, "no two steps from 2 s on"):
             discharge(times, volumes, 3e-5, 2)
 
-    def test_a_record_cut_short_is_told(self):
+    def test_a_record_cut_short_is_reported(self):
         write_steps(self.folder, 0, np.array([0.1]))
         path = self.folder / "postProcessing" / "flow" / "0" / "flow.json"
         change_json(path, "complete", to=False)

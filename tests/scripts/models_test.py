@@ -6,7 +6,8 @@ import unittest
 import numpy as np
 from scipy.integrate import quad
 
-from millfoam.models import Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up, surface_number
+from millfoam.readings.models import (Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up,
+                                      surface_number)
 
 CHARGE = Charge(radius=0.15, length=0.3, porosity=0.4, diameter=0.005)
 SLURRY = {"viscosity": 0.01, "density": 1300.0}
@@ -60,15 +61,16 @@ class Surface(unittest.TestCase):
 
     def test_that_asks_for_negative_friction_is_fitted_with_none_and_not_described(self):
         along = np.linspace(-0.7, 0.6, 60)
-        # Bent up at both ends, as no friction bends it; steepest at the axis, as much of the ends' friction and less than none
-        # within would make it
+        # Bent up at both ends, as no friction bends it; steepest at the axis, as much of the ends' friction and less
+        # than none within would make it
         for height in (0.4 * along + 0.3 * along ** 2, 0.4 * np.sin(3 * along)):
             found, rest = fit_free_surface(-along, height, 0.2)
             self.assertGreaterEqual(min(found.internal, found.wall), 0)
             self.assertFalse(describes(found, rest))
 
     def test_number_has_no_dimension(self):
-        # Lengths in cm and times in ms with gravity in cm/ms^2 would give the same: Omega^2 d / g and R / L are pure numbers
+        # Lengths in cm and times in ms with gravity in cm/ms^2 would give the same: Omega^2 d / g and R / L are pure
+        # numbers
         self.assertAlmostEqual(surface_number(6.0, 0.005, 0.15, 0.3), (36 * 0.005 / 9.81) ** 0.25 / 2, places=12)
         self.assertAlmostEqual(surface_number(3.0, 0.02, 0.15, 0.3), surface_number(6.0, 0.005, 0.15, 0.3), places=12)
 
@@ -82,14 +84,15 @@ class Surface(unittest.TestCase):
 class HoldUp(unittest.TestCase):
     def test_is_the_integral_of_the_pores_cross_section_over_the_length(self):
         for flow, depth in ((5e-7, 0.02), (1e-5, 0.02), (1e-4, 0.02), (1e-4, 0.0), (1e-3, 0.05)):
-            integral = quad(lambda z: 0.4 * CHARGE.cross_section(slurry_depth(CHARGE, z, flow, depth, **SLURRY)), 0, 0.3,
-                            epsrel=1e-12)[0]
+            integral = quad(lambda z: 0.4 * CHARGE.cross_section(slurry_depth(CHARGE, z, flow, depth, **SLURRY)), 0,
+                            0.3, epsrel=1e-12)[0]
             self.assertAlmostEqual(slurry_hold_up(CHARGE, flow, depth, **SLURRY) / integral, 1, places=9)
 
     def test_is_the_printed_formula_where_that_does_not_cancel(self):
         flow, depth = 2e-4, 0.03
         b = CHARGE.resistance(**SLURRY)
-        printed = 0.4 * np.pi * np.sqrt(0.15) * ((depth ** 2.5 + 2.5 * b * flow * 0.3) ** 1.6 - depth ** 4) / (8 * b * flow)
+        feed_end = (depth ** 2.5 + 2.5 * b * flow * 0.3) ** 1.6
+        printed = 0.4 * np.pi * np.sqrt(0.15) * (feed_end - depth ** 4) / (8 * b * flow)
         self.assertAlmostEqual(slurry_hold_up(CHARGE, flow, depth, **SLURRY) / printed, 1, places=12)
 
     def test_without_flow_is_that_of_a_flat_pool_and_no_flow_is_reached_smoothly(self):

@@ -6,9 +6,9 @@ import unittest
 import numpy as np
 
 from charge_test import RADIUS, WALL, below, cell, charge_map, noisy, turning
-from millfoam import other_readings as other
-from millfoam.charge import tangential_profile
-from millfoam.free_surface import free_surface, logistic
+from millfoam.readings.charge import tangential_profile
+from millfoam.readings.free_surface import free_surface, logistic
+from millstudies import other_readings as other
 
 
 def flying(solidity, line, thin):

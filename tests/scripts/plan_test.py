@@ -12,7 +12,8 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from millfoam import plan_trial
+from millfoam.plan import trial
+from millfoam.run import RunError
 
 SMALL = """
 geometry: {diameter: 0.1, length: 0.02, ends: periodic, lifters: {count: 8, height: 0.008, width: 0.008}}
@@ -41,7 +42,8 @@ echo '{"format": "millfoam-dem-plan", "wall_time_s": 600, "disk_bytes": 5e9, "me
 FLOW = f"""grep -c "^endTime 0.03;" system/controlDict
 [ ! -e constant/bedProperties ] || exit 1
 mkdir -p postProcessing/steps/0
-{{ printf '# Time\tcpuTime\tclockTime\n'; seq 0 30 | awk '{{ print $1, 40 + {STEP} * $1, 1 }}'; }} > postProcessing/steps/0/timeInfo.dat"""
+{{ printf '# Time\tcpuTime\tclockTime\n'; seq 0 30 | awk '{{ print $1, 40 + {STEP} * $1, 1 }}'; }} \\
+    > postProcessing/steps/0/timeInfo.dat"""
 STUBS = {"millMesh": MILL_MESH, "millDem": MILL_DEM, "slurryStart": "true", "decomposePar": "mkdir processor0",
          "mpirun": 'shift 2; "$@"', "slurryFoam": FLOW}
 
@@ -153,7 +155,7 @@ class Arithmetic(Folder):
         self.assertEqual(list(stages), ["mesh", "start", "flow", "pictures and report"])
         self.assertAlmostEqual(stages["flow"]["time_s"], 1000 * STEP * 2.0)
         self.assertEqual(content["charge_from"], "../dry")
-        self.assertIn("come from ../dry", text)
+        self.assertIn("are those of ../dry", text)
 
     def test_table_and_total(self):
         self.write(mill())
@@ -177,12 +179,24 @@ class Arithmetic(Folder):
         (self.folder / "stubs" / "slurryFoam").write_text("#!/bin/sh\necho FOAM FATAL ERROR: no room\nexit 1\n")
         done = self.plan()
         self.assertEqual(done.returncode, 1)
-        self.assertIn("slurryFoam failed; it printed last:\nFOAM FATAL ERROR: no room", done.stderr)
+        self.assertIn("slurryFoam failed; its output ends with:\nFOAM FATAL ERROR: no room", done.stderr)
 
     def test_a_folder_without_a_mill_is_refused(self):
         done = self.plan()
         self.assertEqual(done.returncode, 1)
         self.assertIn("no mill.json", done.stderr)
+
+
+class Steps(unittest.TestCase):
+    def test_the_first_ones_are_not_counted(self):
+        first = [40.0 + 0.1 * step for step in range(trial.FIRST_STEPS)]
+        later = [first[-1] + STEP * step for step in range(1, 22)]
+        self.assertAlmostEqual(trial.step_time(first + later), STEP)
+
+    def test_too_few_are_refused(self):
+        for times in ([], [1.0]):
+            with self.assertRaisesRegex(RunError, f"made {len(times)} steps; expected 2 or more"):
+                trial.step_time(times)
 
 
 class SmallMill(Folder):
@@ -200,16 +214,16 @@ class SmallMill(Folder):
         for solver in ("slurryFoam", "interFoam"):
             case = self.folder / solver
             case.mkdir()
-            mesh = plan_trial.try_mesh(case, self.folder / "mill.json")
+            mesh = trial.try_mesh(case, self.folder / "mill.json")
             self.assertEqual(mesh.cells, 6 * mesh.cells_in_section)
-            with mock.patch.object(plan_trial, "TRIAL_TIME", 0):
-                trial = plan_trial.try_flow(case, solver, 1e-3, 2)
-            self.assertIn(len(plan_trial.execution_times(case)), range(plan_trial.FEWEST_STEPS, 40))
-            self.assertGreater(trial.step_time, 0)
+            with mock.patch.object(trial, "TRIAL_TIME", 0):
+                flow = trial.try_flow(case, solver, 1e-3, 2)
+            self.assertIn(len(trial.execution_times(case)), range(trial.FEWEST_STEPS, 40))
+            self.assertGreater(flow.step_time, 0)
             # Of a rank with OpenFOAM's libraries, not of mpirun
-            self.assertGreater(trial.memory, 80e6)
+            self.assertGreater(flow.memory, 80e6)
 
-    def test_every_stage_of_a_real_mill_is_told(self):
+    def test_every_stage_of_a_real_mill_is_planned(self):
         (self.folder / "mill.yaml").write_text(SMALL)
         subprocess.run(["millMesh", "mill.yaml", "--resolved", "mill.json"], cwd=self.folder, check=True)
         content, stages, text = self.planned("-np", "2")

@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from charge_test import RADIUS, below, charge_map, turning
-from millfoam.mill import fnv1a
+from millfoam.files.mill import fnv1a
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "integration"))
 import mesh as hexahedra  # noqa: E402
@@ -198,6 +198,8 @@ def write_time(folder, time, places):
               "forceOverWeight": 0.1 + 0 * wet, "U": np.column_stack([0.1 * wet, 0 * wet, np.where(x > 0, 0.02,
                                                                                                    -0.01) * wet])}
     (folder / f"{time:g}").mkdir()
+    if time == 0:  # written before the flow knows its balls
+        del fields["solidity"], fields["forceOverWeight"]
     for name, values in fields.items():
         kind = "vector" if values.ndim > 1 else "scalar"
         rows = "\n".join(f"({' '.join(f'{v:.9g}' for v in row)})" if values.ndim > 1 else f"{row:.9g}"
@@ -230,9 +232,9 @@ def write_steps(folder, start, times, law="Beetstra", **summary):
              "drag": {"law": law, "reference": "a paper", "solidity_range": [0.0, 0.6], "reynolds_range": [0.2, None]},
              "beyond_law": {"mean": 0.1, "largest": 0.12, "solidity_above": 0.1}} if law else {"solids": None,
                                                                                                "drag": None}
-    told = {"complete": True, "begin_s": start, "end_s": float(times[-1]), "limits": LIMITS,
-            "openfoam": {"version": "v1912", "build": "abc-1"}, **balls, **summary}
-    write_json(place / "flow.json", "flow", ("charge", "averages", "flow"), **told)
+    content = {"complete": True, "begin_s": start, "end_s": float(times[-1]), "limits": LIMITS,
+               "openfoam": {"version": "v1912", "build": "abc-1"}, **balls, **summary}
+    write_json(place / "flow.json", "flow", ("charge", "averages", "flow"), **content)
     one = np.ones(len(times))
     known = one if law else np.nan * one
     rows = np.column_stack([times, np.diff(times, prepend=start), 0.2 * one, 0.1 * one, 0.01 * one, 8e-4 * one,

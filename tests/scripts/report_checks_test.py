@@ -10,9 +10,9 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 
-from millfoam.flow_record import FlowRecord
+from millfoam.files.flow_record import FlowRecord
+from millfoam.files.mill_case import MillCase
 from millfoam.report import checks
-from millfoam.report.sources import MillCase
 from millfoam.report.steadiness import batches_of, error_over_turns, halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow
@@ -59,17 +59,17 @@ class Flow(Verdicts):
     def test_slurry_that_is_missing(self):
         for missing, state in ((0.9e-9, "holds"), (-0.9e-9, "holds"), (1.1e-9, "fails"), (-1.1e-9, "fails"),
                                (np.nan, "fails")):
-            told = {"missing": np.array([0, missing]), "holdUp": np.array([1e-3, 1e-3])}
-            self.check(checks.conservation(case(balance=told)), state)
+            columns = {"missing": np.array([0, missing]), "holdUp": np.array([1e-3, 1e-3])}
+            self.check(checks.conservation(case(balance=columns)), state)
         self.check(checks.conservation(case()), "unknown")
 
     def steadiness(self, drift=0.0, noise=0.0, **others):
         """Of a hold-up of 1 l that drifts by a share of itself in the whole time."""
         time = np.linspace(0, 6, 1201)
         wobble = np.random.default_rng(3).normal(0, 1, time.shape)
-        told = {"Time": time, "holdUp": 1e-3 * (1 + drift * time / 4 + noise * wobble), "x": 0 * time, "y": 0 * time,
-                **others}
-        return checks.flow_steadiness(case(balance=told))
+        columns = {"Time": time, "holdUp": 1e-3 * (1 + drift * time / 4 + noise * wobble), "x": 0 * time,
+                   "y": 0 * time, **others}
+        return checks.flow_steadiness(case(balance=columns))
 
     def test_a_drift_of_the_hold_up(self):
         # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is no drift that
@@ -87,7 +87,7 @@ class Flow(Verdicts):
         self.check(self.steadiness(y=-0.01 * time), "fails")
         self.check(self.steadiness(x=np.full(1201, np.nan)), "fails")
 
-    def test_too_few_times_or_none_tell_nothing(self):
+    def test_too_few_times_or_none_are_unknown(self):
         time = np.linspace(0, 2.1, 30)
         self.check(checks.flow_steadiness(case(balance={"Time": time, "holdUp": 1 + time, "x": time, "y": time})),
                    "unknown")
@@ -149,15 +149,14 @@ class Flow(Verdicts):
                 self.check(self.courant([good] * (101 - count) + [one] * count), state)
         self.check(self.courant([(0.74, 0.59, 0.149)] * 100), "holds")
 
-    def test_steps_are_judged_by_what_is_told(self):
+    def test_steps_are_judged_by_the_limits_that_are_known(self):
         found = self.courant([(0.55, 0.4, 0.1)] * 100,
                              {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxVoidageChange": None}).found
-        self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times what the flow asks for (limit 1 %); 95 % of "
-                                "the steps "
-                                "stay below: Courant number 0.55 for 0.5, at the surface 0.4 for 0.4, change of "
-                                "voidage 0.1")
+        self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times their limits (limit 1 %); 95 % of the steps "
+                                "are below: Courant number 0.55 (limit 0.5), at the surface 0.4 (limit 0.4), change "
+                                "of voidage 0.1")
 
-    def test_steps_or_limits_that_are_not_told_are_unknown(self):
+    def test_steps_or_limits_that_are_missing_are_unknown(self):
         self.check(checks.courant(case(limits=LIMITS)), "unknown")
         self.check(self.courant([(9, 9, 9)] * 10, {"maxCo": None}), "unknown")
 
@@ -258,20 +257,20 @@ class OneMill(Verdicts):
             before = path.read_text()
             change_json(path, "mill", part, to=other)
             self.check(self.found(), "fails")
-            self.assertEqual(self.found().found, f"{name} is of {part} {other}, mill.json of {PRINTS[part]}: run "
-                                                 f"{again} again")
+            self.assertEqual(self.found().found, f"{name} has the fingerprint {part} {other}, mill.json has "
+                                                 f"{PRINTS[part]}: run {again} again")
             path.write_text(before)
         for name, part, again in (("solids.h5", "averages", "millAverage"), ("solids.h5", "charge", "millAverage"),
                                   ("slurry.h5", "flow", "the flow")):
             with h5py.File(self.folder / name, "a") as file:
                 file.attrs[f"mill_{part}"] = other
-            self.assertEqual(self.found().found, f"{name} is of {part} {other}, mill.json of {PRINTS[part]}: run "
-                                                 f"{again} again")
+            self.assertEqual(self.found().found, f"{name} has the fingerprint {part} {other}, mill.json has "
+                                                 f"{PRINTS[part]}: run {again} again")
             with h5py.File(self.folder / name, "a") as file:
                 file.attrs[f"mill_{part}"] = PRINTS[part]
         self.check(self.found(), "holds")
 
-    def test_is_unknown_where_no_stage_tells_it(self):
+    def test_is_unknown_where_no_stage_names_its_mill(self):
         write_dry(self.folder)
         for name in ("run.json", "results.json"):
             change_json(self.folder / "dumps" / name, "mill", to={})
@@ -281,15 +280,15 @@ class OneMill(Verdicts):
 
 
 class List(Verdicts):
-    def test_begins_with_what_fails_and_tells_files_that_cannot_be_used(self):
+    def test_begins_with_what_fails_and_names_files_that_cannot_be_used(self):
         results = {"lost_balls": 0, "balls": 5, "steady": False, "ball_overlap_largest_m": 1e-5,
                    "ball_overlap_99_m": 1e-6,
                    "smallest_diameter_m": 0.004}
-        found = checks.all_checks(case(results=results, unusable=["slurry.h5: not used, as it is half-written"]))
+        found = checks.all_checks(case(results=results, unusable=["slurry.h5: not used, because it is not complete"]))
         self.assertEqual([check.state for check in found], ["fails", "fails", "unknown", "holds", "holds"])
-        self.assertIn("half-written", " ".join(check.found for check in found[:2]))
+        self.assertIn("not complete", " ".join(check.found for check in found[:2]))
 
-    def test_a_number_that_a_file_lacks_is_told(self):
+    def test_a_number_that_a_file_lacks_is_reported(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         write_dry(folder)
         change_json(folder / "dumps" / "results.json", "lost_balls", to="none")

@@ -9,8 +9,8 @@ from unittest import mock
 
 import numpy as np
 
+from millfoam.files.mill_case import MillCase
 from millfoam.report.build import report_case
-from millfoam.report.sources import MillCase
 from report_cases import write_flow, write_fluid_only, write_steps
 from report_test import REPORT, Case
 
@@ -23,8 +23,9 @@ class Damaged(Case):
         self.undrawn()
         # What takes the time and reads no file
         for name in ("charge.charge_with_errors", "models.fit_free_surface"):
-            self.enterContext(mock.patch(f"millfoam.{name}", side_effect=RuntimeError("left out")))
-        self.enterContext(mock.patch("millfoam.free_surface.fit_logistic", return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
+            self.enterContext(mock.patch(f"millfoam.readings.{name}", side_effect=RuntimeError("left out")))
+        self.enterContext(mock.patch("millfoam.readings.free_surface.fit_logistic",
+                                     return_value=((-0.1, 1.0, 20.0, 0.0), 1e-3)))
 
     def outcome(self, folder):
         try:
@@ -100,6 +101,13 @@ class Pictures(Case):
         self.assertIn("the mill turns clockwise: its rising side is x < 0", ended.stdout)
         self.assertEqual(sorted(path.name for path in (flow / "pictures").iterdir()),
                          ["force_on_balls.png", "slurry.gif", "slurry_frames.png"])
+
+    def test_averages_from_the_start_on_leave_out_what_knows_no_balls_yet(self):
+        flow = write_flow(self.folder / "flow")
+        self.assertFalse((flow / "0" / "solidity").exists())
+        ended = self.plot(flow, "--begin", "0")
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+        self.assertIn("force of the fluid on the balls over their weight: mean 0.1,", ended.stdout)
 
     def test_what_cannot_be_is_refused_in_one_sentence(self):
         flow = write_flow(self.folder / "flow")

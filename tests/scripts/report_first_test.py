@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands first in a report, and what it says of the mill that was run."""
+"""The first lines of a report, and its texts about the mill that was run."""
 import re
 import unittest
 
 import h5py
 import numpy as np
 
+from millfoam.files.mill_case import MillCase
 from millfoam.report.build import compare_cases, report_case
+from millfoam.report.case_readings import Readings, key_numbers
 from millfoam.report.checks import all_checks
-from millfoam.report.headline import first_lines
-from millfoam.report.readings import Readings, key_numbers
-from millfoam.report.sources import MillCase
+from millfoam.report.headline import first_lines, summary
 from millfoam.report.stages import programs
 from report_cases import DURATION, OMEGA, change_json, write_dry, write_flow
 from report_test import Case
@@ -59,37 +59,36 @@ class First(Case):
         self.assertEqual(self.lines(flow), [])
         self.assertEqual(self.first_line(flow), "A mill – flow")
 
-    def test_of_a_flow_that_was_cut_short_says_that_its_numbers_are_of_the_start(self):
+    def test_of_a_flow_that_was_cut_short_says_that_its_numbers_describe_the_start(self):
         flow = write_flow(self.folder / "flow")
-        for duration, told in ((DURATION / 0.995, False), (DURATION / 0.985, True), (None, False)):
+        for duration, reported in ((DURATION / 0.995, False), (DURATION / 0.985, True), (None, False)):
             change_derived(flow, "flow", duration_s=duration)
-            self.assertEqual(bool(self.lines(flow)), told, duration)
+            self.assertEqual(bool(self.lines(flow)), reported, duration)
         change_derived(flow, "flow", duration_s=2.5)
-        self.assertEqual(self.first_line(flow), "The flow was cut short: it ends at 0.8 s of 2.5 s. Its numbers are of "
-                                                "the start of "
-                                                "the flow.")
+        self.assertEqual(self.first_line(flow), "The flow was cut short: it ends at 0.8 s of 2.5 s. Its numbers "
+                                                "describe the start of the flow.")
 
     def test_of_a_flow_that_does_not_say_that_it_is_complete_says_so_too(self):
         flow = write_flow(self.folder / "flow")
         change_json(flow / "postProcessing" / "flow" / "0" / "flow.json", "complete", to=False)
-        self.assertRegex(self.lines(flow)[0], "^The flow was cut short: .*Its numbers are of the start of the flow")
+        self.assertRegex(self.lines(flow)[0], "^The flow was cut short: .*Its numbers describe the start of the flow")
 
-    def test_of_a_flow_that_is_not_steady_says_that_its_numbers_are_of_the_start(self):
+    def test_of_a_flow_that_is_not_steady_says_that_its_numbers_describe_the_start(self):
         flow = write_flow(self.folder / "flow")
         table = flow / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
         head, *rows = table.read_text().splitlines()
         rows = np.array([row.split("\t") for row in rows], dtype=float)
-        for drift, told in ((0.0, None), (0.012, "It is doubtful whether the flow is steady: .*of the start"),
-                            (0.1, "The flow is not steady: its numbers are of the start of the flow")):
+        for drift, line in ((0.0, None), (0.012, "It is doubtful whether the flow is steady: .*describe the start"),
+                            (0.1, "The flow is not steady: its numbers describe the start of the flow")):
             moved = rows.copy()
             moved[:, head.split("\t").index("y_m")] += drift * (rows[:, 0] - 0.4)
             np.savetxt(table, moved, "%.9g", "\t", header=head[2:], comments="# ")
             found = self.lines(flow)
-            self.assertEqual(len(found), told is not None, found)
-            if told:
-                self.assertRegex(found[0], told)
+            self.assertEqual(len(found), line is not None, found)
+            if line:
+                self.assertRegex(found[0], line)
 
-    def test_a_repeated_charge_is_told(self):
+    def test_a_repeated_charge_is_reported(self):
         flow = write_flow(self.folder / "flow")
         change_json(flow / "postProcessing" / "flow" / "0" / "flow.json", "solids", "repeated", to=2)
         self.assertRegex(" ".join(self.lines(flow)), "record of the dry charge .* was repeated 2 times")
@@ -103,10 +102,10 @@ class First(Case):
         self.assertEqual(len(found), 1)
         self.assertRegex(found[0], "“The slurry would not move the balls” fails, and a longer run does not change "
                                    "that: the numbers "
-                                   "hold for a charge that is not moved by the slurry; .*")
+                                   "hold for a charge that the slurry does not move; .*")
         self.assertEqual(self.first_line(flow), found[0])
 
-    def test_stages_of_two_mills_are_told(self):
+    def test_stages_of_two_mills_are_reported(self):
         flow = write_flow(self.folder / "flow")
         change_json(flow / "dumps" / "run.json", "mill", "charge", to="f" * 16)
         self.assertRegex(self.lines(flow)[0], "Stages of different mills are mixed")
@@ -121,7 +120,7 @@ class First(Case):
 
 
 class TheMill(Case):
-    def test_fines_that_are_left_out_stand_in_the_title_and_beside_the_load(self):
+    def test_fines_that_are_left_out_are_in_the_title_and_with_the_load(self):
         self.undrawn()
         dry = write_dry(self.folder / "dry", "Mill of 37.5 % load")
         change_derived(dry, "charge", **FINES)
@@ -167,8 +166,8 @@ class TheMill(Case):
             self.assertEqual(*(one[name] for one in numbers))
         self.assertRegex(numbers[0]["centre of circulation, x to the falling side"], "^-30")
         self.assertAlmostEqual(there.charge.centroid()[0], -here.charge.centroid()[0])
-        self.assertIn(", clockwise at 74.2 %", here.summary())
-        self.assertIn(", anticlockwise at 74.2 %", there.summary())
+        self.assertIn(", clockwise at 74.2 %", summary(here))
+        self.assertIn(", anticlockwise at 74.2 %", summary(there))
 
     def test_of_one_size_by_fill_is_reported_as_any_other(self):
         # mill.yaml without classes
@@ -177,7 +176,7 @@ class TheMill(Case):
         self.undrawn()
         self.assert_whole(report_case(case.folder))
 
-    def test_tells_from_when_on_its_flow_is_averaged(self):
+    def test_has_the_time_at_which_the_averages_of_its_flow_begin(self):
         flow = write_flow(self.folder / "flow")
         # Start of the averages, duration: where less than half of what was to be averaged is there, the half of what is
         for start, duration, begin in ((0.5, 0.8, 0.5), (0.5, 1.0, 0.5), (0.5, 1.2, 0.4), (0.9, 2.0, 0.4),

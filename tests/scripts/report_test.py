@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports of small cases are whole pages that need no network, tell what is missing, and refuse what is no mill's
-case."""
+"""Reports of small cases are complete pages that need no network, name what is missing, and refuse folders that are no
+mill's case."""
 import re
 import subprocess
 import tempfile
@@ -14,13 +14,16 @@ from unittest import mock
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.axial import Humps
-from millfoam.flow_readings import Mean, Way, angle_mean, slurry_blocks, slurry_way
-from millfoam.mill_plots import circle, mean_flow, mean_of_times
+from millfoam.files.mill import NoMill
+from millfoam.files.mill_case import MillCase
+from millfoam.files.outline import circle, lifter_outline
+from millfoam.readings.axial import Humps
+from millfoam.readings.maps_of_times import mean_flow, mean_of_times
+from millfoam.readings.means import Mean, angle_mean
+from millfoam.readings.slurry_over_time import Way, slurry_blocks, slurry_way
 from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
-from millfoam.report.readings import Readings, humps_told
-from millfoam.report.sources import MillCase, NoMill, lifter_outline
+from millfoam.report.case_readings import Readings, humps_words
 from report_cases import (OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_mill, write_slurry,
                           write_solids, write_steps)
 
@@ -29,8 +32,7 @@ VOID = {"meta", "link", "img", "input", "br"}
 
 
 class Page(HTMLParser):
-    """What stands in a page: ids, links, sources of images, text; errors: tags that are not balanced, ids given
-    twice."""
+    """Content of a page: ids, links, sources of images, text; errors: tags that are not balanced, ids given twice."""
 
     def __init__(self, text):
         super().__init__()
@@ -42,13 +44,13 @@ class Page(HTMLParser):
         self.text = " ".join(self.words)
 
     def handle_starttag(self, tag, attrs):
-        told = dict(attrs)
+        attributes = dict(attrs)
         if tag not in VOID:
             self.open.append(tag)
-        self.ids += [told["id"]] if "id" in told else []
-        self.links += [told["href"]] if "href" in told else []
-        self.images += [told["src"]] if tag == "img" else []
-        if tag == "img" and not told.get("alt"):
+        self.ids += [attributes["id"]] if "id" in attributes else []
+        self.links += [attributes["href"]] if "href" in attributes else []
+        self.images += [attributes["src"]] if tag == "img" else []
+        if tag == "img" and not attributes.get("alt"):
             self.errors.append("an image without words")
 
     def handle_endtag(self, tag):
@@ -104,8 +106,8 @@ class Models(Case):
             cards = slurry_sections.moys(case, profile)
         self.assertEqual(len(cards), 2)
         _, z, model = drawn.call_args.args
-        told = float(re.search(r"hold-up by the model.*?(\d+) ml", cards[0]).group(1))
-        self.assertAlmostEqual(1e6 * np.trapz(model, z), told, delta=1)
+        shown = float(re.search(r"hold-up by the model.*?(\d+) ml", cards[0]).group(1))
+        self.assertAlmostEqual(1e6 * np.trapz(model, z), shown, delta=1)
         self.assertEqual(len(slurry_sections.moys(case, "no profile")), 1)
 
 
@@ -145,19 +147,19 @@ class OneCase(Case):
         self.assertIn("slurry", found.ids)
         self.assertIn("axis", found.ids)
         self.assertNotIn("balance", found.ids)
-        self.assertIn("– not told", found.text)
+        self.assertIn("– not known", found.text)
 
-    def test_a_half_written_slurry_file_is_told_and_not_used(self):
+    def test_a_half_written_slurry_file_is_reported_and_not_used(self):
         self.undrawn()
         flow = write_flow(self.folder / "flow")
         write_slurry(flow / "slurry.h5", complete=0)
         found = self.assert_whole(report_case(flow))
-        self.assertIn("slurry.h5: not used, as it is half-written", found.text)
+        self.assertIn("slurry.h5: not used, because it is not complete", found.text)
         self.assertIn("written times", found.text)
         (flow / "slurry.h5").write_bytes((flow / "slurry.h5").read_bytes()[:3000])
-        self.assertIn("slurry.h5: not used, as it is cut short", Page(report_case(flow)).text)
+        self.assertIn("slurry.h5: not used, because it is cut short", Page(report_case(flow)).text)
 
-    def test_a_table_that_cannot_be_read_is_told(self):
+    def test_a_table_that_cannot_be_read_is_reported(self):
         flow = write_flow(self.folder / "flow", voxels=False)
         table = flow / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
         lines = table.read_text().splitlines()
@@ -191,7 +193,7 @@ class OneCase(Case):
         self.assertNotRegex(found.text, "orange|clear of the charge|batch means|balls give")
         self.assertIn("drop of p_rgh", found.text)
 
-    def test_power_by_wall_and_slip_are_told_where_the_table_has_them(self):
+    def test_power_by_wall_and_slip_are_shown_if_the_table_has_them(self):
         self.undrawn()
         found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
         words = re.sub(r"\s+", " ", found.text)
@@ -223,11 +225,11 @@ class Outline(unittest.TestCase):
 class SlurryWay(Case):
     def test_circulates_by_two_standard_errors(self):
         angle = Mean(0.0)
-        for toe, shoulder, told in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"),
-                                    ((3, 1), (-1, 1), "undecided"),
-                                    ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"),
-                                    ((3, np.nan), (-3, 1), "undecided")):
-            self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, told)
+        for toe, shoulder, expected in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"),
+                                        ((3, 1), (-1, 1), "undecided"),
+                                        ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"),
+                                        ((3, np.nan), (-3, 1), "undecided")):
+            self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, expected)
 
     def test_angles_are_averaged_across_180_degrees(self):
         found = angle_mean([175, -175, 178, -178])
@@ -247,7 +249,7 @@ class SlurryWay(Case):
         case = MillCase(flow)
         self.assertEqual(Readings(case).way, slurry_way(list(slurry_blocks(case)), case.radius, 0.01))
         words = re.sub(r"\s+", " ", self.assert_whole(report_case(flow)).text)
-        self.assertIn("on the circle 1.5 lifters' heights (15 mm) from the shell", words)
+        self.assertIn("on the circle 1.5 lifter heights (15 mm) from the shell", words)
         self.assertIn("to the discharge at the toe and back at the shoulder yes", words)
 
     def test_errors_of_blocks_shorter_than_a_turn_are_lower_bounds(self):
@@ -257,13 +259,13 @@ class SlurryWay(Case):
         case.turn = 0.1
         self.assertEqual(Readings(case).short_blocks(), "")
 
-    def test_humps_at_the_profiles_end_are_told(self):
+    def test_humps_at_the_profiles_end_are_named(self):
         z = np.linspace(0.01, 0.29, 15)
-        for places, told in (((0.01, 0.29), "2 of 2 at the profile's end"), ((0.1, 0.29), "1 of 2"),
-                             ((0.1, 0.2), None)):
-            words = humps_told(Humps(places, (1, 1), (0.05, 0.05), 0, 1e-3), z)
-            self.assertIn(told or "100 mm apart, RMSD 1 mm", words)
-            self.assertEqual("end" in words, told is not None)
+        for places, ended in (((0.01, 0.29), "2 of 2 at the profile's end"), ((0.1, 0.29), "1 of 2"),
+                              ((0.1, 0.2), None)):
+            words = humps_words(Humps(places, (1, 1), (0.05, 0.05), 0, 1e-3), z)
+            self.assertIn(ended or "100 mm apart, RMSD 1 mm", words)
+            self.assertEqual("end" in words, ended is not None)
 
 
 class Curves(Case):
@@ -278,7 +280,7 @@ class Curves(Case):
             found = figures.late_limits(np.arange(10.0), np.array([*early, 1, 1, 1, 2, 1, 1, 1.0]))
             np.testing.assert_allclose(found, limits)
 
-    def test_reynolds_numbers_stand_on_a_linear_axis_from_nought(self):
+    def test_reynolds_numbers_have_a_linear_axis_from_zero(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]
         self.assertEqual((axis.get_yscale(), axis.get_ylim()[0]), ("linear", 0))
         plt.close(axis.figure)
@@ -313,9 +315,9 @@ class Refused(Case):
 
     def test_a_case_that_was_not_run_or_whose_averages_are_not_whole(self):
         write_mill(self.folder)
-        self.assert_refused("neither a flow .* nor a whole solids.h5, nor dumps/results.json")
+        self.assert_refused("no flow .*, no complete solids.h5, no dumps/results.json")
         write_solids(self.folder / "solids.h5", complete=0)
-        self.assert_refused("solids.h5: not used, as it is half-written; average the dumps again")
+        self.assert_refused("solids.h5: not used, because it is not complete; average the dumps again")
 
     def test_an_older_report_stays(self):
         dry = write_dry(self.folder / "dry")
@@ -331,7 +333,7 @@ class Refused(Case):
             self.assertEqual((dry / "report.html").read_text(), "older")
 
 
-class Against(Case):
+class Measured(Case):
     def setUp(self):
         super().setUp()
         self.undrawn()
@@ -356,16 +358,16 @@ class Against(Case):
         np.savetxt(track, circle)
         found = self.assert_whole(report_case(dry, tracers=[track, track]))
         self.assertIn("tracers", found.ids)
-        self.assertIn("2, of 10 s together", found.text)
+        self.assertIn("2, 10 s in total", found.text)
         self.assertGreater(float(re.search(r"solidity (\d+(?:\.\d+)?) %", found.text).group(1)), 20)
 
 
 class Several(Case):
-    def test_cases_stand_beside_each_other(self):
+    def test_the_first_case_is_compared_with_the_others(self):
         self.undrawn()
         flows = [write_flow(self.folder / name / "case", f"Mill {name}", tables=name == "a") for name in "ab"]
         found = self.assert_whole(compare_cases([*flows, write_dry(self.folder / "dry")]))
-        self.assertIn("a/case against b/case, ", found.text)
+        self.assertRegex(found.text, "b/case, .*dry compared with a/case")
         self.assertLessEqual({"numbers", "checks", "charge", "slurry"}, set(found.ids))
         self.assertIn("p_rgh", found.text)
         self.assertNotIn("Head", found.text)
@@ -376,13 +378,13 @@ class Several(Case):
         other = write_dry(self.folder / "other")
         write_mill(other, diameter=0.32)
         words = re.sub(r"\s+", " ", self.assert_whole(compare_cases([flow, dry, other])).text)
-        self.assertIn("other – – – not compared: another mill, of 320 mm instead of 300 mm", words)
+        self.assertIn("other – – – not compared: another diameter, 320 mm instead of 300 mm", words)
         one, finer = (MillCase(path) for path in (flow, dry))
         finer.charge.x = np.linspace(-0.15, 0.15, 50)
-        self.assertEqual(comparison.not_compared(finer, one, finer.charge, one.charge), "other voxels")
+        self.assertEqual(comparison.not_compared(finer, one, finer.charge, one.charge), "different voxels")
         self.assertIsNone(comparison.not_compared(one, one, one.charge, one.charge))
 
-    def test_measurements_are_held_against_one_case_only(self):
+    def test_measurements_are_compared_with_one_case_only(self):
         ended = self.command(self.folder, self.folder, "--measured", "map.csv")
         self.assertEqual(ended.returncode, 1)
         self.assertIn("--measured and --tracer are for one case; 2 were given", ended.stderr)

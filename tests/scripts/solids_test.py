@@ -8,11 +8,13 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from millfoam.solids import mean_map, read_map, read_windows, with_error
+from millfoam.files.solids_file import mean_map, read_map, read_windows
+from millfoam.readings.means import with_error
 
 
 def write(path, solidity, speed, complete=1):
-    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed along x."""
+    """A solids.h5 of 2 x 2 x 2 voxels, half of each within the mill; windows of 0.05 s of uniform solidity and speed
+    along x."""
     with h5py.File(path, "w") as file:
         file.attrs.update(complete=complete, timestep=1e-5)
         file.create_group("grid").attrs.update(lower=[0, 0, 0], upper=[1, 2, 1], shape=[2, 2, 2])
@@ -47,7 +49,7 @@ class Windows(unittest.TestCase):
             self.assertEqual((mean.begin, mean.end), (0, 0.1))
 
     def test_none_in_that_time_or_a_file_that_is_not_whole_is_refused(self):
-        with self.assertRaisesRegex(RuntimeError, "no window between 3 and inf s; there are 0.0 to 0.15"):
+        with self.assertRaisesRegex(RuntimeError, "no window between 3 and inf s; the file has 0.0 to 0.15"):
             read_windows(self.path, 3)
         write(self.path, (0.1,), (1,), complete=0)
         with self.assertRaisesRegex(RuntimeError, "not complete"):
@@ -70,7 +72,8 @@ class Errors(unittest.TestCase):
 
     def test_of_independent_windows_is_that_of_their_mean(self):
         random = np.random.default_rng(3)
-        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)), blocks=20)
+        found = with_error(lambda one: one.solidity[0, 0], self.maps(0.3 + 0.05 * random.standard_normal(400)),
+                           blocks=20)
         self.assertAlmostEqual(float(found.error), 0.05 / np.sqrt(400), delta=0.2 * 0.05 / np.sqrt(400))
 
     def test_blocks_without_the_reading_are_counted_and_left_out(self):

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up flows."""
+"""Verdicts on the thesis' statements, on runs made up so that the answer is known; and what is read of runs, on made-up
+flows."""
 import importlib.util
 import json
 import tempfile
@@ -12,12 +13,14 @@ from unittest import mock
 import h5py
 import numpy as np
 
-from millfoam import flow_readings, statements
-from millfoam.axial import AxialSeries, gaussians
-from millfoam.flow_readings import Mean, RunReadings, Surface
-from millfoam.mill import Mill
-from millfoam.statements import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
-from slurry_maps_test import RADIUS, WALL, slurry_map
+from millfoam.files.mill import Mill
+from millfoam.readings import slurry_over_time
+from millfoam.readings.axial import AxialSeries, gaussians
+from millfoam.readings.means import Mean, series_mean
+from millstudies import statements
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, turn
+from millstudies.run_readings import RunReadings, Surface, surface_line
+from slurry_on_maps_test import RADIUS, WALL, slurry_map
 
 Z = np.linspace(0.005, 0.3, 33)
 TIMES = np.arange(2, 5, 0.05)
@@ -32,8 +35,9 @@ def series(profile=-0.05, pressure=0.0, noise=1e-4):
 
 
 def run(speed=75, law=None, solids=20, last=5.0, **read):
-    """A run of the 30 cm mill, steady if nothing else is told."""
-    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, **{"series": series(), **read})
+    """A run of the 30 cm mill, steady by default."""
+    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True,
+                       **{"series": series(), **read})
 
 
 def a_slice(law=None, solids=30, last=5.0, **read):
@@ -43,7 +47,7 @@ def a_slice(law=None, solids=30, last=5.0, **read):
 
 def verdicts_of(function, *runs, of_slice=False):
     """The verdicts on the 30 cm mill, or those on the 12 cm mill's slice."""
-    found = function(statements.Runs(runs))
+    found = function(Runs(runs))
     return [one.verdict for one in found if of_slice == ("slice" in one.runs + one.figure)]
 
 
@@ -53,18 +57,19 @@ class Flat(unittest.TestCase):
 
     def test_is_judged_by_tilt_and_deviation(self):
         for tilt, deviation, verdict in ((2, 0.003, CONFIRMED), (12, 0.003, CONTRADICTED), (2, 0.02, CONTRADICTED)):
-            self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)), [NOT_TESTED, verdict])
+            self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)),
+                             [NOT_TESTED, verdict])
 
-    def test_a_run_that_is_short_or_missing_is_told(self):
+    def test_a_run_that_is_short_or_missing_is_reported(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
-        found = statements.flat_without_balls(statements.Runs([short]))
+        found = statements.flat_without_balls(Runs([short]))
         self.assertEqual([one.verdict for one in found], [NOT_TESTED] * 3)
         self.assertIn("fluid_only_60 ends at 3.4 s; expected 4.5 s", found[0].figure)
         self.assertIn("missing: fluid_only_75", found[1].figure)
         self.assertEqual("missing: 12 cm slice at 50 %, without balls", found[2].figure)
 
-    def test_what_could_not_be_read_is_told(self):
-        found = statements.flat_without_balls(statements.Runs([run(failures=["surface not read: no slurry"])]))
+    def test_what_could_not_be_read_is_reported(self):
+        found = statements.flat_without_balls(Runs([run(failures=["surface not read: no slurry"])]))
         self.assertEqual((found[1].verdict, found[1].figure), (NOT_TESTED, "surface not read: no slurry"))
 
 
@@ -120,11 +125,11 @@ class WithBalls(unittest.TestCase):
         for function, count in ((statements.drag_raises, 3), (statements.concentration_raises, 2)):
             self.assertEqual(verdicts_of(function, *runs, of_slice=True), [CONFIRMED] * count)
             self.assertEqual(set(verdicts_of(function, *runs)), {NOT_TESTED})
-        shrinks = statements.drag_raises(statements.Runs(runs))[-1]
+        shrinks = statements.drag_raises(Runs(runs))[-1]
         self.assertEqual(shrinks.statement, "that difference shrinks from 30 % to 50 % slurry")
         self.assertIn("1.00 ± 0.0", shrinks.figure)
         self.assertEqual(verdicts_of(statements.drag_raises, *runs[:2], of_slice=True), [CONFIRMED, NOT_TESTED])
-        missing = statements.concentration_raises(statements.Runs(runs[:1]))[2]
+        missing = statements.concentration_raises(Runs(runs[:1]))[2]
         self.assertEqual(missing.figure, "missing: 12 cm slice at 50 %, Beetstra, 40 % slurry")
 
     def test_a_slice_is_flat_without_balls_and_follows_them(self):
@@ -155,9 +160,10 @@ class WithBalls(unittest.TestCase):
     def test_reynolds_numbers_of_slurries_without_a_published_limit_are_not_tested(self):
         for one in (run(law="Beetstra", solids=30), a_slice("Beetstra", 30), a_slice("Beetstra", None)):
             one.reynolds = np.array([50.0, 400.0]), np.array([3.0, 1.0])
-            found = statements.reynolds_below(statements.Runs([one]))
+            found = statements.reynolds_below(Runs([one]))
             self.assertEqual({each.verdict for each in found}, {NOT_TESTED})
-            self.assertRegex(found[-1].figure, "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
+            self.assertRegex(found[-1].figure,
+                             "none is published for (30 %|this) slurry, for 20 and 40 % only; median 50")
 
     def test_a_pressure_drop_must_be_one_and_clearly_larger(self):
         def runs(beetstra, ergun):
@@ -174,7 +180,8 @@ class WithBalls(unittest.TestCase):
         self.assertAlmostEqual(found.value, 200 * (Z[-1] - Z[0]))
 
     def test_slurry_circulates_there_and_back(self):
-        for toe, shoulder, verdict in ((0.01, -0.01, CONFIRMED), (0.01, 0.01, CONTRADICTED), (0.01, -0.0005, UNDECIDED)):
+        for toe, shoulder, verdict in ((0.01, -0.01, CONFIRMED), (0.01, 0.01, CONTRADICTED),
+                                       (0.01, -0.0005, UNDECIDED)):
             one = run(law="Beetstra", toe=Mean(toe, 1e-3), shoulder=Mean(shoulder, 1e-3))
             self.assertEqual(verdicts_of(statements.circulation, one), [verdict])
 
@@ -194,7 +201,7 @@ class Steady(unittest.TestCase):
         return found
 
     def judged(self, one):
-        return statements.surface_follows(statements.Runs([one]))[0]
+        return statements.surface_follows(Runs([one]))[0]
 
     def test_a_drift_between_the_halves_leaves_a_statement_undecided(self):
         self.assertEqual(self.judged(self.moved(lambda t: 0 * t)).verdict, CONFIRMED)
@@ -202,11 +209,11 @@ class Steady(unittest.TestCase):
         self.assertEqual(self.judged(self.moved(lambda t: 1e-3 * np.sin(12 * np.pi * t))).verdict, CONFIRMED)
         found = self.judged(self.moved(lambda t: 2e-3 * t))
         self.assertEqual(found.verdict, UNDECIDED)
-        self.assertRegex(found.figure, "not steady: .*: its height drifts by 1.0[0-9] ± 0.[0-9]+ mm from half to half")
+        self.assertRegex(found.figure, "not steady: .*: its height drifts by 1.0[0-9] ± 0.[0-9]+ mm between the halves")
 
     def test_less_than_a_turn_leaves_a_statement_undecided(self):
         one = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
-        self.assertAlmostEqual(statements.turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
+        self.assertAlmostEqual(turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
         late = TIMES > 4.0
         one.series = AxialSeries(Z, TIMES[late], *(values[late] for values in (
             one.series.height, one.series.holdup, one.series.pressure)))
@@ -217,12 +224,13 @@ class Steady(unittest.TestCase):
     def test_each_of_two_runs_must_be_steady(self):
         runs = self.moved(lambda t: 0 * t), self.moved(lambda t: 5e-3 * t)
         runs[1].law = "ErgunWenYu"
-        found = statements.drag_raises(statements.Runs(runs))[0]
+        found = statements.drag_raises(Runs(runs))[0]
         self.assertEqual(found.verdict, UNDECIDED)
         self.assertIn("not steady: run_75_Beetstra_20: its height drifts", found.figure)
 
     def test_what_is_not_known_to_be_steady_is_undecided(self):
-        self.assertEqual(self.judged(run(law="Beetstra", series=None, surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
+        self.assertEqual(self.judged(run(law="Beetstra", series=None,
+                                         surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
                          UNDECIDED)
 
     def test_a_slice_is_read_with_its_series(self):
@@ -234,7 +242,7 @@ class Steady(unittest.TestCase):
 
 
 class Study(unittest.TestCase):
-    """What cases/studies/thesis_statements takes without being told."""
+    """The runs that cases/studies/thesis_statements takes by default."""
 
     def setUp(self):
         path = Path(__file__).parents[2] / "cases" / "studies" / "thesis_statements" / "statements.py"
@@ -281,53 +289,56 @@ class Reading(unittest.TestCase):
         slope = np.tan(np.radians(25))
         for sign in (1, -1):
             level = slurry_map(lambda x, y, sign=sign: np.where(y < -sign * slope * x - 0.02, 1.0, 0.0))
-            tilt, deviation, _ = flow_readings.surface_line(level, RADIUS, RADIUS - WALL)
+            tilt, deviation, _ = surface_line(level, RADIUS, RADIUS - WALL)
             self.assertAlmostEqual(tilt, sign * 25, delta=0.5)
             self.assertLess(deviation, 0.001)
 
     def test_a_wavy_surface_deviates(self):
         wavy = slurry_map(lambda x, y: np.where(y < 0.01 * np.sin(100 * x), 1.0, 0.0))
-        self.assertAlmostEqual(flow_readings.surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
+        self.assertAlmostEqual(surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
 
     def test_without_slurry_there_is_no_surface(self):
         with self.assertRaisesRegex(RuntimeError, "no free surface of the slurry"):
-            flow_readings.surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
+            surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
 
     def test_errors_are_those_of_block_means(self):
-        value, error = flow_readings.series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
+        value, error = series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))
         self.assertAlmostEqual(float(value), 3)
         self.assertAlmostEqual(float(error), np.std([1, 2, 3, 4, 5], ddof=1) / np.sqrt(5))
 
     def test_windows_of_the_averaged_time_are_parted(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch.object(flow_readings, "read_slurry_map") as read:
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(slurry_over_time, "read_slurry_map") as read:
             path = Path(folder) / "slurry.h5"
             with h5py.File(path, "w") as file:
                 file["window/begin"] = 1 + 0.05 * np.arange(12)
                 file["window/end"] = 1.05 + 0.05 * np.arange(12)
-            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path, flow=SimpleNamespace(time0=1.0))
-            list(flow_readings.slurry_blocks(case))
+            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path,
+                                   flow=SimpleNamespace(time0=1.0))
+            list(slurry_over_time.slurry_blocks(case))
             parts = [call.args[1:3] for call in read.call_args_list]
             np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])
             case.begin = 0.58
             with self.assertRaisesRegex(RuntimeError, "slurry.h5: no window from DEM time 1.58 to 1.6 s"):
-                list(flow_readings.slurry_blocks(case))
+                list(slurry_over_time.slurry_blocks(case))
 
     def test_written_times_are_parted_where_there_is_no_slurry_file(self):
         frames = [(0.1 * k, f"time {k}") for k in range(11)]
         case = SimpleNamespace(begin=0.5, last=1.0, slurry=None, flow=SimpleNamespace(time0=0.0, frames=frames))
-        with mock.patch.object(flow_readings, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
-            parts = list(flow_readings.slurry_blocks(case))
+        with mock.patch.object(slurry_over_time, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
+            parts = list(slurry_over_time.slurry_blocks(case))
         self.assertEqual(parts, [["time 5", "time 6"], ["time 7"], ["time 8"], ["time 9"], ["time 10"]])
 
     def test_tables_of_function_objects_are_taken_from_the_beginning_of_the_averages_on(self):
         times = np.array([1.0, 2.0, 3.0])
-        tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]], "p_rgh": [[9, 9], [5, 0], [7, 8]]}
-        case = SimpleNamespace(begin=2.0, axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
-        found = flow_readings.read_series(case)
+        tables = {"height": [[9, 9], [-1, 0], [-3, -4]], "holdUp": [[1, 1], [1, 0], [1, 1]],
+                  "p_rgh": [[9, 9], [5, 0], [7, 8]]}
+        case = SimpleNamespace(begin=2.0,
+                               axial=lambda name: (np.array([0.1, 0.2]), times, np.array(tables[name], float)))
+        found = slurry_over_time.read_series(case)
         np.testing.assert_array_equal(found.times, [2, 3])
         np.testing.assert_array_equal(found.height, [[-1, np.nan], [-3, -4]])
         np.testing.assert_array_equal(found.pressure, [[5, np.nan], [7, 8]])
-        self.assertAlmostEqual(statements.height(run(series=found)).value, (-1 - 3.5) / 2)
+        self.assertAlmostEqual(height(run(series=found)).value, (-1 - 3.5) / 2)
 
 
 if __name__ == "__main__":

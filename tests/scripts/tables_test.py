@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.tables import TableError, read_columns, read_table, time_mean
+from millfoam.files.tables import TableError, read_columns, read_table
+from millfoam.readings.means import time_mean
 
 
 class Tables(unittest.TestCase):
@@ -48,7 +49,7 @@ class Tables(unittest.TestCase):
         with self.assertRaisesRegex(TableError, "line 5 has 1 numbers"):
             read_table(self.case, "balance")
 
-    def test_no_table_is_told(self):
+    def test_a_missing_table_is_reported(self):
         with self.assertRaisesRegex(TableError, "did the flow run"):
             read_table(self.case, "balance")
 

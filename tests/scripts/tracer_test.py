@@ -9,10 +9,10 @@ from unittest import mock
 
 import numpy as np
 
-from millfoam.compare import difference
-from millfoam.dem_tracks import read_tracks
-from millfoam.report import held_against
-from millfoam.tracer import Trajectory, read_trajectory, residence, tracer_map, velocities
+from millfoam.files.tracks import Trajectory, read_tracks, read_trajectory
+from millfoam.readings.compare import difference
+from millfoam.readings.tracer import residence, tracer_map, velocities
+from millfoam.report import measurements
 from report_cases import write_json
 
 UNIT = [np.linspace(0, 1, 5)] * 3  # 4 x 4 x 4 voxels of 0.25
@@ -51,7 +51,8 @@ class Residence(unittest.TestCase):
         index = np.floor(fine * 4).astype(int)
         np.add.at(counted, (index[:, 2], index[:, 1], index[:, 0]), 2 / 400000)
         np.testing.assert_allclose(time, counted, atol=1e-5)
-        np.testing.assert_allclose(path[time > 0] / time[time > 0][:, None], np.tile((end - begin) / 2, (np.sum(time > 0), 1)))
+        np.testing.assert_allclose(path[time > 0] / time[time > 0][:, None],
+                                   np.tile((end - begin) / 2, (np.sum(time > 0), 1)))
 
     def test_of_a_tracer_that_speeds_up_is_weighted_with_its_velocity_in_each_voxel(self):
         track = Trajectory([0, 1], [[0, 0.5, 0.5], [0.5, 0.5, 0.5]])
@@ -181,21 +182,22 @@ class InTheReport(unittest.TestCase):
 
     def test_a_track_in_millimetres_or_of_another_place_is_refused_with_both_extents(self):
         for periodic in (False, True):
-            held_against.refuse_outside("a.csv", self.orbit(1), self.EDGES, periodic)
+            measurements.refuse_outside("a.csv", self.orbit(1), self.EDGES, periodic)
             with self.assertRaises(RuntimeError) as caught:
-                held_against.refuse_outside("a.csv", self.orbit(1000), self.EDGES, periodic)
-            for part in ("a.csv: 100 % of its time is outside", "from x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels "
-                         "from x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
+                measurements.refuse_outside("a.csv", self.orbit(1000), self.EDGES, periodic)
+            for part in ("a.csv: 100 % of its time is outside",
+                         "the track covers x = -50 to 50, y = -50 to 50, z = 10 to 10, the voxels "
+                         "x = -0.06 to 0.06, y = -0.06 to 0.06, z = 0 to 0.02 m; expected t in s, x, y and z in m"):
                 self.assertIn(part, str(caught.exception))
 
     def test_a_track_that_leaves_for_less_than_half_of_its_time_is_taken(self):
         for out, taken in ((0.45, True), (0.55, False)):
             track = Trajectory([0, 1 - out, 1 - out + 1e-9, 1], [[0, 0, 0.01]] * 2 + [[0, 0, 0.03]] * 2)
             if taken:
-                held_against.refuse_outside("a.csv", track, self.EDGES, False)
+                measurements.refuse_outside("a.csv", track, self.EDGES, False)
             else:
                 with self.assertRaisesRegex(RuntimeError, "a.csv: 55 % of its time"):
-                    held_against.refuse_outside("a.csv", track, self.EDGES, False)
+                    measurements.refuse_outside("a.csv", track, self.EDGES, False)
 
     def test_the_section_names_the_file_among_several(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -205,9 +207,9 @@ class InTheReport(unittest.TestCase):
                 np.savetxt(path, np.column_stack([track.time, track.position]))
             case = SimpleNamespace(folder=folder, solids="solids.h5")
             voxels = self.EDGES, None, False, 1e-5
-            with mock.patch.object(held_against, "charge_voxels", lambda _: voxels), \
+            with mock.patch.object(measurements, "charge_voxels", lambda _: voxels), \
                     self.assertRaisesRegex(RuntimeError, "far.csv: 100 % of its time is outside"):
-                held_against.tracer_section(case, paths)
+                measurements.tracer_section(case, paths)
 
 
 class Tracks(unittest.TestCase):

@@ -1,28 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run of the 30 cm mill shows along its axis: axial.csv, axial.png (height of the slurry's centre of mass with two
-and three Gaussians, hold-up, head), z_velocity.png, frames and an animation in CASE/pictures, and the numbers in a table."""
+"""Profiles of a run of the 30 cm mill along its axis: axial.csv, axial.png (height of the slurry's centre of mass with
+two and three Gaussians, hold-up, head), z_velocity.png, frames and an animation in CASE/pictures, and the numbers in a
+table."""
 import argparse
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam, mill_plots
-from millfoam.axial import axial_profile, discharge, fit_gaussians, slurry_volumes
-from millfoam.flow_readings import RING, humps_at_ends, ring_depth
-from millfoam.mill import read_mill
-from millfoam.mill_flow import MillFlow
-from millfoam.slurry_maps import axial_flow, axial_velocity, slurry_ends
+from millfoam.files import foam
+from millfoam.files.mill import read_mill
+from millfoam.files.written_times import MillFlow
+from millfoam.plots import mill_plots
+from millfoam.readings.axial import axial_profile, discharge, fit_gaussians, humps_at_ends, slurry_volumes
+from millfoam.readings.slurry_on_maps import axial_flow, axial_velocity, slurry_ends
+from millfoam.readings.slurry_over_time import RING, ring_depth
+
+matplotlib.use("Agg")
 
 
 def plot_profile(profile, fits, path):
     figure, axes = plt.subplots(3, 1, figsize=(6.4, 7.6), sharex=True, constrained_layout=True)
     z = 1e3 * profile.z
-    axes[0].fill_between(z, 1e3 * (profile.height - profile.height_spread), 1e3 * (profile.height + profile.height_spread),
+    axes[0].fill_between(z, 1e3 * (profile.height - profile.height_spread),
+                         1e3 * (profile.height + profile.height_spread),
                          alpha=0.2, label="standard deviation over time")
     axes[0].plot(z, 1e3 * profile.height, "o-", ms=3, label="mean")
     along = np.linspace(profile.z[0], profile.z[-1], 200)
@@ -46,7 +49,8 @@ def plot_z_velocity(flow, slurry, path):
     velocity = axial_velocity(slurry)
     limit = np.nanpercentile(np.abs(velocity), 99) if np.isfinite(velocity).any() else 1
     figure, axis = plt.subplots(figsize=(6.2, 5.2), constrained_layout=True)
-    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * velocity, cmap="RdBu_r", vmin=-1e3 * limit, vmax=1e3 * limit)
+    image = axis.pcolormesh(1e3 * slurry.x, 1e3 * slurry.y, 1e3 * velocity, cmap="RdBu_r", vmin=-1e3 * limit,
+                            vmax=1e3 * limit)
     figure.colorbar(image, ax=axis, label="slurry's velocity along the axis, mm/s (red: to the discharge)")
     mill_plots.draw_mill(axis, flow, flow.frames[-1][0])
     figure.savefig(path, dpi=110)
@@ -61,8 +65,8 @@ def print_axial_flow(flow, slurry):
     """Where the slurry reaches, and its way along the axis at the toe and at the shoulder."""
     height = float(foam.read_dictionary(flow.case / "constant" / "millProperties")["lifterHeight"])
     toe, shoulder = slurry_ends(slurry, flow.radius, ring_depth(height))
-    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' heights "
-          "from the shell")
+    print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' "
+          "heights from the shell")
     if np.isfinite([toe, shoulder]).all():
         along = axial_flow(slurry, toe, shoulder)
         for name, half in (("toe", along.toe), ("shoulder", along.shoulder)):
@@ -73,7 +77,8 @@ def print_axial_flow(flow, slurry):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("case", type=Path)
-    parser.add_argument("--begin", type=float, help="flow time from which averages are taken, s [2, or half of a shorter run]")
+    parser.add_argument("--begin", type=float,
+                        help="flow time from which averages are taken, s [2, or half of a shorter run]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]
@@ -98,8 +103,8 @@ def main():
     print(f"averages from {begin:g} to {last:g} s")
     print(f"slurry: {1e3 * volumes[0]:.3f} l at the start, {1e3 * volumes[-1]:.3f} l at the end")
     print(f"feed {1e6 * feed:.1f} ml/s, discharge {1e6 * out:.1f} ml/s, net {1e6 * (feed - out):+.1f} ml/s")
-    print(f"height of the slurry's centre of mass: mean {1e3 * np.average(profile.height, weights=profile.holdup):.2f} mm, "
-          f"{1e3 * profile.height.min():.2f} to {1e3 * profile.height.max():.2f} mm along the axis")
+    print(f"height of the slurry's centre of mass: mean {1e3 * np.average(profile.height, weights=profile.holdup):.2f} "
+          f"mm, {1e3 * profile.height.min():.2f} to {1e3 * profile.height.max():.2f} mm along the axis")
     for humps in fits:
         print(f"{len(humps.places)} Gaussians: humps at {millimetres(humps.places, 0)} mm, "
               f"{millimetres(humps.heights, 2)} mm high, {millimetres(humps.distances, 0)} mm apart, "

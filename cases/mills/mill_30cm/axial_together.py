@@ -1,30 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One picture of several runs of the 30 cm mill: height of the slurry's centre of mass and p_rgh along the axis out of their
-pictures/axial.csv, and maps of their velocity along the axis where the slurry's share is over a half, averaged from 2 s on (or
-over the second half of a run of 3 s or less)."""
+"""One picture of several runs of the 30 cm mill: height of the slurry's centre of mass and p_rgh along the axis out of
+their pictures/axial.csv, and maps of their velocity along the axis where the slurry's share is over a half, averaged
+from 2 s on (or over the second half of a run of 3 s or less)."""
 import argparse
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import mill_plots
-from millfoam.mill_flow import MillFlow
-from millfoam.slurry_maps import axial_velocity
+from millfoam.files.written_times import MillFlow
+from millfoam.plots import mill_plots
+from millfoam.readings.slurry_on_maps import axial_velocity
+
+matplotlib.use("Agg")
 
 LIMIT = 30  # of the maps' colours, mm/s
 
 
 def draw_profiles(axes, cases):
     for case in cases:
-        z, height, spread, _, pressure = np.loadtxt(case / "pictures" / "axial.csv", delimiter=",", skiprows=1, unpack=True)
+        z, height, spread, _, pressure = np.loadtxt(case / "pictures" / "axial.csv", delimiter=",", skiprows=1,
+                                                    unpack=True)
         line, = axes[0].plot(1e3 * z, 1e3 * height, "o-", ms=3, label=case.name)
-        axes[0].fill_between(1e3 * z, 1e3 * (height - spread), 1e3 * (height + spread), color=line.get_color(), alpha=0.15,
-                             lw=0)
+        axes[0].fill_between(1e3 * z, 1e3 * (height - spread), 1e3 * (height + spread), color=line.get_color(),
+                             alpha=0.15, lw=0)
         axes[1].plot(1e3 * z, pressure, "o-", ms=3)
     axes[0].set(xlabel="z from the feed end, mm",
                 ylabel="height of the slurry's centre of mass, mm\n(shaded: deviation over time)")
@@ -57,7 +58,8 @@ def main():
     axes = lower.subplots(1, len(cases), squeeze=False)[0]
     for axis, case in zip(axes, cases):
         image = draw_map(axis, case)
-    lower.colorbar(image, ax=axes, extend="both", shrink=0.8, label="velocity along the axis, mm/s\n(red: to the discharge)")
+    lower.colorbar(image, ax=axes, extend="both", shrink=0.8,
+                   label="velocity along the axis, mm/s\n(red: to the discharge)")
     figure.savefig(options.output, dpi=80)
     print(options.output)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dry runs of the 12 cm mill beside published readings: RMSD of the tangential velocity from a cubic, and of the free surface
-from a logistic, with their errors over time; and the same mills with one thing changed, to tell what a difference comes from.
+"""Dry runs of the 12 cm mill compared with published readings: RMSD of the tangential velocity from a cubic, and of the
+free surface from a logistic, with their errors over time. The same mills with one change show the cause of a
+difference.
 
-Every run has a folder runs/NAME as those of dem_matrix, whose whole runs are taken as they are. What is whole is kept, what was
-broken off is resumed; dumps are removed once they are averaged."""
+Every run has a folder runs/NAME as those of dem_matrix; complete runs of dem_matrix are used. Complete runs are kept,
+interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
 import csv
 import sys
@@ -13,27 +14,29 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from millfoam import other_readings, published_mills
-from millfoam.charge import Charge, charge_with_errors, read_charge
-from millfoam.charge_plots import draw_charge
-from millfoam.dry_runs import is_whole, make_dry_run
-from millfoam.published_mills import Setting, run_name
+from millfoam.files.solids_file import read_windows
+from millfoam.plots.charge_plots import draw_charge
+from millfoam.readings.charge import Charge, charge_with_errors, read_charge
+from millfoam.readings.means import with_error
 from millfoam.run import RunError, run
-from millfoam.solids import read_windows, with_error
+from millstudies import other_readings, published_mills
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.published_mills import Setting, run_name
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"
 RADIUS = 0.06  # m
 QUICK = 0.2, 0.012, 0.1, 0.01  # duration, s; slice, m; of the averages: left out, window, s
 COLUMNS = ("run", "balls", "steady", "steady_from_s", "power_W", "power_error_W", "cubic_rmsd_m_s", "cubic_error_m_s",
-           "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm", "centre_y_mm",
-           "centre_error_mm", "toe_deg", "toe_error_deg", "shoulder_deg", "shoulder_error_deg", "wall_time_s")
+           "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm",
+           "centre_y_mm", "centre_error_mm", "toe_deg", "toe_error_deg", "shoulder_deg", "shoulder_error_deg",
+           "wall_time_s")
 # What a variant changes of the mill
 VARIANTS = {
     "stiff": ["dem.youngs_modulus=1.0e8"],
@@ -89,8 +92,8 @@ def asked(case, options):
 
 @dataclass
 class Result:
-    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge), with
-    errors (name -> Reading); the latter two are None where there is nothing to read."""
+    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge),
+    with errors (name -> Reading); the latter two are None where there is nothing to read."""
     case: Case
     folder: Path
     dry: object
@@ -118,7 +121,9 @@ def row(result):
 
     def read(name, scale=1.0):
         found = result.errors[name] if result.errors else None
-        return (scale * np.atleast_1d(found.value), scale * np.atleast_1d(found.error)) if found else (np.full(2, np.nan),) * 2
+        if not found:
+            return (np.full(2, np.nan),) * 2
+        return scale * np.atleast_1d(found.value), scale * np.atleast_1d(found.error)
 
     (velocity, velocity_error), (surface, surface_error) = read("tangential_rmsd"), read("surface_rmsd", 1e3)
     (centre, centre_error), (ends, ends_error) = read("centre", 1e3), read("ends")
@@ -136,20 +141,20 @@ def write_csv(path, columns, rows):
         writer.writerows(rows)
 
 
-def told(value, error, digits):
+def value_text(value, error, digits):
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def print_table(rows):
     width = max(len(r["run"]) for r in rows) + 2
-    print(f"{'run':<{width}}{'balls':>6}{'steady':>7}{'power W':>17}{'cubic m/s':>18}{'publ.':>8}{'logistic mm':>15}{'publ.':>7}"
-          f"{'centre mm':>14}{'toe':>6}{'shoulder':>10}{'time s':>8}")
+    print(f"{'run':<{width}}{'balls':>6}{'steady':>7}{'power W':>17}{'cubic m/s':>18}{'publ.':>8}{'logistic mm':>15}"
+          f"{'publ.':>7}{'centre mm':>14}{'toe':>6}{'shoulder':>10}{'time s':>8}")
     for r in rows:
         centre = f"{r['centre_x_mm']:.1f}, {r['centre_y_mm']:.1f}"
-        print(f"{r['run']:<{width}}{r['balls']:6d}{r['steady']:>7}{told(r['power_W'], r['power_error_W'], 4):>17}"
-              f"{told(r['cubic_rmsd_m_s'], r['cubic_error_m_s'], 4):>18}{r['cubic_published_m_s']:8.4f}"
-              f"{told(r['logistic_rmsd_mm'], r['logistic_error_mm'], 2):>15}{r['logistic_published_mm']:7.2f}{centre:>14}"
-              f"{r['toe_deg']:6.0f}{r['shoulder_deg']:10.0f}{r['wall_time_s']:8.0f}")
+        print(f"{r['run']:<{width}}{r['balls']:6d}{r['steady']:>7}{value_text(r['power_W'], r['power_error_W'], 4):>17}"
+              f"{value_text(r['cubic_rmsd_m_s'], r['cubic_error_m_s'], 4):>18}{r['cubic_published_m_s']:8.4f}"
+              f"{value_text(r['logistic_rmsd_mm'], r['logistic_error_mm'], 2):>15}{r['logistic_published_mm']:7.2f}"
+              f"{centre:>14}{r['toe_deg']:6.0f}{r['shoulder_deg']:10.0f}{r['wall_time_s']:8.0f}")
 
 
 def readings(result):
@@ -163,7 +168,8 @@ def readings(result):
                 value, error = float(found.value), float(found.error)
             except RuntimeError:
                 value = error = np.nan
-            rows.append({"run": result.dry.name, "rmsd_of": kind, "reading": name, "value": scale * value, "error": scale * error,
+            rows.append({"run": result.dry.name, "rmsd_of": kind, "reading": name, "value": scale * value,
+                         "error": scale * error,
                          "single_windows": scale * other_readings.mean_of_windows(reading, result.maps, RADIUS),
                          "published": published()[result.case.setting][number]})
     return rows
@@ -173,12 +179,13 @@ def print_readings(rows):
     for r in rows:
         if r is rows[0] or r["run"] != rows[rows.index(r) - 1]["run"]:
             print(f"\n{r['run']:<66}{'whole':>18}{'a window':>10}{'publ.':>9}")
-        print(f"  {r['rmsd_of']:<14}{r['reading']:<50}{told(r['value'], r['error'], 4):>18}{r['single_windows']:10.4f}"
+        print(f"  {r['rmsd_of']:<14}{r['reading']:<50}{value_text(r['value'], r['error'], 4):>18}"
+              f"{r['single_windows']:10.4f}"
               f"{r['published']:9.4g}")
 
 
 def plot(results, rows, path):
-    """Measured beside published RMSDs above, below the maps with what is read off them."""
+    """Top: simulated and published RMSDs; bottom: the maps with their readings."""
     across = min(len(results), 4)
     lines = -(-len(results) // across)
     figure = plt.figure(figsize=(max(5.2 * across, 10), 5 + 6.4 * lines), constrained_layout=True)
@@ -188,8 +195,8 @@ def plot(results, rows, path):
     place = np.arange(len(rows))
     for k, (key, title) in enumerate(titles):
         axis = figure.add_subplot(grid[0, k * across:(k + 1) * across])
-        axis.errorbar(place, [r[key.format("rmsd")] for r in rows], [r[key.format("error")] for r in rows], fmt="o", capsize=4,
-                      color="#0072B2", label="this study, standard error over time")
+        axis.errorbar(place, [r[key.format("rmsd")] for r in rows], [r[key.format("error")] for r in rows], fmt="o",
+                      capsize=4, color="#0072B2", label="this study, standard error over time")
         axis.plot(place, [r[key.format("published")] for r in rows], "D", color="#D55E00", label="published")
         axis.set(yscale="log", title=f"RMSD of the {title}", xlim=(-0.6, len(rows) - 0.4))
         axis.set_xticks(place, [r["run"].removeprefix("12cm_") for r in rows], rotation=20, ha="right", fontsize=8)
@@ -208,8 +215,8 @@ def plot(results, rows, path):
 
 
 def chosen(patterns, known, parser):
-    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches nothing
-    is an error."""
+    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches
+    nothing is an error."""
     for pattern in patterns:
         if pattern != "all" and not any(fnmatchcase(name, pattern) for name in known):
             parser.error(f"no run is named '{pattern}'; --list names them")
@@ -219,18 +226,22 @@ def chosen(patterns, known, parser):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", nargs="*", metavar="RUN", help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
-    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
-    parser.add_argument("--quick", action="store_true", help="0.2 s of two thin slices: shows that it works, not what it says")
-    parser.add_argument("--readings", action="store_true", help="other ways to read both numbers, in a table of their own")
+    parser.add_argument("runs", nargs="*", metavar="RUN",
+                        help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
+    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
+    parser.add_argument("--quick", action="store_true",
+                        help="0.2 s of two thin slices: shows that it works, not what it says")
+    parser.add_argument("--readings", action="store_true",
+                        help="other ways to read both numbers, in a table of their own")
     parser.add_argument("--duration", type=float, help=f"of the turning mill, s [{published_mills.DURATION:g}]")
-    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH", help="periodic slices of this length (m) instead")
+    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH",
+                        help="periodic slices of this length (m) instead")
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--keep-dumps", action="store_true")
     return parser.parse_args(), parser
 
 
-def tell(results, options):
+def report(results, options):
     """Tables, picture and reports of runs that are whole."""
     name = "dem_12cm_quick" if options.quick else "dem_12cm"
     rows = [row(result) for result in results]
@@ -252,7 +263,7 @@ def main():
     known = cases()
     if options.list or not (options.runs or options.quick):
         for case in known.values():
-            print(case.name, "whole" if is_whole(*asked(case, options)) else "")
+            print(case.name, "complete" if is_whole(*asked(case, options)) else "")
         return 0
     names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
     results, failures = [], []
@@ -263,7 +274,7 @@ def main():
             failures.append(f"{case.name}: {error}")
             print(failures[-1], flush=True)
     if results:
-        tell(results, options)
+        report(results, options)
     if failures:
         print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(results)} runs failed")
     return 1 if failures else 0

@@ -3,8 +3,8 @@
 """Dry runs of the published matrix: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2 speeds.
 
 Every run has a folder runs/NAME with its mill.json, walls, dumps/results.json, dumps/energy.csv and solids.h5 (its
-averages on 65 x 65 voxels over the mill's length, the first second left out, in windows of 0.1 s). What is whole is
-kept, what was broken off is resumed; dumps are removed once they are averaged."""
+averages on 65 x 65 voxels over the mill's length, without the first second, in windows of 0.1 s). Complete runs are
+kept, interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
 import csv
 import sys
@@ -12,16 +12,17 @@ from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from millfoam.dry_runs import is_whole, make_dry_run
-from millfoam.published_mills import matrix, mill, run_name
+from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.published_mills import matrix, mill, run_name
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
-COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady", "steady_from_s",
-           "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm", "centroid_y_mm", "wall_time_s")
+COLUMNS = ("run", "mill", "load_percent", "speed_percent", "balls", "power_W", "power_error_W", "steady",
+           "steady_from_s", "kinetic_J", "potential_J", "overlap_99_um", "overlap_largest_um", "centroid_x_mm",
+           "centroid_y_mm", "wall_time_s")
 
 
 def asked(setting, options):
@@ -62,10 +63,12 @@ def write_table(rows):
 def plot(rows):
     """Power against speed, a line for each load; and every run's place."""
     figure, axis = plt.subplots(figsize=(6.4, 4.4), constrained_layout=True)
-    for mill, load in sorted({(r["mill"], r["load_percent"]) for r in rows}, key=lambda item: (item[0], float(item[1]))):
-        line = sorted((r for r in rows if (r["mill"], r["load_percent"]) == (mill, load)), key=lambda r: r["speed_percent"])
-        axis.errorbar([r["speed_percent"] for r in line], [r["power_W"] for r in line], [r["power_error_W"] for r in line],
-                      marker="o", ms=4, capsize=3, label=f"{mill}, {load} % load")
+    lines = sorted({(r["mill"], r["load_percent"]) for r in rows}, key=lambda item: (item[0], float(item[1])))
+    for size, load in lines:
+        line = sorted((r for r in rows if (r["mill"], r["load_percent"]) == (size, load)),
+                      key=lambda r: r["speed_percent"])
+        axis.errorbar([r["speed_percent"] for r in line], [r["power_W"] for r in line],
+                      [r["power_error_W"] for r in line], marker="o", ms=4, capsize=3, label=f"{size}, {load} % load")
     axis.set(xlabel="speed, % of critical", ylabel="power that the charge takes, W", ylim=(0, None))
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8)
@@ -75,10 +78,12 @@ def plot(rows):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", nargs="*", metavar="RUN", help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
-    parser.add_argument("--list", action="store_true", help="names of all runs, and which of them are whole")
+    parser.add_argument("runs", nargs="*", metavar="RUN",
+                        help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
+    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
     parser.add_argument("--duration", type=float, help="of the turning mill, s [4; of the 30 cm mill 6.25 and 5]")
-    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH", help="periodic slices of this length (m) instead")
+    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH",
+                        help="periodic slices of this length (m) instead")
     parser.add_argument("--ranks", type=int, default=2)
     parser.add_argument("--keep-dumps", action="store_true")
     return parser.parse_args(), parser
@@ -98,7 +103,7 @@ def main():
     settings = matrix()
     if options.list or not options.runs:
         for name, setting in settings.items():
-            print(name, "whole" if is_whole(*asked(setting, options)) else "")
+            print(name, "complete" if is_whole(*asked(setting, options)) else "")
         return 0
     rows, failures = [], []
     for setting in chosen(options.runs, settings, parser):

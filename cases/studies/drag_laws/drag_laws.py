@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tabulates and draws every drag law against Reynolds number, solidity and velocity, and finds where Ergun crosses
+"""Tabulates and draws every drag law over Reynolds number, solidity and velocity, and finds where Ergun crosses
 Beetstra at solidity 0.5.
 
-All numbers and ranges come from `millDrag`. Exit code 1 when the crossing is not the one that Malahe's thesis (University
-of Cape Town, 2012, figure 2.8) shows, near Re 50."""
+All numbers and ranges come from `millDrag`. Exit code 1 when the crossing is not the one that Malahe's thesis
+(University of Cape Town, 2012, figure 2.8) shows, near Re 50."""
 import csv
 import subprocess
 import sys
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+matplotlib.use("Agg")
 
 SOLIDITIES = (0.0, 0.15, 0.3, 0.5, 0.6)
 REYNOLDS = (0.1, 10.0, 100.0, 1000.0)
@@ -34,8 +34,8 @@ CROSSING_SOLIDITY, CROSSING_REYNOLDS, CROSSING_FACTOR = 0.5, 50.3, 72.5
 TOLERANCE = 0.05
 
 REFERENCE = "Beetstra"  # the law over which ratios are drawn
-# Colour by family: beds of spheres (warm), single sphere times a function of voidage (green, brown), resolved simulations
-# (blue, violet, grey)
+# Colour by family: beds of spheres (warm), single sphere times a function of voidage (green, brown), resolved
+# simulations (blue, violet, grey)
 STYLES = {
     "Ergun": ("#d62728", "o"), "Fand": ("#ff7f0e", "s"), "KozenyCarman": ("#e377c2", "^"), "Darcy": ("#f2b701", "v"),
     "WenYu": ("#2ca02c", "o"), "ErgunWenYu": ("#8c564b", "s"), "DiFelice": ("#17becf", "^"), "Rong": ("#8fb300", "v"),
@@ -50,7 +50,8 @@ def mill_drag(**options):
     for name, value in options.items():
         words.append(f"--{name}")
         if value is not True:
-            words.append(",".join(f"{number:.12g}" for number in value) if np.iterable(value) and not isinstance(value, str)
+            words.append(",".join(f"{number:.12g}" for number in value) if np.iterable(value)
+                         and not isinstance(value, str)
                          else str(value))
     table = subprocess.run(words, check=True, capture_output=True, text=True).stdout
     text = ("law", "reference")
@@ -115,7 +116,8 @@ def draw_law(axis, x, y, believed, law):
 
 
 def draw_panels(panels, name, out, title):
-    """Columns of (heading, rows, mark): F above, F over the reference law's below; `name` is the key of the abscissa."""
+    """Columns of (heading, rows, mark): F above, F over the reference law's below; `name` is the key of the
+    abscissa."""
     label = {"Re": "Reynolds number ρ e v d/μ, –", "phi": "solidity φ, –"}[name]
     figure, axes = plt.subplots(2, len(panels), figsize=(4.4 * len(panels), 9.5), sharex=True, sharey="row",
                                 constrained_layout=True)
@@ -172,7 +174,8 @@ def study_solidity(limits, folder):
     rows = marked(mill_drag(phi=SOLIDITY_AXIS, re=REYNOLDS), limits)
     write(rows, folder / "factor_solidity.csv")
     panels = [(f"Re = {re:g}", [row for row in rows if row["Re"] == re], None) for re in REYNOLDS]
-    draw_panels(panels, "phi", folder / "factor_solidity.png", "Force on a ball of a bed over Stokes's, F, against solidity")
+    draw_panels(panels, "phi", folder / "factor_solidity.png",
+                "Force on a ball of a bed over Stokes's, F, against solidity")
 
 
 def study_gradient(limits, folder):
@@ -212,9 +215,11 @@ def judge(found):
     """Whether the crossing is the expected one, and a sentence about it."""
     expected = f"expected Re {CROSSING_REYNOLDS}, F {CROSSING_FACTOR}"
     if found is None:
-        return False, f"Ergun and Beetstra do not cross exactly once at solidity {CROSSING_SOLIDITY}; {expected}: MISSED"
+        where = f"at solidity {CROSSING_SOLIDITY}"
+        return False, f"Ergun and Beetstra do not cross exactly once {where}; {expected}: MISSED"
     good = all(abs(a - b) <= TOLERANCE for a, b in zip(found, (CROSSING_REYNOLDS, CROSSING_FACTOR)))
-    return good, (f"Ergun crosses Beetstra at solidity {CROSSING_SOLIDITY}: Re {found[0]:.3f}, F {found[1]:.3f}; {expected}"
+    return good, (f"Ergun crosses Beetstra at solidity {CROSSING_SOLIDITY}: Re {found[0]:.3f}, F {found[1]:.3f}; "
+                  f"{expected}"
                   + ("" if good else ": MISSED"))
 
 

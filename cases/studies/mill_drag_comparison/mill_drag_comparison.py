@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: where the slurry
-stands, what power it takes, and the particle Reynolds numbers in the bed.
+"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: place of
+the slurry, its power, and the particle Reynolds numbers in the bed.
 
-Runs are kept in the folder runs/ (scripts/millfoam/mill_runs.py): a run that is whole is not repeated. Exit code 1 when one
+Runs are kept in the folder runs/ (millstudies.mill_runs): a complete run is not repeated. Exit code 1 if one
 failed; the table and the figure then show the others."""
 import argparse
 import csv
@@ -12,16 +12,17 @@ import sys
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.flow_record import read_flow_record
-from millfoam.mill_flow import MillFlow
-from millfoam.mill_plots import draw_mill
-from millfoam.mill_runs import COARSE, MILL, Setting, make_runs
-from millfoam.slurry_shape import LEVEL, read_shape
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.written_times import MillFlow
+from millfoam.plots.mill_plots import draw_mill
+from millfoam.readings.shell_angles import LEVEL
+from millfoam.readings.slurry_in_cells import read_shape
+from millstudies.mill_runs import COARSE, MILL, Setting, make_runs
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law
@@ -39,7 +40,8 @@ def laws():
 
 
 def settings(mesh, prefix):
-    """All runs, the mill case's law and what differs most from it first: names begin with `prefix`; mesh: its settings."""
+    """All runs, the mill case's law and what differs most from it first: names begin with `prefix`; mesh: its
+    settings."""
     changes = {REFERENCE: (), NO_DRAG: ("flow.multiplier=0",),
                **{law: (f"flow.law={law}",) for law in laws() if law != REFERENCE}}
     found = [Setting(prefix + name, flow=(*mesh, *change)) for name, change in changes.items()]
@@ -81,8 +83,8 @@ def write_tables(rows, failures, title):
         lines.append(f"{row['run']:<13}" + "".join(f"{cell:>16}" for cell in cells)
                      + "".join(f"{row[f'Re {percent} %']:8.0f}" for percent in PERCENTS)
                      + f"{row['steps']:7d}{row['time, s']:9.0f}")
-    lines.append("±: half of the difference between the means over the two halves of the time averaged over. Angles from straight "
-                 "down, the rising side positive.")
+    lines.append("±: half of the difference between the means over the two halves of the time averaged over. Angles "
+                 "from straight down, the rising side positive.")
     lines += [f"FAILED: {failure}" for failure in failures]
     print("\n".join(lines))
     (HERE / "mill_drag_comparison.txt").write_text("\n".join(lines) + "\n")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed order
-and error bar of the slurry's height, toe and shoulder.
+"""The 12 cm mill's slice on three meshes, with two time-steps, three window lengths and three voxel sizes: observed
+order and error bar of the slurry's height, toe and shoulder.
 
-Runs are kept beside those of mill_drag_comparison, whose dry run they share (scripts/millfoam/mill_runs.py): a
-run that is whole is not repeated. Exit code 1 when one failed; then there is no judgement of what it belongs to."""
+Runs are kept with those of mill_drag_comparison, with the same dry run (millstudies.mill_runs). A complete run is not
+repeated. Exit code 1 if one failed; then there is no result for its series."""
 import argparse
 import csv
 import sys
@@ -12,15 +12,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.convergence import judge
-from millfoam.mill_flow import MillFlow
-from millfoam.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
-from millfoam.slurry_shape import read_shape
+from millfoam.files.written_times import MillFlow
+from millfoam.readings.slurry_in_cells import read_shape
+from millstudies.convergence import judge
+from millstudies.mill_runs import COARSE, MILL, Setting, make_runs, time_step_limits
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 RUNS = HERE.parent / "mill_drag_comparison" / "runs"
@@ -96,7 +96,8 @@ def total_bar(label, found, families, shape):
 
 
 def run_lines(families, shapes):
-    yield f"{'':<8}{'size':>22}" + "".join(f"{f'{label}, {unit}':>20}" for label, (_, unit, _) in NUMBERS.items()) + f"{'steps':>8}"
+    numbers = "".join(f"{f'{label}, {unit}':>20}" for label, (_, unit, _) in NUMBERS.items())
+    yield f"{'':<8}{'size':>22}{numbers}{'steps':>8}"
     for family in families:
         for size, name in family.runs.items():
             if name not in shapes:
@@ -104,7 +105,8 @@ def run_lines(families, shapes):
                 continue
             cells = (" ± ".join(f"{factor * value:.2f}" for value in shapes[name].numbers[number])
                      for number, _, factor in NUMBERS.values())
-            yield (f"{family.name:<8}{f'{family.factor * size:.3g} {family.unit}':>22}" + "".join(f"{cell:>20}" for cell in cells)
+            yield (f"{family.name:<8}{f'{family.factor * size:.3g} {family.unit}':>22}"
+                   + "".join(f"{cell:>20}" for cell in cells)
                    + f"{shapes[name].steps:8d}")
 
 
@@ -130,8 +132,9 @@ def write_tables(families, shapes, found, base, title):
     (HERE / "mill_resolution.txt").write_text("\n".join(lines) + "\n")
     with open(HERE / "mill_resolution.csv", "w", newline="") as file:
         table = csv.writer(file)
-        table.writerow(["family", "size", "unit", "run", *(f"{label}{end}, {unit}" for label, (_, unit, _) in NUMBERS.items()
-                                                           for end in ("", " ±"))])
+        table.writerow(["family", "size", "unit", "run",
+                        *(f"{label}{end}, {unit}" for label, (_, unit, _) in NUMBERS.items()
+                          for end in ("", " ±"))])
         for family in families:
             for size, name in family.runs.items():
                 if name in shapes:
@@ -147,7 +150,8 @@ def plot(families, shapes, found, title):
             there = {size: shapes[name].numbers[number] for size, name in family.runs.items() if name in shapes}
             at = family.factor * np.array(list(there))
             mean, spread = factor * np.array(list(there.values())).reshape(-1, 2).T
-            axis.errorbar(at, mean, yerr=spread, fmt="o-", color="tab:blue", capsize=4, label="mean and drift over time")
+            axis.errorbar(at, mean, yerr=spread, fmt="o-", color="tab:blue", capsize=4,
+                          label="mean and drift over time")
             if (family.name, label) in found:
                 draw_judgement(axis, found[family.name, label], family.factor * family.base,
                                factor * there[family.base][0])

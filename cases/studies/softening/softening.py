@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with balls of three moduli: maps of solidity and velocity against the stiffest's, power, overlap and
-cost; and the same mill with another seed, which says how far two equal mills are apart. Runs that are whole are kept."""
+"""The 12 cm mill's slice with balls of three moduli: maps of solidity and velocity compared with the stiffest's,
+power, overlap and cost. The same mill with another seed shows the difference of two equal mills. Complete runs are
+kept."""
 import argparse
 import csv
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.compare import difference
-from millfoam.dry_runs import make_dry_run
-from millfoam.mill_runs import MILL, resolved
-from millfoam.published_mills import averages
+from millfoam.readings.compare import difference
+from millstudies.dry_runs import make_dry_run
+from millstudies.mill_runs import MILL, resolved
+from millstudies.published_mills import averages
+
+matplotlib.use("Agg")
 
 HERE = Path(__file__).parent.resolve()
 MODULI = (1e7, 1e8, 1e9)
@@ -24,8 +25,8 @@ DENSE = 0.05  # solidity from which on a voxel's speed is shown
 VOXELS = 24  # across the mill
 WHOLE, QUICK = (1.6, 0.6), (0.2, 0.1)  # duration, begin of the averages, s
 COLUMNS = ("run", "modulus_Pa", "time_step_us", "wall_time_s", "power_W", "power_error_W", "overlap_largest_percent",
-           "overlap_99_percent", "solidity_difference", "velocity_x_difference", "velocity_y_difference", "centroid_x_mm",
-           "centroid_y_mm")
+           "overlap_99_percent", "solidity_difference", "velocity_x_difference", "velocity_y_difference",
+           "centroid_x_mm", "centroid_y_mm")
 
 
 def settings(quick):
@@ -62,16 +63,17 @@ def write_table(rows, path):
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         writer.writerows(rows)
-    lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}{'vel. y':>8}"
-             f"{'centroid mm':>17}"]
+    lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}"
+             f"{'vel. y':>8}{'centroid mm':>17}"]
     for r in rows:
         power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"
         overlap = f"{r['overlap_99_percent']:.2f} / {r['overlap_largest_percent']:.1f}"
         centroid = f"{r['centroid_x_mm']:.2f}, {r['centroid_y_mm']:.2f}"
         lines.append(f"{r['run']:<16}{r['time_step_us']:9.2f}{r['wall_time_s']:8.0f}{power:>16}{overlap:>16}"
-                     f"{r['solidity_difference']:10.4f}{r['velocity_x_difference']:8.4f}{r['velocity_y_difference']:8.4f}"
-                     f"{centroid:>17}")
-    lines.append("overlap: 99 % below / largest, of the smallest diameter; solidity, velocity: mean differences to the last run")
+                     f"{r['solidity_difference']:10.4f}{r['velocity_x_difference']:8.4f}"
+                     f"{r['velocity_y_difference']:8.4f}{centroid:>17}")
+    lines.append("overlap: 99 % below / largest, of the smallest diameter; solidity, velocity: mean differences to the "
+                 "last run")
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -87,8 +89,8 @@ def plot(runs, path):
         panels = (("solidity", charge.solidity, inside, "YlOrBr", (0, 0.65)),
                   (f"less that of {runs[-1].name}", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
                   ("speed, m/s", speed, charge.solidity > DENSE, "viridis", (0, 0.9)),
-                  (f"less that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense, "RdBu_r",
-                   (-0.05, 0.05)))
+                  (f"less that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense,
+                   "RdBu_r", (-0.05, 0.05)))
         for axis, (title, values, shown, colours, limits) in zip(axes[:, column], panels):
             image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(shown, values, np.nan), cmap=colours,
                                     vmin=limits[0], vmax=limits[1])
@@ -103,7 +105,8 @@ def plot(runs, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--quick", action="store_true", help="0.2 s of the two softest: shows that it works, not what it says")
+    parser.add_argument("--quick", action="store_true",
+                        help="0.2 s of the two softest: shows that it works, not what it says")
     quick = parser.parse_args().quick
     chosen = list(settings(quick))
     runs = [make(*setting, quick) for setting in chosen]

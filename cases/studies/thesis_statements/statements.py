@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds the thesis' statements about slurry against runs of the 30 cm mill and of the 12 cm mill's slice: a table on the
-screen, statements.csv and statements.md."""
+"""Compares the thesis' statements about slurry with runs of the 30 cm mill and of the 12 cm mill's slice: a table on
+the screen, statements.csv and statements.md."""
 import argparse
 import csv
 import sys
 from dataclasses import asdict, fields
 from pathlib import Path
 
-from millfoam.mill_runs import summary_of_whole
-from millfoam.report.sources import MillCase
-from millfoam.statements import Verdict, read, verdicts
+from millfoam.files.mill_case import MillCase
+from millstudies.compared_runs import Verdict
+from millstudies.mill_runs import summary_of_whole
+from millstudies.statements import read, verdicts
 
 HERE = Path(__file__).parent.resolve()
 MILLS = HERE.parents[1] / "mills"
@@ -34,7 +35,8 @@ def slices_there(runs=LAWS):
 def folders_there():
     """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike; the slices of
     mill_drag_comparison, which share their balls; and mill_12cm."""
-    layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40") for variant in VARIANTS]
+    layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40")
+               for variant in VARIANTS]
               for name in ("runs_33", "runs_9")]
     begun = next((folders for folders in layers if any(map(is_run, folders))), [])
     return [folder for folder in [*begun, *slices_there(), MILLS / "mill_12cm"] if is_run(folder)]
@@ -48,7 +50,8 @@ def refuse_multiplied(case):
 
 
 def read_cases(folders):
-    """RunReadings of the folders that hold a run, and a message for each of the others and for what could not be read."""
+    """RunReadings of the folders that hold a run, and a message for each of the others and for what could not be
+    read."""
     runs, messages = [], []
     for folder in folders:
         try:
@@ -78,7 +81,8 @@ def write(found, messages, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", type=Path, metavar="CASE",
-                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, mill_drag_comparison's, mill_12cm]")
+                        help="folders of runs [mill_30cm's on 33 layers, or else on 9, mill_drag_comparison's, "
+                             "mill_12cm]")
     parser.add_argument("--output", type=Path, default=HERE, help="folder of the tables [this study's]")
     options = parser.parse_args()
     runs, messages = read_cases(options.cases or folders_there())

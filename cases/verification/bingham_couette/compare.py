@@ -1,31 +1,32 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bingham slurry between an inner cylinder that turns and an outer one at rest, against the closed form.
+"""Bingham slurry between an inner cylinder that turns and an outer one at rest, compared with the closed form.
 
-With the torque 2 pi T per length the shear stress is T/r^2. Where it is above the yield stress, up to r0 = sqrt(T/tau0),
-the slurry shears; beyond, it rests. Its angular velocity is
+With the torque 2 pi T per length the shear stress is T/r^2. Where it is above the yield stress, up to r0 =
+sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
 
     w(r) = tau0/(2 mu) [(r0/r)^2 - 1 - 2 ln(r0/r)]        for r < r0, else 0
 
-(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) With both regularisations, and with softer plugs: the error has to go down
-with the regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
+(Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) Runs have both regularisations and softer plugs: the error must
+decrease with the regularisation, and every profile must be that of its own flow curve. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import brentq
 
-sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
-from flow_curve import regularised
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
+from flow_curve import regularised  # noqa: E402
+
+matplotlib.use("Agg")
 
 # Viscous enough to be steady soon
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 1.0, 0.1
@@ -53,7 +54,8 @@ OMEGA = exact(INNER) / INNER
 
 
 def regularised_profile(r, regularisation, stiffness):
-    """Tangential speed, m/s, of the regularised slurry: the torque for which the outer cylinder rests, by quadrature."""
+    """Tangential speed, m/s, of the regularised slurry: the torque for which the outer cylinder rests, by
+    quadrature."""
     points = np.linspace(INNER, OUTER, 1001)
     ratio = stiffness * STIFFEST[regularisation]
 
@@ -70,7 +72,8 @@ def regularised_profile(r, regularisation, stiffness):
 
 @dataclass
 class Flow:
-    """Mean tangential speed u (m/s) of each ring of cells at its radius r (m), and what is compared with the closed form."""
+    """Mean tangential speed u (m/s) of each ring of cells at its radius r (m), and what is compared with the closed
+    form."""
     regularisation: str
     stiffness: float  # of the plug, over the stiffest
     r: np.ndarray
@@ -137,25 +140,28 @@ def run(regularisation, stiffness, case, template):
 def converges(flows):
     """Whether the errors go down as the plug gets stiffer, for both regularisations."""
     for name in REGULARISATIONS:
-        errors = [flow.profile_error for flow in sorted(flows, key=lambda flow: flow.stiffness) if flow.regularisation == name]
+        errors = [flow.profile_error for flow in sorted(flows, key=lambda flow: flow.stiffness)
+                  if flow.regularisation == name]
         if np.any(np.diff(errors) >= 0):
             return False
     return True
 
 
 def print_table(flows, out):
-    lines = [f"{'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug width mm':>13} {'error %':>8} "
-             f"{'uneven %':>8} {'drift':>8}",
-             f"{'closed form':<46} {1e3 * (OUTER - EDGE):13.4f}"]
+    lines = [f"{'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug width mm':>13} "
+             f"{'error %':>8} {'uneven %':>8} {'drift':>8}", f"{'closed form':<46} {1e3 * (OUTER - EDGE):13.4f}"]
     for flow in flows:
         lines.append(
-            f"{flow.regularisation:<14} {flow.stiffness:9g} {100 * flow.profile_error:9.3f} {100 * flow.model_error:11.3f} "
-            f"{1e3 * (OUTER - flow.edge):13.4f} {100 * flow.plug_width_error:8.3f} {100 * flow.unevenness:8.3f} {flow.drift:8.1e}"
+            f"{flow.regularisation:<14} {flow.stiffness:9g} {100 * flow.profile_error:9.3f} "
+            f"{100 * flow.model_error:11.3f} {1e3 * (OUTER - flow.edge):13.4f} {100 * flow.plug_width_error:8.3f} "
+            f"{100 * flow.unevenness:8.3f} {flow.drift:8.1e}"
             + ("  MISSED" if flow.misses() else ""))
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
-    lines.append(f"tolerance {100 * TOLERANCE:g} %; steady to {STEADY}; profiles: largest error over the inner cylinder's speed; "
-                 f"stiffness 1: viscosity ratios {', '.join(f'{value:g}' for value in STIFFEST.values())}; softer plugs are held against their own curve alone")
+    lines.append(f"tolerance {100 * TOLERANCE:g} %; steady to {STEADY}; profiles: largest error over the inner "
+                 "cylinder's speed; stiffness 1: viscosity ratios "
+                 f"{', '.join(f'{value:g}' for value in STIFFEST.values())}; softer plugs are compared with "
+                 "their own curve alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -169,7 +175,8 @@ def plot(flows, out):
         label = f"{flow.regularisation}, stiffness {flow.stiffness:g}"
         if flow.stiffness == 1:
             profile.plot(1e3 * flow.r, flow.u, next(markers), ms=4, mfc="none", label=flow.regularisation)
-        error.plot(1e3 * flow.r, 100 * (flow.u - exact(flow.r)) / exact(INNER), "-" if flow.stiffness == 1 else "--", label=label)
+        error.plot(1e3 * flow.r, 100 * (flow.u - exact(flow.r)) / exact(INNER), "-" if flow.stiffness == 1 else "--",
+                   label=label)
     for axis in (profile, error):
         axis.axvspan(1e3 * EDGE, 1e3 * OUTER, color="0.9", label="plug")
         axis.set_xlabel("radius, mm")

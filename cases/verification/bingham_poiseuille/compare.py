@@ -1,26 +1,27 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, against the closed form.
+"""Plane Poiseuille flow of a Bingham slurry, with both solvers and both regularisations, compared with the closed form.
 
-With the plates at y = -h and h, force per volume G, yield stress tau0 and plastic viscosity mu, the slurry moves as a
-plug of half width y0 = tau0/G with speed G (h - y0)^2/(2 mu); beside it u = G ((h - y0)^2 - (|y| - y0)^2)/(2 mu)
-(Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). With slurryFoam also softer plugs: the error has to go down with the
-regularisation, and every profile has to be that of its own flow curve. Exit code 1 when one misses."""
+The plates are at y = -h and h, the force per volume is G, the yield stress tau0 and the plastic viscosity mu. The
+slurry moves as a plug of half width y0 = tau0/G with the speed G (h - y0)^2/(2 mu). Between plug and plates u = G ((h -
+y0)^2 - (|y| - y0)^2)/(2 mu) (Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). slurryFoam
+also runs softer plugs: the error must decrease with the regularisation, and every profile must be that of its own flow
+curve. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
 from flow_curve import regularised
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 # Slurry with 30 % solids by mass
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014
@@ -37,8 +38,8 @@ TOLERANCE = {"slurryFoam": 0.01, "interFoam": 0.02}
 # Steady to this change of the largest speed over the last tenth of the run
 STEADY = 1e-4
 END = 90.0  # s
-# interFoam's runs whose largest viscosity times step over density and cell squared was 361 were steady, with 3600 they were
-# not; here it is 330.
+# interFoam's runs whose largest viscosity times step over density and cell squared was 361 were steady, with 3600 they
+# were not; here it is 330.
 STEP = {"slurryFoam": 0.1, "interFoam": 0.018}
 
 
@@ -51,7 +52,8 @@ def exact(y):
 def regularised_profile(y, regularisation, stiffness):
     """Speed, m/s, of the regularised slurry at the distances y (m) from the middle, by quadrature of its shear rate."""
     points = np.linspace(0, HALF_GAP, 1001)
-    rate = regularised(DRIVE * points, regularisation, YIELD_STRESS, PLASTIC_VISCOSITY, stiffness * VISCOSITY_RATIO, stiffness * M)
+    rate = regularised(DRIVE * points, regularisation, YIELD_STRESS, PLASTIC_VISCOSITY, stiffness * VISCOSITY_RATIO,
+                       stiffness * M)
     slower = np.concatenate([[0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(points))])
     return slower[-1] - np.interp(np.abs(y), points, slower)
 
@@ -105,8 +107,8 @@ def run(solver, regularisation, stiffness, case, template):
     write_parameters(
         case, solver=PROGRAMS[solver], correctors=3 if solver == "interFoam" else 1, density=DENSITY,
         yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
-        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS, step=STEP[solver],
-        endTime=END, writeInterval=round(END / STEP[solver] / 10))
+        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS,
+        step=STEP[solver], endTime=END, writeInterval=round(END / STEP[solver] / 10))
     run_program(case, "blockMesh")
     run_program(case, PROGRAMS[solver])
     *_, before, last = (path for _, path in foam.times(case))
@@ -128,8 +130,8 @@ def converges(flows):
 
 
 def print_table(flows, out):
-    lines = [f"{'solver':<10} {'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug speed m/s':>14} "
-             f"{'error %':>8} {'plug width mm':>13} {'error %':>8} {'drift':>8}",
+    lines = [f"{'solver':<10} {'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} "
+             f"{'plug speed m/s':>14} {'error %':>8} {'plug width mm':>13} {'error %':>8} {'drift':>8}",
              f"{'closed form':<55} {'':>2} {exact(0.0):13.5f} {'':>8} {2e3 * PLUG * HALF_GAP:13.4f}"]
     for flow in flows:
         lines.append(
@@ -140,8 +142,9 @@ def print_table(flows, out):
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
-    lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness 1: viscosity "
-                 f"ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are held against their own curve alone")
+    lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
+                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are compared with their own curve "
+                 "alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -158,7 +161,8 @@ def plot(flows, out):
             continue
         marker, label = next(markers), f"{flow.solver}, {flow.regularisation}"
         profile.plot(flow.u, 1e3 * flow.y, marker, ms=4, mfc="none", label=label)
-        error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, marker + "-", ms=4, mfc="none", label=label)
+        error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, marker + "-", ms=4, mfc="none",
+                   label=label)
     for axis in (profile, error):
         axis.axhspan(-1e3 * PLUG * HALF_GAP, 1e3 * PLUG * HALF_GAP, color="0.9", label="plug")
         axis.set_ylabel("distance from the middle, mm")

@@ -3,21 +3,21 @@
 """Slurry carried along by a bed that turns like a solid about an upright axis, between walls that slip.
 
 A full cylinder spins up as u = Omega r (1 - exp(-beta t/(epsilon rho))); in a half-full one the surface settles to the
-paraboloid z = z0 + Omega^2 r^2/(2 g). Exit code 1 when one misses."""
+paraboloid z = z0 + Omega^2 r^2/(2 g). Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
@@ -42,8 +42,9 @@ def run(setting, case, here):
     shutil.copytree(here / "half" if half else here.parent / "rest" / "pool" / "ogrid", case, dirs_exist_ok=True)
     write_parameters(
         case, **SLURRY, **AIR, gravity=-GRAVITY, solidity=SOLIDITY, diameter=ball_diameter(setting["drag"]),
-        omega=setting["omega"], endTime=setting["end"], writeInterval=setting["end"] / RECORDS, largestStep=setting["step"],
-        height=setting.get("height", 0), layers=setting.get("layers", 1), level=setting.get("level", 1), share=0 if half else 1)
+        omega=setting["omega"], endTime=setting["end"], writeInterval=setting["end"] / RECORDS,
+        largestStep=setting["step"], height=setting.get("height", 0), layers=setting.get("layers", 1),
+        level=setting.get("level", 1), share=0 if half else 1)
     run_program(case, "blockMesh")
     if half:
         run_program(case, "setAlphaField")
@@ -52,7 +53,8 @@ def run(setting, case, here):
 
 @dataclass
 class SpinUp:
-    """The full cylinder at the written times (s): tangential velocity of its cells (m/s, [time, cell]) at their radii (m)."""
+    """The full cylinder at the written times (s): tangential velocity of its cells (m/s, [time, cell]) at their radii
+    (m)."""
     time: np.ndarray
     radius: np.ndarray
     speed: np.ndarray
@@ -94,7 +96,8 @@ def spin_up(case):
 
 @dataclass
 class Surface:
-    """Columns of the half-full cylinder: means of r^2 over their cross-sections (m2), heights of the surface (m, [time, column])."""
+    """Columns of the half-full cylinder: means of r^2 over their cross-sections (m2), heights of the surface (m, [time,
+    column])."""
     time: np.ndarray
     r2: np.ndarray
     area: np.ndarray
@@ -160,7 +163,8 @@ def polygon(corners):
 def report(spin, shape, out):
     """Writes and prints the table; the number of lines that missed."""
     rows = [
-        ("full: angular momentum, largest over time, %", 100 * np.abs(spin.share - spin.exact_share).max(), 100 * SPIN_TOLERANCE),
+        ("full: angular momentum, largest over time, %", 100 * np.abs(spin.share - spin.exact_share).max(),
+         100 * SPIN_TOLERANCE),
         ("full: cells' velocities over the wall's, rms, %", 100 * spin.rms_error.max(), 100 * SPIN_TOLERANCE),
     ]
     if shape:
@@ -178,9 +182,9 @@ def report(spin, shape, out):
     lines.append(f"full: largest error of any cell {100 * np.abs(spin.errors).max():.2g} % of the wall's velocity")
     if shape:
         settling = np.ptp(shape.curvature_error[-4:])
-        lines.append(f"the surface rises by {1e3 * shape.rise:.2f} mm from axis to wall; its factor still moved by {100 * settling:.2g} % in "
-                     f"the last {shape.time[-1] - shape.time[-4]:.2g} s; largest deviation of a column "
-                     f"{1e3 * np.abs(shape.height[-1] - shape.exact).max():.3f} mm")
+        lines.append(f"the surface rises by {1e3 * shape.rise:.2f} mm from axis to wall; its factor still moved by "
+                     f"{100 * settling:.2g} % in the last {shape.time[-1] - shape.time[-4]:.2g} s; largest deviation "
+                     f"of a column {1e3 * np.abs(shape.height[-1] - shape.exact).max():.3f} mm")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed

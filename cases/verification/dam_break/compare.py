@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collapse of a water column twice as high as wide: position of the front against Martin & Moyce 1952.
+"""Collapse of a water column twice as high as wide: position of the front compared with Martin & Moyce 1952.
 
-Exit code 1 when slurryFoam misses the measurements by more than they differ among themselves allows."""
+Exit code 1 if slurryFoam differs from the measurements by more than their own spread allows."""
 import csv
 import shutil
 import sys
@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 WIDTH = 2.25 * 0.0254  # of the column, m
@@ -53,7 +53,8 @@ class Front:
 def measured(width):
     """Z and T of the measured column of this width, inches."""
     with open(Path(__file__).parent / "measured.csv") as lines:
-        rows = [row for row in csv.DictReader(line for line in lines if not line.startswith("#")) if float(row["width_in"]) == width]
+        rows = [row for row in csv.DictReader(line for line in lines if not line.startswith("#"))
+                if float(row["width_in"]) == width]
     return np.array([[float(row["Z"]), float(row["T"])] for row in rows]).T
 
 
@@ -112,8 +113,8 @@ def report(fronts, out):
     """Writes and prints the table; the number of lines that missed."""
     Z, T = compared()
     expected = speed(Z, T)
-    lines = [f"{'':<24} {'speed dZ/dT':>11} {'error %':>8} {'delay in T':>10} {'rms dZ':>8} {'without delay':>13} {'volume':>9}",
-             f"{'measured, 2.25 in':<24} {expected:11.4f}"]
+    lines = [f"{'':<24} {'speed dZ/dT':>11} {'error %':>8} {'delay in T':>10} {'rms dZ':>8} {'without delay':>13} "
+             f"{'volume':>9}", f"{'measured, 2.25 in':<24} {expected:11.4f}"]
     small_Z, small_T = measured(1.125)
     same = np.isin(small_Z, Z)
     lines.append(f"{'measured, 1.125 in':<24} {speed(small_Z[same], small_T[same]):11.4f}")
@@ -125,10 +126,11 @@ def report(fronts, out):
                 and front.volume_change <= 1e-8)
         bad = front.solver == "slurryFoam" and not good
         missed += bad
-        lines.append(f"{front.solver + ', ' + str(front.cells) + ' cells':<24} {found:11.4f} {100 * error:8.2f} {front.delay:10.3f} "
-                     f"{position:8.4f} {position_error(front, 0):13.4f} {front.volume_change:9.1e}" + ("  MISSED" if bad else ""))
-    lines.append(f"Z from {Z[0]:g} to {Z[-1]:g}. Tolerance of slurryFoam: speed {100 * SPEED_TOLERANCE:g} %, rms of Z {POSITION_TOLERANCE:g} "
-                 f"with a delay of 0 to {LONGEST_DELAY:g}")
+        lines.append(f"{front.solver + ', ' + str(front.cells) + ' cells':<24} {found:11.4f} {100 * error:8.2f} "
+                     f"{front.delay:10.3f} {position:8.4f} {position_error(front, 0):13.4f} {front.volume_change:9.1e}"
+                     + ("  MISSED" if bad else ""))
+    lines.append(f"Z from {Z[0]:g} to {Z[-1]:g}. Tolerance of slurryFoam: speed {100 * SPEED_TOLERANCE:g} %, rms of Z "
+                 f"{POSITION_TOLERANCE:g} with a delay of 0 to {LONGEST_DELAY:g}")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed
@@ -157,8 +159,10 @@ def main():
     options = case_options(__doc__, quick="slurryFoam alone, on the coarser mesh")
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
-    chosen = [("slurryFoam", 12)] if options.quick else [("slurryFoam", 24), ("slurryFoam", 12), ("interFoam", 12), ("interFoam", 24)]
-    fronts = run_jobs(lambda item: perform(*item, work / f"{item[0]}{item[1]}", here / "template"), chosen, options.jobs)
+    every = [("slurryFoam", 24), ("slurryFoam", 12), ("interFoam", 12), ("interFoam", 24)]
+    chosen = [("slurryFoam", 12)] if options.quick else every
+    fronts = run_jobs(lambda item: perform(*item, work / f"{item[0]}{item[1]}", here / "template"), chosen,
+                      options.jobs)
     missed = report(fronts, here / "dam_break.txt")
     plot(fronts, here / "dam_break.png")
     return 1 if missed else 0

@@ -1,24 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balls displace slurry: the pool's level against the volumes of slurry and of the balls below it.
+"""Balls displace slurry: the pool's level compared with the volumes of slurry and of the balls below it.
 
-In a closed box a bed moves from the air into the pool, in an open one a bed appears in the pool. With the slurry's volume
-V and the balls' volume V_s below the level, level = (V + V_s)/area, at every time: the slurry fills what the balls
-leave free from below. Exit code 1 when a level, the slurry's volume or the range of the phase fraction misses."""
+In a closed box a bed moves from the air into the pool, in an open one a bed appears in the pool. With the slurry's
+volume V and the balls' volume V_s below the level, level = (V + V_s)/area, at every time: the slurry fills the space
+between the balls from below. Exit code 1 if a level, the slurry's volume or the
+range of the phase fraction is wrong."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 WIDTH, HEIGHT, COLUMNS, LAYERS = 0.016, 0.4, 4, 100
 LAYER = HEIGHT / LAYERS
@@ -136,21 +137,22 @@ def run(kind, case, template):
 
 
 def print_table(results, out):
-    lines = [f"{'box':<7} {'level mm':>10} {'expected mm':>12} {'error':>8} {'at any time':>12} {'phase beyond 0, 1':>18} "
-             f"{'not settled':>12} {'volume':>8} {'speed at end m/s':>17}"]
+    lines = [f"{'box':<7} {'level mm':>10} {'expected mm':>12} {'error':>8} {'at any time':>12} "
+             f"{'phase beyond 0, 1':>18} {'not settled':>12} {'volume':>8} {'speed at end m/s':>17}"]
     for result in results:
         lines.append(
             f"{result.kind:<7} {1e3 * result.level[-1].mean():10.5f} {1e3 * final_level(result.kind):12.5f} "
             f"{result.final_error:8.1e} {result.error.max():12.1e} {result.beyond:18.1e} {result.not_settled:12.1e} "
             f"{result.volume_change:8.1e} {result.last_speed:17.1e}" + ("  MISSED" if result.misses() else ""))
-    lines.append(f"tolerance of levels (relative) and phase fraction {TOLERANCE:g}, of the slurry's volume {CONSERVED:g}; "
-                 f"level at the start {1e3 * POOL:g} mm")
+    lines.append(f"tolerance of levels (relative) and phase fraction {TOLERANCE:g}, of the slurry's volume "
+                 f"{CONSERVED:g}; level at the start {1e3 * POOL:g} mm")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
 
 def plot(results, out):
-    figure, axes = plt.subplots(2, len(results), figsize=(13, 7.5), height_ratios=(2, 1), sharex=True, constrained_layout=True)
+    figure, axes = plt.subplots(2, len(results), figsize=(13, 7.5), height_ratios=(2, 1), sharex=True,
+                                constrained_layout=True)
     for result, (picture, errors) in zip(results, axes.T):
         edges = np.concatenate([result.time, [2 * result.time[-1] - result.time[-2]]]) - WRITE_INTERVAL / 2
         shades = picture.pcolormesh(edges, LAYER * np.arange(LAYERS + 1), result.share.mean(axis=2).T, cmap="Blues",

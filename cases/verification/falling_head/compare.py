@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slurry falls through a bed in a column: its surface against the equations of a rigid column.
+"""Slurry falls through a bed in a column: its surface compared with the equations of a rigid column.
 
 With superficial speed U and surface at z, both fluids in the column move as one:
 
     M dU/dt = G(z) - f(U) - b,   dz/dt = -U/e at the surface
 
 M is the inertia (density times length over voidage), G gravity's and the ends' pressure, f the drag law's, b the
-difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the bed,
-an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the bed
-drains freely at its lower end, of h + L. Exit code 1 when a run misses the tolerance."""
+difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the
+bed, an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the
+bed drains freely at its lower end, of h + L. Exit code 1 if a run exceeds the tolerance."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -17,15 +17,15 @@ from functools import cached_property
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 SLURRY, AIR = 1000.0, 1.2  # kg/m3
@@ -37,7 +37,8 @@ HEAD_LEFT = 0.1  # share of the first head down to which an exponential is fitte
 
 @dataclass
 class Column:
-    """A column with a bed between two heights (m) and, at its lower end, the pressure of a tailwater of a height (m)."""
+    """A column with a bed between two heights (m) and, at its lower end, the pressure of a tailwater of a height
+    (m)."""
     name: str
     law: str
     solidity: float
@@ -87,8 +88,8 @@ class Column:
 
     def levels(self, times):
         """Of the surface, m, by quadrature."""
-        solution = solve_ivp(self.rates, (0, times[-1]), [START, 0.0], method="LSODA", t_eval=times, rtol=1e-9, atol=1e-12,
-                             max_step=self.end / 500)
+        solution = solve_ivp(self.rates, (0, times[-1]), [START, 0.0], method="LSODA", t_eval=times, rtol=1e-9,
+                             atol=1e-12, max_step=self.end / 500)
         assert solution.success, solution.message
         return solution.y[0]
 
@@ -153,8 +154,8 @@ def write_surface(case):
 def run(column, case, template):
     shutil.copytree(template, case)
     write_parameters(
-        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR, law=column.law,
-        solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
+        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR,
+        law=column.law, solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
         # p_rgh: slurry at the outlet, air at the top; both as if the surface rested at the tailwater's level
         outletPressure=SLURRY * GRAVITY * column.tailwater, topPressure=AIR * GRAVITY * column.tailwater,
         firstStep=column.largest_step / 10, largestStep=column.largest_step, endTime=column.end,
@@ -185,7 +186,8 @@ def print_table(falls, out):
 
 
 def plot(falls, out):
-    figure, axes = plt.subplots(2, len(falls), figsize=(14, 7), sharex="col", height_ratios=(2, 1), constrained_layout=True)
+    figure, axes = plt.subplots(2, len(falls), figsize=(14, 7), sharex="col", height_ratios=(2, 1),
+                                constrained_layout=True)
     for fall, (levels, errors) in zip(falls, axes.T):
         column = fall.column
         time = np.linspace(0, column.end, 400)

@@ -1,31 +1,33 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A smooth drum that drags viscous slurry along: on a mesh that turns with it, and on one at rest whose wall has its velocity.
+"""A smooth drum that drags viscous slurry along: on a mesh that turns with it, and on one at rest whose wall has its
+velocity.
 
-Both are the same flow, so the surface has to stand at the same height, within half a cell, and the slurry's volume has to
-stay. Compared whenever the drum has turned by a quarter, where the cells of both meshes lie upon each other. Exit code 1
-when something misses."""
+Both are the same flow, so the surface must have the same height, within half a cell, and the slurry's volume must not
+change. They are compared after every quarter turn of the drum, when the cells of both meshes coincide. Exit code 1 if a
+check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
+
 
 @dataclass(frozen=True)
 class Extent:
-    """How long and how finely: quarters of a turn, those of them (the last ones) in which the surface has its shape and is
-    judged, size of the cells (m), largest time-step (s)."""
+    """How long and how finely: quarters of a turn, those of them (the last ones) in which the surface has its shape and
+    is judged, size of the cells (m), largest time-step (s)."""
     quarters: int
     late: int
     cell: float
@@ -34,13 +36,15 @@ class Extent:
 
 WHOLE = Extent(quarters=6, late=3, cell=0.004, step=1e-3)
 QUICK = Extent(quarters=2, late=1, cell=0.006, step=2e-3)
-FRAMES = {"mesh turns": ("dynamicMotionSolverFvMesh", "movingWallVelocity"), "wall velocity": ("staticFvMesh", "rotatingWallVelocity")}
+FRAMES = {"mesh turns": ("dynamicMotionSolverFvMesh", "movingWallVelocity"),
+          "wall velocity": ("staticFvMesh", "rotatingWallVelocity")}
 CONSERVED = 1e-8
 
 
 @dataclass
 class Drum:
-    """One frame's flow after each quarter: centres [cell, 2] (m) and slurry shares; the drum's radius and cell size, m."""
+    """One frame's flow after each quarter: centres [cell, 2] (m) and slurry shares; the drum's radius and cell size,
+    m."""
     time: list
     centre: list
     share: list
@@ -50,7 +54,8 @@ class Drum:
     cell: float
 
     def surface(self, number, x):
-        """Height of the surface after a quarter at the places x, m: the first fall of the share below a half above the pool's floor."""
+        """Height of the surface after a quarter at the places x, m: the first fall of the share below a half above the
+        pool's floor."""
         share = LinearNDInterpolator(self.centre[number], self.share[number])
         y = np.linspace(-self.radius, self.radius, 1201)
         result = np.full(len(x), np.nan)
@@ -98,7 +103,8 @@ def measure(case, radius):
 def report(turning, still, extent, out):
     """Writes and prints the table; the number of lines that missed."""
     x = np.linspace(-0.8, 0.8, 65) * still.radius
-    lines = [f"{'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} {'share, mean |diff|':>18} {'u in slurry, rms %':>18}"]
+    lines = [f"{'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} {'share, mean |diff|':>18} "
+             f"{'u in slurry, rms %':>18}"]
     missed = 0
     for number in range(1, extent.quarters + 1):
         height = [drum.surface(number, x) for drum in (turning, still)]
@@ -111,15 +117,17 @@ def report(turning, still, extent, out):
         largest = np.abs(difference).max()
         bad = number > extent.quarters - extent.late and not largest <= still.cell / 2
         missed += bad
-        lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} {1e3 * np.sqrt(np.mean(difference**2)):7.3f} "
-                     f"{1e3 * largest:10.3f} {share.mean():18.4f} {100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
-    lines.append(f"height of the surface where the mesh turns less that where it does not, at |x| <= 0.8 R; allowed in the last {extent.late} quarters: "
-                 f"half a cell, {1e3 * still.cell / 2:.2f} mm")
+        lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} "
+                     f"{1e3 * np.sqrt(np.mean(difference**2)):7.3f} {1e3 * largest:10.3f} {share.mean():18.4f} "
+                     f"{100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
+    lines.append("height of the surface where the mesh turns less that where it does not, at |x| <= 0.8 R; allowed in "
+                 f"the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
     for name, drum in (("mesh turns", turning), ("wall velocity", still)):
         change = np.abs(drum.volume / still.volume[0] - 1).max()
         bad = not change <= CONSERVED
         missed += bad
-        lines.append(f"{name}: slurry {drum.volume[-1]:.10g} m3, largest relative change {change:.1e}" + ("  MISSED" if bad else ""))
+        lines.append(f"{name}: slurry {drum.volume[-1]:.10g} m3, largest relative change {change:.1e}"
+                     + ("  MISSED" if bad else ""))
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed
@@ -133,8 +141,10 @@ def plot(turning, still, extent, out):
         axis.set(title=f"{title}, {drum.time[-1]:.2f} s", aspect="equal", xlabel="mm", ylabel="mm")
     x = np.linspace(-0.8, 0.8, 65) * still.radius
     for number in sorted({1, (extent.quarters + 1) // 2, extent.quarters}):
-        line, = axes[2].plot(1e3 * x, 1e3 * still.surface(number, x), "-", label=f"wall velocity, {still.time[number]:.2f} s")
-        axes[2].plot(1e3 * x, 1e3 * turning.surface(number, x), "o", ms=3, mfc="none", color=line.get_color(), label="mesh turns")
+        line, = axes[2].plot(1e3 * x, 1e3 * still.surface(number, x), "-",
+                             label=f"wall velocity, {still.time[number]:.2f} s")
+        axes[2].plot(1e3 * x, 1e3 * turning.surface(number, x), "o", ms=3, mfc="none", color=line.get_color(),
+                     label="mesh turns")
     axes[2].set(title="Surface", xlabel="x, mm", ylabel="height, mm")
     axes[2].legend(fontsize=8)
     axes[2].grid(alpha=0.3)

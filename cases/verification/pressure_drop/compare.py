@@ -3,7 +3,7 @@
 """Runs beds of moving balls in closed boxes and compares the pressure drop across each with its drag law.
 
 The law's own gradient is beta v/e with beta from `millDrag`, whose F is checked elsewhere against independent values.
-Exit code 1 when a bed misses the tolerance of its solver."""
+Exit code 1 if a bed exceeds the tolerance of its solver."""
 import csv
 import shutil
 import subprocess
@@ -12,24 +12,26 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 DENSITY, VISCOSITY, DIAMETER = 1000.0, 1e-3, 5e-3
 BOXES = {"8 m": 1.0, "8 cm": 0.01}
 CELLS = 32  # along the box
 CELL = 0.25  # edge of a cell along the box in units of the box's scale
 # Of the relative error, and beta dt/(e rho). With particleDrag the drag is explicit in the pressure equation, and below
-# 0.002 that costs less than the tolerance. In slurryFoam it is implicit, and its explicit part is balanced at the faces.
+# 0.002 that costs less than the tolerance. In slurryFoam it is implicit, and its explicit part is balanced at the
+# faces.
 SOLVERS = {"millInterFoam": (5e-3, 1e-3), "slurryFoam": (1e-6, 1.0)}
 STEPS = 10
-# Cells that the balls pass in a time-step: the contraction at a bed's sharp ends is explicit, and was unstable from 260 on
+# Cells that the balls pass in a time-step: the contraction at a bed's sharp ends is explicit, and was unstable from 260
+# on
 MOST_PASSED = 20
 # Reynolds numbers on both sides of every switch in Re that the laws have at these solidities: Fand 2.3, 5, 80 and 120,
 # Hill 2.7 and 6.6, Benyahia 4.7 and 6.6, Wen-Yu 1000. Switches in phi (0.2, 0.4) lie between the solidities.
@@ -61,7 +63,7 @@ class Bed:
     cells: int
     beta: float
     numerical: float = np.nan
-    overshoot: float = np.nan  # of the pressure beside the bed's ends, over the drop
+    overshoot: float = np.nan  # of the pressure close to the bed's ends, over the drop
     spurious: float = np.nan  # largest |u| over the balls' speed
 
     @property
@@ -111,7 +113,8 @@ def beds():
     """Every bed of the study."""
     return [
         Bed(solver, box, 8, row["law"], float(row["phi"]), float(row["Re"]), first, cells, float(row["beta"]))
-        for row in exchange_coefficients() for solver, places in PLACES.items() for first, cells in places for box in BOXES
+        for row in exchange_coefficients() for solver, places in PLACES.items() for first, cells in places
+        for box in BOXES
     ]
 
 

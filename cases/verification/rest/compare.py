@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is at rest in a mill at rest stays at rest: on the mill's own mesh, first slurry alone, then a pool under air.
+"""Slurry at rest in a mill at rest stays at rest: on the mill's own mesh, first slurry alone, then a pool under air.
 
 Slurry alone must stay below 1e-6 m/s. The pool's free surface, exactly flat at the start, does not stay at rest with
 interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported and
-guarded against getting worse. Exit code 1 when something misses."""
+must not increase. Exit code 1 if a check fails."""
 import argparse
 import math
 import shutil
@@ -14,16 +14,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam import foam
-from millfoam.mill_runs import FINE, MILL, set_options
+from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import write_parameters
+from millfoam.run import set_options, write_parameters
+from mill_slice import FINE, MILL
 from pool_history import largest_speeds
+
+matplotlib.use("Agg")
 
 STILL = 1e-6  # m/s, largest speed of the slurry alone
 CONSERVED = 1e-6  # relative change of the slurry's volume
@@ -32,7 +32,7 @@ FLUID_STEPS, POOL_END = 50, 0.2
 MOST_AIR, MOST_SLURRY = 3.0, 0.12  # m/s
 STILL_FLUID = dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no",
                    writeInterval=FLUID_STEPS * 1e-3)
-# By name: mill (beside this file, or elsewhere) and its settings, the DEM time it is turned to, parameters of the flow
+# By name: mill (in this folder, or elsewhere) and its settings, the DEM time it is turned to, parameters of the flow
 RUNS = {
     "pool": ("mill.yaml", (), 0, dict(slurryShare=0, endTime=POOL_END, firstStep=1e-4, adjustTimeStep="yes",
                                       writeInterval=0.01)),
@@ -112,7 +112,8 @@ def plot(fluids, pool, steps, out):
     left.axhline(STILL, color="k", ls="--", label="allowed")
     left.set(title="Slurry alone, at rest", xlabel="time, ms", ylabel="m/s")
     right.semilogy(1e3 * steps[:, 0], steps[:, 1], color="0.7", label="largest of every step")
-    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"), (pool.slurry_rms, "slurry, rms")):
+    for values, label in ((pool.air, "air, largest"), (pool.slurry, "slurry, largest"),
+                          (pool.slurry_rms, "slurry, rms")):
         right.semilogy(1e3 * pool.time[1:], values[1:], "o-", ms=3, label=label)
     right.set(title="Pool under air: spurious speeds", xlabel="time, ms", ylabel="m/s")
     for axis in (left, right):

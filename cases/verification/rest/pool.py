@@ -4,7 +4,8 @@
 
 Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
 surface tension, with and without a bed of balls at rest, with the mesh standing still and with the mesh turning inside
-walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 when slurryFoam misses what it must hold."""
+walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 if slurryFoam exceeds
+its limits."""
 import argparse
 import shutil
 import sys
@@ -15,9 +16,9 @@ import numpy as np
 
 import pool_pictures
 import pool_table
-from millfoam.mill_runs import FINE, MILL, set_options
-from millfoam.run import RunError, write_parameters
 from millfoam.run import run as run_program
+from millfoam.run import RunError, set_options, write_parameters
+from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 
 SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "slurryFoam": "slurryFoam"}
@@ -35,8 +36,8 @@ MESHES = {
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
 QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
-# Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as averages
-# on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
+# Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as
+# averages on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
 BED_SIDES, BED_ENDS, BED_EDGE = (-0.5, 0.4), (-0.4, 0.35), 0.275
 BED_SOLIDITY = 0.5
 FULL = 1.0  # m: a level above every mesh
@@ -77,8 +78,9 @@ def build(run, case, here, end):
         shutil.copy(here / "pool" / "beds" / BEDS[run.solver], case / "constant")
     mill, level, radius, length = MESHES[run.mesh]
     write_parameters(
-        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension, level=FULL if run.filled else level,
-        **bed_parameters(level, radius, length), endTime=end, writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
+        case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension,
+        level=FULL if run.filled else level, **bed_parameters(level, radius, length), endTime=end,
+        writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
@@ -89,7 +91,8 @@ def build(run, case, here, end):
 
 
 def kept(run, case, here, end):
-    """History that an earlier run left, or None: it must have reached the end and be newer than its solver and inputs."""
+    """History that an earlier run left, or None: it must have reached the end and be newer than its solver and
+    inputs."""
     left = case / "history.csv"
     program = shutil.which(SOLVERS[run.solver])
     if not left.is_file() or not program:
@@ -127,7 +130,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help=f"a few settings, {QUICK_END} s, interFoam and slurryFoam")
     parser.add_argument("--meshes", nargs="+", choices=MESHES, default=list(MESHES))
     parser.add_argument("--solvers", nargs="+", choices=SOLVERS, default=list(SOLVERS))
-    parser.add_argument("--keep", action="store_true", help="take complete runs of an earlier time, where nothing is newer")
+    parser.add_argument("--keep", action="store_true",
+                        help="take complete runs of an earlier time, where nothing is newer")
     parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_pool", help="folder of the runs")
     parser.add_argument("--out", type=Path, default=Path(__file__).parent, help="folder of the table and pictures")
     parser.add_argument("--jobs", type=int, default=2)
@@ -137,8 +141,8 @@ def main():
     runs = matrix(options.meshes, options.solvers, options.quick)
     for program in sorted({SOLVERS[run.solver] for run in runs}):
         if not shutil.which(program):
-            parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target {program}, "
-                         "then source scripts/env")
+            parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target "
+                         f"{program}, then source scripts/env")
     work.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(options.jobs) as threads:
         histories = dict(zip(runs, threads.map(lambda run: perform(run, work, here, end, options.keep), runs)))

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Spurious speeds of a pool that should be at rest, read from a run's written times and kept beside it."""
+"""Spurious speeds of a pool that should be at rest, read from a run's written times and kept in its folder."""
 import csv
 import math
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np
 
-from millfoam import foam
+from millfoam.files import foam
 
 
 BED = 0.05  # solidity from which on slurry is between balls
@@ -38,8 +38,9 @@ class Run:
 
 @dataclass
 class History:
-    """The pool at the written times (s): largest speed of the air and of the slurry, the slurry's rms speed, the largest
-    speed of slurry between balls (m/s), its volume (m3), how far its share leaves [0, 1], and the number of steps taken."""
+    """The pool at the written times (s): largest speed of the air and of the slurry, the slurry's rms speed, the
+    largest speed of slurry between balls (m/s), its volume (m3), how far its share leaves [0, 1], and the number of
+    steps taken."""
     time: np.ndarray
     air: np.ndarray
     slurry: np.ndarray
@@ -62,8 +63,8 @@ class History:
 
     @property
     def growth(self):
-        """The rms speed's mean over the last quarter of the run over its mean in the quarter that ends halfway (at least
-        STILL)."""
+        """The rms speed's mean over the last quarter of the run over its mean in the quarter that ends halfway (at
+        least STILL)."""
         end = self.time[-1]
         late = self.slurry_rms[self.time > 0.75 * end - 1e-9].mean()
         early = self.slurry_rms[(self.time > 0.25 * end + 1e-9) & (self.time < 0.5 * end + 1e-9)].mean()
@@ -83,7 +84,8 @@ def measure(case):
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
     stepped = largest_speeds(case)[:, 0]
-    displaced = (case / "constant" / "bedProperties").is_file()  # interFoam's slurry lies between the balls as if they were not
+    # interFoam's slurry lies between the balls as if they were not
+    displaced = (case / "constant" / "bedProperties").is_file()
     rows = []
     for time, folder in foam.times(case):
         try:

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the pools at rest: speeds against time, and maps of the speed with the surface."""
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from scipy.spatial import cKDTree
 
-from millfoam import foam
+from millfoam.files import foam
+
+matplotlib.use("Agg")
 
 COLOURS = {"interFoam": "tab:red", "interIsoFoam": "tab:orange", "slurryFoam": "tab:blue"}
 SLOWEST, FASTEST = 1e-5, 10.0  # m/s, of the maps' colours
@@ -80,8 +80,8 @@ def draw(axis, case, folder):
 def maps(histories, work, out):
     """The speed in the middle of the axis at the end, with the surface: a row a setting, a column a solver."""
     names, solvers = settings(histories), list(dict.fromkeys(run.solver for run in histories))
-    figure, axes = plt.subplots(len(names), len(solvers), figsize=(3.6 * len(solvers) + 1, 3.4 * len(names)), squeeze=False,
-                                constrained_layout=True)
+    figure, axes = plt.subplots(len(names), len(solvers), figsize=(3.6 * len(solvers) + 1, 3.4 * len(names)),
+                                squeeze=False, constrained_layout=True)
     for axis in axes.flat:
         axis.axis("off")
     for run, history in histories.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of the pools at rest, and what slurryFoam must hold."""
+"""The table of the pools at rest, and slurryFoam's limits."""
 import csv
 import math
 
@@ -35,7 +35,8 @@ def checks(run, history, reference, end):
         if run.bed:
             found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), IN_BED))
     if reference is not None:
-        found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1], SHARE))
+        found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1],
+                      SHARE))
     return named(run, found)
 
 
@@ -75,23 +76,24 @@ def judge(histories, end):
     for run, history in histories.items():
         if run.solver != JUDGED:
             continue
-        beside = [other for other in histories if other.setting == run.setting and other.solver == REFERENCE]
-        for what, found, allowed in checks(run, history, histories[beside[0]] if beside else None, end):
+        references = [other for other in histories if other.setting == run.setting and other.solver == REFERENCE]
+        for what, found, allowed in checks(run, history, histories[references[0]] if references else None, end):
             hit = math.isfinite(found) and found <= allowed
             missed += not hit
             text.append(f"{what:<86} {found:10.3e} {allowed:9.2e}" + ("" if hit else "  MISSED"))
         for what, found, aim in (("slurry", history.slurry[-1], AIM_SLURRY), ("air", history.air[-1], AIM_AIR)):
             if run.filled:
                 continue
-            text.append(f"{run.setting + ': largest speed in the ' + what + ' at the end, m/s (aim)':<86} {found:10.3e} "
-                        f"{aim:9.2e}" + ("" if found <= aim else "  above the aim"))
+            text.append(f"{run.setting + ': largest speed in the ' + what + ' at the end, m/s (aim)':<86} "
+                        f"{found:10.3e} {aim:9.2e}" + ("" if found <= aim else "  above the aim"))
     if text:
         text.insert(0, f"{JUDGED:<86} {'found':>10} {'allowed':>9}")
     return text, missed
 
 
 def report(histories, end, out):
-    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that missed."""
+    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that
+    missed."""
     judged, missed = judge(histories, end)
     text = "\n".join(table(histories, end) + [""] + judged)
     print(text)

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface at rest that a mesh turns past: without gravity nothing moves, and what is left is the transport of the slurry.
+"""A surface at rest that a mesh turns past: without gravity nothing moves, so that only the slurry's transport acts.
 
-After one turn every cell is where it was. What its share of slurry has changed by, summed up over the surface, is how far
-the transport has moved the surface: geometric (slurryFoam, interIsoFoam) against compressive MULES (interFoam). Writes
-transport.txt; exit code 1 when slurryFoam moves it by more than half of what interFoam does, or loses slurry."""
+After one turn every cell is where it was. The change of its share of slurry, summed over the surface, is the distance
+by which the transport has moved the surface: geometric (slurryFoam, interIsoFoam) compared with compressive MULES
+(interFoam). Writes transport.txt. Exit code 1 if slurryFoam moves it by more than half of interFoam's distance, or
+loses slurry."""
 import argparse
 import math
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import pool
-from millfoam import foam
+from millfoam.files import foam
 from millfoam.run import run as run_program
 from pool_history import Run
 
@@ -37,8 +38,8 @@ def perform(mesh, solver, work, here):
 
 
 def measure(case, name):
-    """(mean displacement of the surface in m, relative change of the slurry's volume, cells that hold the surface before and
-    after)."""
+    """(mean displacement of the surface in m, relative change of the slurry's volume, cells that hold the surface
+    before and after)."""
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
     times = foam.times(case)
@@ -46,13 +47,15 @@ def measure(case, name):
     _, level, radius, length = pool.MESHES[name]
     surface = 2 * math.sqrt(radius**2 - level**2) * length
     mixed = [np.count_nonzero((alpha > MIXED) & (alpha < 1 - MIXED)) for alpha in (first, last)]
-    return (np.abs(last - first) * volume).sum() / surface, abs((last * volume).sum() / (first * volume).sum() - 1), *mixed
+    changed = abs((last * volume).sum() / (first * volume).sum() - 1)
+    return (np.abs(last - first) * volume).sum() / surface, changed, *mixed
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--meshes", nargs="+", choices=pool.OMEGA, default=list(pool.OMEGA))
-    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport", help="folder of the runs, made anew")
+    parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_transport",
+                        help="folder of the runs; it is made again")
     options = parser.parse_args()
     here, work = Path(__file__).parent.resolve(), options.work.resolve()
     lines = [f"{'mesh':<8} {'solver':<13} {'surface moved, mm':>18} {'volume change':>14} {'cells of the surface':>21}"]

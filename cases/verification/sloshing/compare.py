@@ -1,30 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small standing waves in a box and in the round section of a mill, against linear theory.
+"""Small standing waves in a box and in the round section of a mill, compared with linear theory.
 
 Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also with the round mesh turning inside
-its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 when one misses."""
+its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import curve_fit
 
 import potential_flow
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
-# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see README.
+# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see
+# README.
 WIDTH, HEIGHT, DEPTH, CELLS = 0.2, 0.16, 0.0875, (30, 64)
 BOX_AMPLITUDE = 0.003
 # Round section, half full. The mesh is turned so that no line of its cells lies in the surface.
@@ -87,7 +88,8 @@ def turn_mesh(case, angle):
     points = np.array([line.strip("()").split() for line in body.splitlines() if line.startswith("(")], dtype=float)
     c, s = np.cos(angle), np.sin(angle)
     points = points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-    path.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*point) for point in points) + "\n)\n")
+    path.write_text(head + "\n(\n" + "\n".join("({:.15g} {:.15g} {:.15g})".format(*point) for point in points)
+                    + "\n)\n")
 
 
 def cosine_surface(case):
@@ -114,9 +116,10 @@ def build(run, case, here):
         (case / "constant" / "bedProperties").unlink()
         end, step = run.periods * period, period / STEPS
     write_parameters(
-        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY, endTime=end,
-        writeInterval=end / (run.periods * RECORDS), largestStep=step, correctors=3 if run.solver == "interFoam" else 1,
-        skewCorrectors=0 if run.room == "box" else 1, meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
+        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY,
+        endTime=end, writeInterval=end / (run.periods * RECORDS), largestStep=step,
+        correctors=3 if run.solver == "interFoam" else 1, skewCorrectors=0 if run.room == "box" else 1,
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
         omega=OMEGA, solidity=SOLIDITY, diameter=ball_diameter(drag), width=WIDTH, height=HEIGHT, cellsX=CELLS[0],
         cellsY=CELLS[1], surfaceNormal=f"({-np.sin(TILT):.15g} {np.cos(TILT):.15g} 0)")
     room = here / "box" if run.room == "box" else here.parent / "rest" / "pool" / "ogrid"
@@ -131,7 +134,7 @@ def build(run, case, here):
 
 @dataclass
 class History:
-    """The first mode's share of the surface's elevation (m) at the written times (s), and what it is held against."""
+    """The first mode's share of the surface's elevation (m) at the written times (s), and its reference."""
     run: Run
     time: np.ndarray
     elevation: np.ndarray
@@ -198,7 +201,8 @@ def perform(run, work, here):
 def report(histories, out):
     """Writes and prints the table; the number of lines that missed."""
     lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
-    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps it
+    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps
+    # it
     reference = {history.run.room: history.fit[1] for history in histories
                  if history.run.solver == "interFoam" and not history.run.turning}
     missed = 0
@@ -216,9 +220,9 @@ def report(histories, out):
         missed += bad
         lines.append(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
                      f"{history.volume_change:14.1e}" + ("  MISSED" if bad else ""))
-    lines.append(f"rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance from theory's course. "
-                 f"Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than interFoam "
-                 f"where the mesh rests")
+    lines.append("rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance "
+                 f"from theory's course. Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than "
+                 "interFoam where the mesh rests")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
     return missed

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small standing waves between two inviscid fluids under gravity, by linear potential flow.
 
-A mode with surface shape f(x) has, in a fluid on either side of the surface, a potential with phi_n = f there and phi = f/lambda:
-lambda is the sloshing eigenvalue of that fluid's room. With densities rho, both accelerations and a drag per mass gamma u
-(Darcy's) in each, the pressures at the surface eta = q(t) f(x) balance when
+A mode with surface shape f(x) has, in a fluid on either side of the surface, a potential with phi_n = f there and phi =
+f/lambda: lambda is the sloshing eigenvalue of that fluid's room. With densities rho, both accelerations and a drag per
+mass gamma u (Darcy's) in each, the pressures at the surface eta = q(t) f(x) balance when
 
-    (rho_s/lambda_s + rho_a/lambda_a) q'' + (gamma_s rho_s/lambda_s + gamma_a rho_a/lambda_a) q' + (rho_s - rho_a) g q = 0
+    (rho_s/lambda_s + rho_a/lambda_a) q'' + (gamma_s rho_s/lambda_s + gamma_a rho_a/lambda_a) q'
+    + (rho_s - rho_a) g q = 0
 
 (Lamb, Hydrodynamics, articles 231 and 257 to 259; Ibrahim 2005, Liquid Sloshing Dynamics, chapter 1.)"""
 from dataclasses import dataclass

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady flow through a duct whose voidage changes along it: velocity and pressure against the closed form.
+"""Steady flow through a duct whose voidage changes along it: velocity and pressure compared with the closed form.
 
 With superficial velocity U along x and voidage e(x), u = U/e and
 
     p(x) + rho u(x)^2/2 + integral of beta u/e dx = const,
 
-with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a sharp
-edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on slanted
-ones through whose columns the sharp edge runs. Exit code 1 when a run misses."""
+with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
+sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on
+slanted ones through whose columns the sharp edge runs. Exit code 1 if a run fails."""
 import itertools
 import shutil
 import sys
@@ -16,15 +16,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from millfoam import foam
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.files import foam
 from millfoam.run import run as run_program
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+
+matplotlib.use("Agg")
 
 LENGTH, WIDTH = 0.8, 0.1  # m
 SPEED, DENSITY, NU = 0.5, 1000.0, 1e-6  # superficial m/s; kg/m3; m2/s
@@ -34,12 +34,13 @@ MESHES = ("aligned", "wavy", "slanted")
 CELLS = (16, 32, 64, 128)  # along the duct
 EDGE_CELLS = 64
 END, WRITE_INTERVAL = 8.0, 0.4  # s
-# Of both errors' rms. Cells along skewed walls are of first order (0.94 found, the others 1.76) and their share falls with
-# their size: that is an order of 1.5 in the limit, 1.48 found.
+# Of both errors' rms. Cells along skewed walls are of first order (0.94 found, the others 1.76) and their share falls
+# with their size: that is an order of 1.5 in the limit, 1.48 found.
 LEAST_ORDER = 1.45
 VISCOUS = 1e-4  # errors below are those of the slurry's viscosity, which the closed form leaves out
 JUMP_TOLERANCE = 0.01
-STEADY = 1e-4  # change of the pressure over WRITE_INTERVAL, over DYNAMIC; behind sharp edges JUMP_TOLERANCE: eddies drift
+# Change of the pressure over WRITE_INTERVAL, over DYNAMIC; behind sharp edges JUMP_TOLERANCE: eddies drift
+STEADY = 1e-4
 # Well away from the sharp edges, m: before the bed, in it, behind it
 PLATEAUS = ((0.1, 0.2), (0.4, 0.5), (0.68, 0.75))
 
@@ -155,7 +156,8 @@ def measure(mesh, bed, cells, case):
 
 
 def orders(flows):
-    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where there are two.
+    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
+    there are two.
 
     None where the coarser error is already the viscosity's."""
     found = {}
@@ -241,7 +243,8 @@ def main():
     work = fresh_runs(here)
     cells = CELLS[1:2] if options.quick else CELLS
     meshes = ("aligned", "wavy") if options.quick else MESHES
-    wanted = [*itertools.product(("ramps", "drag"), meshes, cells), *itertools.product(("edges",), meshes, (EDGE_CELLS,))]
+    wanted = [*itertools.product(("ramps", "drag"), meshes, cells),
+              *itertools.product(("edges",), meshes, (EDGE_CELLS,))]
     flows = run_jobs(lambda item: run(item[1], item[0], item[2], work, here / "template"), wanted, options.jobs)
     print_table(flows, here / "through_flow.txt")
     plot(flows, here / "through_flow.png")

@@ -70,7 +70,7 @@ void print_table(const Options& options) {
     }
 }
 
-/// A check of an option's word; CLI11's own would tell the largest double as a limit.
+/// A check of an option's word; CLI11's own would print the largest double as a limit.
 CLI::Validator finite_number(const std::string& expected, bool (*holds)(double)) {
   return {[=](const std::string& word) {
             double value = 0;
@@ -80,7 +80,7 @@ CLI::Validator finite_number(const std::string& expected, bool (*holds)(double))
           "NUMBER"};
 }
 
-const CLI::Validator above_nought = finite_number("a number above 0", [](double value) { return value > 0; });
+const CLI::Validator above_zero = finite_number("a number above 0", [](double value) { return value > 0; });
 const CLI::Validator not_negative =
     finite_number("a number that is 0 or more", [](double value) { return value >= 0; });
 
@@ -103,7 +103,7 @@ void add_options(CLI::App& app, Options& options) {
           ->excludes(re);
   app.add_option("--mu", options.viscosity, "viscosity, Pa s; of a Bingham slurry its plastic viscosity")
       ->capture_default_str()
-      ->check(above_nought);
+      ->check(above_zero);
   app.add_option("--tau0", options.yield_stress,
                  "yield stress, Pa: the viscosity is the apparent one in the pores")
       ->capture_default_str()
@@ -115,8 +115,8 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(superficial);
   app.add_option("--rho", options.density, "density, kg/m^3; F and beta at given Re do not depend on it")
       ->capture_default_str()
-      ->check(above_nought);
-  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(above_nought);
+      ->check(above_zero);
+  app.add_option("--d", options.diameter, "diameter, m")->capture_default_str()->check(above_zero);
   app.add_option("--format", options.format)->check(CLI::IsMember({"csv"}))->capture_default_str();
   app.callback([&options] {
     if (options.ranges) return;

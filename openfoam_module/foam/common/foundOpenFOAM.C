@@ -3,8 +3,8 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
 Description
-    Lets a program find the OpenFOAM that it was built with, where the shell has
-    not been told of one.
+    Lets a program find the OpenFOAM that it was built with, or, where that is
+    not there, Debian's, in a shell without WM_PROJECT_DIR.
 
     OpenFOAM's library looks for etc/controlDict of WM_PROJECT_DIR before main()
     begins, and ends the program where there is none: not even --version could
@@ -22,6 +22,7 @@ Description
 static void findOpenFOAM(int, char** argv, char** envp)
 {
     static char builtWith[] = "WM_PROJECT_DIR=" MILLFOAM_OPENFOAM_DIR;
+    static char distribution[] = "WM_PROJECT_DIR=/usr/share/openfoam";
     static char program[4096];
     static char* environment[4096];
 
@@ -39,7 +40,8 @@ static void findOpenFOAM(int, char** argv, char** envp)
         return;
     }
     std::memcpy(environment, envp, n * sizeof(*envp));
-    environment[n] = builtWith;
+    environment[n] =
+        access(builtWith + 15, F_OK) == 0 ? builtWith : distribution;
     execve(program, argv, environment);
 }
 

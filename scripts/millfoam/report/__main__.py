@@ -1,30 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes one HTML file about a mill's case, or about several beside each other, with all figures in it.
+"""Writes one HTML file with all figures about a mill's case, or about several cases that it compares.
 
     scripts/report CASE            writes CASE/report.html
-    scripts/report CASE CASE …     writes comparison.html, the first case being what the others are compared with
+    scripts/report CASE CASE …     writes comparison.html, which compares the others with the first case
 
 CASE is the folder of a mill's case that was run, or of a dry run."""
 import argparse
 import sys
 from pathlib import Path
 
+import matplotlib
+
 from .build import compare_cases, report_case
 
 
-def main():
+def main() -> None:
+    matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="report", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
     parser.add_argument("--begin", type=float,
-                        help="time from which averages are taken, s [the mill's flow.averages.start, or half of a flow "
-                             "that was cut short]")
+                        help="time at which the averages begin, s [the mill's flow.averages.start; for a flow that was "
+                             "cut short, half of its time]")
     parser.add_argument("--measured", type=Path, metavar="CSV",
-                        help="a measured map of the charge on the run's voxels to compare it with: x_m, y_m, solidity, "
-                             "vx, vy")
+                        help="compares the charge with a measured map on the run's voxels: x_m, y_m, solidity, vx, vy")
     parser.add_argument("--tracer", type=Path, action="append", default=[], metavar="FILE",
-                        help="a tracer's track, lines of t, x, y, z in s and m, to compare the charge with; may be "
-                             "given again")
+                        help="compares the charge with a tracer's track, lines of t, x, y, z in s and m; may be given "
+                             "again")
     parser.add_argument("-o", "--output", type=Path, help="the file to write")
     options = parser.parse_args()
     if len(options.cases) == 1:
@@ -35,7 +37,7 @@ def main():
     else:
         output = options.output or Path("comparison.html")
         text = compare_cases(options.cases, options.begin)
-    # An older report stays until the new one is whole
+    # An older report stays until the new one is complete
     part = output.with_name(output.name + ".part")
     part.write_text(text, encoding="utf-8")
     part.replace(output)

@@ -1,41 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Puts the report of a case, or of several beside each other, together."""
+"""Builds the report of a case, or the comparison of several cases."""
 import datetime
+from collections.abc import Sequence
+from pathlib import Path
 
-from . import comparison, held_against, page
+from ..files.mill_case import MillCase
+from . import comparison, measurements, page
+from .case_readings import Readings
 from .checks import all_checks
-from .headline import first_lines
-from .readings import Readings
+from .headline import fines_words, first_lines, summary
 from .sections import SECTIONS
-from .sources import MillCase, fines_told
 
 FOOT = "Written by millFoam's scripts/report on {:%Y-%m-%d %H:%M}."
 
 
-def report_case(folder, begin=None, measured=None, tracers=()):
+def report_case(folder: Path | str, begin: float | None = None, measured: Path | None = None,
+                tracers: Sequence[Path] = ()) -> str:
     """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks.
-    RuntimeError where the folder is none of a case that was run, or a file cannot be read."""
+    RuntimeError if the folder is not that of a case that was run, or a file cannot be read."""
     case = MillCase(folder, begin)
-    against = [held_against.measured_section(case, measured)] if measured else []
-    against += [held_against.tracer_section(case, tracers)] if tracers else []
+    against = [measurements.measured_section(case, measured)] if measured else []
+    against += [measurements.tracer_section(case, tracers)] if tracers else []
     readings = Readings(case)
     sections = [(name, heading, section(case, readings)) for name, heading, section in SECTIONS]
     found = all_checks(case)
     sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))
     sections[3:3] = against
-    fines = f", {fines_told(case.mill)}" if case.mill.fines_share > 0 else ""
+    fines = f", {fines_words(case.mill)}" if case.mill.fines_share > 0 else ""
     title = f"{case.title} – {case.name}" if case.title != case.name else case.title
-    return page.page(title + fines, case.summary(), sections, FOOT.format(datetime.datetime.now()),
+    return page.page(title + fines, summary(case), sections, FOOT.format(datetime.datetime.now()),
                      first_lines(case, found))
 
 
-def compare_cases(folders, begin=None):
-    """HTML text of a comparison of cases' folders, the first being what the others are held against."""
+def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> str:
+    """HTML text of a comparison of cases' folders with the first one."""
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
     names = comparison.distinct(cases)
     found = [all_checks(case) for case in cases]
     lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
-    subtitle = f"{names[0]} against " + ", ".join(names[1:])
+    subtitle = ", ".join(names[1:]) + f" compared with {names[0]}"
     return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names, found),
                      FOOT.format(datetime.datetime.now()), lines)

@@ -3,21 +3,24 @@
 import h5py
 import numpy as np
 
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
 OVERLAP = 0.15  # of the diameter: physics of softened balls (Brosh, Kalman & Levy)
-BALLS = 8  # in an averaging volume: the drag laws were derived on 8 to 64
+BALLS = 8  # in an averaging volume: the drag laws were derived from 8 to 64
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
-def lost_balls(case):
+def lost_balls(case: MillCase) -> Check:
+    """Whether all balls stayed in the mill."""
     lost = int(case.result("lost_balls"))
     return judged("No ball is lost", lost, 0, f"{lost} of {int(case.result('balls'))} lost",
                   "Shorten the time-step (dem.rayleigh_fraction) or look for holes in the walls (millMesh surface).")
 
 
-def charge_steadiness(case):
+def charge_steadiness(case: MillCase) -> Check:
+    """Whether the dry run is steady before its averages begin."""
     name = "The charge is steady where it is averaged"
     if not case.results.get("steady"):
         return Check(name, "fails", "the dry run's power did not become steady",
@@ -31,38 +34,42 @@ def charge_steadiness(case):
                   "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=0.5)
 
 
-def overlap(case):
+def overlap(case: MillCase) -> Check:
+    """Whether balls overlap so little that their softness does not matter."""
     diameter = case.result("smallest_diameter_m")
     share = case.result("ball_overlap_largest_m") / diameter
     usual = case.result("ball_overlap_99_m") / diameter
     return judged("Balls are stiff enough", share, OVERLAP,
-                  f"largest overlap {100 * share:.1f} % of the smallest diameter, 99 % of the contacts below "
-                  f"{100 * usual:.2f} % "
-                  f"(limit {100 * OVERLAP:.0f} %)", "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
+                  f"largest overlap {100 * share:.1f} % of the smallest diameter (limit {100 * OVERLAP:.0f} %), 99 % "
+                  f"of the contacts below {100 * usual:.2f} %",
+                  "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
 
 
-def ledger(case):
+def ledger(case: MillCase) -> Check:
+    """Whether the balls' volume lies in the averages."""
     with h5py.File(case.solids) as file:
         into, outside, clipped = (file[f"ledger/{key}"][:] for key in ("volume_in", "outside", "clipped"))
     share = ((outside + clipped) / into).max()
     return judged("Balls are in the averages", share, LEDGER,
-                  f"at most {100 * share:.2g} % of their volume is outside or moved to neighbours in a window "
-                  f"(limit {100 * LEDGER:.0f} %)", "Let the voxels cover the mill (--box), and give its walls "
-                                                   "(--inside).")
+                  f"in a window, at most {100 * share:.2g} % of their volume is outside or moved to neighbours "
+                  f"(limit {100 * LEDGER:.0f} %)",
+                  "Take voxels that cover the mill (--box), and give its walls (--inside).")
 
 
-def averaging_volume(case):
+def averaging_volume(case: MillCase) -> Check:
+    """Whether a voxel holds as many balls as the volumes from which the drag laws were derived."""
     with h5py.File(case.solids) as file:
         balls = file["window/balls_per_cell"][:].mean()
-    found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived on {BALLS} to 64)"
+    found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived from {BALLS} to 64)"
     if balls > 64:
         return Check("Averaging volumes hold enough balls", "look", found,
                      "Finer voxels would show more of the charge.")
     return judged("Averaging volumes hold enough balls", BALLS / balls, 1, found,
-                  "Take larger voxels or --smooth; on smaller ones a law sees single balls.", doubtful=8)
+                  "Take larger voxels or --smooth; in small voxels a law sees single balls.", doubtful=8)
 
 
-def window_noise(case):
+def window_noise(case: MillCase) -> Check:
+    """Random error of the mean solidity of a window."""
     name = "Windows are long enough for their mean"
     with h5py.File(case.solids) as file:
         count = len(file["window/begin"])
@@ -76,7 +83,6 @@ def window_noise(case):
         return Check(name, "unknown", "no voxel is denser than 0.3",
                      "Take smaller voxels, so that some are full of balls.")
     share = noise / weight
-    return judged(name, share, NOISE, f"in the dense charge a window's mean solidity is uncertain by {100 * share:.1f} "
-                                      f"% if its "
-                  f"records are independent (limit {100 * NOISE:.0f} %)",
+    return judged(name, share, NOISE, f"in the dense charge a window's mean solidity has a random error of "
+                  f"{100 * share:.1f} % if its records are independent (limit {100 * NOISE:.0f} %)",
                   "Take longer windows (--window) or record more often (dem.record_interval).", doubtful=2 * NOISE)

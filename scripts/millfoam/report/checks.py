@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a run can be believed: what was found, and what to do where it fails."""
+"""Whether a run is reliable: what the checks found, and what to do if they fail."""
+from ..files.mill_case import MillCase
 from .charge_checks import averaging_volume, charge_steadiness, ledger, lost_balls, overlap, window_noise
 from .flow_checks import conservation, courant, drag_range, mesh, one_way, solids_on_mesh
 from .stages import same_mill
@@ -9,8 +10,8 @@ from .verdict import Check
 ORDER = ("fails", "look", "unknown", "holds")
 
 
-def all_checks(case):
-    """The checks of a MillCase, those that its parts allow: first what fails."""
+def all_checks(case: MillCase) -> list[Check]:
+    """The checks that a MillCase's parts allow; failed ones are first."""
     functions = [same_mill]
     if case.flow:
         functions += [conservation, flow_steadiness, courant, mesh]
@@ -26,6 +27,6 @@ def all_checks(case):
             checks.append(function(case))
         except (RuntimeError, OSError, KeyError) as error:
             unusable.append(str(error))
-    unusable = dict.fromkeys([*case.unusable, *unusable])
-    checks += [Check("All files can be used", "fails", told, "Make it again, or remove it.") for told in unusable]
+    checks += [Check("All files can be used", "fails", reason, "Make the file again, or remove it.")
+               for reason in dict.fromkeys([*case.unusable, *unusable])]
     return sorted(checks, key=lambda check: ORDER.index(check.state))

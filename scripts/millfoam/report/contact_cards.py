@@ -2,17 +2,21 @@
 """Section of the report about the contacts of a dry run that wrote them: spectra of collisions and of dissipated
 power."""
 import numpy as np
+from matplotlib.figure import Figure
 
-from ..contact_spectra import PARTS, power_to_dissipate, read_spectra
+from ..files.mill_case import MillCase
+from ..readings.contact_spectra import PARTS, Spectra, power_to_dissipate, read_spectra
 from . import page
+from .case_readings import Readings
 from .figures import COLOURS, axes_of
 
-DUMPS = 300  # of contacts that are read at most: a spectrum of so many is smooth, and takes some ten seconds
+DUMPS = 300  # of contacts, at most; their spectrum is smooth and takes about ten seconds
 NAMES = {"damping": "damping along the normal", "friction": "friction", "rolling": "rolling friction",
-         "spring": "kept by springs, and for a while"}
+         "spring": "stored in springs"}
 
 
-def contact_section(case, _readings):
+def contact_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the contacts of a dry run; none if it wrote no contacts."""
     folder = case.contacts
     if not folder:
         return []
@@ -23,21 +27,19 @@ def contact_section(case, _readings):
         return [page.paragraph(f"Contacts cannot be shown: {error}.")]
     span = (f"{spectra.dumps} dumps of contacts, every {1e3 * spectra.interval:.3g} ms of DEM time {begin:.3g} to "
             f"{end:.3g} s")
-    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch; below: "
-                                                  "power that "
-                         "contacts dissipate by the energy of their motion. Pairs go by their larger ball; grey: with "
-                         "the wall. "
-                         f"From {span}.", title="Spectra of energy"),
+    return [page.picture(spectra_figure(spectra), "Top: collisions per second by their energy at first touch. "
+                         "Bottom: dissipated power by the energy of the contacts' motion. Colour: the larger ball of "
+                         f"a pair; grey: contacts with the wall. From {span}.", title="Spectra of energy"),
             page.table(*power_table(spectra), title="Power that contacts dissipate, mW",
-                       note="Between balls of two diameters, and of balls and the wall."),
+                       note="Between balls of two diameters, and between balls and the wall."),
             page.table(None, balance_rows(spectra, drive), title="Where the drive's power goes",
-                       note="In a steady state contacts take what the drive gives. They miss each other by what single "
-                            "dumps "
-                            "tell of it: more dumps, at shorter intervals, bring them together.")]
+                       note="In a steady state the contacts take the drive's power. The two numbers differ because "
+                            "dumps are samples: more dumps at shorter intervals reduce the difference.")]
 
 
-def contact_span(case):
-    """DEM times between which contacts are read: the last DUMPS dumps since the charge is steady, if it ever is."""
+def contact_span(case: MillCase) -> tuple[float, float]:
+    """DEM times between which contacts are read: the last DUMPS dumps, of a charge that becomes steady only those
+    since then."""
     times = case.contact_times
     if len(times) < 3:
         raise RuntimeError(f"{case.contacts}/contacts: {len(times)} dumps, expected 3 or more")
@@ -47,7 +49,7 @@ def contact_span(case):
     return (begin if begin <= times[-3] else first), times[-1]
 
 
-def spectra_figure(spectra):
+def spectra_figure(spectra: Spectra) -> Figure:
     """Collisions and dissipated power by energy, a curve for each class of the larger ball and one for the wall."""
     figure, (top, bottom) = axes_of(2, height=3.0)
     middles = np.sqrt(spectra.edges[1:] * spectra.edges[:-1])
@@ -60,7 +62,7 @@ def spectra_figure(spectra):
             seen = np.where(curve[1:-1] > 0, unit * curve[1:-1], np.nan)
             axis.step(middles, seen, where="mid", color=colour, label=label, lw=1.4)
         axis.set(xscale="log", yscale="log")
-        # Single touches of least energy would draw the axis out
+        # Single touches of very low energy would stretch the axis
         axis.set_ylim(bottom=max(axis.get_ylim()[0], 1e-6 * unit * values.max(initial=0)))
     top.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=4)
     top.set_ylabel("collisions, 1/s per bin")
@@ -68,7 +70,7 @@ def spectra_figure(spectra):
     return figure
 
 
-def power_table(spectra):
+def power_table(spectra: Spectra) -> tuple[list[str], list[tuple]]:
     """Head and rows: dissipated power of each pair of classes, mW."""
     power = 1e3 * spectra.dissipation().sum(axis=-1)
     names = ["wall", *(f"{1e3 * diameter:.3g} mm" for diameter in spectra.classes[1:])]
@@ -77,14 +79,15 @@ def power_table(spectra):
     return ["", *names], rows
 
 
-def balance_rows(spectra, drive):
+def balance_rows(spectra: Spectra, drive: float) -> list[tuple[str, str]]:
+    """Rows of the contacts' power and the drive's power (`drive`, W)."""
     parts = {part: spectra.power[part] for part in PARTS}
     taken = spectra.total_power()
     rows = [(f"{NAMES[part]}: between balls, at the wall", f"{1e3 * values[1:].sum():.3g}, {1e3 * values[0].sum():.3g} "
                                                            f"mW")
             for part, values in parts.items()]
-    return rows + [("of the friction, at contacts that slide", f"{100 * spectra.sliding:.0f} %"),
+    return rows + [("share of the friction at sliding contacts", f"{100 * spectra.sliding:.0f} %"),
                    ("all contacts", f"{1e3 * taken:.4g} mW"),
-                   ("drive, less what the charge gains", f"{1e3 * drive:.4g} mW"),
+                   ("drive, minus the gain of the charge's energy", f"{1e3 * drive:.4g} mW"),
                    ("contacts over drive", f"{taken / drive:.3f}"),
                    ("collisions", f"{spectra.collisions.sum():.3g} per second")]

@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of the report that are about time, the axis and the run; for maps see millfoam.report.maps."""
-import matplotlib
+from collections.abc import Sequence
 
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from .. import mill_plots
+from ..files.mill_case import MillCase
+from ..plots import mill_plots
+from ..readings.axial import AxialProfile
 
-# Okabe & Ito's colours, which colour-blind readers can tell apart
+Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
+# Okabe & Ito's colours, which colour-blind readers can distinguish
 BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
 COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
-# Figures are as wide as a card, so that their words can be read on a telephone, too
+# Figures are as wide as a card, so that their text is readable on a phone
 plt.rcParams.update({"font.size": 10.5, "legend.fontsize": 9, "legend.frameon": False})
 
 
-def axes_of(rows=1, *, width=5.4, height=2.5):
+def axes_of(rows: int = 1, *, width: float = 5.4, height: float = 2.5) -> tuple[Figure, np.ndarray]:
     """A figure with panels below each other in the report's style."""
     figure, axes = plt.subplots(rows, 1, figsize=(width, height * rows if rows > 1 else 3.4), sharex=True,
                                 constrained_layout=True, squeeze=False)
@@ -25,7 +29,7 @@ def axes_of(rows=1, *, width=5.4, height=2.5):
     return figure, axes[:, 0]
 
 
-def running_mean(times, values, width):
+def running_mean(times: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
     """Mean over the time `width` (s) before each time; steps count by their length."""
     steps = np.diff(times, prepend=times[0] - (times[1] - times[0]))
     total = np.concatenate([[0], np.cumsum(values * steps)])
@@ -34,9 +38,9 @@ def running_mean(times, values, width):
     return (total[1:] - np.interp(begin, clock, total)) / (times - begin)
 
 
-def quarter_turns(case, name):
-    """Times (s) of slurryBalance and a column's mean over the quarter of a turn before each, from where it is without
-    the first steps' start-up on; of a shorter run over what there is, from its half on."""
+def quarter_turns(case: MillCase, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) of slurryBalance, and a column's mean over the quarter turn before each. They begin where the mean is
+    free of the first steps; in a run shorter than that, at its half."""
     times = case.balance["Time"]
     mean = running_mean(times, case.balance[name], case.turn / 4)
     clear = times[0] + 1.05 * case.turn / 4
@@ -44,29 +48,30 @@ def quarter_turns(case, name):
     return times[whole], mean[whole]
 
 
-def late_limits(times, values):
-    """Limits of an axis for values whose start-up, the first half of the time, may go beyond: what the second half
-    and nought span, and on either side half as much again as far as there are values."""
+def late_limits(times: np.ndarray, values: np.ndarray) -> tuple[float, float]:
+    """Limits of an axis that shows the second half of the time and zero. On either side they reach further by half of
+    that span, as far as there are values. The start-up may lie beyond."""
     late = values[times >= times[0] / 2 + times[-1] / 2]
     low, high = min(0, late.min()), max(0, late.max())
     more = (high - low) / 2
     return 1.1 * min(low, max(low - more, values.min())), 1.1 * max(high, min(high + more, values.max())) or 1e-12
 
 
-def energy(case):
+def energy(case: MillCase) -> Figure:
     """Power and energies of the dry run against time."""
     figure, (top, bottom) = axes_of(2)
-    time, told = case.energy["time_s"], case.energy
-    top.plot(time, told["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
+    time, columns = case.energy["time_s"], case.energy
+    top.plot(time, columns["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
     whole = time >= min(1.05 * case.turn / 4, time[-1] / 2)
-    top.plot(time[whole], running_mean(time, told["power_W"], case.turn / 4)[whole], color=BLUE,
-             label="mean over a quarter of a turn")
-    late = told["power_W"][len(time) // 4:]
+    top.plot(time[whole], running_mean(time, columns["power_W"], case.turn / 4)[whole], color=BLUE,
+             label="mean over a quarter turn")
+    late = columns["power_W"][len(time) // 4:]
     top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
     top.set_ylabel("power, W")
     top.legend(loc="lower right")
-    bottom.plot(time, told["kinetic_J"], color=RED, label="kinetic")
-    bottom.plot(time, told["potential_J"] - told["potential_J"][0], color=GREEN, label="potential, less the first")
+    bottom.plot(time, columns["kinetic_J"], color=RED, label="kinetic")
+    bottom.plot(time, columns["potential_J"] - columns["potential_J"][0], color=GREEN,
+                label="potential, from its first value")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
     bottom.legend(loc="lower right")
     if case.results.get("steady"):
@@ -75,7 +80,7 @@ def energy(case):
     return figure
 
 
-def overlaps(case):
+def overlaps(case: MillCase) -> Figure:
     """Histogram of the contacts' overlaps."""
     figure, (axis,) = axes_of()
     overlap, balls, walls = (case.overlaps[key] for key in ("overlap_m", "ball_contacts", "wall_contacts"))
@@ -89,31 +94,31 @@ def overlaps(case):
     return figure
 
 
-def holdup(case):
+def holdup(case: MillCase) -> Figure:
     """Hold-up, feed and discharge of the slurry against time."""
-    told, is_open = case.balance, case.is_open and not case.is_slice
+    columns, is_open = case.balance, case.is_open and not case.is_slice
     figure, axes = axes_of(2 if is_open else 1)
-    axes[0].plot(told["Time"], 1e6 * told["holdUp"], color=BLUE)
+    axes[0].plot(columns["Time"], 1e6 * columns["holdUp"], color=BLUE)
     axes[0].set_ylabel("hold-up, ml")
-    if not is_open:  # a closed mill: the line would be stretched to its round-off
-        axes[0].set_ylim(0, 1.2e6 * told["holdUp"].max())
+    if not is_open:  # in a closed mill, an automatic axis would show round-off
+        axes[0].set_ylim(0, 1.2e6 * columns["holdUp"].max())
     else:
         for key, colour in (("feed", GREEN), ("discharge", RED)):
             times, mean = quarter_turns(case, key)
             axes[1].plot(times, 1e6 * mean, color=colour, label=key)
-        axes[1].set_ylabel("ml/s, mean over a\nquarter of a turn")
+        axes[1].set_ylabel("ml/s, mean over a\nquarter turn")
         axes[1].set_ylim(bottom=0)
         axes[1].legend()
     axes[-1].set_xlabel("flow time, s")
     return figure
 
 
-def centre_and_power(case):
-    """Centre of the slurry and the power that it takes against time."""
-    told = case.balance
+def centre_and_power(case: MillCase) -> Figure:
+    """Centre of the slurry and the power given to it, against time."""
+    columns = case.balance
     figure, (top, bottom) = axes_of(2)
-    top.plot(told["Time"], -1e3 * np.sign(case.omega) * told["x"], color=BLUE, label="x (below 0: rising side)")
-    top.plot(told["Time"], 1e3 * told["y"], color=RED, label="y")
+    top.plot(columns["Time"], -1e3 * np.sign(case.omega) * columns["x"], color=BLUE, label="x (below 0: rising side)")
+    top.plot(columns["Time"], 1e3 * columns["y"], color=RED, label="y")
     top.set_ylabel("centre of the slurry, mm")
     top.legend()
     times, power = quarter_turns(case, "power")
@@ -123,19 +128,19 @@ def centre_and_power(case):
     return figure
 
 
-def reynolds(case):
+def reynolds(case: MillCase) -> Figure:
     """Particle Reynolds numbers in slurry against time."""
-    told = case.balance
+    columns = case.balance
     figure, (axis,) = axes_of()
-    axis.plot(told["Time"], told["Re_mean"], color=BLUE, label="mean over the balls")
-    axis.plot(told["Time"], told["Re_95"], color=RED, label="95 % of the balls below")
+    axis.plot(columns["Time"], columns["Re_mean"], color=BLUE, label="mean over the balls")
+    axis.plot(columns["Time"], columns["Re_95"], color=RED, label="95 % of the balls below")
     axis.set(xlabel="flow time, s", ylabel="particle Reynolds number",
-             ylim=(0, 1.1 * max(np.percentile(told["Re_95"], 99.5), told["Re_mean"].max())))
+             ylim=(0, 1.1 * max(np.percentile(columns["Re_95"], 99.5), columns["Re_mean"].max())))
     axis.legend()
     return figure
 
 
-def holdup_along(profile, z, model):
+def holdup_along(profile: AxialProfile, z: np.ndarray, model: np.ndarray) -> Figure:
     """Hold-up per length along the axis: of an AxialProfile, and of a model (m2) at z (m)."""
     figure, (axis,) = axes_of()
     axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE,
@@ -146,8 +151,8 @@ def holdup_along(profile, z, model):
     return figure
 
 
-def axial(profile, fits, along):
-    """Height of the slurry's centre of mass, hold-up and head along the axis, which is called `along`; fits: curves
+def axial(profile: AxialProfile, fits: Sequence[Curve], along: str) -> Figure:
+    """Height of the slurry's centre of mass, hold-up and head along the axis; along: the axis' label; fits: curves
     (label, z, height)."""
     figure, (height, held, head) = axes_of(3, height=2.3)
     z = 1e3 * profile.z
@@ -167,8 +172,8 @@ def axial(profile, fits, along):
     return figure
 
 
-def axial_against_time(places, times, values, along):
-    """Height of the centre of mass over the axis, which is called `along`, and time."""
+def axial_against_time(places: np.ndarray, times: np.ndarray, values: np.ndarray, along: str) -> Figure:
+    """Height of the centre of mass over the axis and time; along: the axis' label."""
     figure, axis = plt.subplots(figsize=(5.4, 3.4), constrained_layout=True)
     lower, upper = np.percentile(1e3 * values[len(times) // 5:], (1, 99))
     image = axis.pcolormesh(times, 1e3 * places, 1e3 * values.T, cmap="cividis", shading="nearest", vmin=lower,
@@ -179,12 +184,13 @@ def axial_against_time(places, times, values, along):
     return figure
 
 
-def _legend_above(axis, labels):
-    """A legend where it hides no curve; short names stand side by side."""
+def _legend_above(axis: Axes, labels: Sequence[str]) -> None:
+    """A legend above the panel, where it hides no curve; short names are in two columns."""
     axis.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=2 if max(map(len, labels)) < 22 else 1)
 
 
-def lines_against(curves, xlabel, ylabel, limits=None):
+def lines_against(curves: Sequence[Curve], xlabel: str, ylabel: str,
+                  limits: tuple[float, float] | None = None) -> Figure:
     """Curves (label, x, y) of several cases in one panel; limits of y."""
     figure, (axis,) = axes_of()
     for (label, x, y), colour in zip(curves, COLOURS):
@@ -194,7 +200,7 @@ def lines_against(curves, xlabel, ylabel, limits=None):
     return figure
 
 
-def surfaces(lines, radius, omega):
+def surfaces(lines: Sequence[tuple[str, np.ndarray]], radius: float, omega: float) -> Figure:
     """Free surfaces (label, [n, 2] m) in the circle of a mill that turns at `omega` (rad/s)."""
     figure, axis = plt.subplots(figsize=(5.2, 5), constrained_layout=True)
     angle = np.linspace(0, 2 * np.pi, 361)

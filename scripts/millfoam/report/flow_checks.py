@@ -2,7 +2,8 @@
 """Checks of a flow: its slurry, its time-steps, its mesh, and the balls in it."""
 import numpy as np
 
-from ..data_files import number
+from ..files.data_files import number
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 
 CONSERVED = 1e-6  # of the hold-up that may be missing
@@ -18,57 +19,58 @@ QUALITY = (("volume_error", "volume error"), ("non_orthogonality_deg", "non-orth
 NO_STEPS = "slurryFoam writes postProcessing/flow/START/steps.csv: run the flow with it."
 
 
-def conservation(case):
+def conservation(case: MillCase) -> Check:
+    """Whether no slurry is missing."""
     name = "Slurry is conserved"
-    told = case.balance
-    if told is None:
+    columns = case.balance
+    if columns is None:
         return Check(name, "unknown", "the flow ran without the function object slurryBalance",
                      "Add it to controlDict; see slurryBalance.H.")
-    share = np.abs(told["missing"]).max() / np.abs(told["holdUp"]).max()
+    share = np.abs(columns["missing"]).max() / np.abs(columns["holdUp"]).max()
     return judged(name, share, CONSERVED, f"at most {share:.1e} of the hold-up is missing (limit {CONSERVED:.0e})",
-                  "Look in steps.csv for steps in which alpha leaves [0, 1] (alpha_min, alpha_max_minus_1), and give "
-                  "the limiter "
-                  "more iterations (nLimiterIter).")
+                  "Look in steps.csv for steps in which alpha is outside [0, 1] (alpha_min, alpha_max_minus_1), and "
+                  "give the limiter more iterations (nLimiterIter).")
 
 
-def column(case, name):
-    """A column of steps.csv [steps], or None where there is none or nothing in it is known."""
+def column(case: MillCase, name: str) -> np.ndarray | None:
+    """A column of steps.csv [steps]; None if it is missing or has no finite value."""
     steps = case.record.steps
     found = steps.get(name) if steps else None
     return found if found is not None and np.isfinite(found).any() else None
 
 
-def courant(case):
+def courant(case: MillCase) -> Check:
+    """Whether time-steps keep to the flow's limits."""
     name = "Time-steps keep to their limits"
     steps = case.record.steps
     if steps is None or len(steps["time_s"]) == 0:
-        return Check(name, "unknown", "there is no steps.csv of the flow", NO_STEPS)
+        return Check(name, "unknown", "the flow has no steps.csv", NO_STEPS)
     found = np.column_stack([steps[key] for key, _, _ in LIMITS])
     limits = step_limits(case)
     if not np.isfinite(limits).any():
         return Check(name, "unknown", "flow.json has no limits of the time-step",
                      "Give maxCo, maxAlphaCo and maxVoidageChange in controlDict (adjustTimeStep yes).")
-    # Also a number that is none is beyond
+    # NaN counts as beyond
     over = (~(found <= 1.5 * limits)).any(axis=1).mean()
     words = ", ".join(f"{what} {np.percentile(found[:, k], 95):.2g}"
-                      + (f" for {limits[k]:g}" if np.isfinite(limits[k]) else "")
+                      + (f" (limit {limits[k]:g})" if np.isfinite(limits[k]) else "")
                       for k, (_, _, what) in enumerate(LIMITS))
-    return judged(name, over, STEPS, f"{100 * over:.1f} % of the steps are beyond 1.5 times what the flow asks for "
-                                     f"(limit "
-                  f"{100 * STEPS:g} %); 95 % of the steps stay below: {words}",
+    return judged(name, over, STEPS, f"{100 * over:.1f} % of the steps are beyond 1.5 times their limits "
+                  f"(limit {100 * STEPS:g} %); 95 % of the steps are below: {words}",
                   "Lower flow.max_courant, flow.max_surface_courant or flow.max_time_step.", doubtful=0.05)
 
 
-def step_limits(case):
-    """Limits by flow.json's last start of the quantities of LIMITS [3]; infinite where there is none."""
-    told = case.record.last.get("limits") or {}
-    return np.array([told.get(key) or np.inf for _, key, _ in LIMITS], dtype=float)
+def step_limits(case: MillCase) -> np.ndarray:
+    """Limits of the quantities of LIMITS [3] in flow.json's last start; infinite if there is none."""
+    limits = case.record.last.get("limits") or {}
+    return np.array([limits.get(key) or np.inf for _, key, _ in LIMITS], dtype=float)
 
 
-def mesh(case):
+def mesh(case: MillCase) -> Check:
+    """Whether checkMesh finds no fault, with the mesh's quality."""
     name = "The mesh is sound"
-    told = case.json(case.folder / "mesh.json", "mesh")
-    quality = (told or {}).get("quality") or {}
+    content = case.json(case.folder / "mesh.json", "mesh")
+    quality = (content or {}).get("quality") or {}
     words = ", ".join(f"{what} {number(quality, 'mesh.json', key, 'value'):.3g} (limit "
                       f"{number(quality, 'mesh.json', key, 'limit'):.3g})" for key, what in QUALITY if key in quality)
     checked = case.json(case.folder / "check.json", "check")
@@ -76,48 +78,49 @@ def mesh(case):
         return Check(name, "unknown", f"checkMesh was not run (no check.json); {words}".rstrip("; "),
                      "Run Allrun's step check_mesh, which writes check.json.")
     if checked.get("ok") is True:
-        return Check(name, "holds", words or "checkMesh found nothing")
-    return Check(name, "fails", f"a check of checkMesh failed, see log.check; {words}".rstrip("; "),
+        return Check(name, "holds", words or "checkMesh found no fault")
+    return Check(name, "fails", f"checkMesh found a fault, see log.check; {words}".rstrip("; "),
                  "Refine the mesh or change the lifters' section.")
 
 
-def solids_on_mesh(case):
+def solids_on_mesh(case: MillCase) -> Check:
+    """Whether the balls keep their volume on the flow's mesh."""
     name = "Balls on the flow's mesh keep their volume"
     found = column(case, "volume_correction")
     if found is None:
-        return Check(name, "unknown", "steps.csv does not tell the correction", NO_STEPS)
+        return Check(name, "unknown", "steps.csv has no correction of the volume", NO_STEPS)
     share = 100 * np.nanmax(np.abs(found))
     return judged(name, share, CORRECTION, f"corrected by at most {share:.2g} % (limit {CORRECTION:g} %)",
                   "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).")
 
 
-def drag_range(case):
+def drag_range(case: MillCase) -> Check:
+    """Share of the slurry in the bed that is beyond the range of the drag law."""
     name = "The drag law is within its range"
     found = column(case, "beyond_law")
     if found is None:
-        return Check(name, "unknown", "steps.csv does not tell how much of the slurry is beyond the law's range",
+        return Check(name, "unknown", "steps.csv has no share of the slurry beyond the law's range",
                      NO_STEPS)
     known = np.isfinite(found)
     share = 100 * np.average(found[known], weights=case.record.steps["deltaT_s"][known])
     return judged(name, share, OUT_OF_RANGE, f"{share:.1f} % of the slurry in the bed is beyond {case.law}'s range "
                   f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges, flow.law).",
                   doubtful=50,
-                  meaning="in the slurry beyond the range the drag is extrapolated; another law shows how much that "
-                          "matters")
+                  meaning="beyond the range the drag is extrapolated; another law shows how much that matters")
 
 
-def one_way(case):
+def one_way(case: MillCase) -> Check:
+    """Whether the slurry would not move the balls, as one-way coupling assumes."""
     name = "The slurry would not move the balls"
     load = case.load
     if load is None:
-        return Check(name, "unknown", "the flow did not tell the force on the balls",
+        return Check(name, "unknown", "the flow did not write the force on the balls",
                      "Give ballDensity in constant/bedProperties.")
     mean, high = load
     return judged(name, np.max([mean / LIGHT, high / HEAVY]), 1,
-                  f"its force is {mean:.2f} of their weight in the mean (limit {LIGHT}), 95 % below {high:.2f} (limit "
-                  f"{HEAVY})",
-                  "The coupling is one-way: where the force nears the weight, read the charge's shape with care.",
+                  f"its force over their weight has the mean {mean:.2f} (limit {LIGHT}) and is below {high:.2f} for "
+                  f"95 % of the balls (limit {HEAVY})",
+                  "The coupling is one-way: where the force is close to the weight, do not trust the charge's shape.",
                   doubtful=1 / HEAVY,
-                  meaning="the numbers hold for a charge that is not moved by the slurry; where it would be, expect "
-                          "other shapes "
-                          "of charge and slurry")
+                  meaning="the numbers hold for a charge that the slurry does not move; where it would, charge and "
+                          "slurry have other shapes")

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report of one case: each function returns cards, none where the case does not have what it shows."""
+"""Sections of the report of one case. Each function returns cards, or none if the case lacks what it shows."""
+from collections.abc import Iterable
+from typing import Any
+
 import h5py
 import numpy as np
 
-from .. import charge_plots, mill_plots, solids
-from ..data_files import read_text
+from ..files import solids_file
+from ..files.data_files import read_text
+from ..files.mill_case import MillCase
+from ..plots import charge_plots, mill_plots
 from . import figures, maps, page
+from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
-from .readings import FRAME, key_numbers
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
 from .words import quantity, span_of_time
@@ -15,30 +20,32 @@ from .words import quantity, span_of_time
 FRAMES = 40  # of the animation, at most
 
 
-def overview(case, readings):
+def overview(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the animation and the key numbers."""
     cards = [page.table(None, key_numbers(case, readings), title="Key numbers", note=spans(case, readings))]
     return [animation(case)] + cards if case.flow or case.solids else cards
 
 
-def spans(case, readings):
+def spans(case: MillCase, readings: Readings) -> str:
+    """In words, the times over which the key numbers are averaged."""
     words = []
     if not (case.solids or case.flow):
-        return "Power: mean of the dry run since it is steady, with the standard error of batch means."
+        return "Power: mean of the steady dry run, with the standard error of batch means."
     if case.solids:
         words.append(f"charge averaged over DEM time {case.charge_span[0]:.3g} to {case.charge_span[1]:.3g} s")
     if case.flow:
         words.append(f"flow from {case.begin:.3g} to {case.last:.3g} s")
-    told = "Averages: " + ", ".join(words) + "."
+    text = "Averages: " + ", ".join(words) + "."
     if case.solids or case.results:
-        told += " ±: standard errors of batch means over time."
+        text += " ±: standard errors of batch means over time."
         if case.flow:
-            told += " Those of the slurry are of whole turns; none is given where fewer than two are averaged."
-        told += f" Angles are counted from straight down, positive where the shell rises. {FRAME}"
-    return told + readings.short_blocks(slurry=False)
+            text += " Those of the slurry are of whole turns; a mean over fewer than two turns has none."
+        text += f" Angles are counted from straight down, positive where the shell rises. {FRAME}"
+    return text + readings.short_blocks(slurry=False)
 
 
-def animation(case):
-    """Charge and slurry over the last turn of the mill, or what there is of it."""
+def animation(case: MillCase) -> str:
+    """Charge and slurry over the last turn of the mill, or over the part of it that exists."""
     if case.flow:
         frames = [frame for frame in case.flow.frames if frame[0] >= max(case.last - case.turn, 1e-9)]
         shown = case.last - max([time for time, _ in case.flow.frames if time < frames[0][0]], default=0)
@@ -47,54 +54,56 @@ def animation(case):
         return page.player(mill_plots.frame_figures(case.flow, frames),
                            f"Share of slurry over the axis (blue){edge}, flow time {frames[0][0]:.2f} to "
                            f"{frames[-1][0]:.2f} s.", title=last_turn(shown, case.turn))
-    windows = solids.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
+    windows = solids_file.read_windows(case.solids, case.charge_span[1] - case.turn, case.charge_span[1])
     shown = windows[-1].end - windows[0].begin
     windows = [windows[k] for k in np.unique(np.linspace(0, len(windows) - 1, FRAMES).astype(int))]
     return page.player(mill_plots.charge_figures(windows, case.radius, case.omega, case.outline_at),
                        f"Solidity over the axis, window by window, DEM time {windows[0].begin:.2f} to "
-                       f"{windows[-1].end:.2f} s; "
-                       "the mill's outline at the end of each.", title=last_turn(shown, case.turn))
+                       f"{windows[-1].end:.2f} s. The outline is that at the end of each window.",
+                       title=last_turn(shown, case.turn))
 
 
-def last_turn(seconds, turn):
-    """Title of a time (s) that is shown, of a mill whose turn takes `turn` s."""
+def last_turn(seconds: float, turn: float) -> str:
+    """Title of an animation of so many seconds, of a mill whose turn takes `turn` s."""
     return "The last turn" if seconds > 0.99 * turn else f"The last {seconds / turn:.2f} of a turn"
 
 
-def charge_section(case, readings):
+def charge_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
     cards = charge_maps(case, readings) if case.solids else []
     if case.energy:
         cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's "
-                                                        "energies. Dashed: "
-                                  "steady from there on.", title="Dry run"))
+                                                        "energies. Dashed: begin of the steady time.",
+                                  title="Dry run"))
     if case.overlaps is not None:
-        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts at all records: how soft the balls "
-                                                          "are. Few "
-                                  "contacts are far to the right.", title="Overlaps"))
+        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts at all records. Balls are stiff "
+                                                          "enough if few contacts are far to the right.",
+                                  title="Overlaps"))
     return cards
 
 
-def charge_maps(case, readings):
+def charge_maps(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the charge's map and its readings, if it has them."""
     found, mean = readings.charge, case.charge
     if isinstance(found, str):
-        words = f"Solidity averaged over axis and time. Not read: {found}."
+        words = f"Solidity averaged over axis and time. There are no readings: {found}."
         return [page.picture(maps.solidity_figure(case, mean), words, title="Charge")]
     return [page.picture(charge_plots.charge_figure(mean, found, case.radius, case.outline),
-                         "Solidity and velocity (arrows) averaged over axis and time. The free surface goes from the "
-                         "shoulder on "
-                         "the rising side to the toe; the charge turns about the centre of circulation.",
-                         title="Charge"),
+                         "Solidity and velocity (arrows) averaged over axis and time. The free surface reaches from "
+                         "the shoulder on the rising side to the toe. The charge turns about the centre of "
+                         "circulation.", title="Charge"),
             page.picture(charge_plots.tangential_figure(found.tangential),
-                         "Along the line from the mill's centre through the centre of circulation: the charge falls "
-                         "near the "
-                         "surface (below 0) and rises with the shell. Below: what the cubic leaves, and its slope.",
+                         "Along the line from the mill's centre through the centre of circulation. The charge falls "
+                         "near the surface (below 0) and rises with the shell. Lower panels: map minus cubic, and the "
+                         "cubic's slope.",
                          title="Tangential velocity"),
             page.picture(maps.speed_figure(case, mean.x, mean.y, mean.velocity, mean.solidity > 0.02),
-                         "Mean velocity of the balls across the axis: colour for its size, arrows for its direction.",
+                         "Mean velocity of the balls across the axis. Colour: its size; arrows: its direction.",
                          title="Speed of the balls")]
 
 
-def ledger_section(case, _readings):
+def ledger_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the ledgers of both averages, the mesh, and the range of the drag law."""
     cards = []
     if case.solids:
         with h5py.File(case.solids) as file:
@@ -103,8 +112,8 @@ def ledger_section(case, _readings):
             rows = [("windows", str(len(into))), ("length of a window", f"{np.median(lengths):.4g} s"),
                     ("records in a window", f"{np.median(file['window/records'][:]):.0f}"),
                     ("volume of the balls", f"{1e6 * into.mean():.2f} ml"),
-                    ("of it outside, at most", f"{100 * (outside / into).max():.2g} %"),
-                    ("moved to neighbours, at most", f"{100 * (clipped / into).max():.2g} %"),
+                    ("share outside, at most", f"{100 * (outside / into).max():.2g} %"),
+                    ("share moved to neighbours, at most", f"{100 * (clipped / into).max():.2g} %"),
                     ("balls per occupied cell", f"{file['window/balls_per_cell'][:].mean():.1f}")]
             shape = " × ".join(str(n) for n in np.atleast_1d(file["grid"].attrs.get("shape",
                                                                                     file["grid"].attrs.get("cells",
@@ -116,8 +125,8 @@ def ledger_section(case, _readings):
             into, outside = file["ledger/volume_in"][:], file["ledger/outside"][:]
         cards.append(page.table(None, [("windows", str(len(into))), ("slurry in the mesh, mean",
                                                                      f"{1e6 * into.mean():.2f} ml"),
-                                       ("of it beyond the voxels, at most", f"{100 * np.abs(outside / into).max():.2g} "
-                                                                            f"%")],
+                                       ("share beyond the voxels, at most",
+                                        f"{100 * np.abs(outside / into).max():.2g} %")],
                                 title="Averaging of the slurry"))
     mesh = case.json(case.folder / "mesh.json", "mesh")
     if mesh:
@@ -131,35 +140,34 @@ def ledger_section(case, _readings):
     return cards
 
 
-def drag_rows(drag, beyond):
-    """Rows (name, text) of the law of flow.json's last start, and of the share of the slurry in the bed that is
-    beyond its range."""
-    names = {"mean": "beyond its range, of the slurry in the bed, mean over time", "largest": "the same, at most",
-             "solidity_below": "by a solidity below", "solidity_above": "by a solidity above",
-             "reynolds_below": "by a Reynolds number below", "reynolds_above": "by a Reynolds number above"}
+def drag_rows(drag: dict[str, Any], beyond: dict[str, float]) -> list[tuple[str, str]]:
+    """Rows (name, text) of the law of flow.json's last start, and of the share of the slurry in the bed beyond its
+    range."""
+    names = {"mean": "slurry of the bed beyond the range, mean over time",
+             "largest": "slurry of the bed beyond the range, at most",
+             "solidity_below": "solidity below the range", "solidity_above": "solidity above the range",
+             "reynolds_below": "Reynolds number below the range", "reynolds_above": "Reynolds number above the range"}
     rows = [("law", drag["law"]), ("reference", drag.get("reference", "not known"))]
-    rows += [(f"its range of the {name}", "{} to {}".format(*("any" if one is None else f"{one:.3g}"
-                                                              for one in drag[key])))
+    rows += [(f"range of the {name}", "{} to {}".format(*("any" if one is None else f"{one:.3g}" for one in drag[key])))
              for key, name in (("solidity_range", "solidity"), ("reynolds_range", "Reynolds number")) if key in drag]
     return rows + [(name, f"{100 * beyond[key]:.3g} %") for key, name in names.items() if beyond.get(key) is not None]
 
 
-def numbers_of(content):
+def numbers_of(content: dict[str, Any]) -> list[tuple[str, str]]:
     """Rows (name, text) of the single values of a JSON result, without its head."""
     head = ("format", "version", "program", "mill")
     return [quantity(key, value) for key, value in content.items()
             if key not in head and not isinstance(value, (dict, list))]
 
 
-def run_section(case, _readings):
+def run_section(case: MillCase, _readings: Readings) -> list[str]:
     """Versions and cost, and the resolved mill."""
-    cards = [page.table(None, programs(case), title="Programs", note="By the files that they wrote.")]
+    cards = [page.table(None, programs(case), title="Programs", note="From the files that they wrote.")]
     costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case)]
     if costs:
         cards.append(page.table(None, costs, title="Cost by stage",
-                                note="Wall time of stages that ended or failed, every time that they ran; not of those "
-                                     "that "
-                                     "were killed."))
+                                note="Wall time, the sum of all runs of a stage that ended or failed. Killed runs are "
+                                     "not counted."))
     mill = case.mill
     rows = [(f"fingerprint: {part}", found) for part, found in mill.fingerprint.items()]
     rows += [("changed by --set", setting) for setting in mill.settings]
@@ -172,17 +180,17 @@ def run_section(case, _readings):
                                 mill.text())]
 
 
-def stage_costs(case):
-    """(stage, wall time in s) by log.costs of the charge's and the case's folder, all times that a stage was run
-    added up."""
-    costs = {}
+def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
+    """(stage, wall time in s) from log.costs of the charge's and the case's folder, summed over all runs of a
+    stage."""
+    costs: dict[str, float] = {}
     for path in (folder / "log.costs" for folder in case.charge_folders):
         for line in read_text(path).splitlines() if path.is_file() else ():
             name, _, seconds = line.rpartition(",")
             try:
                 costs[name] = costs.get(name, 0) + float(seconds)
             except ValueError:
-                continue  # what a killed step was writing
+                continue  # half a line of a killed step
     if not costs and case.results and "wall_time_s" in case.results:
         costs["dry run"] = case.result("wall_time_s")
     return costs.items()

@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report about the slurry: its maps, its way along the axis, its balance, mechanistic models beside
-it."""
+"""Sections of the report about the slurry: its maps, its motion along the axis, its balance, and mechanistic models
+to compare it with."""
+from typing import Any
+
 import numpy as np
 
-from .. import axial, charge, mill_plots, models, slurry_maps
-from ..flow_readings import RING, Way, humps_at_ends, ring_depth
-from ..free_surface import at_points
-from ..tables import time_mean
+from ..files.mill_case import MillCase
+from ..plots import mill_plots
+from ..readings import axial, charge, models, slurry_on_maps
+from ..readings.axial import humps_at_ends
+from ..readings.free_surface import at_points
+from ..readings.means import time_mean
+from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
+from .case_readings import Readings
 from .words import millilitres, uncertain
 
 
-def slurry_section(case, readings):
+def slurry_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the slurry's maps and their readings; none without a flow."""
     if not case.flow:
         return []
     slurry = readings.slurry
@@ -21,26 +28,24 @@ def slurry_section(case, readings):
     cards = [page.picture(share, f"Share of the fluid that is slurry, averaged over the axis and {slurry.source}.",
                           title="Slurry"),
              page.picture(maps.speed_figure(case, slurry.x, slurry.y, slurry.velocity, slurry.share > 0.05),
-                          "Mean velocity of the slurry across the axis: colour for its size, arrows for its direction.",
+                          "Mean velocity of the slurry across the axis. Colour: its size; arrows: its direction.",
                           title="Speed of the slurry")]
     if case.length > 0.5 * case.radius and not case.is_slice:
         cards.append(page.picture(maps.z_velocity_figure(case, slurry), "Mean velocity along the axis where the share "
-                                                                        "is over a "
-                                  "half. Red: to the discharge.", title="Slurry along the axis"))
+                                                                        "is over 0.5. Red: to the discharge.",
+                                  title="Slurry along the axis"))
     if case.load:
         cards.append(page.picture(mill_plots.load_figure(case.flow, case.begin),
-                                  "Force of the fluid on the balls over their weight: where it nears 1 (line) the "
-                                  "coupling in "
-                                  "one direction does not hold.", title="Force on the balls"))
-    note = (f"Angles from straight down, positive where the shell rises, on the circle {RING:g} lifters' heights "
-            f"({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of "
-            f"{len(readings.blocks)} "
-            f"blocks of time.{readings.short_blocks()}")
-    return cards + [page.table(None, slurry_rows(case, readings), title="Read off the maps", note=note)]
+                                  "Force of the fluid on the balls over their weight. Where it is close to 1 (line), "
+                                  "one-way coupling does not hold.", title="Force on the balls"))
+    note = (f"Angles are counted from straight down, positive where the shell rises, on the circle {RING:g} lifter "
+            f"heights ({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of "
+            f"{len(readings.blocks)} blocks of time.{readings.short_blocks()}")
+    return cards + [page.table(None, slurry_rows(case, readings), title="Readings of the maps", note=note)]
 
 
-def slurry_rows(case, readings):
-    """Rows (name, text) of toe, shoulder, pool and way along the axis."""
+def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
+    """Rows (name, text) of toe, shoulder, pool and motion along the axis."""
     slurry, way = readings.slurry, readings.way
     if isinstance(way, Way):
         rows = [(f"{name} of the slurry", uncertain(angle.value, angle.error, "°"))
@@ -51,23 +56,25 @@ def slurry_rows(case, readings):
     if case.solids and case.law:
         points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
         solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
-    pool = slurry_maps.pool(slurry, solidity)
+    pool = slurry_on_maps.pool(slurry, solidity)
     rows.append(("pool clear of the charge" if case.has_balls else "pool",
                  f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0
                  else "none"))
     if case.is_slice:
         return rows
     if not isinstance(way, Way):
-        return rows + [("along the axis", str(way))]
-    halves = slurry_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
-    rows += [(f"along the axis at the {name}: mean (90 % of it)", uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
+        return rows + [("velocity along the axis", str(way))]
+    halves = slurry_on_maps.axial_flow(slurry, way.toe_angle.value, way.shoulder_angle.value)
+    rows += [(f"velocity along the axis at the {name}: mean (range of 90 %)",
+              uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
               + f" ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
              for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]
-    words = {"undecided": "undecided: a mean is within two standard errors of nought, or its error is not known"}
+    words = {"undecided": "undecided: a mean is within two standard errors of zero, or its error is not known"}
     return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
 
 
-def axial_section(case, readings):
+def axial_section(case: MillCase, readings: Readings) -> list[str]:
+    """Cards of the profile along the axis; none for fewer than three slices."""
     if not case.flow or len(getattr(readings.profile, "z", ())) < 3:
         return []
     fits = []
@@ -77,10 +84,9 @@ def axial_section(case, readings):
             ended = " (at the profile's end)" if humps_at_ends(fit, readings.profile.z) else ""
             fits.append((f"{count} Gaussians, RMSD {1e3 * fit.rmsd:.2g} mm{ended}", at, fit.fitted(at)))
     at_end = any("end)" in label for label, _, _ in fits)
-    ended = " Of Gaussians at the profile's end the distance is only its span." if at_end else ""
+    ended = " For Gaussians at the profile's end, the distance is only the profile's span." if at_end else ""
     cards = [page.picture(figures.axial(readings.profile, fits, along(case)), "By slices along the axis, averaged over "
-                                                                              "time; "
-                          f"p_rgh is the pressure without what the depth makes.{ended}",
+                          f"time. p_rgh is the pressure without the hydrostatic part.{ended}",
                           title="Profile along the axis")]
     heights = case.axial("height")
     if heights:
@@ -90,66 +96,66 @@ def axial_section(case, readings):
     return cards
 
 
-def along(case):
-    """What the axis along the mill is called."""
+def along(case: MillCase) -> str:
+    """Label of the axis along the mill."""
     return "z, mm" if case.is_slice else "z from the feed end, mm"
 
 
-def balance_section(case, _readings):
+def balance_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of slurryBalance's tables; none without them."""
     if case.balance is None or len(case.balance["Time"]) < 2:
         return []
-    through = " and through its openings" if case.is_open and not case.is_slice else ""
-    givers = "walls and balls" if case.has_balls else "walls"
+    through = ", and its flow through the openings" if case.is_open and not case.is_slice else ""
+    sources = "walls and balls" if case.has_balls else "walls"
     cards = [page.picture(figures.holdup(case), f"Slurry in the mill{through}.", title="Hold-up"),
-             page.picture(figures.centre_and_power(case), f"Centre of the slurry's volume, and the power that {givers} "
-                          "give to it (torque by the balance of angular momentum, times the mill's speed).",
+             page.picture(figures.centre_and_power(case), "Centre of the slurry's volume, and the power that "
+                          f"{sources} give to it (torque from the balance of angular momentum, times the mill's "
+                          "speed).",
                           title="Centre and power")]
     if case.met_balls:
-        cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, by their volume.",
+        cards.append(page.picture(figures.reynolds(case), "Of balls in slurry, weighted by their volume.",
                                   title="Particle Reynolds numbers"))
     head, rows = wall_table(case)
     if rows:
         cards.append(page.table(head, rows, title="Torque and power",
-                                note=f"About +z on the slurry, means from {case.begin:.3g} s on; of walls: by pressure "
-                                     f"and "
-                                     "friction there, of all: by the balance of angular momentum."))
+                                note=f"About +z on the slurry, means from {case.begin:.3g} s on. Walls: from pressure "
+                                     "and friction there. All: from the balance of angular momentum."))
     return cards
 
 
-def wall_table(case):
-    """Head and rows of slurryBalance's torque and power by wall, as far as it has such columns, and its largest
-    slip."""
-    told = case.balance
-    if not (told["Time"] >= case.begin).any():
+def wall_table(case: MillCase) -> tuple[list[str] | None, list[tuple]]:
+    """Head and rows of slurryBalance's torque and power by wall and its largest slip, if it has these columns."""
+    columns = case.balance
+    if not (columns["Time"] >= case.begin).any():
         return None, []
-    walls = list(dict.fromkeys(name.split("_", 1)[1] for name in told
+    walls = list(dict.fromkeys(name.split("_", 1)[1] for name in columns
                                if name.startswith(("torque_", "power_")) and name != "torque_all"))
 
-    def cell(name):
-        return (time_mean(told["Time"], told[name], case.begin), ".3g") if name in told else "–"
+    def cell(name: str) -> tuple[float, str] | str:
+        return (time_mean(columns["Time"], columns[name], case.begin), ".3g") if name in columns else "–"
 
-    rows = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
-    if "torque_all" in told:
+    rows: list[tuple] = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
+    if "torque_all" in columns:
         rows.append(("all", cell("torque_all"), cell("power")))
-    if "slip_max" in told and case.met_balls:
-        slip = told["slip_max"][told["Time"] >= case.begin].max()
+    if "slip_max" in columns and case.met_balls:
+        slip = columns["slip_max"][columns["Time"] >= case.begin].max()
         rows.append(("largest slip past the balls at any time", f"{slip:.3g} m/s", ""))
     return ["", "torque, N m", "power, W"], rows
 
 
-def models_section(case, readings):
-    """Mechanistic models beside what was found."""
+def models_section(case: MillCase, readings: Readings) -> list[str]:
+    """Mechanistic models compared with the simulation."""
     cards = []
-    # The model's wall friction is that of end walls, which a slice does not have
+    # The model's wall friction is that of end walls; a slice has none
     if isinstance(readings.charge, charge.Charge) and not case.is_slice:
-        points = readings.charge.surface.points / case.radius
+        x, y = readings.charge.surface.points.T / case.radius
         number = models.surface_number(abs(case.omega), case.mill.sauter_diameter, case.radius,
                                        case.mill.whole_length)
-        found = readings.attempt(lambda: models.fit_free_surface(*points.T, number, clockwise=case.omega < 0))
+        found = readings.attempt(lambda: models.fit_free_surface(x, y, number, clockwise=case.omega < 0))
         if not isinstance(found, str):
             model, rmsd = found
             why = (f"the fit leaves more than {100 * models.POOR:.0f} % of the radius" if rmsd > models.POOR else
-                   "a friction of the fit is nought, and would be below")
+                   "the fit asks for a negative friction")
             poor = "" if models.describes(model, rmsd) else f" The model does not describe this surface: {why}."
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),
@@ -165,9 +171,9 @@ def models_section(case, readings):
     return cards
 
 
-def moys(case, profile):
-    """Moys' hold-up beside the simulated one and, where that is an AxialProfile of some slices, along the axis; of a
-    mill with feed, balls and a discharge over a lip."""
+def moys(case: MillCase, profile: Any) -> list[str]:
+    """Moys' hold-up compared with the simulated one, for a mill with feed, balls and a discharge over a lip; along the
+    axis if `profile` is an AxialProfile of three slices or more."""
     dense = case.charge.solidity[case.charge.solidity > 0.3]
     porosity = float(1 - dense.mean())
     bed = models.Charge(case.radius, case.length, porosity, case.mill.sauter_diameter)
@@ -181,14 +187,13 @@ def moys(case, profile):
             ("hold-up by the model", f"{1e6 * models.slurry_hold_up(bed, case.feed, lip, *fluid):.0f} ml"),
             ("simulated hold-up, with the pulp lifters", f"{1e6 * held:.0f} ml")]
     cards = [page.table(None, rows, title="Hold-up by Moys' model",
-                        note="Darcy flow through the resting charge to the discharge's lip. It knows nothing of the "
-                             "slurry that "
+                        note="Darcy flow through the resting charge to the discharge's lip, without the slurry that "
                              "the mill lifts.")]
     if len(getattr(profile, "z", ())) >= 3:
         z = np.linspace(0, case.length, 200)
         model = porosity * bed.cross_section(models.slurry_depth(bed, z, case.feed, lip, *fluid))
-        cards.append(page.picture(figures.holdup_along(profile, z, model), "Slurry in the pores of a resting charge by "
-                                                                           "the model, "
-                                  "and all slurry of the simulation, by slices along the axis.",
+        cards.append(page.picture(figures.holdup_along(profile, z, model),
+                                  "By slices along the axis. Model: slurry in the pores of a resting charge. "
+                                  "Simulation: all slurry.",
                                   title="Moys' hold-up profile"))
     return cards

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stages of a case by the files that they left: which mill each belongs to, and which program wrote it."""
+"""The stages of a case by the files that they wrote: the mill that each belongs to, and the program that wrote it."""
 from dataclasses import dataclass
+from typing import Any
 
 import h5py
 
-from ..mill import PARTS
+from ..files.mill import PARTS
+from ..files.mill_case import MillCase
 from .verdict import Check
 
 NAME = "All stages belong to this mill"
@@ -16,16 +18,16 @@ CASE_FILES = (("mesh.json", "mesh", "millMesh"),)
 
 @dataclass
 class Stage:
-    """A file of a stage: its name, the program with its version (None: not told), fingerprints part -> 16 hex digits,
-    and what makes it again."""
+    """A file of a stage: its name, the program with its version (None: not known), fingerprints part -> 16 hex digits,
+    and the program that makes it again."""
     file: str
-    program: str
-    mill: dict
+    program: str | None
+    mill: dict[str, str]
     again: str
 
 
-def stages(case):
-    """Stage of each file of a MillCase that tells of itself."""
+def stages(case: MillCase) -> list[Stage]:
+    """Stage of each file of a MillCase that names its program or mill."""
     found = []
     for folders, files in ((case.charge_folders, CHARGE_FILES), ([case.folder], CASE_FILES)):
         for name, kind, again in files:
@@ -40,49 +42,49 @@ def stages(case):
     for path, again in ((case.solids, "millAverage"), (case.slurry, "the flow")):
         if path:
             with h5py.File(path) as file:
-                told = {key: text_of(value) for key, value in file.attrs.items()}
-            mill = {part: told[f"mill_{part}"] for part in PARTS if told.get(f"mill_{part}")}
-            found.append(Stage(path.name, told.get("program"), mill, again))
+                head = {key: text_of(value) for key, value in file.attrs.items()}
+            mill = {part: head[f"mill_{part}"] for part in PARTS if head.get(f"mill_{part}")}
+            found.append(Stage(path.name, head.get("program"), mill, again))
     return found
 
 
-def text_of(value):
+def text_of(value: Any) -> Any:
     """An attribute of an HDF5 file: texts as text."""
     return value.decode(errors="replace") if isinstance(value, bytes) else value
 
 
-def same_mill(case):
-    """Whether what the stages left belongs to mill.json's mill; unknown where no stage tells it."""
-    wrong, told = [], 0
+def same_mill(case: MillCase) -> Check:
+    """Whether the stages' files belong to mill.json's mill; unknown if no stage names a fingerprint."""
+    wrong, known = [], 0
     for stage in stages(case):
         for part, fingerprint in stage.mill.items():
             mine = case.mill.fingerprint.get(part)
             if not fingerprint or not mine:
                 continue
-            told += 1
+            known += 1
             if fingerprint != mine:
-                wrong.append(f"{stage.file} is of {part} {fingerprint}, mill.json of {mine}: run {stage.again} again")
+                wrong.append(f"{stage.file} has the fingerprint {part} {fingerprint}, mill.json has {mine}: run "
+                             f"{stage.again} again")
     if wrong:
-        return Check(NAME, "fails", "; ".join(wrong), "Run Allrun: it makes again what belongs to another mill.")
-    if not told:
-        return Check(NAME, "unknown", "no stage tells which mill it belongs to",
-                     "Run the stages again: millMesh, millDem, millAverage and slurryFoam write it.")
-    return Check(NAME, "holds", f"{told} fingerprints of the stages are those of mill.json")
+        return Check(NAME, "fails", "; ".join(wrong), "Run Allrun: it makes the stages of another mill again.")
+    if not known:
+        return Check(NAME, "unknown", "no stage names its mill",
+                     "Run the stages again: millMesh, millDem, millAverage and slurryFoam write the name.")
+    return Check(NAME, "holds", f"{known} fingerprints of the stages are those of mill.json")
 
 
-def programs(case):
-    """(files, program and version) of the files that tell them, each program once; OpenFOAM's build and LIGGGHTS'
-    version."""
+def programs(case: MillCase) -> list[tuple[str, str]]:
+    """(files, program and version) of the files that name them, each program once; also OpenFOAM's build and
+    LIGGGHTS' version."""
     found = [("mill.json", case.mill.content.get("program"))]
     found += [(stage.file, stage.program) for stage in stages(case)]
-    by_program = {}
+    by_program: dict[str, list[str]] = {}
     for name, program in found:
         if program:
             by_program.setdefault(program, []).append(name)
     rows = [(", ".join(names), program) for program, names in by_program.items()]
-    told = case.record.last.get("openfoam") or {}
-    words = [f"{name} {told[key]}" for key, name in (("version", "version"), ("patch", "patch"), ("build", "build"))
-             if told.get(key)]
+    openfoam = case.record.last.get("openfoam") or {}
+    words = [f"{key} {openfoam[key]}" for key in ("version", "patch", "build") if openfoam.get(key)]
     rows += [("OpenFOAM of the flow", ", ".join(words))] if words else []
     liggghts = (case.results or {}).get("liggghts")
     return rows + ([("LIGGGHTS of the dry run", liggghts)] if liggghts else [])

@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the averaged flow drifts: its second half against its first."""
+"""Whether the averaged flow drifts: its second half compared with its first."""
 import numpy as np
 
+from ..files.mill_case import MillCase
 from .verdict import Check, judged
 from .words import decimals
 
 DRIFT = 3.0  # standard errors between the two halves of the averages
-BATCHES = 5  # of each half, at least: what the error is from
+BATCHES = 5  # at least, of each half; the error is computed from them
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
 
 
-def batches_of(span, turn):
-    """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and how many of them
-    make a half.
+def batches_of(span: float, turn: float) -> tuple[float, int]:
+    """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and their number in a
+    half.
 
-    One half begins with the span, the other ends with it. Where at least two turns fit, each is as many whole turns
-    as fit, and what is left of the span is in the middle, in neither: what comes back with every turn of the mill, as
-    lifters do, is no drift. A batch is one or more whole turns where a half has BATCHES of them, else a turn's half,
-    third, …"""
+    One half begins with the span, the other ends with it. If two turns or more fit, each half is as many whole turns
+    as fit, and the rest of the span, in the middle, belongs to neither: what repeats with every turn of the mill, as
+    lifters do, is no drift. A batch is one or more whole turns if a half has BATCHES of them, otherwise a half, a
+    third, … of a turn."""
     turns = int(span / 2 / turn + 0.005)  # times are rounded
     if turns < 1:
         return span / 2 / BATCHES, BATCHES
@@ -28,8 +29,8 @@ def batches_of(span, turn):
     return whole * turn, turns // whole
 
 
-def batch_means(times, values, begin, length, count):
-    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN where there is no value."""
+def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: float, count: int) -> np.ndarray:
+    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN for a batch without a value."""
     places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
     # The last time closes the last batch
     places[np.isclose(times, begin + count * length)] = count - 1
@@ -38,22 +39,22 @@ def batch_means(times, values, begin, length, count):
         return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
 
 
-def error_over_turns(times, values, begin, turn):
+def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
     """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
-    turn takes `turn` s; NaN where fewer than two fit."""
+    turn takes `turn` s; NaN if fewer than two fit."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
     if turns < 2:
         return np.nan
-    return batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns)
+    return float(batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns))
 
 
-def halves(times, values, begin, turn):
+def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:
     """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
     batches_of.
 
-    The error is of what the batches differ from a straight line by: a drift must not hide itself. Where the middle is
-    left out both are scaled to what they are between the halves of all of the time: a drift counts as much however
-    many turns there are."""
+    The error comes from the batches' differences from a straight line, so that a drift does not increase it. If the
+    middle is left out, both are scaled to halves of the whole time, so that a drift counts the same for any number of
+    turns."""
     chosen = times >= begin
     times, values = times[chosen], values[chosen]
     span = times[-1] - times[0]
@@ -70,26 +71,27 @@ def halves(times, values, begin, turn):
     return scale * (last.mean() - first.mean()), scale * error
 
 
-def difference_with_error(value, error):
-    """As many digits as the error allows, three after the point at most."""
+def difference_with_error(value: float, error: float) -> str:
+    """A difference with as many digits as its error allows, at most three after the point."""
     digits = min(decimals(error), 3) if np.isfinite(error) and error > 0 else 3
     return f"{value:+.{digits}f} ± {error:.{digits}f}"
 
 
-def flow_steadiness(case):
+def flow_steadiness(case: MillCase) -> Check:
+    """Whether hold-up and centre of the slurry agree between the two halves of the averaged time."""
     name = "The flow is steady"
-    told = case.balance
-    if told is None or (told["Time"] >= case.begin).sum() < 20:
+    columns = case.balance
+    if columns is None or (columns["Time"] >= case.begin).sum() < 20:
         return Check(name, "unknown", "the time series of slurryBalance is missing or too short",
                      "Add slurryBalance to controlDict, or run longer.")
     drifts, words = [], []
     for key, unit, scale in (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)):
-        difference, error = halves(told["Time"], told[key], case.begin, case.turn)
-        # What is less than 1 % of the hold-up or of the radius is no drift that matters
-        floor = 0.01 * (told[key].mean() if key == "holdUp" else case.radius)
+        difference, error = halves(columns["Time"], columns[key], case.begin, case.turn)
+        # A drift below 1 % of the hold-up or of the radius does not matter
+        floor = 0.01 * (columns[key].mean() if key == "holdUp" else case.radius)
         drifts.append(abs(difference) / np.maximum(error * DRIFT, floor))
         words.append(f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}")
-    turns = (told["Time"][-1] - case.begin) / case.turn
-    return judged(name, np.max(drifts), 1, f"from {case.begin:g} s on ({turns:.2g} turns), second half less the first: "
+    turns = (columns["Time"][-1] - case.begin) / case.turn
+    return judged(name, np.max(drifts), 1, f"from {case.begin:g} s on ({turns:.2g} turns), second half minus first: "
                   + ", ".join(words) + f" (limit {DRIFT:g} standard errors, or 1 % of the hold-up and of the radius)",
                   "Run longer (flow.duration), or begin the averages later (--begin).", doubtful=2)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers as the report's texts show them: minus signs, powers of ten, as many digits as their errors allow."""
 import re
+from typing import Any
 
 import numpy as np
 
@@ -12,8 +13,8 @@ UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s
          "_m3": "m³", "_m2": "m²", "_kg": "kg", "_Pa": "Pa", "_m": "m", "_s": "s", "_W": "W", "_J": "J"}
 
 
-def typeset(words):
-    """Text with minus signs before numbers that stand alone, none before nought, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
+def typeset(words: Any) -> str:
+    """Text with minus signs before single numbers, none before zero, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
     words = re.sub(r"(?<=\d)e([+-]\d+)", lambda found: "·10" + str(int(found.group(1))).translate(SUPERSCRIPT),
                    str(words))
     words = re.sub(r"(?<![\w.\-/])-(?=\d)", "−", words)
@@ -21,15 +22,14 @@ def typeset(words):
     return re.sub(r"[−+](0(?:\.0+)?)(?![\d.·])", r"\1", words)
 
 
-def decimals(error):
-    """Digits after the point that a value with this error has: the error keeps one digit, two where it begins with 1
-    or 2."""
+def decimals(error: float) -> int:
+    """Digits after the point of a value with this error: the error has one digit, or two if it begins with 1 or 2."""
     exponent = int(np.floor(np.log10(error)))
     return max(0, -exponent + (1 if round(error / 10.0**exponent, 9) < 3 else 0))
 
 
-def uncertain(value, error, unit):
-    """A value with its standard error and unit; three digits where the error is not known or nought."""
+def uncertain(value: float, error: float, unit: str) -> str:
+    """A value with its standard error and unit; three digits if the error is unknown or zero."""
     gap = "" if unit == "°" else " "
     if not (np.isfinite(error) and error > 0):
         return f"{value:.3g}{gap}{unit}"
@@ -37,13 +37,13 @@ def uncertain(value, error, unit):
     return f"{value:.{digits}f} ± {error:.{digits}f}{gap}{unit}"
 
 
-def millilitres(volume, digits=3):
-    """A volume (m3) in ml with so many digits, and with all before the point."""
+def millilitres(volume: float, digits: int = 3) -> str:
+    """A volume (m3) in ml with `digits` digits, and with all digits before the point."""
     value = 1e6 * volume
     return f"{value:.0f} ml" if abs(value) >= 10.0 ** (digits - 1) else f"{value:.{digits}g} ml"
 
 
-def quantity(key, value):
+def quantity(key: str, value: Any) -> tuple[str, str]:
     """(name, text) of an entry of a JSON result, whose key ends with its unit: volume_m3 = 0.1 as ("volume", "0.1
     m³")."""
     unit = next((end for end in UNITS if key.endswith(end)), "")
@@ -57,8 +57,8 @@ def quantity(key, value):
     return name, f"{value:.4g} {UNITS.get(unit, '')}".strip()
 
 
-def span_of_time(seconds):
-    """Seconds below a minute, else minutes; logs round to whole seconds."""
+def span_of_time(seconds: float) -> str:
+    """Seconds below one minute, otherwise minutes. The logs round to whole seconds."""
     if seconds < 1:
         return "below 1 s"
     return f"{seconds:.0f} s" if seconds < 60 else f"{seconds / 60:.1f} min"

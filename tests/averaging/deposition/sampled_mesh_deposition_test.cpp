@@ -29,8 +29,8 @@ TEST(SampledMeshDeposition, ConvergesToTheExactDeposits) {
         error[level] += std::abs(a[c] - b[c]) / sphere_volume(ball.radius);
     }
   }
-  // Points that a face of random lean tells apart err as the lattice's spacing at worst, and to its power 2
-  // on average over many: four times as many along a diameter give 1/4 to 1/16.
+  // A face of random slope gives errors of the order of the lattice's spacing at worst, and of its square on
+  // average: four times as many points along a diameter give 1/4 to 1/16.
   EXPECT_LT(error[1], error[0] / 4);
   EXPECT_GT(error[1], error[0] / 64);
 }

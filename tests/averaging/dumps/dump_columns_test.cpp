@@ -47,7 +47,7 @@ TEST(DumpPositions, TwoKindsOrAMixAreRefused) {
                {"dump1.txt:9", "'x' and 'xs'", "two kinds"});
   expect_named(refusal("id xu yu z vx vy vz radius", "1 0 0 0 0 0 0 0.01"), {"'xu' and 'z'", "two kinds"});
   expect_named(refusal("id xs ys vx vy vz radius", "1 0 0 0 0 0 0.01"), {"'zs' is missing"});
-  expect_named(refusal("id x y z y vx vy vz radius", "1 0 0 0 0 0 0 0 0.01"), {"'y' is there twice"});
+  expect_named(refusal("id x y z y vx vy vz radius", "1 0 0 0 0 0 0 0 0.01"), {"'y' appears twice"});
 }
 
 TEST(DumpPositions, ScaledOnesNeedABoxAlongTheAxes) {

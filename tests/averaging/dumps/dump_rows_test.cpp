@@ -44,7 +44,7 @@ TEST(DumpRows, ADoubledIdIsToldWithBothLines) {
   std::vector<Particle> balls = random_balls(30, 4);
   balls[20].id = balls[3].id;
   expect_named(refusal_of_dump(dump_text(1, balls)),
-               {"dump7.txt:30", "particle " + std::to_string(balls[3].id) + " is there twice", "line 13"});
+               {"dump7.txt:30", "particle " + std::to_string(balls[3].id) + " appears twice", "line 13"});
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 const BoxGrid grid({-1, -2, 0}, {1, 2, 3}, {2, 3, 4}, {false, false, true});
 
-/// A window whose values tell entries and windows apart.
+/// A window with different values in all entries and windows.
 WindowAverage window_number(int number) {
   const std::size_t n = grid.size();
   WindowAverage window;

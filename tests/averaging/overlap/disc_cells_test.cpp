@@ -71,7 +71,8 @@ TEST(DiscCells, AboutTheOriginAreRingsAndSectors) {
 }
 
 TEST(DiscCells, OverTheOriginAreQuartersByFourRaysThroughTheirCentre) {
-  // The centre moves along a ray: the sectors beside it stay mirror images, and the two behind it too.
+  // The centre moves along a ray: the sectors on both sides of it stay mirror images, and the two behind it,
+  // too.
   DiscCells discs;
   std::vector<double> areas;
   discs.place(0.3, {}, {-pi / 2, 0, pi / 2});

@@ -94,7 +94,7 @@ TEST_F(AverageRun, ReportsWhereTheVolumeWent) {
     EXPECT_NEAR(window.ledger.deposited / inside, 1, 1e-12);
     EXPECT_NEAR(window.ledger.outside / outside, 1, 1e-12);
   }
-  expect_named(report(summary), {"solids.h5", "volume in", "88.8889", "11.1111", "derived on 8 to 64"});
+  expect_named(report(summary), {"solids.h5", "volume in", "88.8889", "11.1111", "derived from 8 to 64"});
   EXPECT_EQ(report(summarise(output())), report(summary));
 }
 
@@ -165,7 +165,7 @@ TEST_F(AverageRun, StoppedAnywhereIsTakenUpAndGivesTheSameFile) {
     EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5"));
     notes.clear();
     run();
-    expect_named(notes.back(), {"taking up"});
+    expect_named(notes.back(), {"resuming"});
     EXPECT_EQ(bytes(folder / "solids.h5"), windows) << dumps;
     EXPECT_EQ(bytes(folder / "whole.h5"), whole) << dumps;
     for (const char* left :
@@ -208,7 +208,7 @@ TEST_F(AverageRun, AStoppedRunWhoseWindowsAreGoneStartsAfresh) {
   std::filesystem::remove(folder / "solids.h5.journal");
   notes.clear();
   run();
-  expect_named(notes.back(), {"solids.h5.journal", "starting afresh"});
+  expect_named(notes.back(), {"solids.h5.journal", "starting again"});
   EXPECT_EQ(bytes(output()), fresh);
 }
 
@@ -274,7 +274,7 @@ TEST_F(AverageRun, AnOutputThatAnotherRunIsWritingIsRefused) {
 
 TEST_F(AverageRun, AGridThatMissesTheBallsIsRefusedUnlessTheyComeToIt) {
   request.grid = BoxGrid({0, 10, 0}, {2, 11, 1}, {2, 1, 1});
-  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"dump0.txt", "100 %", "metres expected"});
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"dump0.txt", "100 %", "expected metres"});
   EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.journal"));
   request.largest_outside = 1;
   run();

@@ -24,11 +24,11 @@ TEST(GridCheck, PassesABoxAroundTheBallsAndOneAroundHalfOfThem) {
 }
 
 TEST(GridCheck, ABoxThatMissesTheBallsIsNamedWithBothExtents) {
-  const BoxGrid beside({0.2, -0.2, 0}, {0.6, 0.2, 0.1}, {4, 4, 1});
-  expect_named(misfit_of(beside), {"dump0.txt: 100 % of the balls' volume lies outside", "x 0.2 to 0.6",
-                                   "x -0.005 to 0.105, y -0.005 to 0.005, z 0.045 to 0.055 m",
-                                   "metres expected", "--tolerance"});
-  EXPECT_EQ(misfit_of(beside, 1), "") << "a part of the balls may be meant";
+  const BoxGrid shifted({0.2, -0.2, 0}, {0.6, 0.2, 0.1}, {4, 4, 1});
+  expect_named(misfit_of(shifted), {"dump0.txt: 100 % of the balls' volume lies outside", "x 0.2 to 0.6",
+                                    "x -0.005 to 0.105, y -0.005 to 0.005, z 0.045 to 0.055 m",
+                                    "expected metres", "--tolerance"});
+  EXPECT_EQ(misfit_of(shifted, 1), "") << "a part of the balls may be meant";
 }
 
 TEST(GridCheck, OnlyTheBallsVolumeOutsideCounts) {
@@ -39,9 +39,9 @@ TEST(GridCheck, OnlyTheBallsVolumeOutsideCounts) {
 
 TEST(GridCheck, LengthsInMillimetresAreFarTooLarge) {
   expect_named(misfit_of(BoxGrid({-200, -200, 0}, {200, 200, 100}, {4, 4, 1}, {false, false, true})),
-               {"fill only", "far too large", "x -200 to 200", "z 0 to 100 m", "metres expected"});
+               {"fill only", "far too large", "x -200 to 200", "z 0 to 100 m", "expected metres"});
   expect_named(misfit_of(CylinderGrid({0, 200}, {0, 100}, {2, 4, 1})),
-               {"far too large", "r 0 to 200, z 0 to 100 m", "metres expected"});
+               {"far too large", "r 0 to 200, z 0 to 100 m", "expected metres"});
 }
 
 TEST(GridCheck, ARecordWithoutBallsSaysNothing) {

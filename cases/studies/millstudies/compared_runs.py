@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of the 30 cm mill and of the 12 cm mill's slice for comparisons, whether they are steady, and verdicts.
+
+Verdicts: `confirmed` and `contradicted` if the difference is more than twice its standard error over time, `undecided`
+if it is not or a run is not steady (see `unsteady`), `not tested` if a run is missing, which the verdict names. Runs of
+the 30 cm mill count if they reach LATEST."""
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from millfoam.readings.means import Mean, series_mean
+
+LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
+LARGE, SLICE = "30 cm mill", "12 cm slice"
+HALF_BLOCKS = 3  # of either half of the averaged time
+CONFIRMED, CONTRADICTED, UNDECIDED, NOT_TESTED = "confirmed", "contradicted", "undecided", "not tested"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A statement, the runs with which it was compared, the verdict, and its number or what is missing."""
+    statement: str
+    runs: str
+    verdict: str
+    figure: str
+
+
+def sign(difference):
+    """Sign 1 or -1 of a Mean that differs from zero by more than twice its error; otherwise 0."""
+    return 0 if not abs(difference.value) > 2 * difference.error else int(np.sign(difference.value))
+
+
+def by_sign(difference):
+    """The verdict on a statement that a Mean is positive."""
+    return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[sign(difference)]
+
+
+def mill_of(run):
+    """LARGE, SLICE, or None for another mill."""
+    if abs(run.diameter - 0.3) < 1e-6 and run.ends:
+        return LARGE
+    return SLICE if abs(run.diameter - 0.12) < 1e-6 and not run.ends else None
+
+
+class Which(NamedTuple):
+    """A run to look for: speed (% of critical), law (None: no balls), slurry (% solids; None: any), mill."""
+    speed: int
+    law: str
+    solids: int = None
+    mill: str = LARGE
+
+    def fits(self, run):
+        """Whether a run is one of these."""
+        same = (mill_of(run), run.speed, run.law) == (self.mill, self.speed, self.law)
+        return same and self.solids in (None, run.solids)
+
+    def __str__(self):
+        if self.mill == SLICE:
+            return f"{SLICE} at {self.speed} %, {self.law or 'without balls'}" + (
+                f", {self.solids} % slurry" if self.solids else "")
+        return (f"coupled_{self.speed}_{self.law}" if self.law else f"fluid_only_{self.speed}") + (
+            f" with {self.solids} % slurry" if self.solids != 20 else "")
+
+
+class Runs:
+    """RunReadings to choose from, and why a run is missing."""
+
+    def __init__(self, runs):
+        self.short = [run for run in runs if mill_of(run) == LARGE and run.last < LATEST]
+        self.runs = [run for run in runs if run not in self.short]
+
+    def find(self, which):
+        """The first run that is Which, or None."""
+        return next((run for run in self.runs if which.fits(run)), None)
+
+    def missing(self, which):
+        """Text for a run that find() does not find."""
+        for run in self.short:
+            if which.fits(run):
+                return f"{which} ends at {run.last:g} s; expected {LATEST:g} s or more"
+        return f"missing: {which}"
+
+    def of(self, mill):
+        """The runs of a mill with balls."""
+        return [run for run in self.runs if mill_of(run) == mill and run.law]
+
+    def slice_speeds(self):
+        """Speeds (% of critical) of the slice's runs; the mill case's if there are none."""
+        return sorted({run.speed for run in self.runs if mill_of(run) == SLICE}) or [50]
+
+    def places(self):
+        """(mill, speed, slurries, % solids, two or more) at which runs with balls are compared. For the slice these are
+        the existing ones; if there is only one, also one to compare it with."""
+        found = [(LARGE, 75, [20, 40])]
+        for speed in self.slice_speeds():
+            solids = {run.solids for run in self.of(SLICE) if run.speed == speed and run.solids}
+            if len(solids) < 2:
+                solids = {20, 40} if not solids else solids | ({40} if max(solids) < 40 else {20})
+            found.append((SLICE, speed, sorted(solids)))
+        return found
+
+
+def unread(run, runs, which):
+    """Why a statement was not tested: its run is missing, or its failure."""
+    return "; ".join(run.failures) or f"{run.name}: nothing was read" if run else runs.missing(which)
+
+
+def turn(run):
+    """Time of a turn of a run's mill, s."""
+    return 2 * np.pi / (run.speed / 100 * np.sqrt(9.81 / (run.diameter / 2)))
+
+
+def unsteady(run):
+    """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
+    or the height of the slurry's centre of mass differs between its halves by more than two standard errors.
+
+    The errors are those of HALF_BLOCKS block means within each half. Blocks over the whole time would include the
+    drift."""
+    if not run.series:
+        return f"{run.name}: its height over time is not known"
+    times, heights = run.series.times, height_over_time(run)
+    span = times[-1] - times[0]
+    if span < 0.999 * turn(run):  # times are rounded
+        return f"{run.name}: averaged over {span:.2g} s, less than a turn of the mill, {turn(run):.2g} s"
+    halves = [Mean(*map(float, series_mean(half, HALF_BLOCKS))) for half in np.array_split(heights, 2)]
+    drift = halves[1] - halves[0]
+    if not np.isfinite(drift.error):
+        return f"{run.name}: {len(times)} times are too few to find a drift"
+    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if sign(drift) else ""
+
+
+def judged(verdict, figure, *runs):
+    """A verdict on runs and its number; if a run is not steady, `undecided` with the reason."""
+    reasons = [reason for reason in map(unsteady, runs) if reason]
+    if verdict in (CONFIRMED, CONTRADICTED) and reasons:
+        return UNDECIDED, f"{figure}; not steady: {'; '.join(reasons)}"
+    return verdict, figure
+
+
+def height_over_time(run):
+    """Height of the slurry's centre of mass above the axis at the times of a run's series (m)."""
+    series = run.series
+    known = np.where(series.holdup > 0, series.height, 0.0)
+    return (known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1)
+
+
+def height(run):
+    """Mean height of the slurry's centre of mass above the axis (m)."""
+    return Mean(*map(float, series_mean(height_over_time(run))))

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings of a run's slurry for published statements: surface, profile and motion along the axis, particle Reynolds
+numbers."""
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from millfoam.readings import slurry_on_maps
+from millfoam.readings.axial import AxialSeries
+from millfoam.readings.free_surface import free_surface
+from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.slurry_in_cells import read_frame, reynolds
+from millfoam.readings.slurry_over_time import read_series, ring_depth, slurry_blocks, slurry_way
+
+# Of the published slurries: density, kg/m3 -> solids, % by mass
+CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
+
+
+@dataclass
+class Surface:
+    """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight
+    line through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the
+    charge, if there is one."""
+    tilt: Mean
+    deviation: Mean
+    charge_tilt: float = None
+
+
+@dataclass
+class RunReadings:
+    """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
+    balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
+    has two ends.
+
+    What it says, None where it does not: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
+    along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
+    volume at each (m3); failures, sentences of what could not be read."""
+    name: str
+    diameter: float
+    speed: int
+    law: str
+    solids: int
+    last: float
+    ends: bool
+    surface: Surface = None
+    series: AxialSeries = None
+    toe: Mean = None
+    shoulder: Mean = None
+    reynolds: tuple = None
+    failures: list = field(default_factory=list)
+
+
+def surface_line(slurry, radius, inner):
+    """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free
+    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond.
+    RuntimeError if there is none.
+
+    The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing
+    of it."""
+    centres_x, centres_y = slurry.centres()
+    within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
+    pool = slurry_on_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
+    columns = np.flatnonzero(pool.where.any(axis=0))
+    tops = len(centres_y) - 1 - np.argmax(pool.where[::-1, columns], axis=0)
+    step = slurry.y[1] - slurry.y[0]
+    free = np.hypot(centres_x[columns], centres_y[tops] + step) < inner
+    if free.sum() < 5:
+        raise RuntimeError(f"no free surface of the slurry within {1e3 * inner:.0f} mm of the axis: {free.sum()} "
+                           "columns have one; expected 5 or more")
+    x, y = centres_x[columns][free], centres_y[tops][free] + step / 2
+    slope, height = np.polyfit(x, y, 1)
+    return float(-np.degrees(np.arctan(slope))), float(np.std(y - slope * x - height)), (x.min(), x.max())
+
+
+def charge_tilt(charge, radius, span):
+    """Tilt (degrees, the left side up positive) of the straight line through a SolidsMap's free surface over a span of
+    x (m)."""
+    x, y = free_surface(charge, radius).points.T
+    chosen = (x >= span[0]) & (x <= span[1])
+    if chosen.sum() < 5:
+        raise RuntimeError(f"the charge's surface does not stand over x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
+                           "mm")
+    return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
+
+
+def read_maps(case, found):
+    """Surface and way along the axis, into RunReadings."""
+    inner = case.radius - ring_depth(case.lifter_height)
+    maps = list(slurry_blocks(case))
+    lines = [surface_line(one, case.radius, inner) for one in maps]
+    tilt, deviation = (block_mean([line[k] for line in lines]) for k in (0, 1))
+    span = max(line[2][0] for line in lines), min(line[2][1] for line in lines)
+    found.surface = Surface(tilt, deviation, charge_tilt(case.charge, case.radius, span) if found.law else None)
+    if found.ends:
+        way = slurry_way(maps, case.radius, case.lifter_height)
+        found.toe, found.shoulder = way.toe, way.shoulder
+
+
+def read_reynolds(case):
+    """Particle Reynolds numbers of all cells at the averaged written times, and the slurry's volume at each (m3)."""
+    fluid = case.mill.slurry("density_kg_m3"), case.mill.slurry("plastic_viscosity_Pa_s")
+    pairs = [reynolds(read_frame(case.flow, *frame), *fluid)
+             for frame in case.flow.frames if frame[0] >= case.begin - 1e-9]
+    return tuple(np.concatenate(part) for part in zip(*pairs))
+
+
+def read_run(case):
+    """RunReadings of a MillCase with a flow; what cannot be read stands in `failures`."""
+    name = f"{case.folder.resolve().parent.name}/{case.name}"
+    found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
+                        CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)
+
+    def attempt(what, read):
+        try:
+            return read()
+        except (RuntimeError, OSError) as error:
+            found.failures.append(f"{case.name}: {what} not read: {error}")
+            return None
+
+    attempt("surface and way along the axis", lambda: read_maps(case, found))
+    if found.ends:
+        found.series = attempt("profile along the axis", lambda: read_series(case))
+    if found.law:
+        found.reynolds = attempt("Reynolds numbers", lambda: read_reynolds(case))
+    return found

@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) compared with runs of the 30
+cm mill. Statements that do not concern the axis are also compared with the 12 cm mill's slice. Each gives verdicts (see
+compared_runs) with their numbers. Tilts, numbers of humps and shares are compared with a limit as they are; their
+errors are printed."""
+import numpy as np
+from scipy.signal import find_peaks
+
+from millfoam.readings.axial import fit_gaussians
+from millfoam.readings.means import Mean, series_mean
+from millfoam.readings.slurry_over_time import read_series
+
+from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
+                            height, judged, sign, unread)
+from .run_readings import read_run
+
+# Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
+FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02
+TWICE = (1.5, 2.5)  # what counts as about twice
+SLIGHTLY = 0.03  # of a height, over the mill's diameter
+CLEARLY = 1.1  # least ratio of two pressure drops of which one is clearly larger
+# All that is published: solids of the slurry, % by mass -> number that most of it is below
+REYNOLDS = {20: 150, 40: 90}
+
+
+def flat_without_balls(runs):
+    """Without solids the slurry's free surface is flat across the mill."""
+    statement, found = "without solids the free surface is flat across the mill", []
+    slices = [Which(speed, None, None, SLICE) for speed in runs.slice_speeds()]
+    for which in (Which(60, None, 20), Which(75, None, 20), *slices):
+        run = runs.find(which)
+        if not run or not run.surface:
+            found.append(Verdict(statement, str(which), NOT_TESTED, unread(run, runs, which)))
+            continue
+        tilt, deviation = run.surface.tilt, run.surface.deviation.value
+        flat = abs(tilt.value) <= FLAT_TILT and deviation <= FLAT_DEVIATION * run.diameter
+        figure = (f"tilt {tilt.text('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
+                  f"degrees, {1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
+        found.append(Verdict(statement, run.name, *judged(CONFIRMED if flat else CONTRADICTED, figure, run)))
+    return found
+
+
+def maxima(z, height, error):
+    """Places (m) of a profile's clear maxima, also at its ends. Their prominence is more than a tenth of the range, and
+    three times the error of the difference of two heights [n] (m) with the standard errors `error` (m)."""
+    padded = np.concatenate([[height.min() - 1], height, [height.min() - 1]])
+    return z[find_peaks(padded, prominence=max(3 * np.sqrt(2) * error, 0.1 * np.ptp(height)))[0] - 1]
+
+
+def humps_without_balls(runs):
+    """Two humps along the axis without solids, about twice as far apart at 75 % of the critical speed as at 60 %."""
+    statement, found, apart = "without solids the height of the centre of mass has two humps along the axis", [], {}
+    for which in (Which(60, None, 20), Which(75, None, 20)):
+        run = runs.find(which)
+        if not run or not run.series:
+            found.append(Verdict(statement, str(which), NOT_TESTED, unread(run, runs, which)))
+            continue
+        height, errors = series_mean(run.series.height)
+        error = float(np.sqrt(np.mean(errors**2)))
+        try:
+            fit = fit_gaussians(run.series.z, height, 2)
+        except (RuntimeError, ValueError) as failure:
+            found.append(Verdict(statement, run.name, NOT_TESTED, str(failure)))
+            continue
+        places = maxima(run.series.z, height, error)
+        apart[which.speed] = fit.distances[0], len(places) == 2, run
+        figure = (f"maxima at {millimetres(places)} mm of {millimetres(run.series.z[[0, -1]])}; two Gaussians at "
+                  f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
+        found.append(Verdict(statement, run.name,
+                             *judged(CONFIRMED if len(places) == 2 else CONTRADICTED, figure, run)))
+    return found + [distance_ratio(apart)]
+
+
+def millimetres(lengths):
+    return ", ".join(f"{1e3 * length:.0f}" for length in lengths)
+
+
+def distance_ratio(apart):
+    """Verdict on the distances of two Gaussians by speed: speed -> (m, whether the profile has two humps, run)."""
+    statement, names = "the humps are about twice as far apart at 75 % speed as at 60 %", "fluid_only_60, fluid_only_75"
+    gone = [f"the profile of fluid_only_{speed}" for speed in (60, 75) if speed not in apart]
+    if gone:
+        return Verdict(statement, names, NOT_TESTED, "missing: " + ", ".join(gone))
+    ratio = apart[75][0] / apart[60][0]
+    both = apart[60][1] and apart[75][1]
+    verdict = (CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED) if both else UNDECIDED
+    figure = f"{1e3 * apart[75][0]:.0f} over {1e3 * apart[60][0]:.0f} mm = {ratio:.2f}" + (
+        "" if both else ", of Gaussians; not both profiles have two humps")
+    return Verdict(statement, names, *judged(verdict, figure, apart[60][2], apart[75][2]))
+
+
+def surface_follows(runs):
+    """With solids the free surface follows the charge: its tilt is nearer to the charge's than to level."""
+    statement, found = "with solids the free surface follows the charge", []
+    for run in runs.runs:
+        if run.law and run.surface and run.surface.charge_tilt is not None:
+            tilt, charge = run.surface.tilt, run.surface.charge_tilt
+            margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error)
+            figure = f"tilt of the slurry {tilt.text('degrees')}, of the charge {charge:.1f} (level: 0)"
+            found.append(Verdict(statement, run.name, *judged(by_sign(margin), figure, run)))
+        elif run.law:
+            found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+    return found + [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which)) for which in lacking(runs)]
+
+
+def lacking(runs):
+    """Run to name for each mill without a run with balls."""
+    named = Which(75, "Beetstra", 20), Which(50, "Beetstra", None, SLICE)
+    return [which for which in named if not runs.of(which.mill)]
+
+
+def pair(runs, statement, first, second, judge):
+    """Verdict of judge(run, run) on two runs (Which); `not tested` if one is missing, or one has more slices."""
+    found = [runs.find(which) for which in (first, second)]
+    gone = [unread(run, runs, which) for run, which in zip(found, (first, second)) if not run or not run.series]
+    names = f"{first}; {second}"
+    if not gone and len(found[0].series.z) != len(found[1].series.z):
+        gone = [f"{one.name} has {len(one.series.z)} slices along the axis" for one in found] + [
+            "expected the same number"]
+    if gone:
+        return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
+    return Verdict(statement, names, *judged(*judge(*found), *found))
+
+
+def concentration_raises(runs):
+    """A higher concentration of the slurry raises it: the highest of a mill and law compared with the lowest."""
+    def judge(thin, thick):
+        rise = height(thick) - height(thin)
+        return by_sign(rise), f"rises by {rise.text('mm', 1e3, '.2f')}"
+
+    return [pair(runs, "a higher slurry concentration raises it",
+                 *(Which(speed, law, one, mill) for one in (solids[0], solids[-1])), judge)
+            for mill, speed, solids in runs.places() for law in ("Beetstra", "ErgunWenYu")]
+
+
+def drag_raises(runs):
+    """Ergun/Wen-Yu puts the slurry slightly higher than Beetstra, by less with 40 % slurry than with 20 %; in the slice
+    with each slurry that there is, and by less with the thickest than with the thinnest."""
+    def judge(beetstra, ergun):
+        rise = height(ergun) - height(beetstra)
+        slight = abs(rise.value) <= SLIGHTLY * ergun.diameter
+        return by_sign(rise) if slight else CONTRADICTED, f"higher by {rise.text('mm', 1e3, '.2f')}"
+
+    higher, shrinks = [], []
+    for mill, speed, solids in runs.places():
+        laws = {one: [Which(speed, law, one, mill) for law in ("Beetstra", "ErgunWenYu")] for one in solids}
+        there = [one for one in solids if all(map(runs.find, laws[one]))] if mill == SLICE else []
+        higher += [pair(runs, "Ergun/Wen-Yu puts the slurry slightly higher than Beetstra", *laws[one], judge)
+                   for one in there or solids[:1]]
+        ends = (there[0], there[-1]) if len(there) > 1 else (solids[0], solids[-1])
+        shrinks.append(drag_difference_shrinks(runs, laws[ends[0]] + laws[ends[1]]))
+    return higher + shrinks
+
+
+def drag_difference_shrinks(runs, four):
+    """Verdict on the difference between the heights with both laws: four Which, both laws with the thin slurry, then
+    with the thick one."""
+    thin, thick = (which.solids for which in (four[0], four[2]))
+    statement = f"that difference shrinks from {thin} % to {thick} % slurry"
+    found = [runs.find(which) for which in four]
+    gone = [unread(run, runs, which) for which, run in zip(four, found) if not run or not run.series]
+    names = "; ".join(map(str, four[:2])) + f" ({thin}, {thick} %)"
+    if gone:
+        return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
+    rises = [height(found[second]) - height(found[second - 1]) for second in (1, 3)]
+    figure = " and ".join(rise.text("mm", 1e3, ".2f") for rise in rises)
+    return Verdict(statement, names, *judged(by_sign(rises[0] - rises[1]), figure, *found))
+
+
+def reynolds_below(runs):
+    """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit that is
+    published for some concentrations."""
+    found = []
+    for solids, limit in REYNOLDS.items():
+        statement = f"particle Reynolds numbers are mostly under {limit} for {solids} % slurry"
+        for mill, speed in ((LARGE, 75), (SLICE, runs.slice_speeds()[0])):
+            tested = [run for run in runs.of(mill) if run.solids == solids]
+            for run in tested:
+                if not run.reynolds:
+                    found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+                    continue
+                share = run.reynolds[1][run.reynolds[0] < limit].sum() / run.reynolds[1].sum()
+                middle = median(*run.reynolds)
+                figure = f"{100 * share:.0f} % of the slurry in the bed is under {limit}; median {middle:.0f}"
+                found.append(Verdict(statement, run.name,
+                                     *judged(CONFIRMED if share > 0.5 else CONTRADICTED, figure, run)))
+            if not tested:
+                which = Which(speed, "Beetstra", solids, mill)
+                found.append(Verdict(statement, mill, NOT_TESTED, runs.missing(which)))
+    others = [run for mill in (LARGE, SLICE) for run in runs.of(mill) if run.solids not in REYNOLDS and run.reynolds]
+    return found + [Verdict("particle Reynolds numbers are mostly under a limit", run.name, NOT_TESTED,
+                            f"none is published for {f'{run.solids} %' if run.solids else 'this'} slurry, for "
+                            f"{' and '.join(map(str, REYNOLDS))} % only; median {median(*run.reynolds):.0f}")
+                    for run in others]
+
+
+def median(values, weights):
+    """The value [n] up to which half of the weights [n] lie."""
+    order = np.argsort(values)
+    return values[order][np.searchsorted(np.cumsum(weights[order]), weights.sum() / 2)]
+
+
+def drop(run):
+    """Fall of p_rgh in the slurry from feed to discharge (Pa): of the straight line through all slices, over their
+    way."""
+    series = run.series
+    slopes = [np.polyfit(series.z[known], line[known], 1)[0]
+              for line, known in zip(series.pressure, np.isfinite(series.pressure)) if known.sum() > 1]
+    value, error = series_mean(slopes)
+    way = series.z[-1] - series.z[0]
+    return Mean(float(-way * value), float(way * error))
+
+
+def pressure_drops(runs):
+    """The axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra."""
+    def judge(beetstra, ergun):
+        less, more = drop(beetstra), drop(ergun)
+        verdict = by_sign(more - less)
+        if verdict == CONFIRMED and (sign(more) <= 0 or more.value < CLEARLY * less.value):
+            verdict = CONTRADICTED
+        return verdict, f"{more.text('Pa')} compared with {less.text('Pa')}" + (
+            "; the pressure does not fall towards the discharge" if max(more.value, less.value) < 0 else "")
+
+    return [pair(runs, "the axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra",
+                 Which(75, "Beetstra", 20), Which(75, "ErgunWenYu", 20), judge)]
+
+
+def circulation(runs):
+    """Slurry moves towards the discharge at the toe and back towards the feed at the shoulder."""
+    statement, found = "slurry moves to the discharge in the toe region and back at the shoulder", []
+    for run in runs.of(LARGE):
+        if run.toe:
+            signs = sign(run.toe), sign(run.shoulder)
+            verdict = CONFIRMED if signs == (1, -1) else CONTRADICTED if signs[0] < 0 or signs[1] > 0 else UNDECIDED
+            figure = (f"mean {run.toe.text('mm/s', 1e3)} on the toe's half, {run.shoulder.text('mm/s', 1e3)} on the "
+                      "shoulder's")
+            found.append(Verdict(statement, run.name, *judged(verdict, figure, run)))
+        else:
+            found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+    which = Which(75, "Beetstra", 20)
+    return found or [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which))]
+
+
+STATEMENTS = (flat_without_balls, humps_without_balls, surface_follows, concentration_raises, drag_raises,
+              reynolds_below, pressure_drops, circulation)
+
+
+def verdicts(runs):
+    """[Verdict] of all statements on RunReadings."""
+    found = Runs(runs)
+    return [verdict for statement in STATEMENTS for verdict in statement(found)]
+
+
+def read(case):
+    """RunReadings of a MillCase with a flow; also a slice gets its series, which shows whether it is steady."""
+    found = read_run(case)
+    if found.series is None and not found.ends:
+        try:
+            found.series = read_series(case)
+        except (RuntimeError, OSError) as error:
+            found.failures.append(f"{case.name}: height over time not read: {error}")
+    return found

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads OpenFOAM cases written in ASCII: fields, meshes, times."""
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+class FoamError(RuntimeError):
+    """A case that cannot be read; the message names the file and the reason."""
+
+
+def times(case: Path | str) -> list[tuple[float, Path]]:
+    """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out. FoamError
+    where the case is no folder."""
+    if not Path(case).is_dir():
+        raise FoamError(f"{case}: no folder; expected an OpenFOAM case")
+    found = []
+    for entry in Path(case).iterdir():
+        if entry.is_dir() and re.fullmatch(r"\d+(\.\d+)?(e-?\d+)?", entry.name):
+            found.append((float(entry.name), entry))
+    return sorted(found)
+
+
+def _body(path: Path | str) -> str:
+    path = Path(path)
+    if not path.is_file():
+        raise FoamError(f"{path}: no such file")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise FoamError(f"{path}: no UTF-8 text (byte {error.start})") from None
+    if re.search(r"format\s+binary", text[:2000]):
+        raise FoamError(f"{path}: binary; expected writeFormat ascii")
+    return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+
+
+def _numbers(text: str, path: Path | str) -> np.ndarray:
+    try:
+        return np.array(text.replace("(", " ").replace(")", " ").split(), dtype=float)
+    except ValueError as error:
+        raise FoamError(f"{path}: {error}") from None
+
+
+def read_field(path: Path | str, cells: int | None = None) -> np.ndarray:
+    """Internal field of a vol*Field: array [cells] or [cells, components].
+
+    A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
+    text = _body(path)
+    uniform = re.search(r"internalField\s+uniform\s+([^;]+);", text)
+    if uniform:
+        value = _numbers(uniform.group(1), path)
+        if cells is None:
+            raise FoamError(f"{path}: uniform; the number of cells is needed")
+        field = np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
+    else:
+        head = re.search(r"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(", text)
+        if not head:
+            raise FoamError(f"{path}: no internalField was found")
+        count = int(head.group(2))
+        end = text.find(";", head.end())
+        values = _numbers(text[head.end():end], path)
+        if end < 0 or count == 0 or len(values) == 0 or len(values) % count:
+            raise FoamError(f"{path}: {len(values)} numbers for {count} cells; the file is cut short")
+        field = values if len(values) == count else values.reshape(count, -1)
+    if not np.all(np.isfinite(field)):
+        raise FoamError(f"{path}: a value is not finite")
+    return field
+
+
+def _list(path: Path | str) -> tuple[int, str]:
+    """Text between the outer brackets of a mesh file, and the count before it."""
+    text = _body(path).partition("}")[2]
+    head, end = re.search(r"(\d+)\s*\(", text), text.rfind(")")
+    if not head or end < head.end():
+        raise FoamError(f"{path}: no list was found, or it is cut short")
+    return int(head.group(1)), text[head.end():end]
+
+
+@dataclass
+class Patch:
+    """A boundary patch: its faces are [start, start + size)."""
+    start: int
+    size: int
+
+
+@dataclass
+class Mesh:
+    """A polyMesh: points [n, 3] in m, faces as lists of point numbers, owner [faces], neighbour [internal faces]."""
+    points: np.ndarray
+    faces: list[np.ndarray]
+    owner: np.ndarray
+    neighbour: np.ndarray
+    patches: dict[str, Patch]
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return int(self.owner.max()) + 1
+
+    def centres_and_volumes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Cell centres [cells, 3] (m) and volumes [cells] (m^3), by the pyramids over each cell's faces."""
+        centre, area = self._face_geometry()
+        estimate = np.zeros((self.cells, 3))
+        count = np.zeros(self.cells)
+        sides = [(self.owner, 1.0, slice(None)), (self.neighbour, -1.0, slice(len(self.neighbour)))]
+        for cell, _, faces in sides:
+            np.add.at(estimate, cell, centre[faces])
+            np.add.at(count, cell, 1)
+        estimate /= count[:, None]
+        volume = np.zeros(self.cells)
+        moment = np.zeros((self.cells, 3))
+        for cell, sign, faces in sides:
+            pyramid = sign * np.einsum("ij,ij->i", area[faces], centre[faces] - estimate[cell]) / 3
+            np.add.at(volume, cell, pyramid)
+            np.add.at(moment, cell, pyramid[:, None] * (0.75 * centre[faces] + 0.25 * estimate[cell]))
+        return moment / volume[:, None], volume
+
+    def _face_geometry(self) -> tuple[np.ndarray, np.ndarray]:
+        """Centres [faces, 3] (m) and area vectors [faces, 3] (m^2): faces with equally many corners are taken
+        together."""
+        centre, area = np.empty((len(self.faces), 3)), np.empty((len(self.faces), 3))
+        counts = np.array([len(face) for face in self.faces])
+        for count in np.unique(counts):
+            chosen = np.flatnonzero(counts == count)
+            corner = self.points[np.array([self.faces[face] for face in chosen])]
+            middle = corner.mean(axis=1, keepdims=True)
+            after = np.roll(corner, -1, axis=1)
+            normal = np.cross(corner - middle, after - middle) / 2
+            third = (corner + after + middle) / 3
+            size = np.linalg.norm(normal, axis=2, keepdims=True)
+            centre[chosen] = (third * size).sum(axis=1) / size.sum(axis=1)
+            area[chosen] = normal.sum(axis=1)
+        return centre, area
+
+
+def read_mesh(case: Path | str, time: Path | str | None = None) -> Mesh:
+    """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
+    folder = Path(case) / "constant" / "polyMesh"
+    moved = Path(time) / "polyMesh" / "points" if time else None
+    points = _numbers_of(moved if moved and moved.is_file() else folder / "points", 3).reshape(-1, 3)
+    count, text = _list(folder / "faces")
+    faces = [np.array(found.split(), dtype=int) for found in re.findall(r"\d+\(([\d\s]*)\)", text)]
+    if len(faces) != count:
+        raise FoamError(f"{folder / 'faces'}: {len(faces)} faces for a count of {count}")
+    owner, neighbour = (_numbers_of(folder / name).astype(int) for name in ("owner", "neighbour"))
+    return Mesh(points, faces, owner, neighbour, read_patches(folder / "boundary"))
+
+
+def _numbers_of(path: Path | str, each: int = 1) -> np.ndarray:
+    """The numbers of a mesh file's list with so many of them in an entry; FoamError where some are missing."""
+    count, text = _list(path)
+    values = _numbers(text, path)
+    if len(values) != each * count:
+        raise FoamError(f"{path}: {len(values)} numbers for {count} entries; the file is cut short")
+    return values
+
+
+def read_patches(path: Path | str) -> dict[str, Patch]:
+    """Patches of a polyMesh/boundary file: name -> Patch; FoamError where some are missing."""
+    count, text = _list(path)
+    patches = {}
+    for name, entries in re.findall(r"(\w+)\s*\{([^{}]*startFace[^{}]*)\}", text):
+        start, size = (re.search(rf"{key}\s+(\d+)", entries) for key in ("startFace", "nFaces"))
+        if not start or not size:
+            raise FoamError(f"{path}: patch {name} lacks startFace or nFaces")
+        patches[name] = Patch(int(start.group(1)), int(size.group(1)))
+    if len(patches) != count:
+        raise FoamError(f"{path}: {len(patches)} patches for a count of {count}; the file is cut short")
+    return patches
+
+
+def read_dictionary(path: Path | str) -> dict[str, str]:
+    """Flat `key value;` entries of a dictionary file: name -> text; sub-dictionaries are left out."""
+    text = re.sub(r"FoamFile\s*\{[^}]*\}", "", _body(path))
+    return dict(re.findall(r"^\s*(\w+)\s+([^;{}]+);", text, flags=re.M))

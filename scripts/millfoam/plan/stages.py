@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Predictions of a mill's stages from trials on this machine, with constants calibrated on earlier runs
+(scripts/README.md, "What it will take")."""
+import math
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..files.data_files import entry, number
+from ..files.mill import Mill
+from .trial import Cost, FlowTrial, MeshTrial, try_charge, try_flow, try_mesh
+
+GRAVITY = 9.81
+
+# Calibrated on runs of a 0.6 m, a 12 cm and a 30 cm mill
+CELL_COURANT, SURFACE_COURANT = 0.55, 1.0  # limit of the Courant number -> time-step over cell size / speed of the fall
+STEP_WITH_BALLS, STEP_WITHOUT = 2.0, 1.35  # mean step of a flow over a step at its start without balls
+CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 465, 307  # of a written time with 17 digits
+FACE_BYTES = 91
+RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
+PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
+VOXEL_BYTES, SOLIDS_VOXEL_BYTES = 42, 120  # of one window of slurry.h5, of solids.h5
+PICTURES_TIME, FRAME_TIME, FRAMES = 8.0, 0.1, 60  # s; of a frame of the animations, which have 60 at most
+PICTURES_DISK, PYTHON_MEMORY = 6e6, 190e6
+AVERAGE_MEMORY = 21e6  # without the memory of one record of all balls
+RECORD_BYTES = 100  # of one ball in memory
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Prediction of a stage: time (s), disk (bytes), memory (bytes); source: how it was obtained, in words."""
+    name: str
+    time: float
+    disk: float
+    memory: float
+    source: str
+
+
+@dataclass(frozen=True)
+class FlowPlan:
+    """Plan of a flow: typical time-step in s, numbers of steps, of written times and of windows of slurry.h5."""
+    time_step: float
+    steps: int
+    written_times: int
+    windows: int
+
+
+def flow_number(mill: Mill, *keys: str) -> float:
+    """A number of the mill's derived flow; DataError names a missing key."""
+    return mill.derived("flow", *keys)
+
+
+def typical_time_step(mill: Mill, cell: float) -> float:
+    """Time-step in s of a flow through cells of that size (m, across the mill) during most of its time.
+
+    Three limits: the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
+    (omega R)^2), reaches the limits of the two Courant numbers. A flow is below the smallest for part of the time, so
+    the limits are joined smoothly."""
+    speed = math.hypot(math.sqrt(4 * GRAVITY * mill.radius), mill.omega * mill.radius)
+    limits = (flow_number(mill, "max_time_step_s"),
+              CELL_COURANT * flow_number(mill, "max_courant") * cell / speed,
+              SURFACE_COURANT * flow_number(mill, "max_surface_courant") * cell / speed)
+    smallest = min(limits)
+    return smallest * sum((limit / smallest) ** -8 for limit in limits) ** (-1 / 8)
+
+
+def plan_flow(mill: Mill, mesh: MeshTrial) -> FlowPlan:
+    """FlowPlan of a Mill on a MeshTrial's mesh. Steps are shortened so that they end at the written times."""
+    cell = math.sqrt(mesh.volume / mill.length / mesh.cells_in_section)
+    time_step = typical_time_step(mill, cell)
+    duration, interval = flow_number(mill, "duration_s"), flow_number(mill, "write_interval_s")
+    time_step = interval / math.ceil(interval / time_step - 1e-6)
+    windows = duration / flow_number(mill, "averages", "window_s")
+    steps, written_times = duration / time_step, duration / interval
+    return FlowPlan(time_step, *(math.ceil(count - 1e-6) for count in (steps, written_times, windows)))
+
+
+def charge_stage(dem: dict[str, Any]) -> Stage:
+    """Stage of the dry run from millDem's plan."""
+    keys = ("wall_time_s", "disk_bytes", "memory_bytes")
+    time, disk, memory = (number(dem, "dem_plan.json", key) for key in keys)
+    return Stage("charge", time, disk, memory, "trial of the dry run")
+
+
+def average_stage(mill: Mill, dem: dict[str, Any]) -> Stage:
+    """Stage of the averages: a ball's record takes about as long as a ball's step of the dry run.
+
+    If the averages start when the charge is steady, this is at half of the dry run at the latest; the prediction
+    takes that half."""
+    duration, start = mill.asked("dem", "duration"), entry(mill.content, mill.path, "derived", "averages", "start_s")
+    span = duration / 2 if start == "steady" else duration - start
+    balls = number(dem, "dem_plan.json", "balls")
+    records = span / mill.asked("dem", "record_interval")
+    voxels = math.prod(entry(mill.content, mill.path, "derived", "averages", "shape"))
+    windows = span / mill.derived("averages", "window_s")
+    return Stage("average", balls * records / number(dem, "dem_plan.json", "rate_balls_steps_per_s"),
+                 SOLIDS_VOXEL_BYTES * voxels * windows, AVERAGE_MEMORY + RECORD_BYTES * balls,
+                 "rate of the dry run's trial")
+
+
+def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ranks: int) -> Stage:
+    """Stage of the flow with its reconstruction."""
+    balls = mill.flow("balls")
+    step = trial.step_time * (STEP_WITH_BALLS if balls else STEP_WITHOUT)
+    rebuilt = RECONSTRUCT_STEPS * trial.step_time * ranks ** PARALLEL_GAIN if ranks > 1 else 0.0
+    cell_bytes = CELL_BYTES_WITH_BALLS if balls else CELL_BYTES_WITHOUT
+    copies = 2 if ranks > 1 else 1  # in processor* and reconstructed
+    fields = plan.written_times * copies * (cell_bytes * mesh.cells + FACE_BYTES * mesh.faces)
+    voxels = math.prod(mill.flow("averages")["shape"])
+    averages = VOXEL_BYTES * voxels * (2 * plan.windows + plan.written_times)  # slurry.h5, and the parts it is made of
+    return Stage("flow", plan.steps * step + plan.written_times * rebuilt, fields + averages, ranks * trial.memory,
+                 "trial of the flow's first steps")
+
+
+def pictures_stage(plan: FlowPlan) -> Stage:
+    """Stage of the pictures and the report."""
+    return Stage("pictures and report", PICTURES_TIME + FRAME_TIME * min(FRAMES, plan.written_times), PICTURES_DISK,
+                 PYTHON_MEMORY, "earlier runs")
+
+
+def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list[Stage], FlowPlan, MeshTrial]:
+    """All Stages of a Mill's case and its FlowPlan and MeshTrial; trials are made in a temporary folder.
+
+    charge: folder of the case from which the charge is taken; its stages are then left out. RunError with a tool's own
+    message if the tool refuses the mill."""
+    path = mill.path.resolve()
+    with tempfile.TemporaryDirectory(prefix="millfoam-plan-") as folder:
+        dry = try_charge(folder, path, ranks) if mill.flow("balls") and not charge else None
+        case = Path(folder) / "case"
+        case.mkdir()
+        mesh = try_mesh(case, path)
+        trial = try_flow(case, mill.flow("solver"), flow_number(mill, "max_time_step_s"), ranks)
+    plan = plan_flow(mill, mesh)
+    made = Cost(mesh.cost.time, mesh.cost.memory)
+    stages = []
+    if dry:
+        stages = [Stage("walls", made.time, mesh.walls_disk, made.memory, "made here"), charge_stage(dry),
+                  average_stage(mill, dry)]
+    stages += [Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"),
+               Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
+               flow_stage(mill, mesh, trial, plan, ranks), pictures_stage(plan)]
+    return stages, plan, mesh
+
+
+def total(stages: Sequence[Stage]) -> Stage:
+    """Stage of all: sums of time and disk, the largest memory."""
+    return Stage("total", sum(one.time for one in stages), sum(one.disk for one in stages),
+                 max(one.memory for one in stages), "")

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Means over time with their standard errors, from blocks of successive times or windows; means and percentiles by
+weight."""
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..files.solids_file import SolidsMap, mean_map
+
+BLOCKS = 5  # of the averaged time, for errors
+
+
+@dataclass(frozen=True)
+class Mean:
+    """A mean over time and its standard error, which is NaN for fewer than two blocks."""
+    value: float
+    error: float = 0.0
+
+    def __sub__(self, other: "Mean") -> "Mean":
+        return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
+
+    def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
+        """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
+        return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
+
+
+def block_mean(values: ArrayLike) -> Mean:
+    """Mean of readings [n] of successive blocks of time."""
+    values = np.asarray(values, dtype=float)
+    return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else np.nan)
+
+
+def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
+    """Mean of a series [times, …] by as many blocks of successive times: value [...] and standard error [...]."""
+    values = np.asarray(values, dtype=float)
+    parts = np.array([np.mean(part, axis=0) for part in np.array_split(values, min(blocks, len(values)))])
+    error = parts.std(axis=0, ddof=1) / np.sqrt(len(parts)) if len(parts) > 1 else np.full(parts.shape[1:], np.nan)
+    return np.mean(values, axis=0), error
+
+
+def angle_mean(angles: ArrayLike) -> Mean:
+    """block_mean of angles [n] (degrees), which may be on both sides of 180; from -180 to 180."""
+    about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
+    found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
+    return Mean(float((found.value + about + 180) % 360 - 180), found.error)
+
+
+@dataclass
+class Reading:
+    """value: of the mean over all windows, a number or an array; error: its standard error from `blocks` blocks of
+    windows, NaN for fewer than two; failed: number of further blocks without this reading."""
+    value: np.ndarray
+    error: np.ndarray
+    blocks: int
+    failed: int
+
+
+def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsMap], blocks: int = 8) -> Reading:
+    """A reading of the mean of SolidsMap of successive windows, with its standard error over time.
+
+    reading: SolidsMap -> number, or array of fixed shape; it raises RuntimeError, or returns NaN, if a map does not
+    have it. An error for the mean of all windows is passed on. maps: from read_windows. They are divided into at most
+    `blocks` equal blocks of successive windows (the first ones may be one window longer). Each block is averaged and
+    read. The error is the readings' standard deviation over the root of their number. It holds if blocks are longer
+    than the correlation time of the charge, about a turn of the charge. Method of batch means: A. M. Law, Simulation
+    Modeling and Analysis, section 9.5.3. ValueError for fewer than two maps."""
+    if len(maps) < 2 or blocks < 2:
+        raise ValueError(f"{len(maps)} windows in {blocks} blocks: an error over time needs at least two of each")
+    value = np.asarray(reading(mean_map(maps)), dtype=float)
+    parts = np.array_split(np.arange(len(maps)), min(blocks, len(maps)))
+    found = []
+    for part in parts:
+        try:
+            one = np.asarray(reading(mean_map([maps[i] for i in part])), dtype=float)
+        except RuntimeError:
+            continue
+        if np.all(np.isfinite(one)):
+            found.append(one)
+    error = np.std(found, axis=0, ddof=1) / np.sqrt(len(found)) if len(found) > 1 else np.full(value.shape, np.nan)
+    return Reading(value, error, len(found), len(parts) - len(found))
+
+
+def time_mean(times: ArrayLike, values: ArrayLike, begin: float) -> float:
+    """Mean of values [times] from `begin` (s) on, each weighted by the time since the one before; NaN if there are
+    none."""
+    times = np.asarray(times)
+    steps = np.diff(times, prepend=2 * times[0] - times[1] if len(times) > 1 else times[0] - 1)
+    late = times >= begin
+    return float(np.average(np.asarray(values)[late], weights=steps[late])) if late.any() else np.nan
+
+
+def weighted_percentile(values: np.ndarray, weights: np.ndarray, percents: ArrayLike) -> np.ndarray:
+    """Values below which these percents of the weight lie."""
+    order = np.argsort(values)
+    below = np.cumsum(weights[order]) - weights[order] / 2
+    return np.interp(np.asarray(percents) / 100 * weights.sum(), below, values[order])
