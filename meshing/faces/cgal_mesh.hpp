@@ -12,9 +12,12 @@
 
 namespace millfoam::meshing {
 
+/// Exact comparisons of coordinates in double precision.
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+/// CGAL's mesh of triangles.
 using CgalMesh = CGAL::Surface_mesh<CgalKernel::Point_3>;
 
+/// A point, m, as CGAL's.
 inline CgalKernel::Point_3 to_cgal(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }

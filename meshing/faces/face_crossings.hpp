@@ -10,7 +10,7 @@ namespace millfoam::meshing {
 
 /// Two faces that cross or touch.
 struct Crossing {
-  std::array<int, 2> faces{};
+  std::array<int, 2> faces{};                       ///< indices of the two
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< a point near to it, m
 };
 

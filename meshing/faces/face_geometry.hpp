@@ -7,9 +7,11 @@
 
 namespace millfoam::meshing {
 
-/// Measures of polygons in space, given as point indices around each. A polygon that is not flat is meant as
-/// the fan of triangles about the mean of its points, as OpenFOAM does.
+/// A polygon in space: point indices around it. One that is not flat is measured as the fan of triangles
+/// about the mean of its points, as OpenFOAM does.
 using Face = std::vector<int>;
+
+/// Coordinates of points, m.
 using Points = std::vector<Eigen::Vector3d>;
 
 /// The mean of a face's points, m.

@@ -10,8 +10,8 @@ namespace millfoam::meshing {
 
 /// A point that lies on an edge without being an end of it.
 struct TJunction {
-  int point = 0;
-  std::size_t edge = 0;
+  int point = 0;         ///< index of the point
+  std::size_t edge = 0;  ///< index of the edge
 };
 
 /// Points of faces that are nearer to an edge, between its ends, than 1e-6 of its length.

@@ -12,14 +12,17 @@ namespace millfoam::meshing {
 /// Disjoint sets of the numbers 0 to n - 1.
 class UnionFind {
  public:
+  /// Each of the `n` numbers is a set of its own.
   explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
+  /// The root of the set that holds a number: the same for all its members.
   std::size_t find(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
 
-  /// The smaller root stays, so that the sets' order is that of their first members.
+  /// Makes one set of those that hold `a` and `b`. The smaller root stays, so that the sets' order is that of
+  /// their first members.
   void join(std::size_t a, std::size_t b) {
     const auto [low, high] = std::minmax({find(a), find(b)});
     parent_[high] = low;

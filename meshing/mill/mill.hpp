@@ -44,16 +44,20 @@ struct PulpLifters {
 
 /// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up.
 struct Geometry {
-  double diameter = 0;  ///< inside the shell, m
-  double length = 0;    ///< along the axis, without the pulp lifters, m
-  Ends ends = Ends::plain;
-  Lifters lifters;
+  double diameter = 0;      ///< inside the shell, m
+  double length = 0;        ///< along the axis, without the pulp lifters, m
+  Ends ends = Ends::plain;  ///< what closes the mill at z = 0 and z = length
+  Lifters lifters;          ///< those on the shell
+  /// The feed end's opening; a periodic slice has none.
   std::optional<Inlet> inlet = std::nullopt;
+  /// The discharge end's grates; a periodic slice has none.
   std::optional<Grates> grates = std::nullopt;
+  /// Compartments behind the grates.
   std::optional<PulpLifters> pulp_lifters = std::nullopt;
   /// Of a periodic slice: the openings' circles of the whole mill, m, ascending; the slice has no openings,
   /// but the whole mill's cross-section.
   std::vector<double> circles_of_whole = {};
+  /// Inside the shell, m.
   double radius() const { return diameter / 2; }
 };
 
@@ -66,10 +70,10 @@ struct SizeClass {
 /// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are
 /// released.
 struct Charge {
-  std::vector<SizeClass> classes;
-  double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
-  double start_radius = 0;  ///< m
-  double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
+  std::vector<SizeClass> classes;  ///< fines too
+  double fines_below = 0;          ///< m: smaller balls are kept in the books, not simulated; 0 for none
+  double start_radius = 0;         ///< m
+  double start_length = 0;         ///< m, centred on the mill's length; ignored for a periodic slice
 };
 
 /// Elastic solid. The modulus used by the simulation may be softer than the real one; see
@@ -77,7 +81,7 @@ struct Charge {
 struct Material {
   double density = 0;         ///< kg/m^3
   double youngs_modulus = 0;  ///< Pa, real
-  double poisson_ratio = 0;
+  double poisson_ratio = 0;   ///< in (0, 0.5)
 };
 
 /// Contact of a pair of materials.
@@ -138,7 +142,7 @@ struct Voxels {
 
 /// How the charge is averaged for the flow.
 struct Averages {
-  Voxels voxels;
+  Voxels voxels;                ///< the grid of the averages
   double window = 0;            ///< s, a whole number of records
   std::optional<double> start;  ///< DEM time, s; nothing: when the dry run has become steady
   std::string method;           ///< exact or sample
@@ -154,7 +158,7 @@ struct FlowStart {
 
 /// What the flow writes on voxels of the lab frame.
 struct FlowAverages {
-  Voxels voxels;
+  Voxels voxels;        ///< the grid of the averages
   double start = 0;     ///< flow time from which the mean over the run is taken, s
   double window = 0;    ///< s
   double interval = 0;  ///< between samples, s
@@ -162,23 +166,23 @@ struct FlowAverages {
 
 /// How the slurry's flow is done.
 struct Flow {
-  std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
-  double duration = 0;          ///< s
-  bool balls = true;            ///< false: the mill without its charge
-  std::string law;              ///< drag law, a name of the table in openfoam_module/drag
-  double multiplier = 1;        ///< on the drag
-  std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
-  bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
-  std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
-  FlowStart start;              ///< slurry at time 0
-  double feed = 0;              ///< m^3/s, through the inlet
-  double max_courant = 0;       ///< limits of the time-step
-  double max_surface_courant = 0;
-  double max_voidage_change = 0;
-  double max_time_step = 0;   ///< s
-  double write_interval = 0;  ///< between written fields, s
-  int slices = 0;             ///< along the axis, of profiles
-  FlowAverages averages;
+  std::string solver;              ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;             ///< s
+  bool balls = true;               ///< false: the mill without its charge
+  std::string law;                 ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;           ///< on the drag
+  std::string viscosity;           ///< of the slurry that the drag feels: plastic or pore
+  bool polydispersity = false;     ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;        ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;                 ///< slurry at time 0
+  double feed = 0;                 ///< m^3/s, through the inlet
+  double max_courant = 0;          ///< limit of the time-step: largest Courant number
+  double max_surface_courant = 0;  ///< the same of cells at the slurry's surface
+  double max_voidage_change = 0;   ///< largest relative change of a cell's voidage in a step
+  double max_time_step = 0;        ///< s
+  double write_interval = 0;       ///< between written fields, s
+  int slices = 0;                  ///< along the axis, of profiles
+  FlowAverages averages;           ///< of the slurry
 };
 
 /// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
@@ -192,25 +196,25 @@ struct MillFingerprints {
 
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
 struct Mill {
-  std::string title;
-  Geometry geometry;
+  std::string title;        ///< for people and pictures
+  Geometry geometry;        ///< walls and openings
   double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
-  double angular_velocity =
-      0;  ///< rad/s, right-handed about +z: negative turns clockwise with x right and y up
-  Charge charge;
-  Material ball;
-  Material wall;
-  Contact ball_ball;
-  Contact ball_wall;
-  Dem dem;
-  Averages averages;
-  Slurry slurry;
-  Air air;
-  Resolution resolution;
-  Flow flow;
-  MillFingerprints fingerprint;
-  double turn() const;        ///< time of one turn, s
-  const char* sense() const;  ///< clockwise or anticlockwise, seen with x to the right and y up
+  /// rad/s, right-handed about +z: negative turns clockwise with x right and y up.
+  double angular_velocity = 0;
+  Charge charge;                 ///< the balls
+  Material ball;                 ///< of all balls
+  Material wall;                 ///< of shell, lifters and ends
+  Contact ball_ball;             ///< of two balls
+  Contact ball_wall;             ///< of a ball and a wall
+  Dem dem;                       ///< the dry run
+  Averages averages;             ///< of the dry run
+  Slurry slurry;                 ///< the liquid
+  Air air;                       ///< the gas
+  Resolution resolution;         ///< of the flow's mesh
+  Flow flow;                     ///< of slurry and air
+  MillFingerprints fingerprint;  ///< of the keys that this mill was read from
+  double turn() const;           ///< time of one turn, s
+  const char* sense() const;     ///< clockwise or anticlockwise, seen with x to the right and y up
 };
 
 /// Gravity's magnitude used by every stage, m/s^2; it points to -y.

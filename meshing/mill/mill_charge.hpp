@@ -30,17 +30,19 @@ struct BallCount {
 /// are named.
 struct ChargeNumbers {
   std::vector<BallCount> classes;  ///< in the order of mill.yaml
-  long balls = 0;
-  double mass = 0;
-  double volume = 0;           ///< of the balls alone
-  double fines_mass = 0;       ///< asked for and left out
-  double sauter_diameter = 0;  ///< Σm/Σ(m/d)
-  double smallest_diameter = 0;
-  double largest_diameter = 0;
-  double load = 0;         ///< bulk volume at rest over the mill's
-  double load_asked = 0;   ///< the same with the fines
-  double pore_volume = 0;  ///< of the resting charge
+  long balls = 0;                  ///< number of all
+  double mass = 0;                 ///< of all balls
+  double volume = 0;               ///< of the balls alone
+  double fines_mass = 0;           ///< asked for and left out
+  double sauter_diameter = 0;      ///< Σm/Σ(m/d)
+  double smallest_diameter = 0;    ///< of a ball
+  double largest_diameter = 0;     ///< of a ball
+  double load = 0;                 ///< bulk volume at rest over the mill's
+  double load_asked = 0;           ///< the same with the fines
+  double pore_volume = 0;          ///< of the resting charge
 };
+
+/// Counts the balls of a mill.
 ChargeNumbers count_charge(const Mill& mill);
 
 /// Mass of one ball, density π/6 d³, kg.

@@ -26,9 +26,11 @@ class MillDocument {
   MillDocument(std::filesystem::path file, std::vector<std::string> set);
   ~MillDocument();
 
+  /// The file that was read.
   const std::string& file() const { return file_; }
   /// Changes that were made, of a resolved mill those of its description too.
   std::vector<std::string> changes() const;
+  /// The map of all keys, changes made.
   const YAML::Node& root() const { return root_; }
   /// The description that a person wrote: the file, or that of which the resolved mill was made.
   const std::string& source() const { return source_; }
@@ -37,6 +39,7 @@ class MillDocument {
 
   /// Notes the line of a key, from 1. A resolved mill knows the lines of its source.
   void note_line(const std::string& path, int line);
+  /// The lines that are known, by the key's path.
   const std::map<std::string, int>& lines() const { return lines_; }
   /// Where a key stands, or the innermost section around it that is there: "mill.yaml:12", or
   /// "--set flow.law=Hill".
@@ -49,6 +52,7 @@ class MillDocument {
   void record(const std::string& path, const nlohmann::ordered_json& value);
   /// Takes a key as one that was not read.
   void forget(const std::string& path);
+  /// All values that were recorded, as nested objects.
   const nlohmann::ordered_json& keys() const;
 
  private:

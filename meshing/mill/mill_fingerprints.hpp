@@ -13,6 +13,8 @@ std::string fingerprint(const std::string& bytes);
 
 /// The fingerprints of a mill whose keys have these values.
 MillFingerprints fingerprints(const nlohmann::ordered_json& keys);
+
+/// An object with the keys walls, charge, averages and flow.
 nlohmann::ordered_json to_json(const MillFingerprints& fingerprints);
 
 }  // namespace millfoam::meshing

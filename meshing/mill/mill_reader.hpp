@@ -15,8 +15,8 @@ class MillDocument;
 
 /// A mill and what it was read from.
 struct MillDescription {
-  Mill mill;
-  std::shared_ptr<const MillDocument> document;
+  Mill mill;                                     ///< in SI units
+  std::shared_ptr<const MillDocument> document;  ///< its keys as they were read
 };
 
 /// Reads and checks a mill description. Every key is documented in meshing/README.md.

@@ -5,9 +5,9 @@
 
 namespace millfoam::meshing {
 
-/// Measures of the mill's interior in closed form. A lifter's section is bounded by a flat top `top_width`
-/// wide at `radius - height` from the axis, two straight sides from the top's corners to the feet on the
-/// shell `width` apart, and the shell's arc between them.
+// Measures of the mill's interior in closed form. A lifter's section is bounded by a flat top `top_width`
+// wide at `radius - height` from the axis, two straight sides from the top's corners to the feet on the
+// shell `width` apart, and the shell's arc between them.
 
 /// Area of one lifter's section, m^2: the trapezoid (w + t)/2 · (√(R²−w²/4) − (R−h)) and the circular segment
 /// R² asin(w/2R) − w/2 · √(R²−w²/4) under it.

@@ -14,8 +14,8 @@ namespace millfoam::meshing {
 
 /// What a number must satisfy, and the same in words for the message ("a length above 0 m").
 struct Rule {
-  std::string expected;
-  std::function<bool(double)> holds;
+  std::string expected;               ///< in words
+  std::function<bool(double)> holds;  ///< whether a number satisfies it
 };
 
 /// A strict reader of one map of a mill description. The keys that the map may have are named when it is
@@ -24,6 +24,7 @@ struct Rule {
 /// that is read, a default too, is recorded in the document.
 class Section {
  public:
+  /// Names of keys.
   using Keys = std::vector<std::string>;
 
   /// The document's root, a map with no keys but the `known` ones.
@@ -48,6 +49,7 @@ class Section {
   /// Takes a number in the place of the file's.
   void put(const std::string& key, double value);
 
+  /// Whether the key is there.
   bool has(const std::string& key) const;
   /// Whether the key is there with a single word or text, not a map or a list.
   bool is_text(const std::string& key) const;

@@ -28,20 +28,21 @@ struct Divisions {
 /// core lies inside the smallest. The points of a circle are equally spaced and lie so far outside it that
 /// their polygon has the circle's area.
 struct CrossSection {
+  /// What a side on a wall belongs to.
   enum class Part { shell, lifters };
   /// A side of one quadrilateral that lies on a wall; the interior is to the left of the way from the first
   /// point to the second.
   struct WallEdge {
-    std::array<int, 2> points;
-    Part part;
+    std::array<int, 2> points;  ///< indices in `points`
+    Part part;                  ///< of the wall
   };
 
   std::vector<Eigen::Vector2d> points;    ///< m; those on the shell lie on its circle
   std::vector<std::array<int, 4>> quads;  ///< anticlockwise
-  std::vector<int> columns;  ///< of each quadrilateral: its column around the axis, between the lines
-                             ///< `column` and `column` + 1; -1 in the core
-  std::vector<WallEdge> walls;
-  Divisions divisions;
+  std::vector<int> columns;     ///< of each quadrilateral: its column around the axis, between the lines
+                                ///< `column` and `column` + 1; -1 in the core
+  std::vector<WallEdge> walls;  ///< all sides on shell and lifters
+  Divisions divisions;          ///< from which the quadrilaterals were made
 
   /// Number of columns.
   int around() const { return 4 * divisions.core; }

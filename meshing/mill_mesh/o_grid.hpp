@@ -7,17 +7,18 @@
 
 namespace millfoam::meshing {
 
-/// The O-grid inside a closed ring of points about the axis. The core's corners lie at 0.75 of the ring's
-/// smallest radius and its sides are arcs that turn by 30 degrees, so that each corner has 120 degrees, like
-/// the two cells of the ring that meet there. Points inside the core are a Coons patch of its sides, those of
-/// the ring lie on straight lines (W. J. Gordon and C. A. Hall, Int. J. Numer. Methods Eng. 7, 461 (1973)).
+// The O-grid inside a closed ring of points about the axis. The core's corners lie at 0.75 of the ring's
+// smallest radius and its sides are arcs that turn by 30 degrees, so that each corner has 120 degrees, like
+// the two cells of the ring that meet there. Points inside the core are a Coons patch of its sides, those of
+// the ring lie on straight lines (W. J. Gordon and C. A. Hall, Int. J. Numer. Methods Eng. 7, 461 (1973)).
 
-/// Distances, m, between the core and a ring whose smallest radius is `radius`: at the core's corners, and at
-/// the middles of its sides.
+/// Distances between the core and a ring.
 struct RingThickness {
-  double least = 0;
-  double most = 0;
+  double least = 0;  ///< m, at the core's corners
+  double most = 0;   ///< m, at the middles of the core's sides
 };
+
+/// The thickness of the ring whose smallest radius is `radius`, m.
 RingThickness ring_thickness(double radius);
 
 /// Layers of cells between core and ring that would make them as thick as they are wide. `radius` is the

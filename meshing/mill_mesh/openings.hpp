@@ -15,9 +15,9 @@ struct Openings {
   std::vector<bool> grates;      ///< of each quadrilateral: lies in a grate
   std::vector<int> compartment;  ///< of each quadrilateral: its pulp lifter, from 0; -1 inside the discharge
                                  ///< radius, and without pulp lifters
-  double inlet_area = 0;
-  double grate_area = 0;
-  double outlet_area = 0;  ///< of the pulp lifters' end inside the discharge radius
+  double inlet_area = 0;         ///< 0 without an inlet
+  double grate_area = 0;         ///< of all grates; 0 without
+  double outlet_area = 0;        ///< of the pulp lifters' end inside the discharge radius
 };
 
 /// Largest relative error in area of an inlet that is made of whole quadrilaterals.

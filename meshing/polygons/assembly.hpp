@@ -11,23 +11,23 @@ namespace millfoam::meshing {
 
 /// What a patch of an assembled mesh holds, beside its faces.
 struct PatchMeasure {
-  std::string name;
-  int faces = 0;
+  std::string name;       ///< of the group
+  int faces = 0;          ///< at the boundary
   int between_cells = 0;  ///< faces of the same group that lie between two cells, in no patch
   double area = 0;        ///< m^2
 };
 
 /// A mesh made of polygons, and what was found on the way.
 struct Assembly {
-  PolyMesh mesh;
-  int points_joined = 0;     ///< points that were welded to another
-  int points_unused = 0;     ///< points of no polygon, left out
-  int baffles = 0;           ///< pairs of faces with the same corners, a wall between two cells
-  int points_separated = 0;  ///< points that such walls got for their second side
-  int bodies = 0;            ///< sets of cells that hang together by faces
-  double volume = 0;         ///< m^3
-  double smallest_cell = 0;
-  double largest_cell = 0;
+  PolyMesh mesh;                      ///< in OpenFOAM's order
+  int points_joined = 0;              ///< points that were welded to another
+  int points_unused = 0;              ///< points of no polygon, left out
+  int baffles = 0;                    ///< pairs of faces with the same corners, a wall between two cells
+  int points_separated = 0;           ///< points that such walls got for their second side
+  int bodies = 0;                     ///< sets of cells that hang together by faces
+  double volume = 0;                  ///< m^3
+  double smallest_cell = 0;           ///< m^3
+  double largest_cell = 0;            ///< m^3
   std::vector<std::string> warnings;  ///< sentences on what a missing face looks like
   std::vector<PatchMeasure> patches;  ///< of all groups with faces, `internal` too, which makes no patch
 };

@@ -24,9 +24,9 @@ FacePairs find_pairs(const WeldedSet& whole, const std::set<int>& refused, Probl
 /// The groups of a pair on both sides of the first polygon. A polygon is on the side of the cell with whose
 /// other faces it shares more points in the file; that is not known where groups differ and points do not.
 struct PairGroups {
-  int in_front = 0;
-  int behind = 0;
-  bool known = true;
+  int in_front = 0;   ///< group of the side that the first polygon's normal points into
+  int behind = 0;     ///< group of the other side
+  bool known = true;  ///< false where the file does not show which group is on which side
 };
 
 /// One for each polygon of `pairs.set`; those without another have no meaning. `cell_of_side` has two entries

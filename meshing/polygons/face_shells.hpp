@@ -15,8 +15,8 @@ enum FaceSideNumber { in_front = 0, behind = 1 };
 
 /// Two faces that leave an edge in the same direction.
 struct Overlap {
-  std::array<int, 2> faces{};
-  std::size_t edge = 0;
+  std::array<int, 2> faces{};  ///< indices of the two
+  std::size_t edge = 0;        ///< index of the edge
 };
 
 /// The faces' sides joined to closed shells.
@@ -32,8 +32,11 @@ struct Shells {
   std::vector<double> area;    ///< m^2
   std::vector<Overlap> overlaps;  ///< where there is no order about an edge: nearer than 1e-6 rad
 
+  /// Number of shells.
   int count() const { return static_cast<int>(volume.size()); }
 };
+
+/// Joins the sides of faces to shells.
 Shells find_shells(const Points& points, const std::vector<Face>& faces, const surface::EdgeTable& edges);
 
 /// Numbers of the sides about an edge in pairs that bound the same space, in the order of rotation.
@@ -50,7 +53,11 @@ struct ShellCells {
   std::vector<double> volume;  ///< m^3 of each cell
   std::vector<int> flat;       ///< shells that enclose nothing
 };
+
+/// The number of the space outside all cells.
 inline constexpr int outside = -1;
+
+/// Finds the cells that shells bound.
 ShellCells find_cells(const Points& points, const std::vector<Face>& faces, const Shells& shells);
 
 }  // namespace millfoam::meshing

@@ -25,12 +25,12 @@ struct Polygon {
 
 /// Polygons in space, as a file gives them: no cells, no order, any orientation.
 struct PolygonSet {
-  std::string source;  ///< the file's name, for messages
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Polygon> polygons;
-  std::vector<std::string> groups;  ///< names, in the order in which the file gives them
-  std::set<std::string> open;       ///< groups whose patches are of the type `patch`, no walls
-  std::vector<std::string> files;   ///< of each group, where each comes from its own; otherwise empty
+  std::string source;                   ///< the file's name, for messages
+  std::vector<Eigen::Vector3d> points;  ///< m
+  std::vector<Polygon> polygons;        ///< in the order of the file
+  std::vector<std::string> groups;      ///< names, in the order in which the file gives them
+  std::set<std::string> open;           ///< groups whose patches are of the type `patch`, no walls
+  std::vector<std::string> files;       ///< of each group, where each comes from its own; otherwise empty
 };
 
 /// The group of a polygon that has none in its file.

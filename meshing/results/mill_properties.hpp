@@ -10,7 +10,7 @@ namespace millfoam::meshing {
 
 /// Writes `constant/millProperties`: the mill's numbers and the settings of its flow, which dictionaries of
 /// the case take in with `#include`. The areas are those of `openings`, which the mesh has. `time` is the DEM
-/// time, s, that the case's mesh is turned to. Entries: meshing/README.md.
+/// time, s, that the case's mesh is turned to. Entries: FORMATS.md.
 void write_mill_properties(const MillDescription& description, const Openings& openings, double time,
                            const std::filesystem::path& case_folder);
 

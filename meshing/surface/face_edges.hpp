@@ -9,9 +9,9 @@ namespace millfoam::surface {
 
 /// One face's side: the edge between the points `low` < `high`.
 struct FaceSide {
-  int low = 0;
-  int high = 0;
-  int face = 0;
+  int low = 0;           ///< index of a point
+  int high = 0;          ///< index of the other point
+  int face = 0;          ///< index of the face
   bool forward = false;  ///< whether the face goes round from low to high
 };
 
@@ -20,9 +20,11 @@ struct EdgeTable {
   std::vector<FaceSide> sides;     ///< those of the same edge one after the other
   std::vector<std::size_t> begin;  ///< of each edge in `sides`; one more entry than edges
 
+  /// Number of edges.
   std::size_t size() const { return begin.size() - 1; }
   /// Number of faces at an edge.
   std::size_t faces(std::size_t edge) const { return begin[edge + 1] - begin[edge]; }
+  /// The side of the first face at an edge.
   const FaceSide& first(std::size_t edge) const { return sides[begin[edge]]; }
 };
 

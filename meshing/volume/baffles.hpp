@@ -9,6 +9,8 @@ namespace millfoam::meshing {
 /// joined through faces between two cells at it each get a copy, so that nothing is interpolated from one
 /// side of a wall to the other. The first such group of cells keeps the point; copies are appended.
 void separate_points_at_baffles(VolumeMesh& mesh);
+
+/// The same for a mesh of polygons.
 void separate_points_at_baffles(PolyMesh& mesh);
 
 }  // namespace millfoam::meshing

@@ -11,6 +11,8 @@ namespace millfoam::meshing {
 /// and cellZones and faceZones where there are any. The files are made in `constant/polyMesh.partial`, which
 /// then takes the place of an older polyMesh with all that is in it.
 void write_poly_mesh(const VolumeMesh& mesh, const std::filesystem::path& case_folder);
+
+/// The same for a mesh of polygons.
 void write_poly_mesh(const PolyMesh& mesh, const std::filesystem::path& case_folder);
 
 }  // namespace millfoam::meshing

@@ -13,7 +13,7 @@ using Quad = std::array<int, 4>;
 
 /// Faces at the mesh's boundary, one after the other.
 struct Patch {
-  std::string name;
+  std::string name;       ///< as in OpenFOAM's `boundary`
   int start = 0;          ///< index of the first face
   int size = 0;           ///< number of faces, which may be 0
   std::string neighbour;  ///< name of the patch that this one is joined to periodically; empty for a wall
@@ -22,7 +22,7 @@ struct Patch {
 
 /// Cells or faces between two cells that the flow treats alike.
 struct Zone {
-  std::string name;
+  std::string name;          ///< as in OpenFOAM's cellZones and faceZones
   std::vector<int> members;  ///< indices, ascending
 };
 
@@ -33,13 +33,13 @@ struct Zone {
 template <typename Face>
 struct MeshOf {
   std::vector<Eigen::Vector3d> points;  ///< m
-  std::vector<Face> faces;
-  std::vector<int> owner;      ///< of each face
-  std::vector<int> neighbour;  ///< of each face between two cells
-  std::vector<Patch> patches;
-  int cells = 0;
-  std::vector<Zone> cell_zones;
-  std::vector<Zone> face_zones;
+  std::vector<Face> faces;              ///< indices in `points`
+  std::vector<int> owner;               ///< cell of each face
+  std::vector<int> neighbour;           ///< other cell of each face between two
+  std::vector<Patch> patches;           ///< in the order of their faces
+  int cells = 0;                        ///< number of cells
+  std::vector<Zone> cell_zones;         ///< members are cells
+  std::vector<Zone> face_zones;         ///< members are faces
 };
 
 /// A mesh whose faces are quadrilaterals.

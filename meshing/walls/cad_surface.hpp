@@ -12,14 +12,14 @@ namespace millfoam::meshing {
 
 /// The STL file of one part of a mill's walls.
 struct PartFile {
-  std::string part;  ///< shell, lifters, feedEnd or dischargeEnd
-  std::filesystem::path file;
+  std::string part;            ///< shell, lifters, feedEnd or dischargeEnd
+  std::filesystem::path file;  ///< STL, text or binary
 };
 
 /// What a surface from CAD is like, and what became of it. Each sentence names files, lines where they have a
 /// meaning, and coordinates in m.
 struct CadReport {
-  int triangles = 0;
+  int triangles = 0;                               ///< left after the repairs
   Eigen::Vector3d low = Eigen::Vector3d::Zero();   ///< of the bounding box, m
   Eigen::Vector3d high = Eigen::Vector3d::Zero();  ///< m
   double volume = 0;                               ///< enclosed, m^3; 0 unless closed
@@ -28,6 +28,7 @@ struct CadReport {
   std::vector<std::string> warnings;               ///< what may be meant otherwise
   WallSurface surface;  ///< repaired, with all four parts, those not given without triangles
 
+  /// Whether LIGGGHTS can use the repaired surface.
   bool usable() const { return problems.empty(); }
 };
 

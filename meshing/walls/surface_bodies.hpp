@@ -10,15 +10,16 @@ namespace millfoam::meshing {
 
 /// Faces that hang together over edges with two faces.
 struct Body {
-  std::vector<int> faces;
-  bool closed = true;     ///< no edge with one face, nor with more than two
-  double volume = 0;      ///< m^3, signed, as its faces are oriented; without meaning unless closed
-  int inside_of = 0;      ///< number of other bodies that contain it
-  bool two_sided = true;  ///< false for a surface like Moebius' strip
+  std::vector<int> faces;  ///< indices
+  bool closed = true;      ///< no edge with one face, nor with more than two
+  double volume = 0;       ///< m^3, signed, as its faces are oriented; without meaning unless closed
+  int inside_of = 0;       ///< number of other bodies that contain it
+  bool two_sided = true;   ///< false for a surface like Moebius' strip
 };
 
+/// The bodies of a surface.
 struct Bodies {
-  std::vector<Body> bodies;
+  std::vector<Body> bodies;             ///< in the order of their first faces
   std::vector<int> against_neighbours;  ///< faces that were turned to face as the most of their body
 };
 

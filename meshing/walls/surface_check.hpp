@@ -12,6 +12,8 @@ struct SurfaceCheck {
   bool self_intersecting = false;  ///< some triangles cross
   double volume = 0;               ///< enclosed, m^3; 0 when not closed
 };
+
+/// Checks the parts together with CGAL.
 SurfaceCheck check_surface(const WallSurface& surface);
 
 /// Checks that the parts together are closed, outward oriented and without self-intersection; throws
@@ -27,10 +29,12 @@ double flatness(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 
 /// The needles of all parts.
 struct Needles {
-  int count = 0;
+  int count = 0;                                    ///< triangles flatter than needle_ratio
   double smallest_ratio = 1;                        ///< of all triangles, needles or not
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< middle of the triangle that has it, m
 };
+
+/// Looks for needles in all parts.
 Needles find_needles(const WallSurface& surface);
 
 /// Throws std::runtime_error with the worst triangle's place for a surface with needles.

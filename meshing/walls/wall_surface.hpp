@@ -12,8 +12,8 @@ namespace millfoam::meshing {
 
 /// The triangles of one part of the mill's wall; point indices, normals pointing out of the mill's interior.
 struct WallPart {
-  std::string name;
-  std::vector<std::array<int, 3>> triangles;
+  std::string name;                           ///< shell, lifters, feedEnd or dischargeEnd
+  std::vector<std::array<int, 3>> triangles;  ///< point indices
 };
 
 /// The boundary of the mill's interior in parts that share their points: together a closed surface.
