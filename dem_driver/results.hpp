@@ -58,8 +58,8 @@ struct Results {
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and
-/// `dumps/charge.csv`; see dem_driver/README.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and `dumps/charge.csv`. Layout:
+/// FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 
