@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "tests/averaging/walls/walls_support.hpp"
 
@@ -18,6 +21,14 @@ TEST(StlFile, AWrongWordIsToldWithItsLine) {
   expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:7", "endlop!", "'endloop'"});
   expect_named(refusal({folder.write("notes.txt", "mill of 12 lifters\n")}),
                {"notes.txt:1", "'mill'", "'solid'"});
+}
+
+TEST(StlFile, KeywordsMayBeInCapitals) {
+  const TemporaryFolder folder;
+  std::string text = stl_text(box_surface({0, 0, 0}, {1, 2, 3}));
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  EXPECT_NEAR(enclosed_volume(read_surface({folder.write("wall.stl", text)})), 6, 1e-12);
 }
 
 TEST(StlFile, ACoordinateThatIsNoFiniteNumberIsToldWithItsPlace) {
