@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/surface/welding.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,13 +62,9 @@ class Boxes {
 }  // namespace
 
 double extent(const std::vector<Vector3d>& points) {
-  if (points.empty()) return 0;
-  Vector3d low = points.front(), high = points.front();
-  for (const Vector3d& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points) box.extend(point);
+  return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
 Welding weld(const std::vector<Vector3d>& points, double tolerance) {

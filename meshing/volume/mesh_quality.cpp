@@ -10,6 +10,7 @@
 
 #include "meshing/faces/face_geometry.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -160,7 +161,7 @@ MeshQuality quality(const VolumeMesh& mesh) {
       keep_larger(q.max_skewness, q.max_skewness_at, skewness(mesh, m, f, line, 0.4), m.face_centre[f]);
     }
   }
-  q.max_non_orthogonality = std::acos(std::min(1.0, -most_oblique)) * 180 / std::acos(-1.0);
+  q.max_non_orthogonality = std::acos(std::min(1.0, -most_oblique)) * 180 / pi;
   return q;
 }
 
