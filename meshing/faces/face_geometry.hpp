@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace millfoam::meshing {
@@ -13,6 +14,11 @@ using Face = std::vector<int>;
 
 /// Coordinates of points, m.
 using Points = std::vector<Eigen::Vector3d>;
+
+/// The number of a point, a face or a cell, which is not negative, as an index.
+inline std::size_t index(int number) {
+  return static_cast<std::size_t>(number);
+}
 
 /// The mean of a face's points, m.
 Eigen::Vector3d middle(const Points& points, const Face& face);

@@ -18,10 +18,6 @@ namespace {
 
 constexpr double default_tolerance = 1e-9;  // of the bounding box's diagonal
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Corners of cells on the two sides of a baffle get points of their own.
 void separate(const FacePairs& pairs, Assembly& assembly) {
   for (int other : pairs.other) assembly.baffles += other >= 0 ? 1 : 0;

@@ -6,10 +6,6 @@
 namespace millfoam::meshing {
 namespace {
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 bool can_be_sides(const PolygonSet& set, const std::vector<int>& same) {
   if (same.size() != 2) return false;
   std::vector<std::vector<int>> points;

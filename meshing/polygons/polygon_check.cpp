@@ -18,10 +18,6 @@ constexpr std::size_t sentences_of_a_kind = 10;
 /// A face has no area below this share of its longest diagonal squared.
 constexpr double no_area = 1e-12;
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::string place(const WeldedSet& welded, int face) {
   return place(welded.set, face);
 }

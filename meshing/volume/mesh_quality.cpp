@@ -20,10 +20,6 @@ using Eigen::Vector3d;
 /// Relative difference below which two levels are the same.
 constexpr double same_level = 1e-9;
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 void measure_face(const VolumeMesh& mesh, const Quad& face, MeshMeasures& measures) {
   Vector3d middle = Vector3d::Zero();
   for (int p : face) middle += mesh.points[index(p)] / 4;

@@ -29,10 +29,6 @@ constexpr double smallest_mill = 0.01;      // m
 constexpr double off_frame = 0.01;          // of the bounding box's width or length
 constexpr double no_area = 1e-9;            // height over longest side
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 template <typename... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream text;

@@ -13,10 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// A face on the other side of an edge, and whether both go the same way along it, which they must not.
 struct Neighbour {
   int face;
