@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/surface/pi.hpp"
