@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/files/xdmf.hpp"
 
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -159,6 +160,7 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   xdmf_path(solids_file);
   const SolidsReader solids(solids_file);
   std::vector<XdmfField> fields;
+  fields.reserve(std::size(layout::fields) + 1);
   for (const layout::Field& field : layout::fields) fields.push_back({field.name, field.name, field.vector});
   if (solids.header().inside_fractions) {
     const std::string name = layout::inside_fraction.name;
