@@ -70,10 +70,11 @@ struct SizeClass {
 /// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are
 /// released.
 struct Charge {
-  std::vector<SizeClass> classes;  ///< fines too
-  double fines_below = 0;          ///< m: smaller balls are kept in the books, not simulated; 0 for none
-  double start_radius = 0;         ///< m
-  double start_length = 0;         ///< m, centred on the mill's length; ignored for a periodic slice
+  /// In the order of the file, fines too.
+  std::vector<SizeClass> classes;
+  double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
+  double start_radius = 0;  ///< m
+  double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
 };
 
 /// Elastic solid. The modulus used by the simulation may be softer than the real one; see
@@ -166,23 +167,26 @@ struct FlowAverages {
 
 /// How the slurry's flow is done.
 struct Flow {
-  std::string solver;              ///< slurryFoam, or interFoam with the balls as a source of momentum
-  double duration = 0;             ///< s
-  bool balls = true;               ///< false: the mill without its charge
-  std::string law;                 ///< drag law, a name of the table in openfoam_module/drag
-  double multiplier = 1;           ///< on the drag
-  std::string viscosity;           ///< of the slurry that the drag feels: plastic or pore
-  bool polydispersity = false;     ///< factor on the drag for a mixture of sizes
-  std::string out_of_range;        ///< beyond the recorded charge: error, hold or repeat
-  FlowStart start;                 ///< slurry at time 0
-  double feed = 0;                 ///< m^3/s, through the inlet
-  double max_courant = 0;          ///< limit of the time-step: largest Courant number
-  double max_surface_courant = 0;  ///< the same of cells at the slurry's surface
-  double max_voidage_change = 0;   ///< largest relative change of a cell's voidage in a step
-  double max_time_step = 0;        ///< s
-  double write_interval = 0;       ///< between written fields, s
-  int slices = 0;                  ///< along the axis, of profiles
-  FlowAverages averages;           ///< of the slurry
+  std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;          ///< s
+  bool balls = true;            ///< false: the mill without its charge
+  std::string law;              ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;        ///< on the drag
+  std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
+  bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;              ///< slurry at time 0
+  double feed = 0;              ///< m^3/s, through the inlet
+  double max_courant = 0;       ///< limit of the time-step: largest Courant number
+  /// The same of cells at the slurry's surface.
+  double max_surface_courant = 0;
+  /// Largest relative change of a cell's voidage in a step.
+  double max_voidage_change = 0;
+  double max_time_step = 0;   ///< s
+  double write_interval = 0;  ///< between written fields, s
+  int slices = 0;             ///< along the axis, of profiles
+  /// Of the slurry.
+  FlowAverages averages;
 };
 
 /// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
