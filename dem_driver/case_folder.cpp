@@ -15,7 +15,6 @@
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_check.hpp"
 #include "dem_driver/wall_fit.hpp"
-#include "meshing/output_file.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -111,10 +110,6 @@ std::string wall_checksums(const CaseFolder& folder, const std::vector<std::stri
     lines << "# wall " << part << ".stl " << std::hex << sum << '\n';
   }
   return lines.str();
-}
-
-void write_whole_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
-  meshing::write_file(file, write);
 }
 
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {

@@ -3,13 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "dem_driver/deck.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -65,9 +64,6 @@ std::size_t prepare_folders(const CaseFolder& folder);
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
-
-/// Writes a text file that appears whole or not at all. Throws std::runtime_error naming it.
-void write_whole_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 /// Writes `dumps/run.json`: time-step, interval of the dumps, speed, duration and mass of the charge. The
 /// file appears whole or not at all.

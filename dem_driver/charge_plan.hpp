@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -7,7 +7,7 @@
 
 #include "dem_driver/charge_plan.hpp"
 #include "dem_driver/time_step.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

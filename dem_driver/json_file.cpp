@@ -3,10 +3,10 @@
 
 #include <ostream>
 
-#include "dem_driver/case_folder.hpp"
 #include "dem_driver/plan_report.hpp"
-#include "meshing/mill_shape.hpp"
-#include "meshing/resolved_mill.hpp"
+#include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_fingerprints.hpp"
+#include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
@@ -36,7 +36,7 @@ void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charg
 }
 
 void write_json(const std::filesystem::path& file, const Json& result) {
-  write_whole_file(file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  replace_file(file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
 }
 
 }  // namespace millfoam::dem_driver

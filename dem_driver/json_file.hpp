@@ -7,7 +7,7 @@
 #include <string>
 
 #include "dem_driver/charge_plan.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

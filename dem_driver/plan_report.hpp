@@ -7,7 +7,7 @@
 
 #include "dem_driver/deck.hpp"
 #include "dem_driver/forecast.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

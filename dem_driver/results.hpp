@@ -9,7 +9,7 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/steady_state.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -58,8 +58,8 @@ struct Results {
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and
-/// `dumps/charge.csv`; see dem_driver/README.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and `dumps/charge.csv`. Layout:
+/// FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

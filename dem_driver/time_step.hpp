@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dem_driver/stiffness.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshing/mill.hpp"
-#include "meshing/polygon_set.hpp"
+#include "meshing/mill/mill.hpp"
+#include "meshing/polygons/polygon_set.hpp"
 
 namespace millfoam::dem_driver {
 

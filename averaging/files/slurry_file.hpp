@@ -10,8 +10,7 @@
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/values/voxel_sums.hpp"
 
-/// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Its layout is listed in
-/// averaging/README.md.
+/// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Layout: FORMATS.md.
 namespace millfoam::averaging {
 
 /// The version of the layout that is written.

@@ -12,8 +12,8 @@
 #include "averaging/values/ledger.hpp"
 #include "averaging/values/solids_window.hpp"
 
-/// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
-/// class may be used by two threads at once.
+/// solids.h5, the contract between averaging and flow. Layout: FORMATS.md. Neither class may be used by two
+/// threads at once.
 namespace millfoam::averaging {
 
 /// The version of the layout that is written and that can be read.

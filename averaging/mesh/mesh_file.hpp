@@ -10,7 +10,7 @@
 
 #include "averaging/mesh/poly_mesh.hpp"
 
-/// mesh.h5, by which a flow's mesh reaches this room. Its layout is listed in averaging/README.md.
+/// mesh.h5, by which a flow's mesh reaches this room. Layout: FORMATS.md.
 namespace millfoam::averaging {
 
 /// The version of the layout that is written and that can be read.

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -26,7 +26,9 @@
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_fit.hpp"
-#include "meshing/mill_document.hpp"
+#include "meshing/files/output_file.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_document.hpp"
 #include "meshing/tools/mill_options.hpp"
 
 namespace {
@@ -58,12 +60,6 @@ std::string identity(const std::string& deck) {
   return kept;
 }
 
-std::string in_words(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 std::string read_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -74,7 +70,7 @@ constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is 
 /// Throws std::runtime_error when the run in the folder cannot be gone on with at that step.
 void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
   if (step > plan.turning_steps) {
-    const auto seconds = [&](long steps) { return in_words(static_cast<double>(steps) * plan.step.value); };
+    const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
     throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
                                "at least the " + seconds(step) + " s that the run in " +
                                    folder.root.string() + " has reached" + otherwise);
@@ -154,13 +150,13 @@ void run(const Options& options, const meshing::MillDescription& description) {
     dem_driver::require_room(folder, plan, step.value_or(0));
     prepare(folder, step);
   }
-  dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
+  replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;
   if (step) {
-    dem_driver::write_whole_file(folder.resume_deck(), [&](std::ostream& out) {
+    replace_file(folder.resume_deck(), [&](std::ostream& out) {
       dem_driver::write_resume_deck(out, mill, plan, parts, options.ranks, *step);
     });
     std::cout << "resumed at step " << *step << ", t = " << static_cast<double>(*step) * plan.step.value
