@@ -11,6 +11,7 @@
 
 namespace millfoam::dem_driver {
 
+/// JSON whose keys keep the order in which they were added.
 using Json = nlohmann::ordered_json;
 
 /// The head of a result that `millDem` leaves: "format" ("millfoam-<what>"), "program" with its version, and
