@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+/// The description of a mill and what is made from it: its walls, the mesh of its flow, and meshes out of
+/// faces. Units are SI.
 namespace millfoam::meshing {
 
 /// What closes the mill along its axis: two plain walls, or nothing (a periodic slice of a long mill).

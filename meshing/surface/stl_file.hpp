@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+/// Surfaces of triangles, as STL files hold them, used by the rooms meshing and averaging.
 namespace millfoam::surface {
 
 /// A surface that cannot be used; the message names the file or the place, and what was expected.
