@@ -9,8 +9,9 @@
 
 namespace millfoam::averaging {
 
-/// Balls in the averaging volumes from which the drag laws were derived.
+/// Fewest balls in the averaging volumes from which the drag laws were derived.
 inline constexpr double fewest_balls = 8;
+/// Most balls in them.
 inline constexpr double most_balls = 64;
 
 /// What a user should know of a window before trusting it.
@@ -42,7 +43,10 @@ struct Remark {
   std::string sentence;  ///< for the user
 };
 
-/// Of one window.
+/// The numbers of one window.
+/// @param grid            that its fields live on
+/// @param time            of the window
+/// @param ledger          of the window, m^3
 /// @param balls_per_cell  mean number of balls in a cell that holds some
 /// @param fields          over the cells of `grid`
 WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
