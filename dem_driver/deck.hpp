@@ -65,11 +65,11 @@ struct RankGrid {
 RankGrid split_ranks(int ranks, double length, double largest_diameter);
 
 /// Words that begin the deck's own lines in the log, which `LiggghtsLog` reads. This one follows every
-/// insertion: "… <asked> of <diameter> total <balls in the mill>", diameter in m.
+/// insertion: `… ASKED of DIAMETER total BALLS`, with the diameter in m and all balls then in the mill.
 inline constexpr char inserted_mark[] = "millFoam inserted";
 /// Begins the line that LIGGGHTS prints at DEM time 0, or where a resumed run begins.
 inline constexpr char turning_mark[] = "millFoam turning";
-/// Begins the line that follows every whole restart file: "… <step>".
+/// Begins the line that follows every whole restart file: `… STEP`.
 inline constexpr char restart_mark[] = "millFoam restart";
 /// Begins the last line of a deck that came to its end.
 inline constexpr char finished_mark[] = "millFoam finished";
