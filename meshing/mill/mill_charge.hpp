@@ -10,6 +10,8 @@ namespace millfoam::meshing {
 class Section;
 
 /// The charge of the section `charge`, by classes or by fill.
+/// @param in  that section
+/// @param geometry  of the mill that the balls must fit into
 /// @param density  of the balls, kg/m^3
 /// Throws MillError for an impossible value, for both ways, and for balls that do not fit.
 Charge read_charge(Section in, const Geometry& geometry, double density);

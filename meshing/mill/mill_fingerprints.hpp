@@ -16,6 +16,7 @@ nlohmann::ordered_json materials_numbers(const Mill& mill);
 
 /// The fingerprints of a mill.
 /// @param keys  values of all keys of its description
+/// @param mill  the same, read
 MillFingerprints fingerprints(const nlohmann::ordered_json& keys, const Mill& mill);
 
 /// An object with the keys walls, charge, averages and flow.

@@ -12,6 +12,7 @@ namespace millfoam::meshing {
 /// The resolved mill: every key with its value, defaults filled in; derived numbers with units in their
 /// names; fingerprints. It can be read again as a mill description and gives the same mill. Layout:
 /// FORMATS.md.
+/// @param description  the mill as its file gives it
 /// @param program  that writes it, "millMesh"
 nlohmann::ordered_json resolved_mill(const MillDescription& description, const std::string& program);
 
