@@ -87,8 +87,8 @@ inline constexpr double overlap_range = 0.2;
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 
-/// Writes the deck that resumes from `restart.<step>`, which contains balls, turned walls and contacts. Its
-/// own files have `step` in the place of 0.
+/// Writes the deck that resumes from the restart file of `step`, which contains balls, turned walls and
+/// contacts. Its own files have `step` in the place of 0.
 void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                        const std::vector<std::string>& parts, int ranks, long step);
 
