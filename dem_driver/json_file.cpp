@@ -5,7 +5,6 @@
 
 #include "dem_driver/plan_report.hpp"
 #include "meshing/files/output_file.hpp"
-#include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
 
@@ -14,7 +13,7 @@ namespace millfoam::dem_driver {
 Json begin_result(const std::string& what, const meshing::Mill& mill) {
   return {{"format", "millfoam-" + what},
           {"program", std::string("millDem ") + version()},
-          {"mill", meshing::to_json(mill.fingerprint)}};
+          {"mill", {{"walls", mill.fingerprint.walls}, {"charge", mill.fingerprint.charge}}}};
 }
 
 void add_rotation(Json& result, const meshing::Mill& mill) {
@@ -23,7 +22,7 @@ void add_rotation(Json& result, const meshing::Mill& mill) {
 }
 
 void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charge) {
-  const double bulk = heap_solidity * mill.ball.density * meshing::analytic_volume(mill.geometry);
+  const double bulk = mill.charge.packing * mill.ball.density * meshing::analytic_volume(mill.geometry);
   result["balls"] = charge.balls();
   result["smallest_diameter_m"] = charge.classes.back().diameter;
   result["largest_diameter_m"] = charge.classes.front().diameter;

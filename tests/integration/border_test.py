@@ -137,6 +137,14 @@ class MadeUpTree(Tree):
         self.assert_one("averaging/a, averaging/b, averaging/c: folders use each other",
                         "averaging/b/other.hpp uses averaging/c/one.hpp")
 
+    def test_folders_of_foam_find_headers_by_their_names(self):
+        self.write("openfoam_module/foam/a/one.C", '#include "two.H"\n#include "volFields.H"\n')
+        self.write("openfoam_module/foam/b/two.H", "")
+        self.assertEqual(violations(self.root), [])
+        self.write("openfoam_module/foam/b/two.C", '#include "three.H"\n')
+        self.write("openfoam_module/foam/a/three.H", "")
+        self.assert_one("openfoam_module/foam/a, openfoam_module/foam/b: folders use each other")
+
 
 class MadeUpPackage(Tree):
     """A Python package with a module in every part."""

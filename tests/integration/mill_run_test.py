@@ -17,9 +17,11 @@ import numpy as np
 from millfoam.files import foam, solids_file
 from millfoam.files.data_files import read_json
 from millfoam.files.flow_record import read_flow_record
+from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import read_slurry_map
 from millfoam.files.tables import read_columns
 from millfoam.files.written_times import MillFlow
+from millfoam.report.stages import same_mill
 from millfoam.run import RunError, run
 from mill_case import run_mill
 import mills_test
@@ -182,6 +184,8 @@ class Again(unittest.TestCase):
         self.assertEqual(kept, ["walls", "charge", "average"])
         self.assertEqual(made, [*self.FLOW, "pictures", "report"])
         self.assertEqual(read_json(self.case / "mill.json", "mill")["derived"]["flow"]["law"], "Hill")
+        # The charge that was kept belongs to this mill too
+        self.assertEqual(same_mill(MillCase(self.case)).state, "holds")
 
     def test_another_window_makes_the_averages_again(self):
         made, kept = self.allrun("--set", "averages.window=0.05")
