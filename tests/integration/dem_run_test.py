@@ -279,7 +279,7 @@ class DemRun(unittest.TestCase):
                  "duration: 1e5, record_interval: 1, seed: 3",
                  r"mill.yaml:\d+: key 'dem.\w+' = \S+: expected at most 1e.0[69] (steps|dumps)"),
                 ("contact_interval: 0.012", "contact_interval: 1e-9",
-                 "mill.yaml:11: key 'dem.contact_interval' = 1e-09: exp"),
+                 "mill.yaml:11: key 'dem.contact_interval' = 1e-9: exp"),
                 ("mass: 0.002}", "mass: 1e-9}",
                  r"mill.yaml:7: key 'charge.classes\[1\]' = 1e-09 kg of balls of 0.002 m")):
             (case / "mill.yaml").write_text(MILL.replace(old, new))
