@@ -74,7 +74,7 @@ struct SizeClass {
 struct Charge {
   /// In the order of the file, fines too.
   std::vector<SizeClass> classes;
-  double packing = 0;       ///< solidity at rest, of which the volumes of the bulk and of its pores follow
+  double packing = 0.6;     ///< solidity at rest, of which the volumes of the bulk and of its pores follow
   double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
   double start_radius = 0;  ///< m
   double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice

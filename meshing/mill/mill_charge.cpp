@@ -18,9 +18,6 @@ constexpr double most_counted = 9e15;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
-/// Solidity of a charge at rest, where mill.yaml leaves it open.
-constexpr double usual_packing = 0.6;
-
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
 /// images.
 Rule ball_diameter(const Geometry& geometry) {
@@ -91,7 +88,7 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
   charge.packing = in.number("packing",
                              {"the solidity of a resting charge, above 0 and up to 0.74",
                               [](double v) { return v > 0 && v <= 0.74; }},
-                             usual_packing);
+                             charge.packing);
   choose_charge(in, geometry, density, charge.packing);
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
