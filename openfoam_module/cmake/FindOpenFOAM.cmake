@@ -75,6 +75,10 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   target_compile_options(OpenFOAM::OpenFOAM INTERFACE -O2 -fno-tree-loop-vectorize -ftemplate-depth-100)
   target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
   target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)
+  # Libraries that only libraries link, too, are those of this OpenFOAM, and not the distribution's.
+  if(openfoam_only)
+    target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--disable-new-dtags)
+  endif()
 endif()
 
 function(openfoam_link_libraries target)
