@@ -30,7 +30,7 @@ endif()
 
 # A sourced OpenFOAM must not be mixed with the distribution's libraries.
 set(openfoam_only)
-if(DEFINED ENV{FOAM_LIBBIN})
+if(DEFINED ENV{FOAM_LIBBIN} AND OpenFOAM_ROOT_DIR STREQUAL "$ENV{WM_PROJECT_DIR}")
   set(openfoam_only NO_DEFAULT_PATH)
 endif()
 find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ENV FOAM_LIBBIN ${openfoam_only})
