@@ -4,6 +4,7 @@
 #
 #   OpenFOAM_ROOT_DIR     the source tree
 #   OpenFOAM_API          its version, as 1912
+#   OpenFOAM_SOURCED      whether its libraries are those of the shell, FOAM_LIBBIN
 #   OpenFOAM::OpenFOAM    include folders, definitions and the compile flags that are safe with OpenFOAM's headers
 #   openfoam_link_libraries(<target> finiteVolume meshTools …)   links OpenFOAM's libraries, found by name
 #
@@ -29,8 +30,10 @@ if(OpenFOAM_ROOT_DIR AND NOT OpenFOAM_API)
 endif()
 
 # A sourced OpenFOAM must not be mixed with the distribution's libraries.
+set(OpenFOAM_SOURCED OFF)
 set(openfoam_only)
 if(DEFINED ENV{FOAM_LIBBIN} AND OpenFOAM_ROOT_DIR STREQUAL "$ENV{WM_PROJECT_DIR}")
+  set(OpenFOAM_SOURCED ON)
   set(openfoam_only NO_DEFAULT_PATH)
 endif()
 find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ENV FOAM_LIBBIN ${openfoam_only})
@@ -76,7 +79,7 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
   target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)
   # Libraries that only libraries link, too, are those of this OpenFOAM, and not the distribution's.
-  if(openfoam_only)
+  if(OpenFOAM_SOURCED)
     target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--disable-new-dtags)
   endif()
 endif()
