@@ -9,7 +9,7 @@ namespace millfoam::record {
 
 /// What a tool built on OpenFOAM says of itself.
 struct ToolHelp {
-  std::string name;
+  std::string name;                 ///< as the user types it
   std::string purpose;              ///< one sentence, without a full stop
   std::vector<std::string> usage;   ///< lines after the name, without OpenFOAM's own options
   std::vector<std::string> reads;   ///< lines "file  what for"

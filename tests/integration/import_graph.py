@@ -5,9 +5,11 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
-SOURCES = {".hpp", ".cpp", ".H", ".C"}
+FOAM_SOURCES = {".H", ".C"}
+SOURCES = {".hpp", ".cpp", *FOAM_SOURCES}
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 PACKAGES = ("scripts", "cases/studies")  # folders of packages, which are on Python's path
+FOAM = "openfoam_module/foam"  # its folders are on the compiler's path, as is OpenFOAM's way
 
 
 def sources(root, *tops):
@@ -20,8 +22,10 @@ def includes(root, file):
     """[(name, file that it stands for, or None for headers from elsewhere)] of a C++ source; paths are relative to the
     root."""
     found = []
+    foam = {header.name: header.parent for header in (root / FOAM).glob("*/*.H")} if file.suffix in FOAM_SOURCES else {}
     for name in INCLUDE.findall((root / file).read_text()):
-        places = ((base / name).resolve() for base in (root, (root / file).parent))
+        bases = (root, (root / file).parent, *filter(None, [foam.get(name)]))
+        places = ((base / name).resolve() for base in bases)
         place = next((place for place in places if place.is_file() and root in place.parents), None)
         found.append((name, place.relative_to(root) if place else None))
     return found

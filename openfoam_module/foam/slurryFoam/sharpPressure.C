@@ -6,7 +6,7 @@
 #include "sharpPressure.H"
 #include "fixedFluxPressureFvPatchScalarField.H"
 #include "surfaceInterpolate.H"
-#include "zeroGradientFvPatchFields.H"
+#include "zeroFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -28,6 +28,16 @@ void refreshBoundary(volScalarField& p_rgh)
         }
     }
     p_rgh.correctBoundaryConditions();
+}
+
+
+//- Share of the pressure's rise across a face on a cell's side of it; part: of
+//  the line on that side. One acceleration on both sides: slopes go with the
+//  densities, but neither share is above 1 where the line is mostly air
+scalar
+shareOfRise(const scalar part, const scalar density, const scalar lineDensity)
+{
+    return min(part * density / lineDensity, scalar(1));
 }
 
 } // End anonymous namespace
@@ -112,62 +122,59 @@ void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
 }
 
 
-Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
+void Foam::sharpPressure::addInnerFaces(vectorField& sums) const
 {
-    tmp<volVectorField> tgradient(tmp<volVectorField>::New(
-        IOobject("gradPressure", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedVector(dimPressure / dimLength, Zero),
-        zeroGradientFvPatchVectorField::typeName));
-    volVectorField& gradient = tgradient.ref();
-
     const surfaceVectorField& Sf = mesh_.Sf();
-    const surfaceScalarField& weights = mesh_.weights();
     forAll(mesh_.neighbour(), facei)
     {
         const label own = mesh_.owner()[facei];
         const label nei = mesh_.neighbour()[facei];
-        const scalar w = weights[facei];
-        // One acceleration on both sides: slopes go with the densities, but
-        // neither part is above the whole where the line is mostly air
+        const scalar w = mesh_.weights()[facei];
         const scalar rise = p_rgh_[nei] + jump_[facei] - p_rgh_[own];
         const scalar line = lineDensity_[facei];
         const scalar ownOnFace =
-            p_rgh_[own] + min((1 - w) * density_[own] / line, scalar(1)) * rise;
+            p_rgh_[own] + shareOfRise(1 - w, density_[own], line) * rise;
         const scalar neiOnFace =
-            p_rgh_[nei] - min(w * density_[nei] / line, scalar(1)) * rise;
-        gradient[own] += Sf[facei] * ownOnFace;
-        gradient[nei] -= Sf[facei] * neiOnFace;
+            p_rgh_[nei] - shareOfRise(w, density_[nei], line) * rise;
+        sums[own] += Sf[facei] * ownOnFace;
+        sums[nei] -= Sf[facei] * neiOnFace;
     }
+}
 
-    forAll(mesh_.boundary(), patchi)
+
+void Foam::sharpPressure::addPatch(const label patchi, vectorField& sums) const
+{
+    const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const scalarField& jump = jump_.boundaryField()[patchi];
+    scalarField onFace(p + jump);
+    if (p.coupled())
     {
-        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        const scalarField& jump = jump_.boundaryField()[patchi];
-        const vectorField& areas = Sf.boundaryField()[patchi];
-        scalarField onFace(p + jump);
-        if (p.coupled())
+        const scalarField own(p.patchInternalField());
+        const scalarField rise(p.patchNeighbourField() + jump - own);
+        const scalarField density(
+            density_.boundaryField()[patchi].patchInternalField());
+        forAll(onFace, i)
         {
-            const scalarField own(p.patchInternalField());
-            onFace =
-                own +
-                min((1 - weights.boundaryField()[patchi]) *
-                        density_.boundaryField()[patchi].patchInternalField() /
-                        lineDensity_.boundaryField()[patchi],
-                    scalar(1)) *
-                    (p.patchNeighbourField() + jump - own);
-        }
-        forAll(patch, i)
-        {
-            gradient[patch.faceCells()[i]] += areas[i] * onFace[i];
+            onFace[i] =
+                own[i] + shareOfRise(
+                             1 - mesh_.weights().boundaryField()[patchi][i],
+                             density[i],
+                             lineDensity_.boundaryField()[patchi][i]) *
+                             rise[i];
         }
     }
+    forAll(patch, i)
+    {
+        sums[patch.faceCells()[i]] +=
+            mesh_.Sf().boundaryField()[patchi][i] * onFace[i];
+    }
+}
 
-    gradient.primitiveFieldRef() /= mesh_.V();
 
-    // Walls know the pressure above the cell's centre along their normal, not
-    // at their own centre
-    const vectorField first(gradient.primitiveField());
+void Foam::sharpPressure::addWallSkewness(vectorField& slopes) const
+{
+    const vectorField first(slopes);
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
@@ -179,12 +186,27 @@ Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
         forAll(patch, i)
         {
             const label celli = patch.faceCells()[i];
-            gradient[celli] += Sf.boundaryField()[patchi][i] *
-                               (first[celli] & aside[i]) / mesh_.V()[celli];
+            slopes[celli] +=
+                patch.Sf()[i] * (first[celli] & aside[i]) / mesh_.V()[celli];
         }
     }
-    gradient.correctBoundaryConditions();
-    return tgradient;
+}
+
+
+Foam::tmp<Foam::volVectorField> Foam::sharpPressure::slopes() const
+{
+    tmp<volVectorField> tslopes(
+        zeroCells<vector>(mesh_, "pressureSlopes", dimPressure / dimLength));
+    vectorField& slopes = tslopes.ref().primitiveFieldRef();
+    addInnerFaces(slopes);
+    forAll(mesh_.boundary(), patchi)
+    {
+        addPatch(patchi, slopes);
+    }
+    slopes /= mesh_.V();
+    addWallSkewness(slopes);
+    tslopes.ref().correctBoundaryConditions();
+    return tslopes;
 }
 
 
@@ -212,11 +234,7 @@ Foam::sharpPressure::sharpPressure(
   lineDensity_("lineDensity", faceDensity_),
   massWeights_("massWeights", mesh_.weights()),
   lineWeights_("lineWeights", mesh_.weights()),
-  jump_(
-      IOobject(
-          "pressureJump", mesh_.time().timeName(), mesh_, IOobject::NO_READ,
-          IOobject::NO_WRITE, false),
-      mesh_, dimensionedScalar(dimPressure, Zero))
+  jump_(zeroFaces(mesh_, "pressureJump", dimPressure))
 {
 }
 
@@ -322,10 +340,8 @@ Foam::sharpPressure::reconstruct(const surfaceScalarField& flux) const
         }
     }
 
-    tmp<volVectorField> tresult(tmp<volVectorField>::New(
-        IOobject("reconstructed", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedVector(dimVelocity, Zero),
-        zeroGradientFvPatchVectorField::typeName));
+    tmp<volVectorField> tresult(
+        zeroCells<vector>(mesh_, "reconstructed", dimVelocity));
     tresult.ref().primitiveFieldRef() = inv(areas)() & sums;
     tresult.ref().correctBoundaryConditions();
     return tresult;

@@ -13,7 +13,6 @@
 #include "MULES.H"
 #include "staticFvMesh.H"
 #include "zeroField.H"
-#include "zeroGradientFvPatchFields.H"
 #include "oneField.H"
 #include "optionalDictionary.H"
 
@@ -36,23 +35,37 @@ static dimensionedScalar surfaceTension(const dictionary& dict)
     return sigma;
 }
 
+//- A field of the flow that is written for a restart
+static IOobject
+fieldIO(const word& name, const fvMesh& mesh, const IOobject::readOption read)
+{
+    return IOobject(
+        name, mesh.time().timeName(), mesh, read, IOobject::AUTO_WRITE);
+}
+
+
+//- Whether a restart has this field
+static bool isThere(const word& name, const fvMesh& mesh)
+{
+    return fieldIO(name, mesh, IOobject::READ_IF_PRESENT)
+        .typeHeaderOk<volVectorField>(true);
+}
+
+
+//- A field that a restart resumes, or zero
+template <class FieldType>
+static FieldType
+continued(const word& name, const fvMesh& mesh, const dimensionSet& dimensions)
+{
+    return FieldType(
+        fieldIO(name, mesh, IOobject::READ_IF_PRESENT), mesh,
+        dimensioned<typename FieldType::value_type>("zero", dimensions, Zero));
+}
+
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-template <class FieldType>
-FieldType Foam::slurryFlow::continued(
-    const word& name, const dimensionSet& dimensions) const
-{
-    using Type = typename FieldType::value_type;
-    return FieldType(
-        IOobject(
-            name, mesh_.time().timeName(), mesh_, IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE),
-        mesh_, dimensioned<Type>("zero", dimensions, Zero));
-}
-
 
 void Foam::slurryFlow::readBed()
 {
@@ -77,13 +90,28 @@ void Foam::slurryFlow::readBed()
 }
 
 
+void Foam::slurryFlow::dropRate(const tmp<volScalarField::Internal>& before)
+{
+    if (before.valid())
+    {
+        voidage_.oldTime().primitiveFieldRef() +=
+            (voidage_.primitiveField() - before().field()) * mesh_.V() /
+            mesh_.V0();
+    }
+    else
+    {
+        voidage_.oldTime() = voidage_;
+    }
+}
+
+
 void Foam::slurryFlow::keepState()
 {
     voidageChange_ = gMax(mag(
         voidage_.primitiveField() / voidage_.oldTime().primitiveField() - 1)());
-    allMisfit_ += misfit_;
+    misfit_ += solution_.misfit();
     state_.set("voidageChange", voidageChange_);
-    state_.set("misfit", allMisfit_);
+    state_.set("misfit", misfit_);
 }
 
 
@@ -100,52 +128,34 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
       dimensionedScalar(dimLength, Zero)),
   voidageRate_(bedDict_.lookupOrDefault<Switch>("voidageRate", true)),
   bed_(bedDict_, mesh),
-  U_(IOobject(
-         "U", mesh.time().timeName(), mesh, IOobject::MUST_READ,
-         IOobject::AUTO_WRITE),
-     mesh),
+  U_(fieldIO("U", mesh, IOobject::MUST_READ), mesh),
   phi_(
-      IOobject(
-          "phi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT,
-          IOobject::AUTO_WRITE),
+      fieldIO("phi", mesh, IOobject::READ_IF_PRESENT),
       fvc::flux(bed_.voidage() * U_)),
   mixture_(U_, phi_),
   alpha_(mixture_.alpha1()),
   rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
   voidage_(
       IOobject("flowVoidage", mesh.time().timeName(), mesh), bed_.voidage()),
-  swept_(
-      IOobject("sweptFluid", mesh.time().timeName(), mesh), mesh,
-      dimensionedScalar(dimVolume / dimTime, Zero)),
-  sweptPotential_(
-      IOobject(
-          "sweptPotential", mesh.time().timeName(), mesh,
-          IOobject::READ_IF_PRESENT,
-          bed_.inSpace() && !isA<staticFvMesh>(mesh) ? IOobject::AUTO_WRITE
-                                                     : IOobject::NO_WRITE),
-      mesh, dimensionedScalar(dimArea / dimTime, Zero),
-      zeroGradientFvPatchScalarField::typeName),
-  p_rgh_(
-      IOobject(
-          "p_rgh", mesh.time().timeName(), mesh, IOobject::MUST_READ,
-          IOobject::AUTO_WRITE),
-      mesh),
-  p_(IOobject(
-         "p", mesh.time().timeName(), mesh, IOobject::NO_READ,
-         IOobject::AUTO_WRITE),
-     p_rgh_),
+  swept_(voidage_, bed_.inSpace() && !isA<staticFvMesh>(mesh)),
+  contraction_(bed_, voidage_, U_),
+  p_rgh_(fieldIO("p_rgh", mesh, IOobject::MUST_READ), mesh),
+  p_(fieldIO("p", mesh, IOobject::NO_READ), p_rgh_),
   surface_(alpha_, g_.value()),
   pressure_(
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
       surfaceTension(mixture_)),
+  solution_(p_rgh_, pressure_, !isThere("forceAcceleration", mesh)),
   transport_(surface_, alpha_),
   grates_(
       IOdictionary(optionalDictionary("grateProperties", mesh)), mesh,
       fluidsOf(mixture_)),
-  forces_(continued<volVectorField>("forceAcceleration", dimAcceleration)),
-  fluxDetail_(continued<surfaceScalarField>("fluxDetail", dimVolume / dimTime)),
+  forces_(
+      continued<volVectorField>("forceAcceleration", mesh, dimAcceleration)),
+  fluxDetail_(
+      continued<surfaceScalarField>("fluxDetail", mesh, dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),
-  massMoved_(continued<surfaceScalarField>("massMoved", dimMass)),
+  massMoved_(continued<surfaceScalarField>("massMoved", mesh, dimMass)),
   slurryFlux_(
       IOobject(
           IOobject::groupName("alphaPhi", mixture_.phase1Name()),
@@ -156,19 +166,9 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   state_(IOobject(
       "slurryFlow", mesh.time().timeName(), "uniform", mesh,
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
-  misfit_(0),
-  allMisfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
-  voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
-  pressureIterations_(0),
-  pressureResidual_(0),
-  fresh_(!IOobject(
-              forces_.name(), mesh.time().timeName(), mesh,
-              IOobject::READ_IF_PRESENT)
-              .typeHeaderOk<volVectorField>(true))
+  misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
+  voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0))
 {
-    mesh.setFluxRequired(p_rgh_.name());
-    mesh.setFluxRequired(sweptPotential_.name());
-    swept_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();
     slurryFlux_.setOriented();
@@ -186,7 +186,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 void Foam::slurryFlow::enter()
 {
     detailBefore_ = fluxDetail_;
-    pressureIterations_ = 0;
+    solution_.begin();
     if (mesh_.changing())
     {
         surface_.locate();
@@ -206,9 +206,17 @@ void Foam::slurryFlow::enter()
             dropRate(before);
         }
     }
-    if (mesh_.moving())
+    if (before.valid())
     {
-        sweep(before);
+        const dimensionedScalar deltaT(mesh_.time().deltaT());
+        const scalar counted = voidageRate_ ? 1 : 0;
+        swept_.update(
+            counted * (voidage_.internalField() - before()) / deltaT,
+            p_rgh_.name());
+    }
+    else if (mesh_.moving())
+    {
+        swept_.update();
     }
 }
 
@@ -265,13 +273,13 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     const scalarField fluid(mesh_.V() * voidage_.primitiveField());
     row.time = mesh_.time().value();
     row.delta_t = mesh_.time().deltaTValue();
-    row.pressure_iterations = pressureIterations_;
-    row.pressure_residual = pressureResidual_;
+    row.pressure_iterations = solution_.iterations();
+    row.pressure_residual = solution_.residual();
     row.slurry = gSum(fluid * alpha_.primitiveField());
     row.fluid = gSum(fluid);
     row.alpha_min = gMin(alpha_.primitiveField());
     row.alpha_above = gMax(alpha_.primitiveField()) - 1;
-    row.without_room = allMisfit_;
+    row.without_room = misfit_;
     Info << "Slurry " << row.slurry << " m3, fluid " << row.fluid
          << " m3, alpha from " << row.alpha_min << " to " << 1 << " + "
          << row.alpha_above << ", fluid without room " << row.without_room

@@ -5,13 +5,11 @@
 
 #include "slurryFlow.H"
 #include "constrainHbyA.H"
-#include "fixedFluxPressureFvPatchScalarField.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "fvm.H"
 #include "gaussConvectionScheme.H"
-#include "gaussLaplacianScheme.H"
 #include "upwind.H"
 #include "zeroGradientFvPatchFields.H"
 
@@ -66,96 +64,24 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::keptDetail() const
 }
 
 
-Foam::tmp<Foam::volScalarField::Internal> Foam::slurryFlow::expulsion() const
+Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
+    const surfaceScalarField& seen, const volScalarField& force,
+    const volVectorField& solidsVelocity, const surfaceScalarField& r,
+    const surfaceScalarField& faceVoidage) const
 {
-    tmp<volScalarField::Internal> trate(fluidRate());
-    if (mesh_.moving())
-    {
-        trate.ref() -= fvc::div(swept_)().internalField();
-    }
-    return trate;
-}
-
-
-void Foam::slurryFlow::makeRoom(
-    volScalarField::Internal& rate, const surfaceScalarField& free,
-    const surfaceScalarField::Boundary& wallFlux)
-{
-    scalar total = gSum(rate.field() * mesh_.V());
-    forAll(mesh_.boundary(), patchi)
-    {
-        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
-        if (!p.coupled())
-        {
-            total += gSum(
-                isA<fixedFluxPressureFvPatchScalarField>(p)
-                    ? wallFlux[patchi]
-                    : free.boundaryField()[patchi]);
-        }
-    }
-    misfit_ = total * mesh_.time().deltaTValue();
-    rate.field() -= total / gSum(mesh_.V());
-}
-
-
-Foam::tmp<Foam::fvScalarMatrix> Foam::slurryFlow::pressureEquation(
-    const surfaceScalarField& conductance, const surfaceScalarField& given,
-    const volScalarField::Internal& rate)
-{
-    tmp<fvScalarMatrix> tequation(
-        fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
-            conductance, mesh_.nonOrthDeltaCoeffs(), p_rgh_) ==
-        fvc::div(given)().internalField() + rate);
-    tequation.ref().setReference(Pstream::master() ? 0 : -1, p_rgh_[0]);
-    return tequation;
-}
-
-
-Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::solvePressure(
-    surfaceScalarField& free, const surfaceScalarField& mobility,
-    pimpleControl& pimple)
-{
-    const surfaceScalarField conductance(mobility * mesh_.magSf());
-    volScalarField::Internal rate(expulsion());
-    free -= conductance * mesh_.nonOrthDeltaCoeffs() * pressure_.jump();
-
-    const surfaceScalarField::Boundary wallFlux(
-        (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
-            .boundaryField());
-    setSnGrad<fixedFluxPressureFvPatchScalarField>(
-        p_rgh_.boundaryFieldRef(),
-        (free.boundaryField() - wallFlux) / conductance.boundaryField());
-    if (p_rgh_.needReference())
-    {
-        makeRoom(rate, free, wallFlux);
-    }
-
-    // Without a pressure to go on from, its slopes are known after a first
-    // solution without the faces' skewness
-    if (fresh_)
-    {
-        pressureIterations_ += pressureEquation(conductance, free, rate)
-                                   ->solve(mesh_.solver(p_rgh_.name()))
-                                   .nIterations();
-        fresh_ = false;
-    }
-    tmp<surfaceScalarField> tflux;
-    while (pimple.correctNonOrthogonal())
-    {
-        const surfaceScalarField given(
-            free - conductance * pressure_.skewSlope());
-        tmp<fvScalarMatrix> tequation(
-            pressureEquation(conductance, given, rate));
-        const solverPerformance solved(tequation.ref().solve(
-            mesh_.solver(p_rgh_.select(pimple.finalInnerIter()))));
-        pressureIterations_ += solved.nIterations();
-        pressureResidual_ = solved.finalResidual();
-        if (pimple.finalNonOrthogonalIter())
-        {
-            tflux = given - tequation().flux();
-        }
-    }
-    return tflux;
+    const dimensionedScalar deltaT(mesh_.time().deltaT());
+    const surfaceScalarField drag(
+        deltaT * faceVoidage *
+        pressure_.accelerationFlux(force * (solidsVelocity - U_)));
+    const surfaceScalarField contraction(contraction_.contractionFlux(
+        massMoved_ / deltaT, pressure_.faceDensity()));
+    // Drops and films weigh what they hold: in p_rgh a dry cell weighs air
+    const surfaceScalarField fall(
+        deltaT * faceVoidage *
+        fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));
+    const surfaceScalarField before(
+        pressure_.flux(voidage_ * U_) + fluxDetail_);
+    return (seen + contraction + fall + drag + r * before) / (1 + r);
 }
 
 
@@ -178,7 +104,7 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
     fvVectorMatrix equation(
         fvm::Sp(density.internalField() / deltaT, U_) +
             upwinds.fvmDiv(flux, U_) +
-            (convection(flux) - upwinds.fvcDiv(flux, U_)) +
+            (contraction_.convection(flux) - upwinds.fvcDiv(flux, U_)) +
             turbulence_->divDevRhoReff(density, U_) ==
         before * U_.oldTime().internalField() +
             density.internalField() * forces_.internalField() +
@@ -205,22 +131,15 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     grates_.add(force, solidsVelocity, alpha_, U_);
     const surfaceScalarField r(deltaT * pressure_.faceRate(force));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
-    const surfaceScalarField drag(
-        deltaT * faceVoidage *
-        pressure_.accelerationFlux(force * (solidsVelocity - U_)));
-    const surfaceScalarField contraction(contractionFlux(massMoved_ / deltaT));
-    // Drops and films weigh what they hold: in p_rgh a dry cell weighs air
-    const surfaceScalarField fall(
-        deltaT * faceVoidage *
-        fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));
-    const surfaceScalarField before(
-        pressure_.flux(voidage_ * U_) + fluxDetail_);
-
     surfaceScalarField free(
-        (seen + contraction + fall + drag + r * before) / (1 + r));
+        freeFlux(seen, force, solidsVelocity, r, faceVoidage));
     const surfaceScalarField mobility(
         deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
-    phi_ = solvePressure(free, mobility, pimple);
+    const surfaceScalarField::Boundary wallFlux(
+        (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
+            .boundaryField());
+    volScalarField::Internal room(swept_.room());
+    phi_ = solution_.flux(free, mobility, room, wallFlux, pimple);
 
     const volVectorField unseen(
         voidage_ * carried - pressure_.reconstruct(seen));
@@ -235,7 +154,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     p_ = pressure_.staticPressure();
     if (mesh_.moving())
     {
-        phi_ -= swept_;
+        phi_ -= swept_.flux();
     }
 }
 

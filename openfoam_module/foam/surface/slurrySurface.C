@@ -8,6 +8,7 @@
 #include "knownEntries.H"
 #include "syncTools.H"
 #include "unitConversion.H"
+#include "zeroFields.H"
 
 #include <algorithm>
 
@@ -33,13 +34,13 @@ constexpr scalar traceShare = 0.02;
 
 void Foam::slurrySurface::place(const label celli)
 {
-    const vector& n = normal_[celli];
+    const vector& n = normal()[celli];
     const point& origin = mesh_.cellCentres()[celli];
-    offset_[celli] =
-        cut_.offset(celli, n, alpha_[celli], n & (origin + centre_[celli]));
+    offset_[celli] = cut_.offset(
+        celli, n, alpha_[celli], n & (origin + pieces_.centre[celli]));
     const planeCut::section section(cut_.cut(celli, n, offset_[celli]));
-    centre_[celli] = section.centre - origin;
-    area_[celli] = section.area;
+    pieces_.centre[celli] = section.centre - origin;
+    pieces_.area[celli] = section.area;
 }
 
 
@@ -48,40 +49,37 @@ void Foam::slurrySurface::guessNormals()
     const volVectorField gradient(fvc::grad(alpha_));
     const scalarField& volume = mesh_.V();
 
-    forAll(normal_, celli)
+    forAll(volume, celli)
     {
-        normal_[celli] = Zero;
-        centre_[celli] = Zero;
-        area_[celli] = 0;
+        pieces_.remove(celli);
         if (alpha_[celli] <= trace || alpha_[celli] >= 1 - trace)
         {
             continue;
         }
         const vector outward(-cbrt(volume[celli]) * gradient[celli]);
-        normal_[celli] = mag(outward) > 1e-6
-                             ? outward / mag(outward)
-                             : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
+        pieces_.normal[celli] = mag(outward) > 1e-6
+                                    ? outward / mag(outward)
+                                    : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
         place(celli);
     }
-    normal_.correctBoundaryConditions();
-    centre_.correctBoundaryConditions();
-    area_.correctBoundaryConditions();
+    pieces_.correctBoundaryConditions();
 }
 
 
 void Foam::slurrySurface::fitNormals()
 {
     symmTensorField ways(mesh_.nCells(), Zero);
-    forNeighbours(
-        [&ways](
-            const label celli, const vector& way, const vector&,
-            const scalar area)
-        { ways[celli] += area * sqr(way) / max(magSqr(way), VSMALL); });
+    pieces_.forNeighbours(
+        [&ways](const label celli, const surfacePieces::neighbour& other)
+        {
+            ways[celli] +=
+                other.area * sqr(other.way) / max(magSqr(other.way), VSMALL);
+        });
 
     const Vector<label>& solved = mesh_.geometricD();
-    forAll(normal_, celli)
+    forAll(normal(), celli)
     {
-        if (!isCut(celli))
+        if (!pieces_.isCut(celli))
         {
             continue;
         }
@@ -97,24 +95,22 @@ void Foam::slurrySurface::fitNormals()
                 m += sqr(e);
             }
         }
-        const vector n(inv(m) & normal_[celli]);
-        normal_[celli] = n / mag(n);
+        const vector n(inv(m) & normal()[celli]);
+        pieces_.normal[celli] = n / mag(n);
         place(celli);
     }
-    normal_.correctBoundaryConditions();
-    centre_.correctBoundaryConditions();
-    area_.correctBoundaryConditions();
+    pieces_.correctBoundaryConditions();
 }
 
 
 void Foam::slurrySurface::findLevels()
 {
-    forAll(normal_, celli)
+    forAll(normal(), celli)
     {
-        levelNormal_[celli] = normal_[celli];
+        levelNormal_[celli] = normal()[celli];
         levelOffset_[celli] = offset_[celli];
-        const scalar cosine = normal_[celli] & up_;
-        if (!isCut(celli) || mag(cosine) <= surfaceCosine_)
+        const scalar cosine = normal()[celli] & up_;
+        if (!pieces_.isCut(celli) || mag(cosine) <= surfaceCosine_)
         {
             continue;
         }
@@ -122,12 +118,12 @@ void Foam::slurrySurface::findLevels()
             (mag(cosine) - surfaceCosine_) / (levelCosine_ - surfaceCosine_),
             scalar(1));
         const vector n(
-            share * sign(cosine) * up_ + (1 - share) * normal_[celli]);
+            share * sign(cosine) * up_ + (1 - share) * normal()[celli]);
         levelNormal_[celli] = n / mag(n);
         levelOffset_[celli] = cut_.offset(
             celli, levelNormal_[celli], alpha_[celli],
             levelNormal_[celli] &
-                (mesh_.cellCentres()[celli] + centre_[celli]));
+                (mesh_.cellCentres()[celli] + pieces_.centre[celli]));
     }
     levelNormal_.correctBoundaryConditions();
 }
@@ -201,21 +197,15 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   levelCosine_(),
   surfaceCosine_(),
   fits_(),
-  normal_(cellField<vector>("surface:normal", dimless)),
+  pieces_(mesh_),
   offset_(mesh_.nCells(), Zero),
-  centre_(cellField<vector>("surface:centre", dimLength)),
-  area_(cellField<scalar>("surface:area", dimArea)),
-  levelNormal_(cellField<vector>("surface:levelNormal", dimless)),
+  levelNormal_(zeroCells<vector>(mesh_, "surface:levelNormal", dimless)),
   levelOffset_(mesh_.nCells(), Zero),
-  depth_(cellField<scalar>("surface:depth", dimLength)),
-  trust_(cellField<scalar>("surface:trust", dimless)),
-  wet_(cellField<scalar>("wet", dimless)),
-  loose_(cellField<scalar>("loose", dimless)),
-  crossing_(
-      IOobject(
-          "surface:crossing", mesh_.time().timeName(), mesh_, IOobject::NO_READ,
-          IOobject::NO_WRITE, false),
-      mesh_, dimensionedScalar(dimless, Zero))
+  depth_(zeroCells<scalar>(mesh_, "surface:depth", dimLength)),
+  trust_(zeroCells<scalar>(mesh_, "surface:trust", dimless)),
+  wet_(zeroCells<scalar>(mesh_, "wet", dimless)),
+  loose_(zeroCells<scalar>(mesh_, "loose", dimless)),
+  crossing_(zeroFaces(mesh_, "surface:crossing", dimless))
 {
     readControls();
     reconstruct();
@@ -242,7 +232,7 @@ void Foam::slurrySurface::locate()
     forAll(wet_, celli)
     {
         const scalar alpha = alpha_[celli];
-        if (isCut(celli))
+        if (pieces_.isCut(celli))
         {
             depth_[celli] =
                 levelOffset_[celli] - (levelNormal_[celli] & centres[celli]);

@@ -4,6 +4,8 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurrySurface.H"
+#include "surfaceCurvature.H"
+#include "zeroFields.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -35,16 +37,37 @@ Foam::scalar Foam::slurrySurface::crossingOf(
 }
 
 
+Foam::tmp<Foam::scalarField>
+Foam::slurrySurface::coupledCrossings(const label patchi) const
+{
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const vectorField delta(patch.delta());
+    const scalarField wet(wet_.boundaryField()[patchi].patchNeighbourField());
+    const scalarField depth(
+        depth_.boundaryField()[patchi].patchNeighbourField());
+    const scalarField trust(
+        trust_.boundaryField()[patchi].patchNeighbourField());
+    const vectorField normal(
+        levelNormal_.boundaryField()[patchi].patchNeighbourField());
+    auto tcrossings = tmp<scalarField>::New(patch.size(), Zero);
+    forAll(delta, i)
+    {
+        const label celli = patch.faceCells()[i];
+        if (wet_[celli] != wet[i])
+        {
+            tcrossings.ref()[i] = crossingOf(
+                delta[i], levelOf(celli),
+                {wet[i], depth[i], trust[i], normal[i]},
+                1 - mesh_.weights().boundaryField()[patchi][i]);
+        }
+    }
+    return tcrossings;
+}
+
+
 void Foam::slurrySurface::findCrossings()
 {
     const vectorField& centres = mesh_.cellCentres();
-    const auto level = [this](const label celli)
-    {
-        return cellLevel{
-            wet_[celli], depth_[celli], trust_[celli], levelNormal_[celli]};
-    };
-    const surfaceScalarField& weights = mesh_.weights();
-
     forAll(mesh_.neighbour(), facei)
     {
         const label own = mesh_.owner()[facei];
@@ -52,38 +75,16 @@ void Foam::slurrySurface::findCrossings()
         crossing_[facei] = wet_[own] == wet_[nei]
                                ? 0
                                : crossingOf(
-                                     centres[nei] - centres[own], level(own),
-                                     level(nei), 1 - weights[facei]);
+                                     centres[nei] - centres[own], levelOf(own),
+                                     levelOf(nei), 1 - mesh_.weights()[facei]);
     }
-
     forAll(mesh_.boundary(), patchi)
     {
-        const fvPatch& patch = mesh_.boundary()[patchi];
         scalarField& crossing = crossing_.boundaryFieldRef()[patchi];
         crossing = 0;
-        if (!patch.coupled())
+        if (mesh_.boundary()[patchi].coupled())
         {
-            continue;
-        }
-        const vectorField delta(patch.delta());
-        const scalarField wet(
-            wet_.boundaryField()[patchi].patchNeighbourField());
-        const scalarField depth(
-            depth_.boundaryField()[patchi].patchNeighbourField());
-        const scalarField trust(
-            trust_.boundaryField()[patchi].patchNeighbourField());
-        const vectorField normal(
-            levelNormal_.boundaryField()[patchi].patchNeighbourField());
-        forAll(crossing, i)
-        {
-            const label celli = patch.faceCells()[i];
-            if (wet_[celli] != wet[i])
-            {
-                crossing[i] = crossingOf(
-                    delta[i], level(celli),
-                    cellLevel{wet[i], depth[i], trust[i], normal[i]},
-                    1 - weights.boundaryField()[patchi][i]);
-            }
+            crossing = coupledCrossings(patchi);
         }
     }
 }
@@ -91,20 +92,9 @@ void Foam::slurrySurface::findCrossings()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::faceField(
-    const word& name, const dimensionSet& dimensions) const
-{
-    return tmp<surfaceScalarField>::New(
-        IOobject(
-            name, mesh_.time().timeName(), mesh_, IOobject::NO_READ,
-            IOobject::NO_WRITE, false),
-        mesh_, dimensionedScalar(dimensions, Zero));
-}
-
-
 Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::wetLine() const
 {
-    tmp<surfaceScalarField> tline(faceField("wetLine", dimless));
+    tmp<surfaceScalarField> tline(zeroFaces(mesh_, "wetLine", dimless));
     surfaceScalarField& line = tline.ref();
 
     forAll(mesh_.neighbour(), facei)
@@ -134,7 +124,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::wetLine() const
 
 Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::side() const
 {
-    tmp<surfaceScalarField> tside(faceField("side", dimless));
+    tmp<surfaceScalarField> tside(zeroFaces(mesh_, "side", dimless));
     surfaceScalarField& side = tside.ref();
 
     forAll(mesh_.neighbour(), facei)
@@ -159,7 +149,7 @@ Foam::tmp<Foam::surfaceScalarField>
 Foam::slurrySurface::potential(const vector& g) const
 {
     tmp<surfaceScalarField> tpotential(
-        faceField("surfacePotential", sqr(dimVelocity)));
+        zeroFaces(mesh_, "surfacePotential", sqr(dimVelocity)));
     surfaceScalarField& potential = tpotential.ref();
     const vectorField& centres = mesh_.cellCentres();
 
@@ -180,6 +170,12 @@ Foam::slurrySurface::potential(const vector& g) const
         }
     }
     return tpotential;
+}
+
+
+Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::curvature() const
+{
+    return mag(side()) * trustedMean(cellCurvature(pieces_), trust_);
 }
 
 

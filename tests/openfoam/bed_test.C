@@ -1,0 +1,188 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Description
+    movingBed of blocks, bedDrag and ballLoad in cells, compared with formulas.
+
+\*---------------------------------------------------------------------------*/
+
+#include <gtest/gtest.h>
+
+#include "ballLoad.H"
+#include "bedDrag.H"
+#include "smallCase.H"
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+
+constexpr scalar solidity = 0.5;
+constexpr scalar diameter = 0.005;
+
+const string
+    uniformBlock("block { box (-9 -9 -9) (9 9 9); solidity 0.5; diameter 0.005;"
+                 " velocity (0.2 0 0); }");
+
+const string fluids("slurry { rho 1239; mu 0.0014; yieldStress 0.16; }"
+                    "air { rho 1.2; mu 1.8e-5; }");
+
+//- Coefficient of a uniform bed of a law, in fluid of this share of slurry and
+//  this velocity along x
+scalar exchangeOf(const string& drag, const scalar alpha, const scalar U)
+{
+    smallCase box({{2, 2, 2}});
+    const movingBed bed(entriesOf(uniformBlock), box.mesh());
+    const bedDrag law(entriesOf(drag + fluids));
+    return law.exchange(
+        bed, box.field<scalar>("alpha.slurry", dimless, alpha),
+        box.field<vector>("U", dimVelocity, vector(U, 0, 0)))()[3];
+}
+
+} // End anonymous namespace
+
+// * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
+
+TEST(bedDrag, darcyIsErgunsViscousTerm)
+{
+    // beta = 150 mu phi^2/(e d^2)
+    const scalar expected =
+        150 * 0.0014 * sqr(solidity / diameter) / (1 - solidity);
+    EXPECT_NEAR(exchangeOf("law Darcy;", 1, 0), expected, 1e-12 * expected);
+}
+
+TEST(bedDrag, isTheLawOfTheTableAtTheSlip)
+{
+    using namespace millfoam::drag;
+    const scalar slurry = exchange_coefficient(
+        find_law("Beetstra"), solidity, 0.5, diameter, {1239, 0.0014});
+    const scalar air = exchange_coefficient(
+        find_law("Beetstra"), solidity, 0.5, diameter, {1.2, 1.8e-5});
+    const scalar half = exchangeOf("law Beetstra;", 0.5, -0.3);
+    EXPECT_NEAR(exchangeOf("law Beetstra;", 1, -0.3), slurry, 1e-12 * slurry);
+    EXPECT_NEAR(exchangeOf("law Beetstra;", 0, -0.3), air, 1e-12 * air);
+    EXPECT_NEAR(half, (slurry + air) / 2, 1e-12 * slurry);
+    EXPECT_NEAR(
+        exchangeOf("law Beetstra; multiplier 3;", 1, -0.3), 3 * slurry,
+        1e-11 * slurry);
+    // Of equal balls the factor of the sizes is 1 + 0.064 e
+    EXPECT_NEAR(
+        exchangeOf("law Beetstra; polydispersity yes;", 1, -0.3),
+        1.032 * slurry, 1e-11 * slurry);
+}
+
+TEST(bedDrag, poreViscosityIsCappedWhereNothingMoves)
+{
+    const scalar plastic = exchangeOf("law Darcy;", 1, 0.2);
+    EXPECT_NEAR(
+        exchangeOf("law Darcy; viscosity pore;", 1, 0.2), 1000 * plastic,
+        1e-9 * plastic);
+    const scalar moving = exchangeOf("law Darcy; viscosity pore;", 1, -5);
+    EXPECT_GT(moving, plastic);
+    EXPECT_LT(moving, 1.5 * plastic);
+}
+
+TEST(bedDrag, refusesALawThatNobodyPublished)
+{
+    const std::string error = errorOf([] { exchangeOf("law Nobody;", 1, 0); });
+    EXPECT_NE(error.find("Nobody"), std::string::npos) << error;
+    EXPECT_NE(error.find("Beetstra"), std::string::npos) << error;
+}
+
+TEST(movingBed, aBlockKeepsItsVolumeWhereverItMoves)
+{
+    smallCase box({{16, 8, 4}, {1, 0.5, 0.25}}, 0.013);
+    movingBed bed(
+        entriesOf("block { box (0.11 0.13 0.01) (0.42 0.31 0.2);"
+                  " solidity 0.5; diameter 0.005; velocity (1 0.3 0);"
+                  " moves yes; } ledgerCorrection no;"),
+        box.mesh());
+    const scalar volume = 0.5 * 0.31 * 0.18 * 0.19;
+    const scalarField& V = box.mesh().V();
+    for (label step = 0; step < 20; ++step)
+    {
+        EXPECT_NEAR(sum(bed.solidity().primitiveField() * V), volume, 1e-15);
+        ++box.time();
+        bed.update();
+    }
+    // 20 steps on its centre is where its velocity has brought it
+    const vector centre(
+        sum(bed.solidity().primitiveField() * V *
+            box.mesh().C().primitiveField()) /
+        volume);
+    EXPECT_LT(mag(centre - vector(0.525, 0.298, 0.105)), 0.015);
+}
+
+TEST(movingBed, aBlockMixesByVolumeNotByVelocity)
+{
+    // Two blocks in one place: solidities add, velocity by momentum, d32 by
+    // surface
+    smallCase box({{2, 2, 2}});
+    const movingBed bed(
+        entriesOf("blocks {"
+                  " a { box (-9 -9 -9) (9 9 9); solidity 0.3; diameter 0.004;"
+                  " velocity (1 0 0); }"
+                  " b { box (-9 -9 -9) (9 9 9); solidity 0.1; diameter 0.008;"
+                  " velocity (0 2 0); } }"),
+        box.mesh());
+    EXPECT_NEAR(bed.solidity()[0], 0.4, 1e-15);
+    EXPECT_NEAR(bed.voidage()[0], 0.6, 1e-15);
+    EXPECT_LT(mag(bed.velocity()[0] - vector(0.75, 0.5, 0)), 1e-14);
+    EXPECT_NEAR(bed.diameter()[0], 0.4 / (0.3 / 0.004 + 0.1 / 0.008), 1e-15);
+    EXPECT_NEAR(bed.diameter43()[0], (0.3 * 0.004 + 0.1 * 0.008) / 0.4, 1e-15);
+}
+
+TEST(movingBed, theVoidageBeforeIsThatOfTheOldTimeInTheNewCells)
+{
+    smallCase box({{16, 4, 2}, {1, 0.25, 0.125}}, 0.1);
+    movingBed bed(
+        entriesOf("block { box (0.25 -9 -9) (0.5 9 9); solidity 0.4;"
+                  " diameter 0.005; velocity (0.625 0 0); moves yes; }"
+                  " ledgerCorrection no;"),
+        box.mesh());
+    const scalarField start(bed.voidage().primitiveField());
+    ++box.time();
+    // The mesh goes with the block, one cell on: there the voidage is as ever
+    box.mesh().movePoints(box.mesh().points() + vector(0.0625, 0, 0));
+    const scalarField before(bed.voidageBefore()().field());
+    bed.update();
+
+    forAll(start, celli)
+    {
+        EXPECT_NEAR(bed.voidage()[celli], start[celli], 1e-12);
+        const bool last = celli % 16 == 15;
+        EXPECT_NEAR(before[celli], last ? 1 : start[celli + 1], 1e-12);
+    }
+}
+
+TEST(ballLoad, aBallInRestingSlurryFeelsItsBuoyancy)
+{
+    smallCase box({{2, 2, 2}});
+    const movingBed bed(entriesOf(uniformBlock), box.mesh());
+    ballLoad load(entriesOf("ballDensity 2700;"), bed, gravity);
+    const volScalarField rho(box.field<scalar>("rho", dimDensity, 1239));
+    const volVectorField still(
+        box.field<vector>("a", dimAcceleration, vector::zero));
+    const volScalarField none(
+        box.field<scalar>("beta", dimDensity / dimTime, 0));
+    load.update(
+        none.internalField(),
+        box.field<vector>("U", dimVelocity, vector(0.2, 0, 0)), still, rho);
+    EXPECT_NEAR(load.mean(), 1239.0 / 2700, 1e-12);
+    EXPECT_NEAR(load.high(), 1239.0 / 2700, 1e-12);
+
+    // In fluid that falls freely there is the drag alone
+    const scalar beta = 500;
+    load.update(
+        box.field<scalar>("beta", dimDensity / dimTime, beta).internalField(),
+        box.field<vector>("U", dimVelocity, vector(0.3, 0, 0)),
+        box.field<vector>("a", dimAcceleration, gravity), rho);
+    EXPECT_NEAR(
+        load.mean(), beta * 0.1 / (1 - solidity) / (solidity * 2700 * 9.81),
+        1e-12);
+}
+
+// ************************************************************************* //

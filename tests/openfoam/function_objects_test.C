@@ -1,0 +1,271 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Description
+    Function objects on fields whose sums, moments and fluxes are known.
+
+\*---------------------------------------------------------------------------*/
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "axialProfiles.H"
+#include "singlePhaseTransportModel.H"
+#include "slurryBalance.H"
+#include "smallCase.H"
+#include "surfaceFields.H"
+#include "turbulentTransportModel.H"
+#include "weightedSpread.H"
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+
+constexpr scalar density = 1239;
+constexpr scalar kinematicViscosity = 1e-3;
+
+//- Depth of the box along z, m; along x and y it is 1 m
+constexpr scalar depth = 0.5;
+
+//- A box of slurry, with the fields that function objects look for
+class flowCase : public smallCase
+{
+    static smallBox box()
+    {
+        return {{8, 6, 4}, {1, 1, depth}};
+    }
+
+    public:
+    volScalarField alpha;
+    volScalarField rho;
+    volScalarField p;
+    volScalarField p_rgh;
+    volVectorField U;
+    surfaceScalarField phi;
+    surfaceScalarField slurry;
+    autoPtr<singlePhaseTransportModel> transport;
+    autoPtr<incompressible::turbulenceModel> turbulence;
+
+    flowCase()
+    : smallCase(box(), 0.25),
+      alpha(field<scalar>("alpha.slurry", dimless, 1)),
+      rho(field<scalar>("rho", dimDensity, density)),
+      p(field<scalar>("p", dimPressure, 0, "calculated")),
+      p_rgh(field<scalar>("p_rgh", dimPressure, 0)),
+      U(field<vector>("U", dimVelocity, vector::zero, "fixedValue")),
+      phi(faces("phi")),
+      slurry(faces("alphaPhi.slurry"))
+    {
+        write(
+            "constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);",
+            "uniformDimensionedVectorField");
+        write(
+            "constant/transportProperties",
+            "transportModel Newtonian; nu [0 2 -1 0 0 0 0] 1e-3;");
+        write("constant/turbulenceProperties", "simulationType laminar;");
+        transport.reset(new singlePhaseTransportModel(U, phi));
+        turbulence.reset(
+            incompressible::turbulenceModel::New(U, phi, transport()).ptr());
+    }
+
+    //- A flux of nothing
+    surfaceScalarField faces(const word& name)
+    {
+        return surfaceScalarField(
+            IOobject(name, time().timeName(), mesh()), mesh(),
+            dimensionedScalar(dimVolume / dimTime, Zero));
+    }
+
+    //- Values at the centres of cells and faces
+    template <class Type, class Formula>
+    void
+    set(GeometricField<Type, fvPatchField, volMesh>& field,
+        const Formula& formula)
+    {
+        forAll(field, celli)
+        {
+            field[celli] = formula(mesh().C()[celli]);
+        }
+        forAll(mesh().boundary(), patchi)
+        {
+            const vectorField& centres = mesh().boundary()[patchi].Cf();
+            Field<Type> values(centres.size());
+            forAll(centres, i)
+            {
+                values[i] = formula(centres[i]);
+            }
+            field.boundaryFieldRef()[patchi] == values;
+        }
+    }
+
+    //- Numbers of the last line of a file in postProcessing
+    std::vector<double> lastLine(const std::string& name) const
+    {
+        std::istringstream all(text_of(folder() / "postProcessing" / name));
+        std::string line;
+        for (std::string next; std::getline(all, next);)
+        {
+            line = next;
+        }
+        std::istringstream numbers(line);
+        std::vector<double> result;
+        for (double number; numbers >> number;)
+        {
+            result.push_back(number);
+        }
+        return result;
+    }
+};
+
+} // End anonymous namespace
+
+// * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
+
+TEST(slurryTorque, aBodyThatTurnsHasItsMomentOfInertia)
+{
+    flowCase box;
+    const scalar omega = 3;
+    box.set(
+        box.U, [=](const point& x)
+        { return vector(-omega * x.y(), omega * x.x(), 0); });
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const slurryTorque torque(fields, entriesOf("speed 1;"));
+
+    // About a corner (1 + 1)/3 of the mass; the cells' centres do not see what
+    // they turn about themselves, (dx^2 + dy^2)/12
+    const scalar own = (1.0 / 64 + 1.0 / 36) / 12;
+    const scalar mass = density * depth;
+    EXPECT_NEAR(torque.momentum(), mass * omega * (2.0 / 3 - own), 1e-9 * mass);
+}
+
+TEST(slurryTorque, wallsCarryTheWeightOfAFluidAtRest)
+{
+    flowCase box;
+    box.set(box.p, [](const point& x) { return 9.81 * density * (2 - x.y()); });
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const slurryTorque torque(fields, entriesOf("speed 1;"));
+
+    // Its weight at the middle, x = 0.5
+    const scalar expected = 9.81 * density * depth * 0.5;
+    EXPECT_NEAR(sum(torque.ofWalls()), expected, 1e-9 * expected);
+    EXPECT_NEAR(torque.drain(), expected, 1e-9 * expected);
+}
+
+TEST(slurryTorque, aSlidingLidGivesItsShearStress)
+{
+    flowCase box;
+    const scalar shear = 4;
+    box.set(box.U, [=](const point& x) { return vector(shear * x.y(), 0, 0); });
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const slurryTorque torque(fields, entriesOf("walls (top); speed 1;"));
+
+    const scalar force = density * kinematicViscosity * shear * depth;
+    ASSERT_EQ(torque.names(), wordList({"top"}));
+    EXPECT_NEAR(torque.ofWalls()[0], -force, 1e-12);
+}
+
+TEST(slurryTorque, refusesWallsThatAreNotThere)
+{
+    flowCase box;
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const std::string error = errorOf(
+        [&] { slurryTorque(fields, entriesOf("walls (roof); speed 1;")); });
+    EXPECT_NE(error.find("no patch is called so"), std::string::npos) << error;
+}
+
+TEST(slurryBalance, addsUpWhatComesAndGoes)
+{
+    flowCase box;
+    box.alpha = 0.5;
+    box.alpha.correctBoundaryConditions();
+    functionObjects::slurryBalance balance(
+        "balance", box.time(), entriesOf("speed -2; walls (top);"));
+    // 0.3 m3/s in and 0.1 m3/s out, for two steps of 0.25 s
+    const label left = box.mesh().boundaryMesh().findPatchID("left");
+    const label right = box.mesh().boundaryMesh().findPatchID("right");
+    box.slurry.boundaryFieldRef()[left] =
+        -0.3 / box.mesh().boundary()[left].size();
+    box.slurry.boundaryFieldRef()[right] =
+        0.1 / box.mesh().boundary()[right].size();
+    for (label step = 0; step < 2; ++step)
+    {
+        ++box.time();
+        box.alpha += 0.2 * 0.25 / depth;
+        balance.execute();
+    }
+    // 2 litres from nowhere
+    box.alpha[0] += 2e-3 / box.mesh().V()[0];
+    balance.execute();
+    balance.write();
+
+    const std::vector<double> found(
+        box.lastLine("balance/0/slurryBalance.dat"));
+    ASSERT_GE(found.size(), 10u);
+    const double expected[] = {0.5, 0.25 + 0.1 + 0.002, 0.3, 0.1, 0.225, 0.075};
+    for (std::size_t i = 0; i < 6; ++i)
+    {
+        EXPECT_NEAR(found[i], expected[i], 1e-12) << i;
+    }
+    // The third execution fed and discharged without a change of the hold-up
+    EXPECT_NEAR(found[6], 0.002 - 0.05, 1e-12);
+}
+
+TEST(axialProfiles, cellsCountInTheSlicesThatTheyReachOver)
+{
+    // Cells of a quarter of the depth, slices of a third; slurry in the second
+    // layer alone: one third of it in the first slice, two in the second
+    flowCase box;
+    box.set(
+        box.alpha, [](const point& x)
+        { return x.z() > depth / 4 && x.z() < depth / 2 ? 1.0 : 0.0; });
+    box.set(box.p_rgh, [](const point& x) { return 100 * x.z(); });
+    functionObjects::axialProfiles profiles(
+        "profiles", box.time(), entriesOf("slices 3; ends (0 0.5);"));
+    ++box.time();
+    profiles.execute();
+    profiles.write();
+
+    const scalar layer = depth / 4;
+    const std::map<std::string, std::vector<double>> expected{
+        {"holdUp", {0.25, layer / 3, 2 * layer / 3, 0}},
+        {"height", {0.25, 0.5, 0.5, 0}},
+        {"x", {0.25, 0.5, 0.5, 0}},
+        {"p_rgh", {0.25, 150 * layer, 150 * layer, 0}}};
+    for (const auto& [name, values] : expected)
+    {
+        const std::vector<double> found(
+            box.lastLine("profiles/0/" + name + ".dat"));
+        ASSERT_EQ(found.size(), values.size()) << name;
+        for (std::size_t i = 0; i < values.size(); ++i)
+        {
+            EXPECT_NEAR(found[i], values[i], 1e-12) << name << ' ' << i;
+        }
+    }
+}
+
+TEST(weightedSpread, countsByWeight)
+{
+    scalarField values(100), weights(100, 1.0);
+    forAll(values, i)
+    {
+        values[i] = 100 - i;
+    }
+    const weightedSpread even = spreadOf(values, weights);
+    EXPECT_NEAR(even.mean, 50.5, 1e-12);
+    EXPECT_EQ(even.high, 95);
+    EXPECT_EQ(even.largest, 100);
+
+    const weightedSpread heavy = spreadOf(
+        scalarField(scalarList{1, 2, 3}), scalarField(scalarList{0, 39, 1}));
+    EXPECT_NEAR(heavy.mean, 2.025, 1e-12);
+    EXPECT_EQ(heavy.high, 2);
+    EXPECT_EQ(heavy.largest, 3);
+    EXPECT_EQ(spreadOf(scalarField(1, 7.0), scalarField(1, 0.0)).mean, 0);
+}
+
+// ************************************************************************* //

@@ -1,0 +1,209 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+Description
+    solidsClock and solidsRecord: a solids.h5 of three windows, whose lengths
+    are 0.1, 0.2 and 0.1 s of DEM time from 2 s on, written here.
+
+\*---------------------------------------------------------------------------*/
+
+#include <gtest/gtest.h>
+
+#include "movingBed.H"
+#include "smallCase.H"
+#include "solidsClock.H"
+
+using namespace Foam;
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace
+{
+
+//- Solidity of a voxel of a window: linear in x, so that linear interpolation
+//  is exact between the voxels' middles
+scalar solidityAt(const label window, const scalar x)
+{
+    return 0.1 + 0.1 * window + 0.05 * x;
+}
+
+//- Write the file: voxels of 0.25 m in a box of twice the unit cube's edge
+//  around its middle; velocity (window 0 1), balls of 10 mm
+void writeSolids(const std::filesystem::path& path)
+{
+    using namespace millfoam::averaging;
+    const BoxGrid grid({-0.5, -0.5, -0.5}, {1.5, 1.5, 1.5}, {8, 8, 8});
+    SolidsHeader header;
+    header.time0 = 2;
+    header.timestep = 1e-5;
+    SolidsWriter writer(path, grid, header);
+    const double ends[] = {2, 2.1, 2.3, 2.4};
+    for (int i = 0; i < 3; ++i)
+    {
+        WindowAverage window;
+        window.time = {ends[i], ends[i + 1], 10};
+        const std::size_t n = grid.size();
+        for (std::size_t cell = 0; cell < n; ++cell)
+        {
+            const double x = -0.5 + 0.25 * (double(cell % 8) + 0.5);
+            window.mean.solidity.push_back(solidityAt(i, x));
+            for (const double u : {double(i), 0.0, 1.0})
+            {
+                window.mean.velocity.push_back(u);
+            }
+        }
+        window.mean.diameter.assign(n, 0.01);
+        window.mean.diameter43.assign(n, 0.01);
+        window.number.assign(n, 1);
+        window.solidity_deviation.assign(n, 0);
+        window.velocity_deviation.assign(3 * n, 0);
+        window.granular_temperature.assign(n, 0);
+        window.ledger.volume_in = window.ledger.deposited = 1.01;
+        writer.append(window);
+    }
+    writer.finish();
+}
+
+//- A case with that file, and the clock of these entries
+class clockCase : public smallCase
+{
+    public:
+    dictionary dict;
+    std::unique_ptr<solidsClock> clock;
+
+    explicit clockCase(const string& entries)
+    : dict(entriesOf(entries))
+    {
+        const std::filesystem::path file = folder() / "solids.h5";
+        writeSolids(file);
+        clock.reset(new solidsClock(
+            dict, "solids.h5", millfoam::averaging::SolidsReader(file)));
+    }
+
+    void expect(
+        const scalar t, const label lower, const label upper,
+        const scalar weight) const
+    {
+        const solidsClock::moment found = clock->at(t);
+        EXPECT_EQ(found.lower, lower) << t;
+        EXPECT_EQ(found.upper, upper) << t;
+        EXPECT_NEAR(found.weight, weight, 1e-9) << t;
+    }
+};
+
+} // End anonymous namespace
+
+// * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
+
+TEST(solidsClock, goesStraightFromCentreToCentre)
+{
+    // Centres at 0.05, 0.2 and 0.35 s of flow time
+    const clockCase box("outOfRange error;");
+    box.expect(0, 0, 0, 0);
+    box.expect(0.08, 0, 1, 0.2);
+    box.expect(0.26, 1, 2, 0.4);
+    box.expect(0.32, 1, 2, 0.8);
+    box.expect(0.4, 2, 2, 0);
+}
+
+TEST(solidsClock, aWindowHoldsFromBeginToEnd)
+{
+    const clockCase box("inTime window;");
+    box.expect(0, 0, 0, 0);
+    box.expect(0.099, 0, 0, 0);
+    box.expect(0.1, 1, 1, 0);
+    box.expect(0.299, 1, 1, 0);
+    box.expect(0.4, 2, 2, 0);
+}
+
+TEST(solidsClock, repeatsAcrossTheSeam)
+{
+    // From the last centre, 0.35, to the first of the next turn, 0.45
+    const clockCase box("outOfRange repeat;");
+    box.expect(0.375, 2, 0, 0.25);
+    box.expect(0.425, 2, 0, 0.75);
+    box.expect(0.025, 2, 0, 0.75);
+    box.expect(0.08 + 7 * 0.4, 0, 1, 0.2);
+}
+
+TEST(solidsClock, holdsTheLastWindow)
+{
+    const clockCase box("outOfRange hold;");
+    box.expect(100, 2, 2, 0);
+}
+
+TEST(solidsClock, refusesTimesBeyondTheRecord)
+{
+    const clockCase box("outOfRange error;");
+    for (const scalar t : {-0.01, 0.41})
+    {
+        const std::string error = errorOf([&] { box.clock->at(t); });
+        EXPECT_NE(error.find("records DEM times 2 to 2.4 s"), std::string::npos)
+            << error;
+    }
+}
+
+TEST(solidsClock, refusesAFlowThatOutlastsTheRecord)
+{
+    clockCase box("outOfRange error;");
+    // Of 1000 steps of 0.1 s
+    EXPECT_NE(errorOf([&] { box.clock->checkSpan(box.time()); }), "");
+    box.time().setEndTime(0.4);
+    EXPECT_EQ(errorOf([&] { box.clock->checkSpan(box.time()); }), "");
+}
+
+TEST(solidsClock, refusesAnotherTime0)
+{
+    const std::string error = errorOf([] { clockCase box("time0 1.5;"); });
+    EXPECT_NE(error.find("time0 is 1.5 s"), std::string::npos) << error;
+}
+
+TEST(solidsRecord, interpolatesLinearlyInSpaceAndTime)
+{
+    smallCase box({{5, 4, 4}}, 0.08);
+    writeSolids(box.folder() / "solids.h5");
+    movingBed bed(
+        entriesOf("solids \"solids.h5\"; outOfRange hold; ledgerCorrection no;"
+                  "interpolation linear;"),
+        box.mesh());
+    ++box.time();
+    bed.update();
+
+    // A fifth of the way from the first window to the second; the velocity is
+    // the mean that the solids' momentum has
+    forAll(bed.solidity(), celli)
+    {
+        const scalar x = box.mesh().C()[celli].x();
+        const scalar first = 0.8 * solidityAt(0, x);
+        const scalar second = 0.2 * solidityAt(1, x);
+        EXPECT_NEAR(bed.solidity()[celli], first + second, 1e-12);
+        EXPECT_NEAR(bed.voidage()[celli], 1 - first - second, 1e-12);
+        EXPECT_NEAR(
+            bed.velocity()[celli].x(), second / (first + second), 1e-12);
+        EXPECT_NEAR(bed.velocity()[celli].z(), 1, 1e-12);
+        EXPECT_NEAR(bed.diameter()[celli], 0.01, 1e-14);
+    }
+}
+
+TEST(solidsRecord, hasTheVolumeOfTheLedger)
+{
+    // The ledger says 1.01 m3; the cells of the unit cube sample 0.125
+    smallCase box;
+    writeSolids(box.folder() / "solids.h5");
+    const string entries("solids \"solids.h5\"; interpolation linear;"
+                         "outOfRange hold; largestCorrection 1;");
+    EXPECT_NE(errorOf([&] { movingBed(entriesOf(entries), box.mesh()); }), "");
+    // Twice the edges: all voxels, 8 m3 of mean 0.125
+    smallCase whole({{8, 8, 8}, {2, 2, 2}, [](const point& p) {
+                         return p - vector(0.5, 0.5, 0.5);
+                     }});
+    writeSolids(whole.folder() / "solids.h5");
+    const movingBed bed(
+        entriesOf("solids \"solids.h5\"; interpolation cell; outOfRange hold;"),
+        whole.mesh());
+    EXPECT_NEAR(
+        sum(bed.solidity().primitiveField() * whole.mesh().V()), 1.01, 1e-12);
+}
+
+// ************************************************************************* //
