@@ -112,17 +112,6 @@ std::string wall_checksums(const CaseFolder& folder, const std::vector<std::stri
   return lines.str();
 }
 
-void write_whole_file(const fs::path& file, const std::function<void(std::ostream&)>& write) {
-  const fs::path unfinished = file.string() + ".part";
-  {
-    std::ofstream out(unfinished);
-    write(out);
-    out.close();
-    if (!out) throw std::runtime_error(unfinished.string() + ": cannot be written");
-  }
-  fs::rename(unfinished, file);
-}
-
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
   Json run = begin_result("dumps", mill);
   run["timestep_s"] = plan.step.value;

@@ -3,32 +3,46 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 #include "dem_driver/deck.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
-/// The folders and files of one case that the dry run reads and writes.
+/// The folders and files of one case that the dry run reads and writes. The functions only make the paths;
+/// nothing has to exist. Layouts of the files: FORMATS.md.
 struct CaseFolder {
-  std::filesystem::path root;
+  std::filesystem::path root;  ///< the folder of the case, absolute or relative to where the program runs
+  /// STL files of the walls, one for each part.
   std::filesystem::path walls() const { return root / "walls"; }
+  /// Where LIGGGHTS runs: decks, log, restart files and segments.
   std::filesystem::path dem() const { return root / "dem"; }
+  /// Dumps of the balls, and the results.
   std::filesystem::path dumps() const { return root / "dumps"; }
+  /// Dumps of the contacts; only with dem.contact_interval.
   std::filesystem::path contacts() const { return root / "contacts"; }
+  /// Input of LIGGGHTS for a run from the start.
   std::filesystem::path deck() const { return dem() / "in.mill"; }
+  /// What LIGGGHTS printed, of a resumed run after that of the earlier parts.
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
+  /// Input of LIGGGHTS for a run from a restart file.
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
+  /// Time-step, steps and charge before the run.
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
+  /// Held by FolderLock.
   std::filesystem::path lock() const { return dem() / "lock"; }
+  /// Time-step, interval and speed of the dumps; there only after a whole run.
   std::filesystem::path run_file() const { return dumps() / "run.json"; }
+  /// Summary: power, energies, overlaps, cost.
   std::filesystem::path results() const { return dumps() / "results.json"; }
+  /// Torque, power, energies and largest overlap, a row for each record.
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
+  /// Histograms of the overlaps.
   std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }
+  /// Books of the charge, a row for each size class.
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
@@ -38,15 +52,18 @@ struct CaseFolder {
 /// those of this mill (require_fit).
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill);
 
-/// Every `dump.*.txt` in the dumps folder.
+/// Every `dump.*.txt` in the dumps folder, in no order; none without that folder.
 std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
 
 /// Lock of a folder for this process and the programs that it starts, so that no other run writes there.
-/// Waits some seconds for programs that a killed run has left behind. Throws std::runtime_error when another
-/// run has the lock.
+/// The lock is the system's (flock): it ends with the last of these programs, however they end.
 class FolderLock {
  public:
+  /// Locks `dem/lock`, which is made where it is missing; the folder `dem` must exist. Waits up to 10 s for
+  /// programs that a killed run has left behind. Throws std::runtime_error when another run keeps the lock,
+  /// or when the file cannot be written.
   explicit FolderLock(const CaseFolder& folder);
+  /// Gives the lock back, unless a program that this process has started still runs.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -55,7 +72,8 @@ class FolderLock {
   int file_ = -1;
 };
 
-/// Removes run file and results.
+/// Removes `run.json`, `results.json` and the tables beside them, so that a run that fails leaves none of an
+/// earlier one.
 void remove_results(const CaseFolder& folder);
 
 /// Makes the folders and removes dumps, contacts, run file, results, restart files and histories of an
@@ -65,9 +83,6 @@ std::size_t prepare_folders(const CaseFolder& folder);
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
-
-/// Writes a text file that appears whole or not at all. Throws std::runtime_error naming it.
-void write_whole_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 /// Writes `dumps/run.json`: time-step, interval of the dumps, speed, duration and mass of the charge. The
 /// file appears whole or not at all.

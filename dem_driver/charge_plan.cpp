@@ -10,16 +10,15 @@
 #include <string>
 
 #include "dem_driver/mill_key.hpp"
-#include "dem_driver/pi.hpp"
-#include "meshing/mill_charge.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
 
 using meshing::ball_mass;
-using meshing::shown;
 
 constexpr double most_balls = 1e8;  // of a class: LIGGGHTS counts balls by int
 

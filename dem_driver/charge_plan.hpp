@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -13,14 +13,14 @@ struct ClassCount {
   double diameter = 0;       ///< m
   double mass_asked = 0;     ///< kg
   double mass_realised = 0;  ///< kg, of `count` whole balls
-  long count = 0;
-  double surface() const;  ///< m^2, of all its balls
+  long count = 0;            ///< whole balls
+  double surface() const;    ///< m^2, of all its balls
 };
 
 /// Balls of one size that are put in at one moment.
 struct Insertion {
   double diameter = 0;  ///< m
-  long count = 0;
+  long count = 0;       ///< balls put in by this insertion
 };
 
 /// Insertions, one after the other, before the balls are let fall.
@@ -32,10 +32,10 @@ struct ChargePlan {
   std::vector<ClassCount> fines;    ///< left out of the simulation (charge.fines_below), largest first
   std::vector<Round> rounds;        ///< largest first; every ball of `classes` is in exactly one insertion
   double round_settle_time = 0;     ///< s, that the balls of a round fall before the next round comes
-  long balls() const;
-  double mass() const;        ///< kg realised
-  double fines_mass() const;  ///< kg that `mill.yaml` asks of the classes that are left out
-  double asked_mass() const;  ///< kg that `mill.yaml` asks of all classes, fines too
+  long balls() const;               ///< number of balls that are simulated
+  double mass() const;              ///< kg realised
+  double fines_mass() const;        ///< kg that `mill.yaml` asks of the classes that are left out
+  double asked_mass() const;        ///< kg that `mill.yaml` asks of all classes, fines too
 };
 
 /// Random insertion without overlap jams near a solidity of 0.38; a round fills the free part of the start

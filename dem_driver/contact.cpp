@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -6,7 +6,8 @@ namespace millfoam::dem_driver {
 /// Elastic properties of one of the two bodies of a contact.
 struct Elastic {
   double youngs_modulus = 0;  ///< Pa
-  double poisson_ratio = 0;
+  double poisson_ratio = 0;   ///< in (0, 0.5)
+  /// G = E/(2 (1 + nu)) of an isotropic solid, Pa.
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poisson_ratio)); }
 };
 

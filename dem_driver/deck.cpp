@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -102,7 +102,7 @@ void write_matrix(std::ostream& out, const char* id, const char* property, const
 }
 
 /// Thickness of the layer in which neighbours are looked for ahead of time, m. A tenth of the largest ball's
-/// diameter, but 0.4 to 1 of the smallest's. In the measurements (dem_driver/README.md) that is the fastest
+/// diameter, but 0.4 to 1 of the smallest's. In the measurements (PERFORMANCE.md) that is the fastest
 /// for 2 to 8 mm. For 1.25 to 10 mm it is within 5 % of the fastest, which was 1.5 times as thick. A thicker
 /// layer makes longer lists of neighbours, which need memory. With walls of triangles, LIGGGHTS allows only
 /// the style `bin`, and other bins than its own were slower.

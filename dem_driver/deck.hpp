@@ -7,30 +7,36 @@
 
 #include "dem_driver/charge_plan.hpp"
 #include "dem_driver/time_step.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
+/// The dry run of a mill: `mill.yaml` becomes a time-step, whole balls and an input deck; LIGGGHTS runs it;
+/// its files are checked and become results. Units are SI. "DEM time 0" is the moment at which the mill
+/// begins to turn.
 namespace millfoam::dem_driver {
 
 /// Everything that is decided before the deck is written: the numbers that deck, progress and summary agree
 /// on.
 struct DemPlan {
-  TimeStep step;
-  ChargePlan charge;
-  long round_steps = 0;     ///< settling after each round but the last
-  long settle_steps = 0;    ///< settling after the last round, mill at rest
-  long turning_steps = 0;   ///< from DEM time 0 on, a whole number of records
-  long dumps = 0;           ///< of the turning mill, with the one at step 0
-  long thermo_steps = 0;    ///< between two lines of LIGGGHTS' log
-  long contact_steps = 0;   ///< between two dumps of the contacts; 0: they are not dumped
-  long contact_dumps = 0;   ///< of the turning mill, with the one at step 0
-  long restart_steps = 0;   ///< between two restart files of the turning mill, a whole number of records
-  long insertions() const;  ///< single insertions of all rounds; each takes one step
-  long total_steps() const;
-  double duration() const;  ///< s of turning mill
+  TimeStep step;             ///< chosen by choose_time_step
+  ChargePlan charge;         ///< made by plan_charge
+  long round_steps = 0;      ///< settling after each round but the last
+  long settle_steps = 0;     ///< settling after the last round, mill at rest
+  long turning_steps = 0;    ///< from DEM time 0 on, a whole number of records
+  long dumps = 0;            ///< of the turning mill, with the one at step 0
+  long thermo_steps = 0;     ///< between two lines of LIGGGHTS' log
+  long contact_steps = 0;    ///< between two dumps of the contacts; 0: they are not dumped
+  long contact_dumps = 0;    ///< of the turning mill, with the one at step 0
+  long restart_steps = 0;    ///< between two restart files of the turning mill, a whole number of records
+  long insertions() const;   ///< single insertions of all rounds; each takes one step
+  long total_steps() const;  ///< of insertions, settling and turning mill together
+  double duration() const;   ///< s of turning mill
 };
 
-/// A run of more steps or dumps is refused: it would never end, or fill any disk.
+/// Most steps of the turning mill, and most of the settling one; a run of more is refused, because it would
+/// never end.
 inline constexpr double most_steps = 1e9;
+/// Most dumps of the balls, and most of the contacts; a run of more is refused, because it would fill any
+/// disk.
 inline constexpr double most_dumps = 1e6;
 
 /// Chooses the time-step and cuts charge and duration into whole balls and steps. The duration is rounded up
@@ -43,23 +49,34 @@ DemPlan plan_dem(const meshing::Mill& mill);
 /// number from 1 on.
 int read_ranks(const std::string& word);
 
-/// Ranks along x, y and z; lengths in m. The axis is cut first, because the charge lies evenly along it: as
-/// often as leaves every rank one and a half of the largest balls. What is left is cut across y, then x.
+/// How the box of the mill is cut into equal parts, one for each rank; x y z is the number of ranks.
 struct RankGrid {
-  int x = 1;
-  int y = 1;
-  int z = 1;
+  int x = 1;  ///< parts along x, not more than along y
+  int y = 1;  ///< parts along y
+  int z = 1;  ///< parts along the axis
 };
+
+/// Splits ranks over a mill. The axis is cut first, because the charge lies evenly along it: into as many
+/// parts as divide the number of ranks and are no thinner than one and a half of the largest balls. What is
+/// left is cut across y, then x.
+/// @param ranks  from 1 on
+/// @param length  of the mill along its axis, m
+/// @param largest_diameter  of the balls, m
 RankGrid split_ranks(int ranks, double length, double largest_diameter);
 
-/// Words that begin the deck's own lines in the log; `LiggghtsLog` reads them.
+/// Words that begin the deck's own lines in the log, which `LiggghtsLog` reads. This one follows every
+/// insertion: `… ASKED of DIAMETER total BALLS`, with the diameter in m and all balls then in the mill.
 inline constexpr char inserted_mark[] = "millFoam inserted";
+/// Begins the line that LIGGGHTS prints at DEM time 0, or where a resumed run begins.
 inline constexpr char turning_mark[] = "millFoam turning";
+/// Begins the line that follows every whole restart file: `… STEP`.
 inline constexpr char restart_mark[] = "millFoam restart";
+/// Begins the last line of a deck that came to its end.
 inline constexpr char finished_mark[] = "millFoam finished";
 
-/// Bins of the overlaps' histograms, and their range over the largest ball's diameter.
+/// Number of bins of the overlaps' histograms, of equal width from 0 on.
 inline constexpr int overlap_bins = 1000;
+/// Upper end of these histograms over the largest ball's diameter.
 inline constexpr double overlap_range = 0.2;
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
@@ -70,8 +87,8 @@ inline constexpr double overlap_range = 0.2;
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 
-/// Writes the deck that resumes from `restart.<step>`, which contains balls, turned walls and contacts. Its
-/// own files have `step` in the place of 0.
+/// Writes the deck that resumes from the restart file of `step`, which contains balls, turned walls and
+/// contacts. Its own files have `step` in the place of 0.
 void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                        const std::vector<std::string>& parts, int ranks, long step);
 

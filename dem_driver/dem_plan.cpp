@@ -5,7 +5,7 @@
 
 #include "dem_driver/deck.hpp"
 #include "dem_driver/mill_key.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -27,19 +27,18 @@ long records_per_restart(long records) {
 /// Before any such number is made a whole one: it may be larger than a `long` holds.
 void refuse_more(const char* key, double value, double count, double most, const std::string& what) {
   if (count <= most) return;
-  throw KeyError(key, meshing::shown(value),
-                 "at most " + meshing::shown(most) + ' ' + what + ", these are " + meshing::shown(count));
+  throw KeyError(key, shown(value), "at most " + shown(most) + ' ' + what + ", these are " + shown(count));
 }
 
 void check_times(const meshing::Dem& dem) {
-  const std::string steps = "steps of less than " + meshing::shown(longest_time_step) + " s";
+  const std::string steps = "steps of less than " + shown(longest_time_step) + " s";
   refuse_more("dem.duration", dem.duration, dem.duration / longest_time_step, most_steps, steps);
   refuse_more("dem.record_interval", dem.record_interval, dem.duration / dem.record_interval, most_dumps,
-              "dumps in " + meshing::shown(dem.duration) + " s");
+              "dumps in " + shown(dem.duration) + " s");
 }
 
 void check_steps(const meshing::Dem& dem, double time_step) {
-  const std::string steps = "steps of " + meshing::shown(time_step) + " s";
+  const std::string steps = "steps of " + shown(time_step) + " s";
   refuse_more("dem.settle_time", dem.settle_time, dem.settle_time / time_step, most_steps, steps);
   refuse_more("dem.duration", dem.duration, dem.duration / time_step, most_steps, steps);
 }
@@ -49,8 +48,8 @@ long steps_between_contacts(const meshing::Mill& mill, double time_step) {
   const double interval = mill.dem.contact_interval;
   if (interval == 0) return 0;
   if (interval < time_step * (1 - 1e-9))
-    throw KeyError("dem.contact_interval", meshing::shown(interval),
-                   "0 or at least the time-step, " + meshing::shown(time_step) + " s");
+    throw KeyError("dem.contact_interval", shown(interval),
+                   "0 or at least the time-step, " + shown(time_step) + " s");
   refuse_more("dem.contact_interval", interval, mill.dem.duration / interval, most_dumps,
               "dumps of the contacts");
   return std::lround(interval / time_step);

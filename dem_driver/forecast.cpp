@@ -17,9 +17,10 @@
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
 #include "dem_driver/segments.hpp"
-#include "meshing/cross_section.hpp"
-#include "meshing/wall_files.hpp"
-#include "meshing/wall_surface.hpp"
+#include "meshing/files/output_file.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/walls/wall_files.hpp"
+#include "meshing/walls/wall_surface.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -160,9 +161,8 @@ Cost measure_in(const CaseFolder& folder, const meshing::Mill& mill, int ranks) 
                        folder.walls());
   const DemPlan plan = plan_dem(trial);
   prepare_folders(folder);
-  write_whole_file(folder.deck(), [&](std::ostream& out) {
-    write_deck(out, trial, plan, find_walls(folder, trial), ranks);
-  });
+  replace_file(folder.deck(),
+               [&](std::ostream& out) { write_deck(out, trial, plan, find_walls(folder, trial), ranks); });
   std::ostringstream unseen;
   run_liggghts(folder, plan, ranks, {unseen, false});
   return {logged_rate(folder.log()), dump_bytes_per_ball(folder, plan),

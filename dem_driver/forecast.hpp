@@ -4,7 +4,7 @@
 #include <iosfwd>
 
 #include "dem_driver/deck.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -18,15 +18,18 @@ struct Cost {
 
 /// What a dry run will take.
 struct Forecast {
-  long steps = 0;
+  long steps = 0;        ///< of insertions, settling and turning mill together
   double wall_time = 0;  ///< s
   double disk = 0;       ///< bytes of dumps, contacts, restart file and histories
   double memory = 0;     ///< bytes of all ranks
 };
 
-/// A short periodic slice of the mill with about `trial_balls` balls, long enough to be split as the mill is,
-/// soft and quickly settled: it costs as much per ball and step as the whole mill.
+/// Balls of a trial mill, where the mill has so many.
 inline constexpr double trial_balls = 3000;
+
+/// A short periodic slice of the mill with about `trial_balls` balls, long enough to be split as the mill is,
+/// soft and quickly settled: it costs as much per ball and step as the whole mill. Each size class keeps one
+/// ball at least. Throws KeyError as plan_dem does.
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
 /// Runs the trial mill in a temporary folder and measures it, half a minute. Throws RunError as run_liggghts

@@ -3,10 +3,9 @@
 
 #include <ostream>
 
-#include "dem_driver/case_folder.hpp"
 #include "dem_driver/plan_report.hpp"
-#include "meshing/mill_shape.hpp"
-#include "meshing/resolved_mill.hpp"
+#include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
@@ -14,7 +13,7 @@ namespace millfoam::dem_driver {
 Json begin_result(const std::string& what, const meshing::Mill& mill) {
   return {{"format", "millfoam-" + what},
           {"program", std::string("millDem ") + version()},
-          {"mill", meshing::to_json(mill.fingerprint)}};
+          {"mill", {{"walls", mill.fingerprint.walls}, {"charge", mill.fingerprint.charge}}}};
 }
 
 void add_rotation(Json& result, const meshing::Mill& mill) {
@@ -23,7 +22,7 @@ void add_rotation(Json& result, const meshing::Mill& mill) {
 }
 
 void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charge) {
-  const double bulk = heap_solidity * mill.ball.density * meshing::analytic_volume(mill.geometry);
+  const double bulk = mill.charge.packing * mill.ball.density * meshing::analytic_volume(mill.geometry);
   result["balls"] = charge.balls();
   result["smallest_diameter_m"] = charge.classes.back().diameter;
   result["largest_diameter_m"] = charge.classes.front().diameter;
@@ -36,7 +35,7 @@ void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charg
 }
 
 void write_json(const std::filesystem::path& file, const Json& result) {
-  write_whole_file(file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
+  replace_file(file, [&](std::ostream& out) { out << result.dump(2) << '\n'; });
 }
 
 }  // namespace millfoam::dem_driver

@@ -7,14 +7,15 @@
 #include <string>
 
 #include "dem_driver/charge_plan.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
+/// JSON whose keys keep the order in which they were added.
 using Json = nlohmann::ordered_json;
 
 /// The head of a result that `millDem` leaves: "format" ("millfoam-<what>"), "program" with its version, and
-/// "mill", the fingerprints of the mill that it belongs to.
+/// "mill", the fingerprints walls and charge, which are all that a dry run depends on.
 Json begin_result(const std::string& what, const meshing::Mill& mill);
 
 /// Adds angular_velocity_rad_s and sense.

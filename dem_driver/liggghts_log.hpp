@@ -19,8 +19,8 @@ class RunError : public std::runtime_error {
 /// Follows LIGGGHTS' output line by line: how far it is, and whether every ball is still there.
 class LiggghtsLog {
  public:
-  /// `plan` is the one that the deck was written from. A run that is `resumed` has all its balls from the
-  /// start.
+  /// `plan` is the one that the deck was written from; it must outlive this object. A run that is `resumed`
+  /// has all its balls from the start.
   LiggghtsLog(const DemPlan& plan, bool resumed);
 
   /// Takes the next line. Throws RunError when an insertion brought another number of balls than asked, when
@@ -28,6 +28,8 @@ class LiggghtsLog {
   /// because lines that explain it may follow.
   void read(const std::string& line);
 
+  /// Steps since the first insertion, those of the parts before a resumed one too; of the last line that
+  /// counts them.
   long steps_done() const { return steps_done_; }
   long balls() const { return balls_; }                ///< of the last line that counts them
   bool turning() const { return turning_; }            ///< DEM time 0 is reached

@@ -14,20 +14,21 @@ namespace millfoam::dem_driver {
 
 /// What a dry run took.
 struct RunResult {
-  double wall_time = 0;  ///< s, of a resumed run with all earlier parts
-  int ranks = 1;
-  long balls = 0;  ///< that LIGGGHTS counted at the end
-  std::size_t dumps = 0;
-  std::string liggghts;  ///< its version
+  double wall_time = 0;   ///< s, of a resumed run with all earlier parts
+  int ranks = 1;          ///< processes of LIGGGHTS, of a resumed run those of its last part
+  long balls = 0;         ///< that LIGGGHTS counted at the end
+  std::size_t dumps = 0;  ///< of balls, those of the earlier parts of a resumed run too
+  std::string liggghts;   ///< its version
 };
 
 /// How progress is shown.
 struct ProgressOutput {
-  std::ostream& out;
-  bool terminal = false;
+  std::ostream& out;      ///< must outlive the run
+  bool terminal = false;  ///< whether `out` is one, so that a line can be written over
 };
 
-/// Throws RunError that names the program and its package when one of those that a run needs is not on PATH.
+/// Throws RunError that names the program and its package when one of those that a run needs is not on PATH:
+/// `liggghts`, `setpriv` and, for more than one rank, `mpirun`.
 void require_programs(int ranks);
 
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on

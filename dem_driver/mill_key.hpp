@@ -12,6 +12,7 @@ class KeyError : public std::runtime_error {
  public:
   /// `key` is the path from the root, as in `dem.duration` or `charge.classes[1]`; an item counts from 0.
   KeyError(const std::string& key, const std::string& value, const std::string& expected);
+  /// The path of the key from the root of `mill.yaml`.
   const std::string& key() const { return key_; }
 
  private:

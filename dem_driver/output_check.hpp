@@ -10,7 +10,7 @@
 
 namespace millfoam::dem_driver {
 
-/// Of the contacts of a dump.
+/// Stands for a number of entries that is not known ahead, as that of the contacts in a dump.
 inline constexpr long any_number = -1;
 
 /// What is wrong with a dump of LIGGGHTS: "0 bytes, expected …"; empty when it is whole. A whole one
@@ -32,7 +32,7 @@ std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& p
 /// continues and leaves files empty or cut short.
 class OutputCheck {
  public:
-  /// Of a run that begins with step `start`.
+  /// Of a run that begins with step `start`. Folder and plan must outlive this object.
   OutputCheck(const CaseFolder& folder, const DemPlan& plan, long start);
 
   /// Dumps, of contacts too, of all steps up to `step` that were not yet checked. Throws RunError that names

@@ -6,16 +6,16 @@
 
 #include "dem_driver/contact.hpp"
 #include "dem_driver/stiffness.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
 /// Two size classes, or one and the wall.
 struct NamedPair {
-  std::string name;  ///< for example "2 mm on 8 mm"
-  ContactPair pair;
+  std::string name;             ///< for example "2 mm on 8 mm"
+  ContactPair pair;             ///< the moduli are softened as in the simulation
   double smaller_diameter = 0;  ///< m
-  double restitution = 0;
+  double restitution = 0;       ///< coefficient of restitution, in (0, 1]
 };
 
 /// A length in words, for example "2 mm".

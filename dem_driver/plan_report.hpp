@@ -7,7 +7,7 @@
 
 #include "dem_driver/deck.hpp"
 #include "dem_driver/forecast.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -19,9 +19,9 @@ void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
 
 /// A forecast with what it was made from.
 struct MeasuredForecast {
-  Forecast forecast;
-  Cost cost;
-  int ranks = 1;
+  Forecast forecast;  ///< of the whole run
+  Cost cost;          ///< measured on a trial mill
+  int ranks = 1;      ///< for which both are made
 };
 
 /// Writes the same as JSON, format "millfoam-dem-plan" (FORMATS.md), with the forecast where there

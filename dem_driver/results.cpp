@@ -11,6 +11,8 @@
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/time_step.hpp"
+#include "meshing/files/output_file.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -61,6 +63,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"potential_energy_J", results.potential_steadiness.mean},
                {"ball_overlap_largest_m", results.ball_overlaps.largest},
                {"ball_overlap_99_m", results.ball_overlaps.percentile(0.99)},
+               {"allowed_overlap", allowed_overlap_ratio},
                {"wall_overlap_largest_m", results.wall_overlaps.largest},
                {"wall_overlap_99_m", results.wall_overlaps.percentile(0.99)},
                {"resting_speed_m_s", results.resting_speed}});
@@ -159,7 +162,7 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
 
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results) {
-  write_whole_file(folder.energy(), [&](std::ostream& out) {
+  replace_file(folder.energy(), [&](std::ostream& out) {
     out << "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n" << std::setprecision(8);
     for (std::size_t i = 0; i < results.history.size(); ++i) {
       const HistoryRow& row = results.history[i];
@@ -167,13 +170,13 @@ void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, co
           << row.potential << ',' << row.overlap << '\n';
     }
   });
-  write_whole_file(folder.overlaps(), [&](std::ostream& out) {
+  replace_file(folder.overlaps(), [&](std::ostream& out) {
     out << "overlap_m,ball_contacts,wall_contacts\n" << std::setprecision(8);
     for (std::size_t bin = 0; bin < overlap_bins; ++bin)
       out << (static_cast<double>(bin) + 0.5) * results.ball_overlaps.bin_width << ','
           << results.ball_overlaps.counts[bin] << ',' << results.wall_overlaps.counts[bin] << '\n';
   });
-  write_whole_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
+  replace_file(folder.charge(), [&](std::ostream& out) { write_charge_books(out, plan.charge); });
   write_json(folder.results(), result_of(mill, plan, results));
 }
 

@@ -9,13 +9,13 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/steady_state.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
 /// The mill at one record.
 struct HistoryRow {
-  long step = 0;
+  long step = 0;         ///< of the turning mill, from DEM time 0
   double torque = 0;     ///< of the charge on the mill about +z, mean over the record's steps, N m
   double kinetic = 0;    ///< energy of translation, J
   double potential = 0;  ///< against the mill's axis, J
@@ -35,31 +35,39 @@ struct OverlapStatistics {
   /// Overlap that this share of all contacts stays below, m; within a bin's width.
   double percentile(double share) const;
 };
+
+/// Sums the histograms that LIGGGHTS has written, each for a part of the run. Throws std::runtime_error
+/// naming file and line for one that cannot be read.
+/// @param folder  of the case
+/// @param kind  `ballOverlaps` for two balls, `wallOverlaps` for balls and walls
+/// @param largest_diameter  of the balls, m; the deck's bins follow from it
 OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kind, double largest_diameter);
 
 /// What a dry run comes to.
 struct Results {
-  RunResult run;
-  long balls = 0;
-  double resting_speed = 0;  ///< m/s, root mean square by mass of the charge at DEM time 0
-  std::vector<HistoryRow> history;
-  std::vector<double> time;   ///< s, of each row
-  std::vector<double> power;  ///< that the drive gives to the charge, W, of each row
-  Steadiness power_steadiness;
-  Steadiness kinetic_steadiness;
-  Steadiness potential_steadiness;
+  RunResult run;                    ///< what LIGGGHTS did
+  long balls = 0;                   ///< put into the mill; `run.balls` are left at the end
+  double resting_speed = 0;         ///< m/s, root mean square by mass of the charge at DEM time 0
+  std::vector<HistoryRow> history;  ///< one row for each record after DEM time 0
+  std::vector<double> time;         ///< s, of each row
+  std::vector<double> power;        ///< that the drive gives to the charge, W, of each row
+  Steadiness power_steadiness;      ///< of `power`, W
+  Steadiness kinetic_steadiness;    ///< of the energy of translation, J
+  Steadiness potential_steadiness;  ///< of the potential energy, J
+  /// Of two balls; the largest is that of all records too, not only of the histograms.
   OverlapStatistics ball_overlaps;
-  OverlapStatistics wall_overlaps;
-  bool steady() const;
-  double steady_from() const;  ///< s, the latest of the three
+  OverlapStatistics wall_overlaps;  ///< of balls and walls
+  bool steady() const;              ///< whether power and both energies are
+  double steady_from() const;       ///< s, the latest of the three
 };
 
-/// Throws RunError when LIGGGHTS has not written a record of torque and energy for every dump.
+/// Reads what LIGGGHTS has written and judges it. Throws as read_history and read_overlaps do, and RunError
+/// when LIGGGHTS has not written a record of torque and energy for every dump.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and
-/// `dumps/charge.csv`; see dem_driver/README.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and `dumps/charge.csv`. Layout:
+/// FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

@@ -9,10 +9,10 @@
 
 namespace millfoam::dem_driver {
 
-/// A file of `dem/` whose name carries the step at which it was written or begun.
+/// A file of `dem/`, `dumps/` or `contacts/` whose name carries the step at which it was written or begun.
 struct NumberedFile {
-  long step = 0;
-  std::filesystem::path file;
+  long step = 0;               ///< of the turning mill, from DEM time 0
+  std::filesystem::path file;  ///< with its folder
 };
 
 /// What a run writes in segments: every resumed run begins files of its own.
@@ -36,9 +36,9 @@ std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
 
 /// A line of numbers of a segment and where it stands.
 struct SegmentLine {
-  std::vector<double> values;
-  std::filesystem::path file;
-  long line = 0;
+  std::vector<double> values;  ///< at least one
+  std::filesystem::path file;  ///< with its folder
+  long line = 0;               ///< of that file, from 1
 };
 
 /// The lines of all segments of a kind without comments, as one run has written them: what a segment wrote
@@ -58,8 +58,10 @@ long count_dumps_until(const CaseFolder& folder, long step);
 /// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps before or after `step`.
+/// Removes the restart files of steps before `step`.
 void remove_restarts_before(const CaseFolder& folder, long step);
+
+/// Removes the restart files of steps after `step`: they cannot be resumed from.
 void remove_restarts_after(const CaseFolder& folder, long step);
 
 }  // namespace millfoam::dem_driver

@@ -8,7 +8,7 @@ namespace millfoam::dem_driver {
 
 /// Whether and from where on a series of equally spaced values is steady.
 struct Steadiness {
-  bool steady = false;
+  bool steady = false;        ///< whether the values after the transient are
   std::size_t begin = 0;      ///< index of the first value after the transient
   double mean = 0;            ///< of the values from there on
   double standard_error = 0;  ///< of that mean, from ten batch means about their line

@@ -7,7 +7,7 @@
 
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -19,14 +19,13 @@ void check_modulus(const meshing::Mill& mill, const Stiffness& stiffness) {
   const double softest = std::min(stiffness.modulus, stiffness.of_ball(smallest_diameter));
   // The slack lets through a modulus that was raised to just this limit.
   if (softest >= smallest_modulus * (1 - 1e-12)) return;
-  const std::string least =
-      "at least " + meshing::shown(smallest_modulus) + " Pa, the softest that LIGGGHTS accepts";
+  const std::string least = "at least " + shown(smallest_modulus) + " Pa, the softest that LIGGGHTS accepts";
   if (stiffness.modulus < smallest_modulus)
     throw KeyError(mill.dem.largest_overlap > 0 ? "materials.ball.youngs_modulus" : "dem.youngs_modulus",
-                   meshing::shown(stiffness.modulus), least);
-  throw KeyError("dem.soften_below", meshing::shown(mill.dem.soften_below),
-                 "a diameter in m with which the balls of " + meshing::shown(smallest_diameter) + " m have " +
-                     least + ", not " + meshing::shown(softest) + " Pa");
+                   shown(stiffness.modulus), least);
+  throw KeyError("dem.soften_below", shown(mill.dem.soften_below),
+                 "a diameter in m with which the balls of " + shown(smallest_diameter) + " m have " + least +
+                     ", not " + shown(softest) + " Pa");
 }
 
 /// All overlaps go with modulus^-0.4, so one trial gives the modulus.

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dem_driver/contact.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -11,7 +11,7 @@
 #include "dem_driver/contact.hpp"
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
-#include "meshing/yaml_section.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -64,7 +64,7 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
   if (!(longest > 0) || !(mill.dem.record_interval / longest < most_steps_per_record))
     throw KeyError(
-        "dem.rayleigh_fraction", meshing::shown(mill.dem.rayleigh_fraction),
+        "dem.rayleigh_fraction", shown(mill.dem.rayleigh_fraction),
         "a fraction from which, with the balls' modulus and the smallest ball, a time-step follows");
   // The slack keeps an interval that is a whole number of longest steps from being cut once more by
   // round-off.

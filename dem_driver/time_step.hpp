@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dem_driver/stiffness.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -20,16 +20,17 @@ struct TimeStepLimit {
 /// The chosen time-step with its reasons.
 struct TimeStep {
   double value = 0;                   ///< s; a record interval is exactly `steps_per_record` of them
-  long steps_per_record = 0;          ///<
+  long steps_per_record = 0;          ///< time-steps between two dumps, at least 1
   double impact_speed = 0;            ///< m/s, the hardest impact expected in this mill
   std::vector<TimeStepLimit> limits;  ///< all bounds; value <= the smallest
   Stiffness stiffness;                ///< that the limits belong to
   ExpectedOverlap overlap;            ///< worst pair at `impact_speed`
 };
 
-/// Parts of a Hertz contact's duration that a time-step may take, and of the overlap a ball may travel in
-/// one.
+/// Fewest time-steps in the duration of a Hertz contact.
 inline constexpr double steps_per_contact = 10;
+/// Fewest time-steps in which a ball crosses the allowed overlap (`allowed_overlap_ratio` of the smallest
+/// diameter).
 inline constexpr double steps_per_allowed_overlap = 6;
 /// Overlap, relative to the diameter, up to which softened balls are accepted (Brosh, Kalman & Levy).
 inline constexpr double allowed_overlap_ratio = 0.15;
@@ -48,6 +49,9 @@ struct Softness {
   double time_step = 0;  ///< s
   double cost = 0;       ///< steps, over those of the modulus chosen
 };
+
+/// One row for each of six moduli between the softest that LIGGGHTS accepts and the real one, ascending;
+/// moduli above the real one are left out. Throws as choose_time_step does.
 std::vector<Softness> softness_table(const meshing::Mill& mill);
 
 /// Prints that table.

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshing/stl_file.hpp"
+#include "meshing/polygons/stl_polygons.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -89,7 +89,7 @@ meshing::PolygonSet read_wall(const std::filesystem::path& file) {
   TextEnd end;
   if (!binary) end = check_text(bytes, name);
   meshing::PolygonSet wall;
-  meshing::read_stl(file, meshing::default_group, 1, wall);
+  meshing::add_stl(file, meshing::default_group, 1, wall);
   if (binary) check_binary(bytes, name);
   const std::size_t triangles = wall.polygons.size();
   if (!binary && static_cast<std::size_t>(end.endfacets) != triangles)

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "meshing/polygon_set.hpp"
+#include "meshing/polygons/polygon_set.hpp"
 
 namespace millfoam::dem_driver {
 

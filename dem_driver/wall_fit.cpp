@@ -10,7 +10,7 @@
 #include <string>
 
 #include "dem_driver/json_file.hpp"
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <vector>
 
-#include "meshing/mill.hpp"
-#include "meshing/polygon_set.hpp"
+#include "meshing/mill/mill.hpp"
+#include "meshing/polygons/polygon_set.hpp"
 
 namespace millfoam::dem_driver {
 
 /// The triangles of one part of the walls, which may come from CAD.
 struct Wall {
-  std::filesystem::path file;
+  std::filesystem::path file;   ///< where they were read, for messages
   meshing::PolygonSet surface;  ///< m
 };
 
@@ -28,12 +28,14 @@ void require_fit(const std::vector<Wall>& walls, const meshing::Geometry& geomet
 /// Walls from CAD, and walls without that file, belong to no mill.
 void require_walls_of(const std::filesystem::path& walls_folder, const meshing::Mill& mill);
 
-/// How far the triangles of each half of the mill, all walls together, cover its section (a circle) when they
-/// are seen along the axis.
+/// Area of walls seen along the axis over that of the mill's section (a circle).
 struct EndCover {
-  double feed = 0;
-  double discharge = 0;
+  double feed = 0;       ///< of the half with z below the middle
+  double discharge = 0;  ///< of the other half
 };
+
+/// The cover of both ends by all walls together; a triangle belongs to the half in which its centroid lies.
+/// Triangles that lie behind one another count each.
 EndCover cover_of_ends(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
 
 /// An end that has no file of its own is closed from here on: a shell with both ends covers about 1, one that

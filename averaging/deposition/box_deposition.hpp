@@ -23,6 +23,7 @@ class BoxDeposition : public Deposition {
   void deposit(const Particle& particle, const Superquadric& shape, std::vector<Deposit>& deposits) override;
 
  protected:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  points along a diameter for what is sampled
   BoxDeposition(const BoxGrid& grid, int template_points);
   BoxDeposition(const BoxDeposition&) = default;

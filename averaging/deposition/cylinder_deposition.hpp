@@ -22,6 +22,7 @@ class CylinderDeposition : public Deposition {
   void deposit(const Particle& particle, const Superquadric& shape, std::vector<Deposit>& deposits) override;
 
  protected:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  points along a diameter for what is sampled
   CylinderDeposition(const CylinderGrid& grid, int template_points);
   CylinderDeposition(const CylinderDeposition&) = default;

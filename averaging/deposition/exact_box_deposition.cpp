@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/deposition/exact_box_deposition.hpp"
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

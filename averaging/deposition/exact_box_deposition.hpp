@@ -14,6 +14,7 @@ namespace millfoam::averaging {
 /// add up to its volume within a few roundings, and a voxel that it does not meet gets none.
 class ExactBoxDeposition : public BoxDeposition {
  public:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  points along a diameter for superquadrics, which are sampled
   explicit ExactBoxDeposition(const BoxGrid& grid, int template_points = 12)
       : BoxDeposition(grid, template_points) {}

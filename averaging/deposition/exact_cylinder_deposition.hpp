@@ -20,6 +20,7 @@ namespace millfoam::averaging {
 /// volume.
 class ExactCylinderDeposition : public CylinderDeposition {
  public:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  points along a diameter for superquadrics, which are sampled
   explicit ExactCylinderDeposition(const CylinderGrid& grid, int template_points = 12);
 

@@ -7,7 +7,7 @@
 #include "averaging/mesh/facet_cut.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
 #include "averaging/values/as_index.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

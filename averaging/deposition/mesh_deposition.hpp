@@ -63,6 +63,7 @@ class MeshDeposition : public Deposition {
   /// Appends the deposits in the cells met. What rounding left below 1e-15 of the ball, or negative, goes to
   /// the largest.
   /// @param ball_volume  m^3
+  /// @param deposits     what is in it stays
   void append_deposits(double ball_volume, std::vector<Deposit>& deposits) const;
 
   const MovingMesh& mesh() const { return *mesh_; }           ///< at the time of the record

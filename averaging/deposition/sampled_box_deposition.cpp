@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

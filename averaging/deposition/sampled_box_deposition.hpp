@@ -18,6 +18,7 @@ namespace millfoam::averaging {
 /// template's size.
 class SampledBoxDeposition : public BoxDeposition {
  public:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  along a diameter. Throws as SphereTemplate.
   explicit SampledBoxDeposition(const BoxGrid& grid, int template_points = 12);
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

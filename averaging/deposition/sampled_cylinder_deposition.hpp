@@ -17,6 +17,7 @@ namespace millfoam::averaging {
 /// The template's columns along z are located once each, and their points counted by layers.
 class SampledCylinderDeposition : public CylinderDeposition {
  public:
+  /// @param grid             where balls are deposited; it is copied
   /// @param template_points  along a diameter. Throws as SphereTemplate.
   explicit SampledCylinderDeposition(const CylinderGrid& grid, int template_points = 12);
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "averaging/overlap/sphere_template.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

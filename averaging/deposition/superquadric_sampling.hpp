@@ -23,8 +23,12 @@ class SuperquadricSampling {
   /// @param points_per_diameter  of the lattice, along each axis of the body
   explicit SuperquadricSampling(int points_per_diameter) : points_per_diameter_(points_per_diameter) {}
 
+  /// Deposits one ball.
+  /// @param particle  gives the place of its centre, m
+  /// @param shape     half-axes, blockiness and orientation
   /// @param locate    std::optional<std::size_t>(const Vector3&): the cell that holds a point of the lab, m
   /// @param deposits  overwritten; neighbouring points in one cell make one deposit
+  ///
   /// Throws as `superquadric_volume`.
   template <typename Locate>
   void deposit(const Particle& particle, const Superquadric& shape, Locate&& locate,

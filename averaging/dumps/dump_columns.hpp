@@ -35,6 +35,7 @@ struct DumpColumns {
 /// Finds the columns by their names.
 /// @param names  separated by blanks
 /// @param place  "file:line: " for messages
+///
 /// Throws DumpError for a column that is missing or appears twice, for more than one kind of position or a
 /// mix of them, and for shapes that are not complete.
 DumpColumns find_columns(std::string_view names, const std::string& place);

@@ -12,8 +12,9 @@ namespace millfoam::averaging {
 
 /// The box of a dump.
 struct DumpBox {
-  std::array<double, 3> lower{}, upper{};  ///< m
-  bool tilted = false;                     ///< not along x, y and z
+  std::array<double, 3> lower{},  ///< least x, y, z, m
+      upper{};                    ///< largest x, y, z, m
+  bool tilted = false;            ///< not along x, y and z
 };
 
 /// What stands in a dump before its particles.

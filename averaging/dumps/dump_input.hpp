@@ -16,6 +16,7 @@ namespace millfoam::averaging {
 class DumpInput {
  public:
   /// Throws DumpError when the file cannot be opened.
+  /// @param file   plain or gzip
   /// @param block  bytes that are read at a time
   explicit DumpInput(const std::filesystem::path& file, std::size_t block = std::size_t{1} << 18U);
   ~DumpInput();

@@ -32,6 +32,7 @@ class DumpError : public std::runtime_error {
 /// With shapes, Particle::radius is that of the smallest sphere around one.
 /// @param text  the whole file
 /// @param name  the file's name, for messages
+///
 /// Throws DumpError for fewer or more lines than the header says, a missing column, more than one kind of
 /// position, scaled positions in a tilted box, shapes that are not complete, a value that is not a finite
 /// number, a radius or half axis that is not positive, a blockiness below 2, a quaternion that is not of

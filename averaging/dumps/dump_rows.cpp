@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <sstream>
 
 #include "averaging/dumps/bounding_radius.hpp"
 #include "averaging/dumps/quick_number.hpp"
 #include "averaging/dumps/unique_ids.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::averaging {
 
@@ -33,13 +33,6 @@ const char* pass_word(const char* text) {
 const char* read_long_number(const char* word, const char* end, double& value) {
   const auto [stopped, failure] = std::from_chars(word, end, value);
   return failure == std::errc{} && std::isfinite(value) ? stopped : nullptr;
-}
-
-std::string exact(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
 }
 
 }  // namespace

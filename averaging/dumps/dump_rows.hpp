@@ -52,6 +52,7 @@ class DumpRows {
 };
 
 /// Reads a whole dump, of one record. Throws DumpError as `parse_dump`.
+/// @param lines  at the beginning of the dump
 /// @param bytes  about the length of the text: a damaged count must not reserve more than it can hold
 ParticleRecord read_record(TextLines& lines, std::size_t bytes);
 

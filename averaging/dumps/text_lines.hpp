@@ -16,9 +16,11 @@ class TextLines {
   /// the rest itself when there is no more.
   using More = std::function<std::string_view(std::string_view rest)>;
 
+  /// @param text  which must outlive this object
   /// @param name  of the file, for `place`
   TextLines(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {}
   /// @param more  gives the text piece by piece
+  /// @param name  of the file, for `place`
   TextLines(More more, std::string name) : more_(std::move(more)), name_(std::move(name)) {}
 
   bool at_end() { return rest_.empty() && !fetch(); }  ///< whether no text is left

@@ -22,6 +22,7 @@ namespace millfoam::averaging {
 /// outside its cell, because a face is seen from the centroid from behind, counts negative.
 class CellPoints {
  public:
+  /// @param mesh       at any time; it is copied
   /// @param divisions  m of an edge of a tetrahedron. Throws std::invalid_argument unless it is 1 to 10.
   explicit CellPoints(const MeshGeometry& mesh, int divisions = 2);
 
@@ -29,8 +30,10 @@ class CellPoints {
   std::size_t size() const { return tetrahedra_.size() * parts_.size(); }  ///< number of points, at most
 
   /// Adds a field to the sums over voxels; where the grid is periodic its images are one.
+  /// @param grid    of the lab frame
   /// @param place   carries the mesh into the lab frame
   /// @param values  [cells][sums.components]
+  /// @param sums    added to: [voxels of the grid]
   void deposit(const BoxGrid& grid, const Eigen::Isometry3d& place, const std::vector<double>& values,
                VoxelSums& sums) const;
 

@@ -4,7 +4,9 @@
 #include "averaging/files/hdf5_handle.hpp"
 #include "averaging/grids/grid.hpp"
 
+/// @file
 /// The group /grid of a file of fields. Both functions throw hdf5::Error.
+
 namespace millfoam::averaging::hdf5 {
 
 /// Writes a grid into an open, empty group.

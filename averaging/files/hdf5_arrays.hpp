@@ -6,8 +6,10 @@
 
 #include "averaging/files/hdf5_handle.hpp"
 
+/// @file
 /// Data sets of one dimension that are written and read as a whole. All functions throw hdf5::Error with the
 /// name of the data set when HDF5 fails.
+
 namespace millfoam::averaging::hdf5 {
 
 /// Writes whole numbers, compressed; without an attribute `units`, for these are numbers of things.

@@ -6,7 +6,9 @@
 
 #include "averaging/files/hdf5_handle.hpp"
 
+/// @file
 /// Files that say what they are and whether they are whole. All functions throw hdf5::Error.
+
 namespace millfoam::averaging::hdf5 {
 
 /// Makes a new file, replacing an older one.

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+/// The HDF5 library as this room uses it: identifiers that close themselves, failures as exceptions, one
+/// thread at a time.
 namespace millfoam::averaging::hdf5 {
 
 /// What the HDF5 library could not do; the message does not name the file, the caller adds it.
@@ -26,6 +28,7 @@ class Handle {
   Handle(hid_t id, Close closer, const std::string& action) : id_(id), close_(closer) {
     if (id_ < 0) throw Error("cannot " + action);
   }
+  /// Takes over the identifier; `other` has none any more.
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(id_, other.id_);

@@ -6,21 +6,27 @@
 
 #include "averaging/files/hdf5_handle.hpp"
 
+/// @file
 /// The few kinds of attributes and data sets that this room's files are made of. All functions throw
 /// hdf5::Error with the name of the attribute or data set when HDF5 fails.
+
 namespace millfoam::averaging::hdf5 {
 
-/// A group of a file or group.
+/// Opens a group of a file or group.
 Handle open_group(hid_t parent, const std::string& name);
+/// Makes a new group in a file or group.
 Handle create_group(hid_t parent, const std::string& name);
 
-/// Writes a new attribute: a text, or a list of numbers.
+/// Writes a new attribute: a text of fixed length.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
+/// Writes a new attribute: a list of numbers.
 void write_attribute(hid_t object, const std::string& name, const std::vector<double>& values);
+/// Writes a new attribute: a list of whole numbers.
 void write_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
 
-/// A single number is written as a scalar, as h5py's users expect.
+/// Writes a new attribute: a single number is written as a scalar, as h5py's users expect.
 void write_attribute(hid_t object, const std::string& name, double value);
+/// The same of a whole number.
 void write_attribute(hid_t object, const std::string& name, int value);
 
 /// Gives an attribute that is there a new value.
@@ -31,12 +37,16 @@ std::string read_text_attribute(hid_t object, const std::string& name);
 
 /// Any kind of number, converted; throws unless there are `count` of them.
 std::vector<double> read_double_attribute(hid_t object, const std::string& name, std::size_t count);
+/// The same, converted to whole numbers.
 std::vector<int> read_int_attribute(hid_t object, const std::string& name, std::size_t count);
 
 /// Creates an empty data set that grows along its first dimension.
+/// @param parent  file or group that it is made in
+/// @param name   of the data set
 /// @param row    dimensions of one row, slowest first; empty for a single number per row
 /// @param type   H5T_NATIVE_DOUBLE or H5T_NATIVE_INT64
 /// @param units  written as the attribute `units`
+///
 /// A row with dimensions is one chunk, compressed (shuffle, deflate level 1: most voxels of a mill are
 /// empty).
 Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsize_t>& row, hid_t type,
@@ -44,6 +54,7 @@ Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsiz
 
 /// Appends one row; `values` holds the product of its dimensions.
 void append_row(const Handle& dataset, const double* values);
+/// Appends a row of a single whole number.
 void append_row(const Handle& dataset, long long value);
 
 /// Writes a data set of fixed size; `sizes` are its dimensions, slowest first.

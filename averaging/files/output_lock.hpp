@@ -17,6 +17,7 @@ class OutputLock {
   /// Throws SolidsFileError when another process holds the lock, or its file cannot be made.
   explicit OutputLock(const std::filesystem::path& output);
   ~OutputLock();
+  /// Takes over the lock; `other` holds none any more.
   OutputLock(OutputLock&& other) noexcept;
   OutputLock& operator=(OutputLock&&) = delete;
   OutputLock(const OutputLock&) = delete;

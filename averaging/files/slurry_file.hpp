@@ -10,8 +10,9 @@
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/values/voxel_sums.hpp"
 
-/// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Its layout is listed in
-/// averaging/README.md.
+/// @file
+/// slurry.h5, a flow's slurry averaged in time on the voxels of a box. Layout: FORMATS.md.
+
 namespace millfoam::averaging {
 
 /// The version of the layout that is written.
@@ -44,6 +45,7 @@ struct SlurrySegment {
   /// Adds fields that were sampled once, for so many seconds.
   /// @param sample  with slurry_components components
   /// @param slurry_volume  in all cells, m^3
+  /// @param seconds  of flow time that the sample stands for
   void add(const VoxelSums& sample, double slurry_volume, double seconds);
 
   /// Adds another stretch's sums; the times become those that both cover.

@@ -12,8 +12,10 @@
 #include "averaging/values/ledger.hpp"
 #include "averaging/values/solids_window.hpp"
 
-/// solids.h5, the contract between averaging and flow. Its layout is listed in averaging/README.md. Neither
-/// class may be used by two threads at once.
+/// @file
+/// solids.h5, the contract between averaging and flow. Layout: FORMATS.md. Neither class may be used by two
+/// threads at once.
+
 namespace millfoam::averaging {
 
 /// The version of the layout that is written and that can be read.
@@ -76,6 +78,7 @@ class SolidsReader {
   /// shape, windows in order. Throws SolidsFileError.
   explicit SolidsReader(const std::filesystem::path& path);
   ~SolidsReader();
+  /// Takes over the open file; the other reader must not be used any more.
   SolidsReader(SolidsReader&&) noexcept;
   SolidsReader& operator=(SolidsReader&&) noexcept;
 

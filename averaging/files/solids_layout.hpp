@@ -22,6 +22,7 @@ struct Field {
   const std::vector<double>& (*of)(const WindowAverage&);
 };
 
+/// A field of a window, [cells] or [cells][3].
 using Values = std::vector<double>;
 
 /// The data sets over windows and cells, in the order of the file.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/files/xdmf.hpp"
 
-#include <fstream>
+#include <iterator>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "averaging/files/hdf5_io.hpp"
 #include "averaging/files/solids_file.hpp"
 #include "averaging/files/solids_layout.hpp"
+#include "meshing/files/output_file.hpp"
 
 namespace millfoam::averaging {
 
@@ -133,26 +135,22 @@ std::filesystem::path write_xdmf(const std::filesystem::path& fields_file, const
                                  const std::vector<XdmfField>& fields) {
   std::filesystem::path path = xdmf_path(fields_file);
   const std::string file = escaped(fields_file.filename().string());
-  const auto [points, topology] = geometry_sizes(fields_file, grid);
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream out(part);
-  out.precision(17);
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
-      << "    <Grid Name=\"" << title << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (std::size_t w = 0; w < times.size(); ++w) {
-    out << "      <Grid Name=\"window " << w << "\" GridType=\"Uniform\">\n"
-        << "        <Time Value=\"" << times[w] << "\"/>\n";
-    std::visit(Geometry(out, file, points, topology), grid);
-    for (const XdmfField& field : fields) write_attribute(out, grid, file, field, w, times.size());
-    out << "      </Grid>\n";
-  }
-  out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
-  out.close();
-  std::error_code failed;
-  if (out) std::filesystem::rename(part, path, failed);
-  if (!out || failed) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+  const auto sizes = geometry_sizes(fields_file, grid);
+  try {
+    replace_file(path, [&](std::ostream& out) {
+      out.precision(17);
+      out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
+          << "    <Grid Name=\"" << title << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+      for (std::size_t w = 0; w < times.size(); ++w) {
+        out << "      <Grid Name=\"window " << w << "\" GridType=\"Uniform\">\n"
+            << "        <Time Value=\"" << times[w] << "\"/>\n";
+        std::visit(Geometry(out, file, sizes.first, sizes.second), grid);
+        for (const XdmfField& field : fields) write_attribute(out, grid, file, field, w, times.size());
+        out << "      </Grid>\n";
+      }
+      out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
+    });
+  } catch (const std::runtime_error&) {
     throw SolidsFileError(path.string() + ": cannot write this file (is the disk full?)");
   }
   return path;
@@ -162,6 +160,7 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   xdmf_path(solids_file);
   const SolidsReader solids(solids_file);
   std::vector<XdmfField> fields;
+  fields.reserve(std::size(layout::fields) + 1);
   for (const layout::Field& field : layout::fields) fields.push_back({field.name, field.name, field.vector});
   if (solids.header().inside_fractions) {
     const std::string name = layout::inside_fraction.name;

@@ -22,6 +22,7 @@ class BoxGrid {
   /// @param lower, upper  corners, m
   /// @param shape         voxels along x, y, z
   /// @param periodic      axes along which the box repeats
+  ///
   /// Throws std::invalid_argument when a corner is not finite, `upper` is not above `lower`, or a shape is
   /// not positive.
   BoxGrid(const Vector3& lower, const Vector3& upper, const VoxelIndex& shape,

@@ -20,6 +20,8 @@ class CylinderGrid {
   /// @param radii  inner, 0 or more, and outer, m
   /// @param ends   lower and upper z, m
   /// @param shape  voxels along r, theta, z
+  /// @param periodic_z  whether it repeats along z
+  ///
   /// Throws std::invalid_argument for radii or ends that are not finite or not rising, a negative radius, or
   /// a shape that is not positive.
   CylinderGrid(const std::array<double, 2>& radii, const std::array<double, 2>& ends, const VoxelIndex& shape,

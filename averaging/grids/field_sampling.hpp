@@ -32,6 +32,7 @@ enum class Interpolation {
 /// not empty. The window's fields must have the grid's size.
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
+/// The same on a cylinder, whose own coordinates are r, theta and z.
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
 

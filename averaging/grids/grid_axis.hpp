@@ -18,6 +18,7 @@ class GridAxis {
   /// @param name          for messages
   /// @param lower, upper  ends, m
   /// @param cells         number of steps
+  /// @param periodic      whether the axis repeats
   GridAxis(char name, double lower, double upper, int cells, bool periodic)
       : name_(name),
         lower_(lower),
@@ -42,6 +43,7 @@ class GridAxis {
   /// @param centre  of the ball, m; @param radius  m; @param id  of the ball, for the message
   /// @param cells   overwritten: [met]
   /// @param planes  overwritten: [met - 1] relative to the centre, rising, m
+  ///
   /// Throws std::invalid_argument, naming the ball, for one that spans more than 10 000 cells.
   void cut(double centre, double radius, long long id, std::vector<int>& cells,
            std::vector<double>& planes) const;

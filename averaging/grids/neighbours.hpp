@@ -14,6 +14,7 @@ namespace millfoam::averaging {
 /// Voxels that meet in a line or corner only, as those about the axis of a cylinder, are none. Throws
 /// std::invalid_argument for grids of more cells than an int can number.
 std::vector<std::array<int, 2>> neighbours(const BoxGrid& grid);
+/// The same on a cylinder, whose angle always is periodic.
 std::vector<std::array<int, 2>> neighbours(const CylinderGrid& grid);
 
 }  // namespace millfoam::averaging

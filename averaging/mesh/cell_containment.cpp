@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "averaging/values/as_index.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -29,7 +29,9 @@ class CellContainment {
 
   /// A point, or the middle of a box, from the mesh's middle in m, in the planes' precision.
   struct LocalPoint {
-    float x, y, z;  ///< m
+    float x,  ///< m
+        y,    ///< m
+        z;    ///< m
   };
 
   /// Of cells whose planes lie in memory in the order of their numbers.
@@ -61,7 +63,9 @@ class CellContainment {
   }
 
   /// Of a whole box about a point: outside and inside are certain.
-  /// @param half  half its edges, m
+  /// @param cell    number of the cell
+  /// @param middle  of the box
+  /// @param half    half its edges, m
   Answer test_box(int cell, const LocalPoint& middle, const Eigen::Vector3f& half) const;
 
   /// The lowest of the cells, given in rising order, that holds the point, or -1, by solid angles.

@@ -14,6 +14,7 @@ class CellSearch {
   virtual ~CellSearch() = default;
 
   /// The cell that holds a point, m, or -1 outside the mesh.
+  /// @param point  in the frame in which the mesh is kept
   /// @param hint  a cell near to which it may be, or -1; it saves time and does not change the answer
   virtual int locate(const Eigen::Vector3d& point, int hint = -1) const = 0;
 

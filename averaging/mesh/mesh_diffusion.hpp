@@ -22,8 +22,10 @@ namespace millfoam::averaging {
 /// Source: Sun & Xiao 2015, Int J Multiph Flow 77:142 (diffusion-based coarse graining).
 class MeshDiffusion {
  public:
+  /// @param mesh    whose cells keep their shape; it is not kept
   /// @param width   bandwidth b, m
   /// @param period  length of the mesh along z where it repeats, m
+  ///
   /// Throws std::invalid_argument for a width that is not positive or takes too many steps, and as
   /// `periodic_faces`.
   MeshDiffusion(const MeshGeometry& mesh, double width, std::optional<double> period = std::nullopt);

@@ -10,7 +10,9 @@
 
 #include "averaging/mesh/poly_mesh.hpp"
 
-/// mesh.h5, by which a flow's mesh reaches this room. Its layout is listed in averaging/README.md.
+/// @file
+/// mesh.h5, by which a flow's mesh reaches this room. Layout: FORMATS.md.
+
 namespace millfoam::averaging {
 
 /// The version of the layout that is written and that can be read.
@@ -25,6 +27,9 @@ class MeshFileError : public std::runtime_error {
 /// says that it is not complete. All members throw MeshFileError.
 class MeshWriter {
  public:
+  /// Makes `path` + ".part", replacing an older one.
+  /// @param path   of the finished file
+  /// @param topology  faces and cells, the same at all times
   /// @param time0  DEM time, s, at flow time 0
   MeshWriter(const std::filesystem::path& path, const MeshTopology& topology, double time0);
   ~MeshWriter();
@@ -52,6 +57,7 @@ class MeshReader {
   /// accepts, times in order. Throws MeshFileError.
   explicit MeshReader(const std::filesystem::path& path);
   ~MeshReader();
+  /// Takes over the open file; the other reader must not be used any more.
   MeshReader(MeshReader&&) noexcept;
   MeshReader& operator=(MeshReader&&) noexcept;
 

@@ -48,6 +48,8 @@ PreparedMesh prepare(const MeshTopology& topology, const MeshPoints& points);
 /// in the mesh's frame, in which the mesh's points are where they were at the reference time t_r.
 class RigidMesh : public MovingMesh {
  public:
+  /// @param mesh  in its frame
+  /// @param motion  of the mesh
   /// @param reference_time  DEM time, s, for which the mesh's points hold
   RigidMesh(PreparedMesh mesh, std::shared_ptr<const Motion> motion, double reference_time);
 

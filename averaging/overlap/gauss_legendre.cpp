@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -14,6 +14,9 @@
 #include "averaging/run/communicator.hpp"
 #include "averaging/run/solids_summary.hpp"
 
+/// The balls of a DEM run as fields on a grid or on a mesh's cells: their volume is deposited in cells,
+/// summed over records and averaged over windows of time. Units are SI. Fields are flat lists, [cells] or
+/// [cells][components], the cell varying slowest; a grid's cells are in its own order.
 namespace millfoam::averaging {
 
 /// Widths of smoothing in Sauter diameters, where none is given.

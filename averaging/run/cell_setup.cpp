@@ -16,6 +16,7 @@
 #include "averaging/mesh/mesh_file.hpp"
 #include "averaging/mesh/moving_mesh.hpp"
 #include "averaging/mesh/periodic_faces.hpp"
+#include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::averaging {
 
@@ -26,12 +27,6 @@ using Note = std::function<void(const std::string&)>;
 std::string method_in_words(const AverageRequest& request) {
   const std::string points = std::to_string(request.template_points) + " points along a diameter";
   return request.method == DepositionMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
-}
-
-std::string in_words(double number) {
-  std::ostringstream text;
-  text << number;
-  return text.str();
 }
 
 std::string rotation(double angular_velocity) {
@@ -190,7 +185,7 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   if (request.smoothed) {
     setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
     setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
-    note("smoothing over a width of " + in_words(setup.smoothing) + " m");
+    note("smoothing over a width of " + shown(setup.smoothing) + " m");
   }
   setup.deposition = by_method<ExactMeshDeposition, SampledMeshDeposition>(
       whole.method, std::move(mesh), whole.template_points, request.period_z);

@@ -14,8 +14,9 @@ class Communicator {
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
 
-  /// Number of this process, from 0, and how many there are.
+  /// Number of this process, from 0.
   virtual int rank() const { return 0; }
+  /// Number of processes.
   virtual int size() const { return 1; }
 
   /// Hands numbers to rank 0, which waits for them in `receive`.

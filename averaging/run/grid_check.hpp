@@ -13,8 +13,11 @@ inline constexpr double smallest_fill = 1e-6;
 /// Why a grid cannot be meant for the balls of a record: more than `largest_outside` of their volume lies
 /// outside, or they fill less than `smallest_fill` of it. Empty when neither, and for a record without balls.
 /// The sentence has the extents of both.
+/// @param setup  the grid or mesh
+/// @param record  the balls
 /// @param time  of the record, s
 /// @param name  of the record, for the sentence
+/// @param largest_outside  share of the balls' volume, 0 to 1
 std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
                    double largest_outside);
 

@@ -14,7 +14,9 @@ namespace millfoam::averaging {
 /// Averages blocks of records in one thread.
 class RecordWorker {
  public:
-  /// @param setup, dumps  must outlive the worker
+  /// @param setup  the grid or mesh; must outlive the worker
+  /// @param dumps  files of all records; must outlive the worker
+  /// @param timestep  of the DEM run, s
   RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& dumps, double timestep);
 
   /// Reads the block's dumps and takes their moments; valid until the next call.

@@ -6,14 +6,13 @@
 #include <cstdio>
 #include <utility>
 
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
 /// Numbers of balls per averaging volume in the simulations that the laws of drag come from.
-constexpr double fewest_balls = 8, most_balls = 64;
 
 /// The densest packing of equal spheres.
 constexpr double densest = 0.74;

@@ -9,6 +9,11 @@
 
 namespace millfoam::averaging {
 
+/// Fewest balls in the averaging volumes from which the drag laws were derived.
+inline constexpr double fewest_balls = 8;
+/// Most balls in them.
+inline constexpr double most_balls = 64;
+
 /// What a user should know of a window before trusting it.
 struct WindowSummary {
   TimeWindow time;                 ///< begin and end, s, and records
@@ -38,7 +43,10 @@ struct Remark {
   std::string sentence;  ///< for the user
 };
 
-/// Of one window.
+/// The numbers of one window.
+/// @param grid            that its fields live on
+/// @param time            of the window
+/// @param ledger          of the window, m^3
 /// @param balls_per_cell  mean number of balls in a cell that holds some
 /// @param fields          over the cells of `grid`
 WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,

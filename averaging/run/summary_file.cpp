@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <stdexcept>
 
 #include "averaging/run/program.hpp"
+#include "meshing/files/output_file.hpp"
 
 namespace millfoam::averaging {
 
@@ -138,6 +139,7 @@ std::string as_json(const SolidsSummary& summary) {
   json["volume_in_m3"] = mean_volume_in(summary);
   json["largest_outside"] = largest_share(summary, &Ledger::outside);
   json["largest_clipped"] = largest_share(summary, &Ledger::clipped);
+  json["balls_of_laws"] = {fewest_balls, most_balls};
   json["balls_per_cell"] = all.balls_per_cell;
   json["mean_solidity"] = all.mean_solidity;
   json["largest_solidity"] = all.largest_solidity;
@@ -150,16 +152,12 @@ std::string as_json(const SolidsSummary& summary) {
 }
 
 void write_summary(const std::filesystem::path& path, const SolidsSummary& summary) {
-  const std::filesystem::path part = path.string() + ".part";
-  std::ofstream out(part, std::ios::binary);
-  out << as_json(summary);
-  out.close();
-  std::error_code failed;
-  if (out) std::filesystem::rename(part, path, failed);
-  if (out && !failed) return;
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  throw SolidsFileError(path.string() + ": cannot write this file (is the disk full?)");
+  const std::string text = as_json(summary);
+  try {
+    replace_file(path, [&](std::ostream& out) { out << text; });
+  } catch (const std::runtime_error&) {
+    throw SolidsFileError(path.string() + ": cannot write this file (is the disk full?)");
+  }
 }
 
 }  // namespace millfoam::averaging

@@ -15,6 +15,9 @@ namespace millfoam::averaging {
 class WindowSeries {
  public:
   /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
+  /// @param plan    the windows, in order of time
+  /// @param timestep  of the DEM run, s
+  /// @param cells   number of cells of the fields
   /// @param id      of the run, for the journal
   /// @param rows    finished windows of an earlier run that was killed
   /// @param limits  for `average`; must outlive the series

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "averaging/overlap/superquadric.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

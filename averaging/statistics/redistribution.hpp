@@ -10,9 +10,11 @@ namespace millfoam::averaging {
 /// Moves what exceeds the cells' capacities to their neighbours, with all that travels with it: to the
 /// nearest cells with free volume, ring by ring of faces, within a ring in proportion to the free volume.
 /// @param values      [cells][columns] extensive quantities; column 0 is the volume of solids, m^3
+/// @param columns     quantities of a cell
 /// @param capacities  [cells] largest volume of solids that may stay, m^3
 /// @param neighbours  pairs of cells that share a face
 /// @return the volume moved, m^3
+///
 /// Throws std::runtime_error, naming the cell, when there is not enough free volume.
 double redistribute_excess(std::vector<double>& values, std::size_t columns,
                            const std::vector<double>& capacities,
@@ -28,6 +30,7 @@ struct Redistributed {
 /// inside, with all that travels with it. Balls reach into a wall by a small overlap: what lies more than
 /// three faces from any cell inside is no such thing, and is given back as lost.
 /// @param values          as of `redistribute_excess`
+/// @param columns         quantities of a cell
 /// @param inside_volumes  [cells] volume inside the mill, m^3; 0 of the cells to be emptied
 /// @param neighbours      pairs of cells that share a face
 Redistributed redistribute_from_walls(std::vector<double>& values, std::size_t columns,

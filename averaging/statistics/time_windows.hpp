@@ -47,6 +47,8 @@ struct WindowPlan {
 /// for one interval: no time is claimed that was not recorded.
 ///
 /// @param steps  time-steps of the records, rising
+/// @param request  length, start and end
+///
 /// Throws WindowError for a length shorter than the record interval, times that are not finite or an end that
 /// is not after the start, no record in the range, or a window without a record.
 WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 
-#include "meshing/resolved_mill.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/resolved_mill.hpp"
 
 namespace millfoam::averaging {
 namespace {
@@ -40,13 +40,6 @@ double steady_start(const fs::path& file) {
                                 ": no number steady_from_s, which 'averages.start: steady' needs; "
                                 "give averages.start a time, or run millDem again");
   return results["steady_from_s"].get<double>();
-}
-
-std::string exact(double value) {
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  return text.str();
 }
 
 void take_grid(const meshing::Mill& mill, Options& options) {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "averaging/tools/options.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 
 namespace millfoam::averaging {
 

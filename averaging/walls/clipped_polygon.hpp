@@ -20,6 +20,7 @@ class ClippedPolygon {
     corners_[1] = b;
     corners_[2] = c;
   }
+  /// Copies only the corners that there are.
   ClippedPolygon(const ClippedPolygon& other) { *this = other; }
   ClippedPolygon& operator=(const ClippedPolygon& other) {
     size_ = other.size_;
@@ -29,8 +30,8 @@ class ClippedPolygon {
 
   std::size_t size() const { return size_; }  ///< number of corners
   const Eigen::Vector3d& operator[](std::size_t corner) const { return corners_[corner]; }  ///< m
-  const Eigen::Vector3d* begin() const { return corners_.data(); }
-  const Eigen::Vector3d* end() const { return corners_.data() + size_; }
+  const Eigen::Vector3d* begin() const { return corners_.data(); }        ///< first corner, m
+  const Eigen::Vector3d* end() const { return corners_.data() + size_; }  ///< behind the last
 
   void clear() { size_ = 0; }  ///< leaves no corner
   /// Adds a corner, m; at most 12.
@@ -45,7 +46,10 @@ class ClippedPolygon {
 };
 
 /// Divides a polygon by a plane (I. E. Sutherland & G. W. Hodgman 1974, Comm ACM 17:32). A part may be empty.
-/// @param height  of a point above the plane
+/// @param polygon  must be another object than the two parts
+/// @param height  double(const Eigen::Vector3d&): of a point above the plane, in any unit
+/// @param below  overwritten by the part with heights of 0 or less
+/// @param above  overwritten by the part with heights of 0 or more
 template <typename Height>
 void divide(const ClippedPolygon& polygon, Height&& height, ClippedPolygon& below, ClippedPolygon& above) {
   below.clear();

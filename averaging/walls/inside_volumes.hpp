@@ -19,6 +19,8 @@ namespace millfoam::averaging {
 /// where the integral runs over the triangle's part within the voxel's range of y and z. The triangles are
 /// cut by the planes between voxels, so that the integrands are linear. What differs from an empty or a whole
 /// voxel by less than 1e-12 of it is made so.
+/// @param grid   of the lab frame
+/// @param walls  closed surface of the mill, m
 /// @param place  carries the walls to where they are; along periodic axes they are not repeated
 std::vector<double> inside_volumes(const BoxGrid& grid, const Surface& walls, const Eigen::Isometry3d& place);
 

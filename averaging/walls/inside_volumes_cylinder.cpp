@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "averaging/values/pi.hpp"
 #include "averaging/walls/clipped_polygon.hpp"
 #include "averaging/walls/column_volumes.hpp"
 #include "averaging/walls/inside_volumes.hpp"
 #include "averaging/walls/prism.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

@@ -15,8 +15,11 @@ namespace millfoam::averaging {
 /// The walls of a mill that moves, as they cut the voxels of a grid of the lab frame.
 class MovingWalls {
  public:
-  /// @param walls       the mill's surface at the DEM time `walls_time`, s
+  /// @param grid        of the lab frame, whose voxels are cut
+  /// @param walls       the mill's surface at the DEM time `walls_time`
   /// @param motion      of the walls; null when they are at rest
+  /// @param walls_time  s
+  ///
   /// Throws SurfaceError when the walls enclose no part of the grid.
   MovingWalls(const std::variant<BoxGrid, CylinderGrid>& grid, const Surface& walls,
               std::shared_ptr<const Motion> motion, double walls_time);

@@ -15,6 +15,7 @@ struct Prism {
 };
 
 /// Of a whole polygon.
+/// @param polygon  corners in m
 /// @param level  m
 Prism prism_below(const ClippedPolygon& polygon, double level);
 
@@ -23,6 +24,7 @@ Prism prism_below(const ClippedPolygon& polygon, double level);
 ///
 ///     R^2 (phi - sin phi) / 2,    2/3 R^3 sin^3(phi/2)  along the bisector, about the axis
 ///
+/// @param polygon  corners in m
 /// @param level, radius  m
 /// @param slope  of the polygon's plane: dz/dx, dz/dy
 Prism prism_below(const ClippedPolygon& polygon, double level, double radius, const Eigen::Vector2d& slope);

@@ -4,12 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <sstream>
+#include <string>
 #include <utility>
 
-#include "averaging/walls/point_merger.hpp"
-#include "averaging/walls/stl_file.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/surface/face_edges.hpp"
+#include "meshing/surface/stl_file.hpp"
+#include "meshing/surface/welding.hpp"
 
 namespace millfoam::averaging {
 
@@ -20,41 +21,35 @@ using Eigen::Vector3d;
 /// Points nearer than this part of the surface's size are one: six digits of a text, or a float.
 constexpr double same_point = 1e-6;
 
-/// Edges as pairs of points, the lower one first, and how many more triangles run along them upwards than
-/// downwards. Of a closed surface that is 0 everywhere.
-using Edges = std::map<std::pair<int, int>, int>;
+/// An edge at which the triangles of a closed surface would not cancel.
+struct OpenEdge {
+  int low = 0;
+  int high = 0;
+  int net = 0;  ///< how many more triangles run along it from low to high than back
+};
 
-Edges open_edges(const std::vector<std::array<int, 3>>& triangles) {
-  Edges edges;
-  for (const auto& triangle : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int a = triangle[c], b = triangle[(c + 1) % 3];
-      edges[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
+std::vector<OpenEdge> open_edges(const std::vector<std::array<int, 3>>& triangles) {
+  const surface::EdgeTable table = surface::find_edges(triangles);
+  std::vector<OpenEdge> open;
+  for (std::size_t e = 0; e < table.size(); ++e) {
+    OpenEdge edge{table.first(e).low, table.first(e).high, 0};
+    for (std::size_t s = table.begin[e]; s < table.begin[e + 1]; ++s)
+      edge.net += table.sides[s].forward ? 1 : -1;
+    if (edge.net != 0) open.push_back(edge);
   }
-  for (auto edge = edges.begin(); edge != edges.end();) {
-    edge = edge->second == 0 ? edges.erase(edge) : std::next(edge);
-  }
-  return edges;
+  return open;
 }
 
 const Vector3d& point_of(const Surface& surface, int point) {
   return surface.points[static_cast<std::size_t>(point)];
 }
 
-std::string in_words(const Vector3d& point) {
-  std::ostringstream text;
-  text << '(' << point.x() << ' ' << point.y() << ' ' << point.z() << ')';
-  return text.str();
-}
-
-SurfaceError not_closed(const Surface& surface, const Edges& edges, const Edges::value_type& edge,
+SurfaceError not_closed(const Surface& walls, const std::vector<OpenEdge>& edges, const OpenEdge& edge,
                         const std::string& files) {
-  const bool turned = std::abs(edge.second) > 1;
+  const bool turned = std::abs(edge.net) > 1;
   return SurfaceError(
       files + ": the walls are not a closed surface: at the edge from " +
-      in_words(point_of(surface, edge.first.first)) + " to " +
-      in_words(point_of(surface, edge.first.second)) +
+      described(point_of(walls, edge.low)) + " to " + described(point_of(walls, edge.high)) +
       (turned ? " triangles do not agree on which side is outside" : " a triangle has no neighbour") + " (" +
       std::to_string(edges.size()) +
       " such edges); expected all parts of the wall, open at most at its ends along z");
@@ -63,20 +58,19 @@ SurfaceError not_closed(const Surface& surface, const Edges& edges, const Edges:
 /// Closes what is open at the lowest and the highest z: each open edge makes a triangle with a point of that
 /// plane. Whatever the shape of the opening, the triangles' signed areas add up to it.
 void close_ends(Surface& surface, double tolerance, const std::string& files) {
-  const Edges edges = open_edges(surface.triangles);
+  const std::vector<OpenEdge> edges = open_edges(surface.triangles);
   if (edges.empty()) return;
   const auto [lowest, highest] =
       std::minmax_element(surface.points.begin(), surface.points.end(),
                           [](const Vector3d& p, const Vector3d& q) { return p.z() < q.z(); });
   const std::array<double, 2> ends{lowest->z(), highest->z()};
-  for (const auto& edge : edges) {
-    const auto& [ends_of_edge, net] = edge;
-    const Vector3d& a = point_of(surface, ends_of_edge.first);
-    const Vector3d& b = point_of(surface, ends_of_edge.second);
+  for (const OpenEdge& edge : edges) {
+    const Vector3d& a = point_of(surface, edge.low);
+    const Vector3d& b = point_of(surface, edge.high);
     const auto is_at = [&](double z) {
       return std::abs(a.z() - z) <= tolerance && std::abs(b.z() - z) <= tolerance;
     };
-    if (std::abs(net) > 1 || !(is_at(ends[0]) || is_at(ends[1])))
+    if (std::abs(edge.net) > 1 || !(is_at(ends[0]) || is_at(ends[1])))
       throw not_closed(surface, edges, edge, files);
   }
   const auto first = static_cast<int>(surface.points.size());
@@ -86,10 +80,10 @@ void close_ends(Surface& surface, double tolerance, const std::string& files) {
     return Vector3d(box.center());
   }();
   for (const double z : ends) surface.points.emplace_back(middle.x(), middle.y(), z);
-  for (const auto& [edge, net] : edges) {
-    const double z = point_of(surface, edge.first).z();
+  for (const auto& [low, high, net] : edges) {
+    const double z = point_of(surface, low).z();
     const int centre = first + (std::abs(z - ends[0]) <= tolerance ? 0 : 1);
-    const auto [from, to] = net > 0 ? std::pair(edge.second, edge.first) : edge;
+    const auto [from, to] = net > 0 ? std::pair(high, low) : std::pair(low, high);
     surface.triangles.push_back({from, to, centre});
   }
   surface.caps = edges.size();
@@ -109,23 +103,19 @@ std::string listed(const std::vector<std::filesystem::path>& files) {
 }  // namespace
 
 Surface read_surface(const std::vector<std::filesystem::path>& files) {
-  std::vector<StlTriangle> soup;
+  std::vector<Vector3d> corners;  // [triangles][3]
   for (const std::filesystem::path& file : files) {
-    const std::vector<StlTriangle> part = read_stl(file);
-    soup.insert(soup.end(), part.begin(), part.end());
+    for (const surface::StlTriangle& triangle : surface::read_stl(file))
+      corners.insert(corners.end(), triangle.corners.begin(), triangle.corners.end());
   }
-  Eigen::AlignedBox3d box;
-  for (const StlTriangle& triangle : soup) {
-    for (const Vector3d& corner : triangle) box.extend(corner);
-  }
-  if (box.isEmpty()) throw SurfaceError("no STL file is given, expected those of the mill's walls");
-  const double tolerance = same_point * box.diagonal().norm();
+  if (corners.empty()) throw SurfaceError("no STL file is given, expected those of the mill's walls");
+  const double tolerance = same_point * surface::extent(corners);
 
+  const surface::Welding welding = surface::weld(corners, tolerance);
   Surface surface;
-  PointMerger merger(surface.points, tolerance);
-  for (const StlTriangle& corners : soup) {
-    const std::array<int, 3> t{merger.number_of(corners[0]), merger.number_of(corners[1]),
-                               merger.number_of(corners[2])};
+  surface.points = welding.points;
+  for (std::size_t c = 0; c < corners.size(); c += 3) {
+    const std::array<int, 3> t{welding.kept[c], welding.kept[c + 1], welding.kept[c + 2]};
     // One that shrinks to a line takes nothing away.
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) surface.triangles.push_back(t);
   }

@@ -4,17 +4,15 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
-#include <stdexcept>
 #include <vector>
 
 #include "averaging/mesh/mesh_geometry.hpp"
+#include "meshing/surface/stl_file.hpp"
 
 namespace millfoam::averaging {
 
 /// Walls that cannot be used; the message names the file or the place, and what was expected.
-class SurfaceError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using surface::SurfaceError;
 
 /// The inside of a mill, by the closed surface around it.
 struct Surface {
@@ -31,8 +29,8 @@ struct Surface {
 /// Points nearer to each other than 1e-6 of the surface's size are one. Where the surface is open at its
 /// lowest or highest z, as that of a slice of a long mill, it is closed by a flat end. Its triangles must
 /// agree on which side is outside, and are all turned when that is the side inside; a body within the mill
-/// must then be turned inside out against the wall around it. Throws SurfaceError for files that `read_stl`
-/// refuses, and for a surface that is not closed, naming the first open edge.
+/// must then be turned inside out against the wall around it. Throws SurfaceError for files that
+/// `surface::read_stl` refuses, and for a surface that is not closed, naming the first open edge.
 Surface read_surface(const std::vector<std::filesystem::path>& files);
 
 /// The boundary of a mesh, all patches together. Faces are cut into triangles as for the cells' volumes, so

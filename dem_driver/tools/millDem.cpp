@@ -26,7 +26,9 @@
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_fit.hpp"
-#include "meshing/mill_document.hpp"
+#include "meshing/files/output_file.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_document.hpp"
 #include "meshing/tools/mill_options.hpp"
 
 namespace {
@@ -41,6 +43,7 @@ struct Options {
   int ranks = 1;
   bool deck_only = false;
   bool resume = false;
+  bool or_anew = false;
   std::string plan_file;
 };
 
@@ -57,12 +60,6 @@ std::string identity(const std::string& deck) {
   return kept;
 }
 
-std::string in_words(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 std::string read_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -73,7 +70,7 @@ constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is 
 /// Throws std::runtime_error when the run in the folder cannot be gone on with at that step.
 void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
   if (step > plan.turning_steps) {
-    const auto seconds = [&](long steps) { return in_words(static_cast<double>(steps) * plan.step.value); };
+    const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
     throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
                                "at least the " + seconds(step) + " s that the run in " +
                                    folder.root.string() + " has reached" + otherwise);
@@ -116,6 +113,20 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
 }
 
+/// The step at which the run resumes; nothing where it begins anew: without `--resume`, or with `--or-anew`
+/// where it cannot be resumed.
+std::optional<long> first_step(const Options& options, const dem_driver::CaseFolder& folder,
+                               const dem_driver::DemPlan& plan, const std::string& deck) {
+  if (!options.resume) return std::nullopt;
+  try {
+    return resumable(folder, plan, deck);
+  } catch (const std::exception& reason) {
+    if (!options.or_anew) throw;
+    std::cout << reason.what() << ". The dry run begins anew\n";
+    return std::nullopt;
+  }
+}
+
 void run(const Options& options, const meshing::MillDescription& description) {
   const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
@@ -128,7 +139,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
 
   fs::create_directories(folder.dem());
   const dem_driver::FolderLock lock(folder);
-  const auto step = options.resume ? resumable(folder, plan, deck.str()) : std::nullopt;
+  const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.turning_steps && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
     return;
@@ -139,13 +150,13 @@ void run(const Options& options, const meshing::MillDescription& description) {
     dem_driver::require_room(folder, plan, step.value_or(0));
     prepare(folder, step);
   }
-  dem_driver::write_whole_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
+  replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
   std::cout << "deck: " << folder.deck().string() << std::endl;
   if (options.deck_only) return;
   if (step) {
-    dem_driver::write_whole_file(folder.resume_deck(), [&](std::ostream& out) {
+    replace_file(folder.resume_deck(), [&](std::ostream& out) {
       dem_driver::write_resume_deck(out, mill, plan, parts, options.ranks, *step);
     });
     std::cout << "resumed at step " << *step << ", t = " << static_cast<double>(*step) * plan.step.value
@@ -218,7 +229,8 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.footer("millDem plan mill.yaml [-np N] predicts what the run will cost.");
   add_common(app, options);
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
-  app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
+  auto* resume = app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
+  app.add_flag("--or-anew", options.or_anew, "begin anew a run that cannot be resumed")->needs(resume);
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -9,17 +9,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "meshing/mesh_quality.hpp"
-#include "meshing/mesh_report.hpp"
-#include "meshing/mesh_results.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/mill_properties.hpp"
-#include "meshing/mill_shape.hpp"
-#include "meshing/openfoam_files.hpp"
-#include "meshing/surface_check.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/results/mesh_report.hpp"
+#include "meshing/results/mesh_results.hpp"
+#include "meshing/results/mill_properties.hpp"
 #include "meshing/tools/mill_options.hpp"
 #include "meshing/tools/polygon_commands.hpp"
-#include "meshing/wall_files.hpp"
+#include "meshing/volume/mesh_quality.hpp"
+#include "meshing/volume/openfoam_files.hpp"
+#include "meshing/walls/surface_check.hpp"
+#include "meshing/walls/wall_files.hpp"
 
 namespace {
 

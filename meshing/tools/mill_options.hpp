@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "meshing/mill.hpp"
-#include "meshing/resolved_mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
+#include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::meshing {

@@ -4,16 +4,17 @@
 #include <cstdio>
 #include <memory>
 
-#include "meshing/assembly.hpp"
-#include "meshing/cad_surface.hpp"
-#include "meshing/face_file.hpp"
-#include "meshing/mesh_results.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/obj_file.hpp"
-#include "meshing/openfoam_files.hpp"
-#include "meshing/text_numbers.hpp"
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/polygons/assembly.hpp"
+#include "meshing/polygons/face_file.hpp"
+#include "meshing/polygons/obj_file.hpp"
+#include "meshing/results/mesh_results.hpp"
 #include "meshing/tools/mill_options.hpp"
-#include "meshing/wall_files.hpp"
+#include "meshing/volume/openfoam_files.hpp"
+#include "meshing/walls/cad_surface.hpp"
+#include "meshing/walls/wall_files.hpp"
 
 namespace millfoam::meshing {
 namespace {

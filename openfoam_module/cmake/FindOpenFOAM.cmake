@@ -1,9 +1,10 @@
 # Finds an OpenFOAM to compile against and to link with: either one that is sourced in the shell (WM_PROJECT_DIR holds
-# src/ with its lnInclude folders), or the tree that scripts/setup unpacked in build/openfoam, with the distribution's
-# libraries.
+# src/ with its lnInclude folders, FOAM_LIBBIN its libraries), or the tree that scripts/setup unpacked in
+# build/openfoam, with the distribution's libraries. It must be openfoam.com's, v1912 or later.
 #
 #   OpenFOAM_ROOT_DIR     the source tree
 #   OpenFOAM_API          its version, as 1912
+#   OpenFOAM_SOURCED      whether its libraries are those of the shell, FOAM_LIBBIN
 #   OpenFOAM::OpenFOAM    include folders, definitions and the compile flags that are safe with OpenFOAM's headers
 #   openfoam_link_libraries(<target> finiteVolume meshTools …)   links OpenFOAM's libraries, found by name
 #
@@ -22,15 +23,29 @@ if(OpenFOAM_ROOT_DIR AND EXISTS "${OpenFOAM_ROOT_DIR}/META-INFO/api-info")
   string(REPLACE "api=" "" OpenFOAM_API "${api_line}")
 endif()
 
-find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ENV FOAM_LIBBIN)
-find_library(OpenFOAM_PSTREAM_LIBRARY Pstream HINTS "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" "$ENV{FOAM_LIBBIN}/dummy")
+set(openfoam_advice "run scripts/setup, which brings the headers, or source an OpenFOAM first")
+if(OpenFOAM_ROOT_DIR AND NOT OpenFOAM_API)
+  string(CONCAT openfoam_advice "${OpenFOAM_ROOT_DIR} is not openfoam.com's OpenFOAM, and the Foundation's has neither "
+                "fvOptions nor dynamicFvMesh")
+endif()
+
+# A sourced OpenFOAM must not be mixed with the distribution's libraries.
+set(OpenFOAM_SOURCED OFF)
+set(openfoam_only)
+if(DEFINED ENV{FOAM_LIBBIN} AND OpenFOAM_ROOT_DIR STREQUAL "$ENV{WM_PROJECT_DIR}")
+  set(OpenFOAM_SOURCED ON)
+  set(openfoam_only NO_DEFAULT_PATH)
+endif()
+find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ENV FOAM_LIBBIN ${openfoam_only})
+find_library(OpenFOAM_PSTREAM_LIBRARY Pstream
+             HINTS "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" "$ENV{FOAM_LIBBIN}/dummy" ${openfoam_only})
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(
   OpenFOAM
   REQUIRED_VARS OpenFOAM_ROOT_DIR OpenFOAM_API OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY
   VERSION_VAR OpenFOAM_API
-  REASON_FAILURE_MESSAGE "run scripts/setup, which brings the headers, or source an OpenFOAM first")
+  REASON_FAILURE_MESSAGE "${openfoam_advice}")
 
 if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   set(src ${OpenFOAM_ROOT_DIR}/src)
@@ -71,12 +86,16 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   target_compile_options(OpenFOAM::OpenFOAM INTERFACE $<$<BOOL:${MILLFOAM_SANITIZE}>:-Wno-maybe-uninitialized>)
   target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
   target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)
+  # Libraries that only libraries link, too, are those of this OpenFOAM, and not the distribution's.
+  if(OpenFOAM_SOURCED)
+    target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--disable-new-dtags)
+  endif()
 endif()
 
 function(openfoam_link_libraries target)
   target_link_libraries(${target} PRIVATE OpenFOAM::OpenFOAM)
   foreach(name IN LISTS ARGN)
-    find_library(OpenFOAM_${name}_LIBRARY ${name} HINTS ENV FOAM_LIBBIN REQUIRED)
+    find_library(OpenFOAM_${name}_LIBRARY ${name} HINTS ENV FOAM_LIBBIN ${openfoam_only} REQUIRED)
     target_link_libraries(${target} PRIVATE ${OpenFOAM_${name}_LIBRARY})
   endforeach()
 endfunction()

@@ -84,8 +84,10 @@ double tenneti(double phi, double re);
 
 /// Where a correlation is valid: both ends included, 0 and infinity where an end is open.
 struct Range {
-  double phi_min, phi_max;  ///< solidity
-  double re_min, re_max;    ///< Reynolds number
+  double phi_min,  ///< smallest solidity
+      phi_max;     ///< largest solidity
+  double re_min,   ///< smallest Reynolds number
+      re_max;      ///< largest Reynolds number
 };
 
 /// Whether (phi, Re) lies in the range. Where there are no solids there is no drag: phi = 0 is within every

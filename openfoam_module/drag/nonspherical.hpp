@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+/// @file
 /// Drag of a bed of balls that are not spheres. It needs their shape, so it is not one of the table's laws.
+
 namespace millfoam::drag {
 
 /// Both ratios have the cross-section or surface of the sphere of equal volume above the line; 1 for a

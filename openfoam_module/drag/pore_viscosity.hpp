@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+/// @file
 /// The viscosity with which a Bingham slurry drags on a bed, when it is taken in the bed's pores.
 ///
 /// The averaged flow's own shear rate says nothing of the pores: in a bed that carries its slurry along it is
 /// near zero while the slurry between the balls shears at hundreds per second.
+
 namespace millfoam::drag {
 
 /// Shear stress tau = yield_stress + plastic_viscosity * rate where the slurry yields.

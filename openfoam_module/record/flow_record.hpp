@@ -10,8 +10,9 @@
 
 #include "openfoam_module/record/step_table.hpp"
 
-/// What a flow leaves behind to be read by programs: its folder postProcessing/flow/<start time>/ with
-/// steps.csv, a row per time-step, and flow.json, the summary.
+/// What a flow leaves behind to be read by programs: its folder `postProcessing/flow/START` with
+/// steps.csv, a row per time-step, and flow.json, the summary. START is the name of the time at which the run
+/// began or resumed. Layout: FORMATS.md.
 namespace millfoam::record {
 
 /// Where the balls of a flow came from and what was done beyond the recorded time.
@@ -26,45 +27,47 @@ struct Solids {
   std::string in_time;                     ///< window or linear
   std::optional<double> angular_velocity;  ///< of the mill in the dry run, rad/s
   std::string program;                     ///< that wrote the file; empty: not known
-  std::string mill_charge;                 ///< fingerprints of the file's mill; empty: not known
-  std::string mill_averages;
+  std::string mill_charge;                 ///< fingerprint of the charge of the file's mill; empty: not known
+  std::string mill_averages;               ///< of that mill and its averages; empty: not known
 };
 
 /// The drag that the balls give.
 struct Drag {
-  std::string law;
-  std::string reference;
-  double multiplier = 1;
-  std::string viscosity;  ///< that the drag feels: plastic or pore
-  bool polydispersity = false;
-  double solidity_min = 0, solidity_max = 1;  ///< range of the law
-  double reynolds_min = 0, reynolds_max = std::numeric_limits<double>::infinity();
+  std::string law;              ///< name in the table of openfoam_module/drag
+  std::string reference;        ///< of the law: author and year
+  double multiplier = 1;        ///< on the law's drag
+  std::string viscosity;        ///< that the drag feels: plastic or pore
+  bool polydispersity = false;  ///< whether it has the factor for a mixture of sizes
+  double solidity_min = 0,      ///< smallest solidity of the law's range
+      solidity_max = 1;         ///< largest solidity of the law's range
+  double reynolds_min = 0,      ///< smallest particle Reynolds number of the law's range
+      reynolds_max = std::numeric_limits<double>::infinity();  ///< largest one
 };
 
 /// Bounds of the time-step that controlDict sets.
 struct StepLimits {
-  double courant = 0;
-  double surface_courant = 0;
-  double voidage_change = 0;
-  std::optional<double> delta_t;  ///< s
+  double courant = 0;             ///< maxCo, largest Courant number of the flow
+  double surface_courant = 0;     ///< maxAlphaCo, the same of cells that the slurry's surface cuts
+  double voidage_change = 0;      ///< maxVoidageChange, largest share by which a cell's voidage may change
+  std::optional<double> delta_t;  ///< maxDeltaT, s; nothing: no bound
 };
 
 /// What is known of a flow from its start on.
 struct FlowSetup {
-  std::string solver;            ///< name of the program
-  std::string openfoam_version;  ///< 1912
-  std::string openfoam_patch;    ///< of that version; empty: none
-  std::string openfoam_build;    ///< of a source tree; empty: a package
-  int ranks = 1;
-  double begin = 0;                 ///< flow time at which this run begins or resumes, s
-  std::optional<double> asked_end;  ///< endTime, s
-  double angular_velocity = 0;      ///< of the mesh about z, right-handed, rad/s; 0: at rest
-  std::string mill_charge;          ///< fingerprints of constant/millProperties; empty: not known
-  std::string mill_averages;
-  std::string mill_flow;
+  std::string solver;                ///< name of the program
+  std::string openfoam_version;      ///< 1912
+  std::string openfoam_patch;        ///< of that version; empty: none
+  std::string openfoam_build;        ///< of a source tree; empty: a package
+  int ranks = 1;                     ///< processes of the run
+  double begin = 0;                  ///< flow time at which this run begins or resumes, s
+  std::optional<double> asked_end;   ///< endTime, s
+  double angular_velocity = 0;       ///< of the mesh about z, right-handed, rad/s; 0: at rest
+  std::string mill_charge;           ///< fingerprint in constant/millProperties; empty: not known
+  std::string mill_averages;         ///< of the mill and its averages
+  std::string mill_flow;             ///< of all keys of the mill that a flow depends on
   std::optional<StepLimits> limits;  ///< none: the time-step is fixed
   std::optional<Solids> solids;      ///< none: a flow without balls
-  std::optional<Drag> drag;
+  std::optional<Drag> drag;          ///< none: a flow without balls
 };
 
 /// Keeps the record of a running flow.
@@ -72,7 +75,10 @@ class FlowRecord {
  public:
   /// Begins the record of a run in `case_folder`/postProcessing/flow/`start`, anew, and removes the records
   /// of runs that began later: their steps are computed again.
+  /// @param case_folder  of the OpenFOAM case
   /// @param start  name of the time at which the run begins or resumes
+  /// @param setup  is copied
+  ///
   /// Throws std::runtime_error when a file cannot be written.
   FlowRecord(const std::filesystem::path& case_folder, const std::string& start, const FlowSetup& setup);
 

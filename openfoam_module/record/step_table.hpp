@@ -39,8 +39,8 @@ struct StepRow {
 
 /// A column of steps.csv.
 struct StepColumn {
-  const char* name;  ///< with its unit
-  std::optional<double> (*value)(const StepRow&);
+  const char* name;                                ///< with its unit
+  std::optional<double> (*value)(const StepRow&);  ///< what it has of a step; nothing is written as nan
 };
 
 /// All columns, in their order.

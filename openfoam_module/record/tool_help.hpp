@@ -9,7 +9,7 @@ namespace millfoam::record {
 
 /// The help of a tool that is built on OpenFOAM.
 struct ToolHelp {
-  std::string name;
+  std::string name;                 ///< as the user types it
   std::string purpose;              ///< one sentence, without a full stop
   std::vector<std::string> usage;   ///< lines after the name, without OpenFOAM's own options
   std::vector<std::string> reads;   ///< lines "file  what for"

@@ -20,11 +20,11 @@ if(MILLFOAM_OPENFOAM)
 endif()
 install(TARGETS ${tools} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-foreach(room options version drag meshing dem_driver averaging averaging_run)
+foreach(room options version drag surface meshing dem_driver averaging averaging_run)
   set_target_properties(millfoam_${room} PROPERTIES EXPORT_NAME ${room})
 endforeach()
-install(TARGETS millfoam_options millfoam_version millfoam_drag millfoam_meshing millfoam_dem_driver millfoam_averaging
-                millfoam_averaging_run
+install(TARGETS millfoam_options millfoam_version millfoam_drag millfoam_surface millfoam_meshing millfoam_dem_driver
+                millfoam_averaging millfoam_averaging_run
         EXPORT millFoamTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         INCLUDES DESTINATION ${headers})

@@ -13,7 +13,7 @@
 
 #include "averaging/mesh/mesh_geometry.hpp"
 #include "averaging/mesh/poly_mesh.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 /// Meshes made in memory.
 namespace millfoam::averaging {

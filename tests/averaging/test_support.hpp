@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "averaging/dumps/dump_reader.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 

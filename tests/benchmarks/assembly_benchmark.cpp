@@ -6,9 +6,10 @@
 
 #include <filesystem>
 
-#include "meshing/assembly.hpp"
-#include "meshing/mill_mesh.hpp"
-#include "meshing/obj_file.hpp"
+#include "meshing/mill_mesh/mill_mesh.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/polygons/assembly.hpp"
+#include "meshing/polygons/obj_file.hpp"
 #include "tests/meshing/polygon_support.hpp"
 #include "tests/meshing/test_geometry.hpp"
 

@@ -14,7 +14,7 @@
 #include "averaging/deposition/sampled_cylinder_deposition.hpp"
 #include "averaging/overlap/sphere_template.hpp"
 #include "averaging/overlap/sphere_triangle.hpp"
-#include "averaging/values/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
 namespace {

@@ -120,7 +120,7 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
   EXPECT_EQ(tests::read_json(folder.run_file()),
             (nlohmann::json{{"format", "millfoam-dumps"},
                             {"program", std::string("millDem ") + version()},
-                            {"mill", {{"walls", "w"}, {"charge", "c"}, {"averages", "a"}, {"flow", "f"}}},
+                            {"mill", {{"walls", "w"}, {"charge", "c"}}},
                             {"timestep_s", plan.step.value},
                             {"interval", plan.step.steps_per_record},
                             {"angular_velocity_rad_s", -12.0},

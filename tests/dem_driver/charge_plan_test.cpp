@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "dem_driver/pi.hpp"
-#include "meshing/mill_charge.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/surface/pi.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "meshing/mill_charge.hpp"
+#include "meshing/mill/mill_charge.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {

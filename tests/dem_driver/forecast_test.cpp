@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "meshing/mill_charge.hpp"
+#include "meshing/mill/mill_charge.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {

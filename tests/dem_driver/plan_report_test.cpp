@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "meshing/mill_shape.hpp"
+#include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
 #include "small_mill.hpp"
 

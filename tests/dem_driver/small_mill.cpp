@@ -8,7 +8,7 @@
 #include <fstream>
 #include <utility>
 
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver::tests {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dem_driver/case_folder.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver::tests {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "dem_driver/pi.hpp"
+#include "meshing/surface/pi.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {

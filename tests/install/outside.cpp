@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "averaging/overlap/sphere_box.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 #include "millfoam_version.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 

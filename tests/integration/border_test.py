@@ -49,7 +49,7 @@ class MadeUpTree(Tree):
 
     def setUp(self):
         super().setUp()
-        for header in ("meshing/mill.hpp", "averaging/box_grid.hpp", "openfoam_module/drag/drag_laws.hpp",
+        for header in ("meshing/mill/mill.hpp", "averaging/box_grid.hpp", "openfoam_module/drag/drag_laws.hpp",
                        "dem_driver/deck.hpp", "openfoam_module/foam/solids.H"):
             self.write(header, "#pragma once\n")
 
@@ -65,7 +65,7 @@ class MadeUpTree(Tree):
         self.assertEqual(violations(self.root), [])
 
     def test_averaging_must_not_include_meshing(self):
-        self.assert_refused("averaging/a.cpp", '"meshing/mill.hpp"', "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", '"meshing/mill/mill.hpp"', "averaging must not know meshing")
 
     def test_averaging_must_not_include_dem_driver(self):
         self.assert_refused("averaging/tools/a.cpp", '"dem_driver/deck.hpp"',
@@ -75,10 +75,10 @@ class MadeUpTree(Tree):
         self.assert_refused("averaging/a.hpp", '"openfoam_module/drag/drag_laws.hpp"', "openfoam_module/drag")
 
     def test_a_relative_path_does_not_hide_the_room(self):
-        self.assert_refused("averaging/a.cpp", '"../meshing/mill.hpp"', "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", '"../meshing/mill/mill.hpp"', "averaging must not know meshing")
 
     def test_angle_brackets_do_not_hide_the_room(self):
-        self.assert_refused("averaging/a.cpp", "<meshing/mill.hpp>", "averaging must not know meshing")
+        self.assert_refused("averaging/a.cpp", "<meshing/mill/mill.hpp>", "averaging must not know meshing")
 
     def test_a_header_that_is_not_there_still_counts(self):
         self.assert_refused("averaging/a.cpp", '"meshing/gone.hpp"', "averaging must not know meshing")
@@ -86,11 +86,19 @@ class MadeUpTree(Tree):
     def test_meshing_includes_no_other_room(self):
         self.assert_refused("meshing/a.cpp", '"averaging/box_grid.hpp"', "meshing must not know averaging")
 
+    def test_surfaces_know_no_other_part_of_meshing(self):
+        self.assert_refused("meshing/surface/a.cpp", '"meshing/mill/mill.hpp"', "meshing/surface must not know meshing")
+
+    def test_files_know_nothing_else(self):
+        self.assert_refused("meshing/files/a.cpp", '"meshing/surface/pi.hpp"',
+                            "meshing/files must not know meshing/surface")
+
     def test_dem_driver_must_not_include_averaging(self):
         self.assert_refused("dem_driver/a.cpp", '"averaging/box_grid.hpp"', "dem_driver must not know averaging")
 
     def test_openfoam_module_must_not_include_meshing(self):
-        self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill.hpp"', "openfoam_module must not know meshing")
+        self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill/mill.hpp"',
+                            "openfoam_module must not know meshing")
 
     def test_drag_knows_only_the_standard_library(self):
         self.assert_refused("openfoam_module/drag/a.cpp", "<hdf5.h>", "standard library only")
@@ -110,14 +118,15 @@ class MadeUpTree(Tree):
         self.assertEqual(violations(self.root), ["meshing/a.cpp: names Foam::, which only .H and .C may know"])
 
     def test_the_ways_that_are_open(self):
-        self.assert_allowed("dem_driver/a.cpp", '"meshing/mill.hpp"')
+        self.assert_allowed("dem_driver/a.cpp", '"meshing/mill/mill.hpp"')
         self.assert_allowed("openfoam_module/foam/a.C", '"averaging/box_grid.hpp"')
         self.assert_allowed("openfoam_module/foam/b.C", '"openfoam_module/drag/drag_laws.hpp"')
         self.assert_allowed("openfoam_module/foam/c.H", '"volFields.H"')
         self.assert_allowed("openfoam_module/drag/a.cpp", "<cmath>")
         self.assert_allowed("openfoam_module/drag/tools/a.cpp", "<CLI/CLI.hpp>")
         self.assert_allowed("averaging/b.cpp", "<hdf5.h>")
-        self.assert_allowed("tests/meshing/a.cpp", '"meshing/mill.hpp"')
+        self.assert_allowed("averaging/c.cpp", '"meshing/surface/stl_file.hpp"')
+        self.assert_allowed("tests/meshing/a.cpp", '"meshing/mill/mill.hpp"')
 
     def test_folders_of_a_room_must_not_include_each_other(self):
         self.write("averaging/a/one.hpp", '#include "averaging/b/one.hpp"\n')

@@ -12,10 +12,14 @@ FILES, READINGS, PLOTS, REPORT, PLAN = (f"{PACKAGE}/{part}"
 WHOLE_PACKAGE = {PACKAGE, FILES, READINGS, PLOTS, REPORT, PLAN}
 # Room (folder, the longest match counts) -> rooms that its sources may use besides itself.
 MAY_USE = {
-    "meshing": {"openfoam_module/drag"},  # the names of the laws, which stand in its table alone
-    "dem_driver": {"meshing"},
-    "averaging": set(),
-    "averaging/tools": {"averaging", "meshing"},  # the tool reads a mill's section; the library knows no mills
+    "meshing/files": set(),
+    "meshing/surface": {"meshing/files"},
+    "meshing": {"meshing/files", "meshing/surface",
+                "openfoam_module/drag"},  # the names of the laws, which stand in its table alone
+    "dem_driver": {"meshing", "meshing/files", "meshing/surface"},
+    "averaging": {"meshing/files", "meshing/surface"},
+    # The tool reads a mill's section; the library knows no mills
+    "averaging/tools": {"averaging", "meshing", "meshing/files", "meshing/surface"},
     "openfoam_module/drag": set(),
     "openfoam_module": {"openfoam_module/drag", "averaging"},
     "scripts": set(),

@@ -274,9 +274,12 @@ class DemRun(unittest.TestCase):
                 ("youngs_modulus: 1e7", "youngs_modulus: 1e6",
                  "mill.yaml:10: key 'dem.youngs_modulus' = 1e.06: expected"),
                 ("duration: 1.0", "duration: 1e5",
+                 r"mill.yaml:10: key 'dem.record_interval' = 0.005: expected a time in s from 0.1 s"),
+                ("duration: 1.0, record_interval: 0.005, seed: 3,\n   contact_interval: 0.012",
+                 "duration: 1e5, record_interval: 1, seed: 3",
                  r"mill.yaml:\d+: key 'dem.\w+' = \S+: expected at most 1e.0[69] (steps|dumps)"),
                 ("contact_interval: 0.012", "contact_interval: 1e-9",
-                 "mill.yaml:11: key 'dem.contact_interval' = 1e-09: exp"),
+                 "mill.yaml:11: key 'dem.contact_interval' = 1e-9: exp"),
                 ("mass: 0.002}", "mass: 1e-9}",
                  r"mill.yaml:7: key 'charge.classes\[1\]' = 1e-09 kg of balls of 0.002 m")):
             (case / "mill.yaml").write_text(MILL.replace(old, new))

@@ -16,9 +16,12 @@ import numpy as np
 
 from millfoam.files import foam, solids_file
 from millfoam.files.data_files import read_json
+from millfoam.files.flow_record import read_flow_record
+from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import read_slurry_map
 from millfoam.files.tables import read_columns
 from millfoam.files.written_times import MillFlow
+from millfoam.report.stages import same_mill
 from millfoam.run import RunError, run
 from mill_case import run_mill
 import mills_test
@@ -98,8 +101,7 @@ class ShortMill(unittest.TestCase):
 
     def test_time_steps_stay_long(self):
         for name in ("law", "off"):
-            log = (self.folder / name / "log.flow").read_text()
-            steps = np.array(re.findall(r"^deltaT = (\S+)", log, re.M), dtype=float)
+            steps = read_flow_record(self.folder / name).steps["deltaT_s"]
             self.assertGreater(steps.min(), np.median(steps) / 20, name)
 
     def test_the_slurry_carries_a_part_of_the_balls_and_says_so(self):
@@ -182,6 +184,8 @@ class Again(unittest.TestCase):
         self.assertEqual(kept, ["walls", "charge", "average"])
         self.assertEqual(made, [*self.FLOW, "pictures", "report"])
         self.assertEqual(read_json(self.case / "mill.json", "mill")["derived"]["flow"]["law"], "Hill")
+        # The charge that was kept belongs to this mill too
+        self.assertEqual(same_mill(MillCase(self.case)).state, "holds")
 
     def test_another_window_makes_the_averages_again(self):
         made, kept = self.allrun("--set", "averages.window=0.05")
@@ -233,16 +237,78 @@ class Again(unittest.TestCase):
         made, kept = self.allrun("--set", "flow.solver=interFoam", "--set", "flow.write_interval=0.03")
         self.assertEqual((made, kept), ([*self.FLOW, "pictures", "report"], ["walls", "charge", "average"]))
         # Whose balls displace none: its share of the whole cells
-        start = float(re.search(r"m: (\S+) m3", (self.case / "log.start").read_text()).group(1))
         flow = MillFlow(self.case)
+        start = (flow.field("alpha.slurry", flow.frames[0][1]) * flow.volumes).sum()
         np.testing.assert_allclose([time for time, _ in flow.frames], [0, 0.03, 0.05], atol=1e-12)
         alpha = flow.field("alpha.slurry", flow.frames[-1][1])
         self.assertAlmostEqual((alpha * flow.volumes).sum() / start, 1, delta=1e-3)
         self.assertAlmostEqual(flow.slurry_volumes()[1] / start, 1, delta=1e-3)
 
+    def test_back_from_another_solver_the_flow_is_the_first_one(self):
+        properties = self.case / "constant" / "bedProperties"
+        properties.write_text(properties.read_text() + "// a change of the case's owner\n")
+        dictionaries = {path: path.read_text() for folder in ("0.orig", "constant", "system")
+                        for path in (self.case / folder).glob("*") if path.is_file()}
+        self.allrun("--set", "flow.solver=interFoam")
+        self.assertTrue((self.case / "constant" / "fvOptions").is_file())
+        self.assertFalse(properties.exists())
+        self.allrun()
+        self.assertFalse((self.case / "constant" / "fvOptions").exists())
+        for path, text in dictionaries.items():
+            if path.name != "millProperties":  # which has the versions' fingerprints
+                self.assertEqual(path.read_text(), text, path)
+        first, again = (MillFlow(case) for case in (self.whole, self.case))
+        np.testing.assert_allclose(again.field("U", again.frames[-1][1]), first.field("U", first.frames[-1][1]),
+                                   rtol=1e-9, atol=1e-12)
+
+    def test_a_flow_without_balls_keeps_its_bed_for_the_next_with_them(self):
+        properties = self.case / "constant" / "bedProperties"
+        text = properties.read_text() + "// a change of the case's owner\n"
+        properties.write_text(text)
+        self.allrun("--set", "flow.balls=no", "--until", "start")
+        self.assertFalse(properties.exists())
+        self.allrun("--until", "start")
+        self.assertEqual(properties.read_text(), text)
+
+    def test_a_shorter_dry_run_begins_anew(self):
+        made, kept = self.allrun("--until", "average", "--set", "dem.duration=0.3")
+        self.assertEqual((made, kept), (["charge", "average"], ["walls"]))
+        self.assertAlmostEqual(read_json(self.case / "dumps" / "results.json", "charge")["duration_s"], 0.3)
+
+    def test_a_plan_leaves_the_case_as_it_is(self):
+        before = (self.case / "mill.json").read_bytes()
+        self.allrun("--plan", "--set", "flow.law=Hill")
+        self.assertEqual((self.case / "mill.json").read_bytes(), before)
+        self.assertTrue((self.case / "plan.json").is_file())
+
+    def test_a_charge_of_a_folder_without_averages_is_refused(self):
+        self.assertIn("whose averages are made", self.refused("./Allrun", "--charge", "constant"))
+
+    def test_the_description_is_not_overwritten(self):
+        before = (self.case / "mill.yaml").read_bytes()
+        output = self.refused("millMesh", "mill.yaml", "--resolved", "mill.yaml")
+        self.assertIn("exists and is no resolved mill", output)
+        self.assertIn("exists and is no HTML", self.refused(ROOT / "scripts" / "report", ".", "-o", "mill.yaml"))
+        self.assertEqual((self.case / "mill.yaml").read_bytes(), before)
+
+    def test_a_resolved_mill_goes_into_a_pipe(self):
+        run(self.case, "bash", "-c", "mkfifo pipe; cat pipe > copy.json & "
+            "millMesh mill.yaml --resolved pipe; wait; test -p pipe")
+        self.assertEqual(read_json(self.case / "copy.json", "mill")["mill"],
+                         read_json(self.case / "mill.json", "mill")["mill"])
+
+    def test_a_flow_that_was_not_joined_is_reported_as_such(self):
+        for time, path in foam.times(self.case):
+            if time > 0:
+                shutil.rmtree(path)
+        (self.case / "processor0").mkdir()
+        output = run(self.case, ROOT / "scripts" / "report", ".")
+        self.assertIn("report.html", output)
+        self.assertIn("reconstructPar", (self.case / "report.html").read_text())
+
     def test_averages_by_the_mill_are_those_by_hand(self):
         run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--box", -0.3, -0.3, 0, 0.3, 0.3, 0.1,
-            "--shape", 6, 6, 1, "--periodic", "z", "--inside", "walls/*.stl", "--start", 0.2, "--window", 0.1,
+            "--shape", 8, 8, 1, "--periodic", "z", "--inside", "walls/*.stl", "--start", 0.2, "--window", 0.1,
             "-o", "by_hand.h5")
         run(self.case, "millAverage", "mill.yaml", "--case", ".")
         with h5py.File(self.case / "solids.h5") as mine, h5py.File(self.case / "by_hand.h5") as hand:

@@ -202,7 +202,7 @@ flow: {duration: 0.05}
     BALLS = {0.04: round(0.2 * 0.6 * SECTION * 0.1 / ball(0.04))}
     DENSITY, FRICTION = 2700, (0.94, 0.287)
     DRY, RECORD, START, FLOW, LEVEL = 0.4, 0.01, 0.2, 0.05, -0.1
-    SOLIDS_SHAPE, SLURRY_SHAPE = (6, 6, 1), (12, 12, 2)
+    SOLIDS_SHAPE, SLURRY_SHAPE = (8, 8, 1), (12, 12, 2)  # voxels of a quarter of the radius
 
 
 class SliceOfTrapezoids(MillRun, unittest.TestCase):
@@ -441,7 +441,7 @@ flow: {duration: 0.04}
     DENSITY, FRICTION = 2700, (0.94, 0.287)
     DRY, RECORD, START, FLOW = 0.4, 0.02, 0.1, 0.04
     SLURRY = BALLS[0.12] * ball(0.12) * 0.4 / 0.6
-    SOLIDS_SHAPE, SLURRY_SHAPE = (6, 6, 2), (26, 26, 3)  # 2.5 diameters; cells of R/13
+    SOLIDS_SHAPE, SLURRY_SHAPE = (8, 8, 2), (26, 26, 3)  # a quarter of the radius; cells of R/13
     PAST = 0.17
 
 

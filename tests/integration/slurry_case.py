@@ -84,7 +84,9 @@ class SlurryCase(BoxCase):
     def steps(self, start="0"):
         """Rows of steps.csv [steps], by columns, of the run that began at the time of this name."""
         path = self.path / "postProcessing" / "flow" / start / "steps.csv"
-        return np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True))
+        # Of a killed run the last line may be cut
+        whole = path.read_text().rpartition("\n")[0].split("\n")
+        return np.atleast_1d(np.genfromtxt(whole, delimiter=",", names=True))
 
     def record(self, start="0"):
         """flow.json of the run that began at the time of this name."""

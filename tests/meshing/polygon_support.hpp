@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "meshing/polygon_set.hpp"
-#include "meshing/volume_mesh.hpp"
+#include "meshing/polygons/polygon_set.hpp"
+#include "meshing/volume/volume_mesh.hpp"
 
 namespace millfoam::meshing {
 

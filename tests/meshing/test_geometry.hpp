@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "meshing/cross_section.hpp"
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill.hpp"
+#include "meshing/mill_mesh/section_blocks.hpp"
 
 namespace millfoam::meshing {
 

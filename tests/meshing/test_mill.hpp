@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "meshing/mill.hpp"
+#include "meshing/mill/mill_reader.hpp"
 
 namespace millfoam::meshing {
 

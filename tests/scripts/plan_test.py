@@ -55,7 +55,7 @@ def mill(**flow):
             "averages": {"shape": [10, 10, 4], "window_s": 0.1}, **flow}
     return {"format": "millfoam-mill", "program": "millMesh 1", "fingerprint": {"flow": "0123456789abcdef"},
             "mill": {"geometry": {}, "speed": {}, "charge": {}, "dem": {"duration": 4.0, "record_interval": 0.01}},
-            "derived": {"geometry": {"radius_m": RADIUS, "length_m": LENGTH}, "charge": {},
+            "derived": {"gravity_m_s2": 9.81, "geometry": {"radius_m": RADIUS, "length_m": LENGTH}, "charge": {},
                         "speed": {"angular_velocity_rad_s": 0.0}, "flow": flow,
                         "averages": {"start_s": "steady", "window_s": 0.5, "shape": [10, 10, 10]}}}
 

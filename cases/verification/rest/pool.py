@@ -25,6 +25,7 @@ SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "sl
 SLURRY = dict(slurryDensity=1239, slurryViscosity=1.4e-3, slurryKinematicViscosity=1.4e-3 / 1239)
 AIR = dict(airDensity=1.2, airViscosity=1.8e-5, airKinematicViscosity=1.8e-5 / 1.2)
 TENSION = 0.07  # N/m
+GRAVITY = 9.81  # m/s2
 # By name: the mill whose mesh it is (None: blockMesh), the pool's level, the mesh's radius and length, m. Levels run
 # through cells, not along their faces.
 MESHES = {
@@ -70,8 +71,9 @@ def bed_parameters(level, radius, length):
                 bedEdge=BED_EDGE * radius, bedSolidity=BED_SOLIDITY, bedVolume=BED_SOLIDITY * across * up * length)
 
 
-def build(run, case, here, end):
-    """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface."""
+def build(run, case, here, end, gravity=GRAVITY):
+    """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface. gravity: along
+    -y, m/s2."""
     shutil.copytree(here / "pool" / "common", case)
     shutil.copytree(here / "pool" / run.solver, case, dirs_exist_ok=True)
     if run.bed:
@@ -81,7 +83,8 @@ def build(run, case, here, end):
         case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension,
         level=FULL if run.filled else level, **bed_parameters(level, radius, length), endTime=end,
         writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
-        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0))
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0),
+        gravity=-gravity)
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
     else:

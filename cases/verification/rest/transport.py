@@ -8,7 +8,6 @@ by which the transport has moved the surface: geometric (slurryFoam, interIsoFoa
 loses slurry."""
 import argparse
 import math
-import re
 import shutil
 import sys
 from pathlib import Path
@@ -30,9 +29,7 @@ def perform(mesh, solver, work, here):
     run = Run(mesh, solver, 0, True)
     case = work / f"{mesh}_{solver}"
     shutil.rmtree(case, ignore_errors=True)
-    pool.build(run, case, here, 2 * math.pi / abs(pool.OMEGA[mesh]))
-    gravity = case / "constant" / "g"
-    gravity.write_text(re.sub(r"value.*;", "value (0 0 0);", gravity.read_text()))
+    pool.build(run, case, here, 2 * math.pi / abs(pool.OMEGA[mesh]), gravity=0)
     run_program(case, pool.SOLVERS[solver])
     return case
 

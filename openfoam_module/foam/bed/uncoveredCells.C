@@ -24,16 +24,12 @@ Foam::string Foam::firstCells(const fvMesh& mesh, const labelUList& cells)
         own << " at " << mesh.C()[cells[i]] << " m";
     }
 
-    List<string> texts(Pstream::nProcs());
-    texts[Pstream::myProcNo()] = own.str();
-    Pstream::gatherList(texts);
-    Pstream::scatterList(texts);
-
-    string all;
-    for (const string& text : texts)
+    const auto joined = [](const string& one, const string& other)
     {
-        all += (all.empty() || text.empty() ? "" : ", ") + text;
-    }
+        const bool both = !one.empty() && !other.empty();
+        return string(one + (both ? ", " : "") + other);
+    };
+    string all = returnReduce(own.str(), joined);
     return returnReduce(cells.size(), maxOp<label>()) > few ? all + ", ..."
                                                             : all;
 }

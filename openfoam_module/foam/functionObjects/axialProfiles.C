@@ -55,7 +55,11 @@ void Foam::functionObjects::axialProfiles::open()
 {
     forAll(files_, i)
     {
+#if OPENFOAM < 2212
         files_[i] = createFile(names_[i]);
+#else
+        files_[i] = newFileAtStartTime(names_[i]);
+#endif
         if (files_[i].valid())
         {
             writeHeaderValue(files_[i](), "Begun", label(clock::getTime()));

@@ -125,11 +125,15 @@ class MillCase:
         path = self.folder / "solids.h5"
         if not self._whole(path, "average the dumps again (millAverage)"):
             return None
-        with h5py.File(path) as file:
-            if "lower" not in file["grid"].attrs:
-                self.unusable.append(f"{path}: its cells are not a box's voxels, which maps need")
-                return None
+        if not solids_file.has_voxels(path):
+            self.unusable.append(f"{path}: its cells are not a box's voxels, which maps need")
+            return None
         return path.resolve()
+
+    @cached_property
+    def averages(self) -> dict[str, Any] | None:
+        """solids.json beside solids.h5."""
+        return self.json(self.solids.with_suffix(".json"), "averages") if self.solids else None
 
     def _whole(self, path: Path, advice: str) -> bool:
         """Whether a file of averages exists and is complete."""

@@ -21,6 +21,12 @@ def open_hdf5(path: Path | str) -> h5py.File:
         raise RuntimeError(f"{path}: {what}") from None
 
 
+def has_voxels(path: Path | str) -> bool:
+    """Whether the averages are on a box's voxels, as maps need; else they are on a cylinder or on a mesh's cells."""
+    with open_hdf5(path) as file:
+        return "lower" in file["grid"].attrs
+
+
 @dataclass
 class SolidsMap:
     """Charge averaged over the axis and over windows, on the box's x-y voxels.

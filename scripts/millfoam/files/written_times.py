@@ -30,7 +30,9 @@ class MillFlow:
         self.displaced = (self.case / "constant" / "bedProperties").is_file()
         self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
         if len(self.frames) < 2:
-            raise RuntimeError(f"{self.case}: no flow was written; expected two times or more with alpha.slurry")
+            apart = " in this folder (those of processor* are joined by reconstructPar, or by Allrun once more)" \
+                if any(self.case.glob("processor*")) else ""
+            raise RuntimeError(f"{self.case}: no flow was written; expected two times or more with alpha.slurry{apart}")
         self.mesh = foam.read_mesh(self.case)
         self.centres, self.volumes = self.mesh.centres_and_volumes()
         _, first, self.column = np.unique(np.round(self.centres[:, :2] / self.radius, 6), axis=0, return_index=True,

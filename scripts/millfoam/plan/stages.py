@@ -12,7 +12,6 @@ from ..files.data_files import entry, number
 from ..files.mill import Mill
 from .trial import Cost, FlowTrial, MeshTrial, try_charge, try_flow, try_mesh
 
-GRAVITY = 9.81
 
 # Calibrated on runs of a 0.6 m, a 12 cm and a 30 cm mill
 CELL_COURANT, SURFACE_COURANT = 0.55, 1.0  # limit of the Courant number -> time-step over cell size / speed of the fall
@@ -58,7 +57,7 @@ def typical_time_step(mill: Mill, cell: float) -> float:
     Three limits: the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
     (omega R)^2), reaches the limits of the two Courant numbers. A flow is below the smallest for part of the time, so
     the limits are joined smoothly."""
-    speed = math.hypot(math.sqrt(4 * GRAVITY * mill.radius), mill.omega * mill.radius)
+    speed = math.hypot(math.sqrt(4 * mill.derived("gravity_m_s2") * mill.radius), mill.omega * mill.radius)
     limits = (flow_number(mill, "max_time_step_s"),
               CELL_COURANT * flow_number(mill, "max_courant") * cell / speed,
               SURFACE_COURANT * flow_number(mill, "max_surface_courant") * cell / speed)

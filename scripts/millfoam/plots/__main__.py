@@ -59,6 +59,9 @@ def read_charge(path: Path, flow: MillFlow, begin: float) -> SolidsMap | None:
     if not path.is_file():
         print(f"{path}: no such file; no maps.png, and no charge in the table. millAverage writes it.")
         return None
+    if not solids_file.has_voxels(path):
+        print(f"{path}: its cells are not a box's voxels; no maps.png, and no charge in the table")
+        return None
     span = solids_file.span_of_flow(*solids_file.recorded_span(path), flow.time0 + begin,
                                     flow.time0 + flow.frames[-1][0])
     return solids_file.read_map(path, *span)

@@ -125,8 +125,8 @@ def ratio(volumes: np.ndarray) -> np.ndarray:
         return np.where(volumes[1] > 0, volumes[0] / volumes[1], np.nan)
 
 
-def power_numbers(flow: MillFlow, frames: Sequence[Frame], centres: np.ndarray, properties: dict[str, str],
-                  gravity: float = 9.81) -> dict[str, float]:
+def power_numbers(flow: MillFlow, frames: Sequence[Frame], centres: np.ndarray,
+                  properties: dict[str, str]) -> dict[str, float]:
     """Torque (N m) on the slurry by walls and balls, and its power (W/m of the mill's length).
 
     Walls and balls balance the slurry's weight and change its angular momentum L: T = m g x_c + dL/dt. Only the mill
@@ -134,7 +134,7 @@ def power_numbers(flow: MillFlow, frames: Sequence[Frame], centres: np.ndarray, 
     density = float(properties["slurryDensity"])
     mass = density * np.mean([frame.slurry.sum() for frame in frames])
     gain = angular_momentum(flow, frames[-1], density) - angular_momentum(flow, frames[0], density)
-    torque = mass * gravity * centres[:, 0].mean() + gain / (frames[-1].time - frames[0].time)
+    torque = mass * float(properties["gravity"]) * centres[:, 0].mean() + gain / (frames[-1].time - frames[0].time)
     return {"torque": torque, "power": torque * flow.omega / float(properties["length"])}
 
 

@@ -14,6 +14,16 @@ import matplotlib
 from .build import compare_cases, report_case
 
 
+def require_report_or_nothing(path: Path) -> None:
+    """RuntimeError if another file than a report is at `path`: it would be overwritten."""
+    if not path.is_file() or path.stat().st_size == 0:
+        return
+    with path.open("rb") as file:
+        head = file.read(200).lower()
+    if b"<!doctype html" not in head:
+        raise RuntimeError(f"-o {path}: this file exists and is no HTML; expected another name, like report.html")
+
+
 def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="report", description=__doc__,
@@ -37,6 +47,7 @@ def main() -> None:
     else:
         output = options.output or Path("comparison.html")
         text = compare_cases(options.cases, options.begin)
+    require_report_or_nothing(output)
     # An older report stays until the new one is complete
     part = output.with_name(output.name + ".part")
     part.write_text(text, encoding="utf-8")

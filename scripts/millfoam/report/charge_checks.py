@@ -3,12 +3,11 @@
 import h5py
 import numpy as np
 
+from ..files.data_files import entry
 from ..files.mill_case import MillCase
 from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
-OVERLAP = 0.15  # of the diameter: physics of softened balls (Brosh, Kalman & Levy)
-BALLS = 8  # in an averaging volume: the drag laws were derived from 8 to 64
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
@@ -39,8 +38,9 @@ def overlap(case: MillCase) -> Check:
     diameter = case.result("smallest_diameter_m")
     share = case.result("ball_overlap_largest_m") / diameter
     usual = case.result("ball_overlap_99_m") / diameter
-    return judged("Balls are stiff enough", share, OVERLAP,
-                  f"largest overlap {100 * share:.1f} % of the smallest diameter (limit {100 * OVERLAP:.0f} %), 99 % "
+    allowed = case.result("allowed_overlap")
+    return judged("Balls are stiff enough", share, allowed,
+                  f"largest overlap {100 * share:.1f} % of the smallest diameter (limit {100 * allowed:.0f} %), 99 % "
                   f"of the contacts below {100 * usual:.2f} %",
                   "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
 
@@ -58,13 +58,15 @@ def ledger(case: MillCase) -> Check:
 
 def averaging_volume(case: MillCase) -> Check:
     """Whether a voxel holds as many balls as the volumes from which the drag laws were derived."""
-    with h5py.File(case.solids) as file:
-        balls = file["window/balls_per_cell"][:].mean()
-    found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived from {BALLS} to 64)"
-    if balls > 64:
-        return Check("Averaging volumes hold enough balls", "look", found,
-                     "Finer voxels would show more of the charge.")
-    return judged("Averaging volumes hold enough balls", BALLS / balls, 1, found,
+    name = "Averaging volumes hold enough balls"
+    if case.averages is None:
+        return Check(name, "unknown", f"no summary beside {case.solids.name}", "Average the dumps again (millAverage).")
+    balls = entry(case.averages, case.solids, "balls_per_cell")
+    fewest, most = entry(case.averages, case.solids, "balls_of_laws")
+    found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived from {fewest:g} to {most:g})"
+    if balls > most:
+        return Check(name, "look", found, "Finer voxels would show more of the charge.")
+    return judged(name, fewest / balls, 1, found,
                   "Take larger voxels or --smooth; in small voxels a law sees single balls.", doubtful=8)
 
 

@@ -91,7 +91,7 @@ def solids_on_mesh(case: MillCase) -> Check:
         return Check(name, "unknown", "steps.csv has no correction of the volume", NO_STEPS)
     share = 100 * np.nanmax(np.abs(found))
     return judged(name, share, CORRECTION, f"corrected by at most {share:.2g} % (limit {CORRECTION:g} %)",
-                  "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).")
+                  "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).", doubtful=5)
 
 
 def drag_range(case: MillCase) -> Check:

@@ -16,6 +16,8 @@ def first_lines(case: MillCase, checks: Sequence[Check]) -> list[str]:
     lines = []
     if case.flow:
         lines += [line for line in (start_words(case, checks), repetition_words(case)) if line]
+    elif case.record.last and not case.record.last.get("complete"):
+        lines.append("The flow was cut short, and its fields are not shown.")
     failed = [check for check in checks if check.name == "All stages belong to this mill" and check.state == "fails"]
     if failed:
         lines.append("Stages of different mills are mixed in this case: see “All stages belong to this mill” below.")

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "averaging/walls/stl_file.hpp"
+#include "meshing/surface/stl_file.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <string>
 
 #include "tests/averaging/walls/walls_support.hpp"
 
@@ -17,7 +20,15 @@ TEST(StlFile, AWrongWordIsToldWithItsLine) {
   text.replace(text.find("endloop"), 7, "endlop!");
   expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:7", "endlop!", "'endloop'"});
   expect_named(refusal({folder.write("notes.txt", "mill of 12 lifters\n")}),
-               {"notes.txt:1", "mill of", "'solid'"});
+               {"notes.txt:1", "'mill'", "'solid'"});
+}
+
+TEST(StlFile, KeywordsMayBeInCapitals) {
+  const TemporaryFolder folder;
+  std::string text = stl_text(box_surface({0, 0, 0}, {1, 2, 3}));
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  EXPECT_NEAR(enclosed_volume(read_surface({folder.write("wall.stl", text)})), 6, 1e-12);
 }
 
 TEST(StlFile, ACoordinateThatIsNoFiniteNumberIsToldWithItsPlace) {
@@ -26,12 +37,12 @@ TEST(StlFile, ACoordinateThatIsNoFiniteNumberIsToldWithItsPlace) {
   for (const std::string word : {"nan", "1.0.0", "1e999", ""}) {
     std::string text = stl_text(box);
     text.replace(text.find("vertex 0 0 0"), 12, "vertex 0 0 " + word);
-    expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:4", "vertex 0 0 " + word, "finite"});
+    expect_named(refusal({folder.write("wall.stl", text)}), {"wall.stl:4", "'" + word + "'", "finite"});
   }
   std::string binary = binary_stl(box);
   const float infinite = INFINITY;
   std::memcpy(binary.data() + 84 + 50 + 16, &infinite, 4);
-  expect_named(refusal({folder.write("wall.stl", binary)}), {"wall.stl", "byte 150", "finite"});
+  expect_named(refusal({folder.write("wall.stl", binary)}), {"wall.stl", "triangle 2", "finite"});
 }
 
 TEST(StlFile, AFileCutAtAnyByteIsRefused) {
@@ -41,10 +52,10 @@ TEST(StlFile, AFileCutAtAnyByteIsRefused) {
     // Without the name of its last solid an ASCII file is still whole.
     const std::size_t end = text.rfind("endsolid");
     const std::size_t whole = end == std::string::npos ? text.size() : end + 8;
-    EXPECT_EQ(read_stl(folder.write("whole.stl", text.substr(0, whole))).size(), 1U);
+    EXPECT_EQ(surface::read_stl(folder.write("whole.stl", text.substr(0, whole))).size(), 1U);
     for (std::size_t length = 0; length < whole; ++length) {
       const auto cut = folder.write("cut.stl", text.substr(0, length));
-      EXPECT_THROW(read_stl(cut), SurfaceError) << "cut after " << length << " bytes";
+      EXPECT_THROW(surface::read_stl(cut), SurfaceError) << "cut after " << length << " bytes";
     }
   }
 }
@@ -58,7 +69,7 @@ TEST(StlFile, ABinaryFileThatIsCutIsToldWithTheBytesThatItsTrianglesNeed) {
   expect_named(cut_after(200), {"wall.stl: is cut short: there are 200 bytes",
                                 "expected 684 for the 12 triangles announced in its header"});
   expect_named(cut_after(50),
-               {"is cut short: there are 50 bytes", "expected 84 for the header of a binary STL"});
+               {"is cut short: there are 50 bytes", "expected at least the 84 of a binary STL's header"});
 }
 
 TEST(StlFile, OneThatIsNotThereIsNamed) {

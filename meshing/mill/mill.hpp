@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The description of a mill and what is made from it: its walls, the mesh of its flow, and meshes out of
+/// faces. Units are SI.
+namespace millfoam::meshing {
+
+/// What closes the mill along its axis: two plain walls, or nothing (a periodic slice of a long mill).
+enum class Ends { plain, periodic };
+
+/// Equally spaced lifters on the shell, whose section is a rectangle or a symmetric trapezoid. Lifter 1 is
+/// centred on +x at DEM time 0.
+struct Lifters {
+  int count = 0;         ///< number of lifters, 0 for a smooth drum
+  double height = 0;     ///< radial protrusion from the shell, m
+  double width = 0;      ///< across the radius, between the feet on the shell, m
+  double top_width = 0;  ///< across the radius, of the flat top, m; not above `width`
+};
+
+/// A circular opening of the feed end, centred on the axis.
+struct Inlet {
+  double radius = 0;  ///< m
+};
+
+/// Grates in the discharge end: a ring cut into equal sectors, the first of which begins at +x at DEM time 0,
+/// each with a grate in its middle.
+struct Grates {
+  double inner_radius = 0;   ///< m
+  double outer_radius = 0;   ///< m
+  int sectors = 0;           ///< number of them around the axis
+  double sector_share = 1;   ///< share of each sector's angle that is grate
+  double open_fraction = 1;  ///< share of holes in the grate's area
+};
+
+/// Compartments behind the grates, one for each of their sectors.
+struct PulpLifters {
+  double depth = 0;             ///< along the axis, m
+  int layers = 0;               ///< of cells along the depth
+  double discharge_radius = 0;  ///< m, inside of which there are no radial walls, and the end is open
+};
+
+/// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up.
+struct Geometry {
+  double diameter = 0;      ///< inside the shell, m
+  double length = 0;        ///< along the axis, without the pulp lifters, m
+  Ends ends = Ends::plain;  ///< what closes the mill at z = 0 and z = length
+  Lifters lifters;          ///< those on the shell
+  /// The feed end's opening; a periodic slice has none.
+  std::optional<Inlet> inlet = std::nullopt;
+  /// The discharge end's grates; a periodic slice has none.
+  std::optional<Grates> grates = std::nullopt;
+  /// Compartments behind the grates.
+  std::optional<PulpLifters> pulp_lifters = std::nullopt;
+  /// Of a periodic slice: the openings' circles of the whole mill, m, ascending; the slice has no openings,
+  /// but the whole mill's cross-section.
+  std::vector<double> circles_of_whole = {};
+  /// Inside the shell, m.
+  double radius() const { return diameter / 2; }
+};
+
+/// Balls of one diameter.
+struct SizeClass {
+  double diameter = 0;  ///< m
+  double mass = 0;      ///< kg of this class in this mill (a slice: in the slice)
+};
+
+/// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are
+/// released.
+struct Charge {
+  /// In the order of the file, fines too.
+  std::vector<SizeClass> classes;
+  double packing = 0.6;     ///< solidity at rest, of which the volumes of the bulk and of its pores follow
+  double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
+  double start_radius = 0;  ///< m
+  double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
+};
+
+/// Elastic solid. The modulus used by the simulation may be softer than the real one; see
+/// `Dem::youngs_modulus`.
+struct Material {
+  double density = 0;         ///< kg/m^3
+  double youngs_modulus = 0;  ///< Pa, real
+  double poisson_ratio = 0;   ///< in (0, 0.5)
+};
+
+/// Contact of a pair of materials.
+struct Contact {
+  double restitution = 0;       ///< coefficient of restitution, in (0, 1]
+  double friction = 0;          ///< sliding friction coefficient
+  double rolling_friction = 0;  ///< rolling friction coefficient
+};
+
+/// How the dry run is done.
+struct Dem {
+  double youngs_modulus = 0;     ///< Pa, softened modulus of balls and walls; 0: it follows from the overlap
+  double largest_overlap = 0;    ///< largest overlap expected over the smaller diameter; 0 with a modulus
+  double soften_below = 0;       ///< m: balls smaller than this are softer still; 0 for none
+  double rayleigh_fraction = 0;  ///< largest time-step over the Rayleigh time of the smallest ball
+  double settle_time = 0;        ///< s the balls fall in the mill at rest, before DEM time 0
+  double duration = 0;           ///< s of turning mill, from DEM time 0
+  double record_interval = 0;    ///< s between dumps
+  double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
+  int seed = 0;                  ///< of the random insertion
+};
+
+/// Bingham slurry under air.
+struct Slurry {
+  double density = 0;            ///< kg/m^3
+  double plastic_viscosity = 0;  ///< Pa s
+  double yield_stress = 0;       ///< Pa
+  double surface_tension = 0;    ///< N/m
+};
+
+/// Air above the slurry.
+struct Air {
+  double density = 0;    ///< kg/m^3
+  double viscosity = 0;  ///< Pa s
+};
+
+/// Numbers of cells along the sides of the cross-section's blocks (mill_mesh/cross_section.hpp).
+struct BlockCounts {
+  int gap = 0;     ///< along the shell between two lifters, or around a smooth drum
+  int lifter = 0;  ///< along a lifter's top; 0 for a smooth drum
+  int height = 0;  ///< along a lifter's side; 0 for a smooth drum
+  int ring = 0;    ///< between the core and the lifters' tops
+};
+
+/// Size or numbers of the flow's cells.
+struct Resolution {
+  double cell_size = 0;                              ///< m, in the mill's cross-section; 0 with `counts`
+  int layers = 0;                                    ///< of cells along the axis
+  std::optional<BlockCounts> counts = std::nullopt;  ///< instead of the size
+};
+
+/// Voxels of a box whose cross-section is a square about the axis.
+struct Voxels {
+  std::array<double, 3> lower = {};  ///< x, y, z, m
+  std::array<double, 3> upper = {};  ///< m
+  std::array<int, 3> shape = {};     ///< numbers along x, y, z
+};
+
+/// How the charge is averaged for the flow.
+struct Averages {
+  Voxels voxels;                ///< the grid of the averages
+  double window = 0;            ///< s, a whole number of records
+  std::optional<double> start;  ///< DEM time, s; nothing: when the dry run has become steady
+  std::string method;           ///< exact or sample
+  int template_points = 0;      ///< along a diameter, of `sample`
+};
+
+/// The slurry at the start of the flow: a level, or a volume.
+struct FlowStart {
+  std::optional<double> level;  ///< m, height y of a pool's surface
+  double volume = 0;            ///< m^3, without a level; 0: the mill is empty
+  double fill = 0;              ///< the volume over that of the resting charge's pores
+};
+
+/// What the flow writes on voxels of the lab frame.
+struct FlowAverages {
+  Voxels voxels;        ///< the grid of the averages
+  double start = 0;     ///< flow time from which the mean over the run is taken, s
+  double window = 0;    ///< s
+  double interval = 0;  ///< between samples, s
+};
+
+/// How the slurry's flow is done.
+struct Flow {
+  std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;          ///< s
+  bool balls = true;            ///< false: the mill without its charge
+  std::string law;              ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;        ///< on the drag
+  std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
+  bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;              ///< slurry at time 0
+  double feed = 0;              ///< m^3/s, through the inlet
+  double max_courant = 0;       ///< limit of the time-step: largest Courant number
+  /// The same of cells at the slurry's surface.
+  double max_surface_courant = 0;
+  /// Largest relative change of a cell's voidage in a step.
+  double max_voidage_change = 0;
+  double largest_correction = 0;  ///< of the balls' volume on the mesh, a share of it
+  double max_time_step = 0;       ///< s
+  double write_interval = 0;      ///< between written fields, s
+  int slices = 0;                 ///< along the axis, of profiles
+  /// Of the slurry.
+  FlowAverages averages;
+};
+
+/// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
+/// depends, 16 hexadecimal digits each.
+struct MillFingerprints {
+  std::string walls;     ///< geometry and the mesh's cross-section
+  std::string charge;    ///< walls, speed, charge, materials, and dem but for its duration
+  std::string averages;  ///< charge, duration of the dry run, averages
+  std::string flow;      ///< everything but the title
+};
+
+/// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
+struct Mill {
+  std::string title;        ///< for people and pictures
+  Geometry geometry;        ///< walls and openings
+  double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
+  /// rad/s, right-handed about +z: negative turns clockwise with x right and y up.
+  double angular_velocity = 0;
+  Charge charge;                 ///< the balls
+  Material ball;                 ///< of all balls
+  Material wall;                 ///< of shell, lifters and ends
+  Contact ball_ball;             ///< of two balls
+  Contact ball_wall;             ///< of a ball and a wall
+  Dem dem;                       ///< the dry run
+  Averages averages;             ///< of the dry run
+  Slurry slurry;                 ///< the liquid
+  Air air;                       ///< the gas
+  Resolution resolution;         ///< of the flow's mesh
+  Flow flow;                     ///< of slurry and air
+  MillFingerprints fingerprint;  ///< of the keys that this mill was read from
+  double turn() const;           ///< time of one turn, s
+  const char* sense() const;     ///< clockwise or anticlockwise, seen with x to the right and y up
+};
+
+/// Gravity's magnitude used by every stage, m/s^2; it points to -y.
+inline constexpr double gravity = 9.81;
+
+/// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.
+double critical_speed(const Geometry& geometry);
+
+}  // namespace millfoam::meshing

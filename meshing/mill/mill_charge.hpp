@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "meshing/mill/mill.hpp"
+
+namespace millfoam::meshing {
+
+class Section;
+
+/// The charge of the section `charge`, by classes or by fill.
+/// @param in  that section
+/// @param geometry  of the mill that the balls must fit into
+/// @param density  of the balls, kg/m^3
+/// Throws MillError for an impossible value, for both ways, and for balls that do not fit.
+Charge read_charge(Section in, const Geometry& geometry, double density);
+
+/// How many whole balls stand for the mass of a size class.
+struct BallCount {
+  double diameter = 0;    ///< m
+  double mass_asked = 0;  ///< kg
+  double mass = 0;        ///< kg, of `count` balls
+  long count = 0;         ///< the nearest whole number; may be 0
+  bool simulated = true;  ///< false for fines (charge.fines_below)
+};
+
+/// The charge in numbers; lengths in m, masses in kg, volumes in m^3. What is simulated counts, unless fines
+/// are named.
+struct ChargeNumbers {
+  std::vector<BallCount> classes;  ///< in the order of mill.yaml
+  long balls = 0;                  ///< number of all
+  double mass = 0;                 ///< of all balls
+  double volume = 0;               ///< of the balls alone
+  double fines_mass = 0;           ///< asked for and left out
+  double sauter_diameter = 0;      ///< Σm/Σ(m/d)
+  double smallest_diameter = 0;    ///< of a ball
+  double largest_diameter = 0;     ///< of a ball
+  double load = 0;                 ///< bulk volume at rest over the mill's
+  double load_asked = 0;           ///< the same with the fines
+  double pore_volume = 0;          ///< of the resting charge
+};
+
+/// Counts the balls of a mill.
+ChargeNumbers count_charge(const Mill& mill);
+
+/// Mass of one ball, density π/6 d³, kg.
+double ball_mass(const Mill& mill, double diameter);
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/mill_document.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "meshing/mill/mill_fingerprints.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+std::string read_bytes(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file))
+    throw MillError(file + ": cannot be read: expected a mill description (YAML)");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+long line_at(const std::string& text, std::size_t position) {
+  return 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(position), '\n');
+}
+
+/// Number of bytes of the UTF-8 character that begins at `at`; 0 where none does.
+std::size_t utf8_length(const std::string& text, std::size_t at) {
+  const auto byte = static_cast<unsigned char>(text[at]);
+  const std::size_t length = byte < 0x80             ? 1
+                             : (byte & 0xE0) == 0xC0 ? 2
+                             : (byte & 0xF0) == 0xE0 ? 3
+                             : (byte & 0xF8) == 0xF0 ? 4
+                                                     : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((static_cast<unsigned char>(text[at + i]) & 0xC0) != 0x80) return 0;
+  return length;
+}
+
+/// Refuses texts that are not UTF-8, by the name of their encoding.
+void require_utf8(const std::string& file, const std::string& text) {
+  const bool marked = text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0;
+  if (marked || text.find('\0') != std::string::npos)
+    throw MillError(file + ": is in UTF-16: expected UTF-8; save it so");
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) {
+      char byte[8];
+      std::snprintf(byte, sizeof byte, "0x%02X", static_cast<unsigned>(static_cast<unsigned char>(text[at])));
+      throw MillError(file + ":" + std::to_string(line_at(text, at)) + ": byte " + byte +
+                      " is no UTF-8, as in a text in Latin-1 (ISO 8859-1): expected UTF-8; save it so");
+    }
+    at += length;
+  }
+}
+
+/// Refuses a tab in a line's indentation, of which YAML's own message says nothing useful.
+void refuse_tabs(const std::string& file, const std::string& text) {
+  for (std::size_t at = text.find('\t'); at != std::string::npos; at = text.find('\t', at + 1)) {
+    const std::size_t begin = text.rfind('\n', at) + 1;  // npos + 1 is 0
+    if (text.find_first_not_of(" \t", begin) > at)
+      throw MillError(file + ":" + std::to_string(line_at(text, at)) +
+                      ": a tab before the key: expected blanks, because YAML allows no tabs there");
+  }
+}
+
+YAML::Node load(const std::string& file, const std::string& text) {
+  std::vector<YAML::Node> documents;
+  try {
+    documents = YAML::LoadAll(text);
+  } catch (const YAML::ParserException& error) {
+    throw MillError(file + ":" + std::to_string(error.mark.line + 1) + ": not valid YAML: " + error.msg);
+  }
+  if (documents.empty() || documents.front().IsNull())
+    throw MillError(file +
+                    ":1: the file is empty: expected a mill description with its sections, geometry first");
+  if (documents.size() > 1)
+    throw MillError(file + ": holds " + std::to_string(documents.size()) +
+                    " YAML documents: expected one mill description");
+  if (!documents.front().IsMap())
+    throw MillError(file + ":" + std::to_string(documents.front().Mark().line + 1) +
+                    ": not a map of keys: expected a mill description with its sections, geometry first");
+  return documents.front();
+}
+
+/// "a.b[2].c" as {"a", "b", "2", "c"}; empty when it is no path.
+std::vector<std::string> names_of(const std::string& path) {
+  std::vector<std::string> names(1);
+  for (std::size_t at = 0; at < path.size(); ++at) {
+    if (path[at] == '.' || path[at] == '[') {
+      if (names.back().empty()) return {};
+      names.emplace_back();
+    } else if (path[at] == ']') {
+      const bool number =
+          !names.back().empty() && std::all_of(names.back().begin(), names.back().end(), [](char c) {
+            return std::isdigit(static_cast<unsigned char>(c)) != 0;
+          });
+      if (!number || (at + 1 < path.size() && path[at + 1] != '.')) return {};
+      if (at + 1 < path.size()) ++at, names.emplace_back();
+    } else {
+      names.back() += path[at];
+    }
+  }
+  if (names.back().empty()) return {};
+  return names;
+}
+
+/// The path of the section or list that a key is in; empty for a section of the root.
+std::string section_around(const std::string& path) {
+  const std::size_t cut = path.find_last_of(".[");
+  return cut == std::string::npos ? "" : path.substr(0, cut);
+}
+
+/// Where the value of the key stands among those that were read.
+nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
+  nlohmann::ordered_json::json_pointer pointer;
+  for (const std::string& name : names_of(path)) pointer /= name;
+  return pointer;
+}
+
+/// The number of an item of a list.
+/// @param place  of the change, for messages
+std::size_t item_number(const std::string& place, const YAML::Node& list, const std::string& name) {
+  std::size_t number = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, number);
+  if (error != std::errc{} || stop != end || number >= list.size())
+    throw MillError(place + ": '" + name + "': expected a number of the list's items, from 0 to " +
+                    std::to_string(list.size() - 1) + ", as in classes[0]");
+  return number;
+}
+
+/// The item or entry of that name in a node, made where it is missing in a map.
+YAML::Node child(const std::string& place, YAML::Node node, const std::string& name) {
+  if (node.IsSequence()) return node[item_number(place, node, name)];
+  if (!node.IsMap() && !node.IsNull())
+    throw MillError(place + ": '" + name + "' is set in '" + node.Scalar() +
+                    "', which holds no keys: expected a map");
+  if (!node[name].IsDefined()) node[name] = YAML::Node(YAML::NodeType::Map);
+  return node[name];
+}
+
+/// Gives the key at a path a value, or removes it from its map where there is none.
+void assign(const std::string& place, const YAML::Node& root, const std::vector<std::string>& names,
+            const std::optional<YAML::Node>& value) {
+  YAML::Node node;
+  node.reset(root);
+  for (std::size_t i = 0; i + 1 < names.size(); ++i) node.reset(child(place, node, names[i]));
+  const std::string& last = names.back();
+  child(place, node, last);
+  if (node.IsSequence())
+    node[item_number(place, node, last)] = value.value_or(YAML::Node());
+  else if (value)
+    node[last] = *value;
+  else
+    node.remove(last);
+}
+
+std::string joined_names(const YAML::Node& map) {
+  std::string all;
+  for (const auto& entry : map) all += (all.empty() ? "" : ", ") + entry.first.Scalar();
+  return all;
+}
+
+std::string line_of(const YAML::Node& node) {
+  return std::to_string(node.Mark().line + 1);
+}
+
+/// Path of the changes that apply a variant.
+const std::string variant_path = "variant";
+
+}  // namespace
+
+MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> set)
+    : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {
+  const std::string text = read_bytes(file_);
+  require_utf8(file_, text);
+  refuse_tabs(file_, text);
+  source_ = file_;
+  source_fingerprint_ = fingerprint(text);
+  root_ = load(file_, text);
+  if (root_["format"].IsDefined()) take_resolved();
+  const YAML::Node variants = root_["variants"];
+  root_.remove("variants");
+  std::vector<std::string> own;
+  for (const std::string& change : set_) {
+    const std::size_t sign = change.find('=');
+    if (sign != std::string::npos && change.substr(0, sign) == variant_path)
+      apply_variant(variants, change.substr(sign + 1));
+    else
+      own.push_back(change);
+  }
+  for (const std::string& change : own) apply(change);
+}
+
+MillDocument::~MillDocument() = default;
+
+std::vector<std::string> MillDocument::changes() const {
+  std::vector<std::string> all = earlier_;
+  all.insert(all.end(), set_.begin(), set_.end());
+  return all;
+}
+
+void MillDocument::take_resolved() {
+  if (!root_["format"].IsScalar() || root_["format"].Scalar() != "millfoam-mill" || !root_["mill"].IsMap())
+    throw MillError(file_ +
+                    ":1: key 'format': expected a mill description, or a resolved one with format "
+                    "\"millfoam-mill\"");
+  if (root_["file"].IsScalar()) source_ = root_["file"].Scalar();
+  if (root_["file_fingerprint"].IsScalar()) source_fingerprint_ = root_["file_fingerprint"].Scalar();
+  for (const YAML::Node& change : root_["set"])
+    if (change.IsScalar()) earlier_.push_back(change.Scalar());
+  for (const auto& line : root_["lines"]) lines_[line.first.Scalar()] = line.second.as<int>(1);
+  for (const std::string& change : earlier_) earlier_changed_[change.substr(0, change.find('='))] = change;
+  resolved_ = true;
+  root_.reset(root_["mill"]);
+}
+
+void MillDocument::apply(const std::string& change) {
+  const std::string place = "--set " + change;
+  const std::size_t sign = change.find('=');
+  const auto names =
+      sign == std::string::npos ? std::vector<std::string>() : names_of(change.substr(0, sign));
+  if (names.empty())
+    throw MillError(place + ": expected PATH=VALUE, as in flow.law=Hill or charge.classes[0].mass=0.1");
+  YAML::Node value;
+  try {
+    value = YAML::Load(change.substr(sign + 1));
+  } catch (const YAML::ParserException& error) {
+    throw MillError(place + ": the value is not valid YAML: " + error.msg);
+  }
+  const bool removed = change.substr(sign + 1) == "~";
+  assign(place, root_, names, removed ? std::nullopt : std::optional<YAML::Node>(value));
+  changed_[change.substr(0, sign)] = change;
+}
+
+void MillDocument::apply_variant(const YAML::Node& variants, const std::string& name) {
+  const std::string change = "--set " + variant_path + "=" + name;
+  if (!variants.IsDefined() || !variants.IsMap())
+    throw MillError(change + ": " + source_ +
+                    " has no variants: expected a map of them under its key 'variants'");
+  const YAML::Node variant = variants[name];
+  if (!variant.IsDefined())
+    throw MillError(change + ": no variant of " + source_ + ": expected one of " + joined_names(variants));
+  if (!variant.IsMap())
+    throw MillError(source_ + ":" + line_of(variant) + ": key 'variants." + name +
+                    "': expected a map of paths and values, as in {flow.law: Hill}");
+  for (const auto& entry : variant) {
+    const std::string path = entry.first.Scalar();
+    const std::string place = source_ + ":" + line_of(entry.first);
+    const auto names = names_of(path);
+    if (names.empty())
+      throw MillError(place + ": key '" + path + "' of the variant " + name +
+                      ": expected a path, as in flow.law or charge.classes[0].mass");
+    assign(place, root_, names, entry.second);
+    variant_lines_[path] = entry.first.Mark().line + 1;
+    lines_[path] = variant_lines_[path];
+  }
+}
+
+void MillDocument::note_line(const std::string& path, int line) {
+  if (!resolved_ && variant_lines_.count(path) == 0) lines_[path] = line;
+}
+
+std::string MillDocument::place(const std::string& path) const {
+  // What is inside of a changed value has lines of the change, not of the file
+  for (std::string at = path; !at.empty(); at = section_around(at)) {
+    for (const auto* changes : {&changed_, &earlier_changed_}) {
+      const auto change = changes->find(at);
+      if (change != changes->end()) return "--set " + change->second;
+    }
+  }
+  for (std::string at = path; !at.empty(); at = section_around(at)) {
+    const auto line = lines_.find(at);
+    if (line != lines_.end()) return source_ + ":" + std::to_string(line->second);
+    // A section that only a change of one of its keys has made
+    const auto inside = changed_.lower_bound(at + '.');
+    if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
+  }
+  return source_ + ":1";
+}
+
+bool MillDocument::is_changed(const std::string& path) const {
+  const auto has_inside = [&](char separator) {
+    const auto inside = changed_.lower_bound(path + separator);
+    return inside != changed_.end() && inside->first.rfind(path + separator, 0) == 0;
+  };
+  return changed_.count(path) > 0 || has_inside('.') || has_inside('[');
+}
+
+void MillDocument::record(const std::string& path, const nlohmann::ordered_json& value) {
+  (*keys_)[pointer_to(path)] = value;
+}
+
+void MillDocument::forget(const std::string& path) {
+  const auto pointer = pointer_to(path);
+  if (keys_->contains(pointer)) keys_->at(pointer.parent_pointer()).erase(pointer.back());
+}
+
+const nlohmann::ordered_json& MillDocument::keys() const {
+  return *keys_;
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/mill_fingerprints.hpp"
+
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace millfoam::meshing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json material_numbers(const Material& material) {
+  return {{"density_kg_m3", material.density},
+          {"youngs_modulus_Pa", material.youngs_modulus},
+          {"poisson_ratio", material.poisson_ratio}};
+}
+
+Json contact_numbers(const Contact& contact) {
+  return {{"restitution", contact.restitution},
+          {"friction", contact.friction},
+          {"rolling_friction", contact.rolling_friction}};
+}
+
+}  // namespace
+
+std::string fingerprint(const std::string& bytes) {
+  std::uint64_t sum = 14695981039346656037U;
+  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211U;
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
+  return text;
+}
+
+Json materials_numbers(const Mill& mill) {
+  return {{"ball", material_numbers(mill.ball)},
+          {"wall", material_numbers(mill.wall)},
+          {"ball_ball", contact_numbers(mill.ball_ball)},
+          {"ball_wall", contact_numbers(mill.ball_wall)}};
+}
+
+MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
+  // Names of materials stand for numbers
+  const Json materials = materials_numbers(mill);
+  Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
+  of["resolution"].erase("layers");
+  MillFingerprints result;
+  result.walls = fingerprint(of.dump());
+  for (const char* section : {"speed", "charge", "dem"}) of[section] = keys.at(section);
+  of["materials"] = materials;
+  of["dem"].erase("duration");
+  result.charge = fingerprint(of.dump());
+  of["dem"] = keys.at("dem");
+  of["averages"] = keys.at("averages");
+  result.averages = fingerprint(of.dump());
+  of = keys;
+  of["materials"] = materials;
+  of.erase("title");
+  result.flow = fingerprint(of.dump());
+  return result;
+}
+
+Json to_json(const MillFingerprints& fingerprints) {
+  return {{"walls", fingerprints.walls},
+          {"charge", fingerprints.charge},
+          {"averages", fingerprints.averages},
+          {"flow", fingerprints.flow}};
+}
+
+}  // namespace millfoam::meshing

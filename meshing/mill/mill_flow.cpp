@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/mill_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_geometry.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/rules.hpp"
+#include "openfoam_module/drag/drag_laws.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+/// Where mill.yaml leaves them open. Voxels of 2.5 Sauter diameters hold 18 balls of a dense charge; the drag
+/// laws were derived on 8 to 64. Few balls fit across a small mill, whose curved wall voxels must still show.
+/// A window is short against a turn and has 25 records. The flow's first turn brings the slurry to where it
+/// stays. Limits of the time-step: cases/studies/mill_resolution.
+constexpr double usual_voxel = 2.5;
+constexpr double usual_voxels_of_radius = 4;
+constexpr double windows_per_turn = 20;
+constexpr double usual_flow_turns = 3;
+constexpr double share_averaged = 2.0 / 3;
+constexpr double fields_per_turn = 24;
+constexpr double samples_per_window = 10;
+constexpr double finest_flow_voxel = 1.0 / 32;
+constexpr double longest_step_of_turn = 1e-3;
+
+/// Voxels of a few balls are up to 2.3 % off the balls' volume on the cells of small mills (radius of four to
+/// seven balls); where averages do not fit the mesh it is tens of per cent.
+constexpr double usual_largest_correction = 0.05;
+
+/// Length along the axis that slurry and balls can reach, m.
+double reach(const Geometry& geometry) {
+  return geometry.length + (geometry.pulp_lifters ? geometry.pulp_lifters->depth : 0);
+}
+
+/// Voxels or slices along an axis, and voxels together, that memory and files can hold.
+constexpr int most_along_axis = 10000;
+constexpr double most_voxels = 1e9;
+/// Factor on the drag, with which balls and slurry move as one.
+constexpr double largest_multiplier = 1000;
+
+void check_number_of_voxels(const Section& in, double across, double along) {
+  const double voxels = across * across * along;
+  if (voxels <= most_voxels) return;
+  const bool counted = in.has("counts");
+  in.refuse(counted ? "counts" : "voxel_size", (counted ? "numbers that give" : "a length that gives") +
+                                                   std::string(" at most 1e9 voxels, not ") + shown(voxels));
+}
+
+/// Voxels across and along the mill, by `voxel_size` or `counts`; an even number across unless counted.
+/// @param usual_along  number along the axis; 0: by voxel_size
+Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int usual_along) {
+  in.alternatives({"voxel_size", "counts"});
+  const double length = reach(geometry);
+  Voxels voxels;
+  double half = geometry.radius();
+  if (in.has("counts")) {
+    if (in.has("voxel_size")) in.refuse("voxel_size", "either voxel_size or counts");
+    const Section counts = in.section("counts", {"across", "along"});
+    voxels.shape[0] = counts.integer("across", whole_number("voxels across the mill", 1, most_along_axis));
+    const Rule along = whole_number("voxels along the axis", 1, most_along_axis);
+    voxels.shape[2] =
+        usual_along > 0 ? counts.integer("along", along, usual_along) : counts.integer("along", along);
+    check_number_of_voxels(in, voxels.shape[0], voxels.shape[2]);
+  } else {
+    const double size =
+        in.number("voxel_size",
+                  {"a length of at least a thousandth of the diameter, and up to the radius, " + shown(half) +
+                       " m (or the key counts)",
+                   [=](double v) { return v >= half / 500 && v <= half; }},
+                  usual_size);
+    voxels.shape[0] = 2 * static_cast<int>(std::ceil(half / size * (1 - 1e-9)));
+    half = voxels.shape[0] * size / 2;
+    const double along = usual_along > 0 ? usual_along : std::max(1.0, std::round(length / size));
+    check_number_of_voxels(in, voxels.shape[0], along);
+    voxels.shape[2] = static_cast<int>(along);
+  }
+  voxels.shape[1] = voxels.shape[0];
+  voxels.lower = {-half, -half, 0};
+  voxels.upper = {half, half, length};
+  return voxels;
+}
+
+/// A number of records, as a time.
+double whole_records(double time, const Mill& mill) {
+  return std::max(1.0, std::round(time / mill.dem.record_interval)) * mill.dem.record_interval;
+}
+
+FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
+  const double radius = mill.geometry.radius();
+  const double pores = count_charge(mill).pore_volume;
+  const Rule level = {"a height in m within the radius, " + shown(radius) + " m, of the axis",
+                      [=](double v) { return std::abs(v) <= radius; }};
+  FlowStart start;
+  const bool both_set = flow.is_set("start") && slurry.is_set("level");
+  if (flow.is_set("start") && !both_set) slurry.drop("level");
+  if (slurry.has("level")) {
+    if (flow.has("start") && (both_set || !slurry.is_set("level")))
+      flow.refuse("start", "either it or slurry.level");
+    start.level = slurry.number("level", level);
+    return start;
+  }
+  Section in = flow.optional_section("start", {"level", "volume", "fill"});
+  in.alternatives({"level", "volume", "fill"});
+  for (const auto& [one, other] : {std::pair("level", "volume"), {"level", "fill"}, {"volume", "fill"}})
+    if (in.has(one) && in.has(other)) in.refuse(other, std::string("either it or ") + one);
+  if (in.has("level")) {
+    start.level = in.number("level", level);
+  } else if (in.has("volume")) {
+    start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",
+                                                  flow_volume(mill.geometry) * mill.whole_length /
+                                                      mill.geometry.length)) *
+                   mill.geometry.length / mill.whole_length;
+  } else {
+    start.volume = pores * in.number("fill",
+                                     {"a share of the resting charge's pores of 0 or more and up to 20",
+                                      [](double v) { return v >= 0 && v <= 20; }},
+                                     1);
+  }
+  start.fill = pores > 0 ? start.volume / pores : 0;
+  return start;
+}
+
+/// Slurry and balls together must fit.
+void check_room(const Section& flow, const Flow& read, const Mill& mill) {
+  if (read.start.level) return;
+  const double balls = read.balls ? count_charge(mill).volume : 0;
+  const double room = flow_volume(mill.geometry) - balls;
+  if (read.start.volume < room) return;
+  const Section in = flow.optional_section("start", {"level", "volume", "fill"});
+  in.refuse(in.has("volume") ? "volume" : "fill", "slurry that fits: it is " + shown(read.start.volume) +
+                                                      " m^3, the mill has room for " + shown(room) + " m^3");
+}
+
+void read_duration(Section& in, const Mill& mill, Flow& flow) {
+  in.alternatives({"duration", "turns"});
+  if (in.has("duration")) {
+    if (in.has("turns")) in.refuse("turns", "either duration or turns");
+    flow.duration = in.number("duration", time_above_zero());
+  } else {
+    flow.duration = mill.turn() * in.number("turns",
+                                            {"a number of turns above 0 and up to 10000",
+                                             [](double v) { return v > 0 && v <= 1e4; }},
+                                            usual_flow_turns);
+  }
+}
+
+void read_drag(const Section& in, Flow& flow) {
+  Section::Keys names;
+  for (const drag::Law& law : drag::laws()) names.emplace_back(law.name);
+  flow.law = in.choice("law", names, "Beetstra");
+  flow.multiplier = in.number("multiplier", zero_up_to("a factor on the drag", largest_multiplier), 1);
+  flow.viscosity = in.choice("viscosity", {"plastic", "pore"}, "plastic");
+  flow.polydispersity = in.boolean("polydispersity", false);
+}
+
+/// Only slurryFoam's step depends on the voidage.
+void read_voidage_change(Section& in, Flow& flow) {
+  const char* key = "max_voidage_change";
+  if (flow.solver != "slurryFoam") {
+    if (in.has(key) && (in.is_set(key) || !in.is_set("solver")))
+      in.refuse(key, "it with flow.solver slurryFoam only");
+    in.drop(key);
+    return;
+  }
+  flow.max_voidage_change = in.number(
+      key, {"a share of a cell's voidage above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
+      0.1);
+}
+
+void read_steps(Section& in, const Mill& mill, Flow& flow) {
+  const Rule courant = {"a Courant number above 0 and up to 10", [](double v) { return v > 0 && v <= 10; }};
+  flow.max_courant = in.number("max_courant", courant, 1);
+  flow.max_surface_courant = in.number("max_surface_courant", courant, 0.5);
+  read_voidage_change(in, flow);
+  flow.largest_correction = in.number(
+      "largest_correction",
+      {"a share of the balls' volume of 0 or more and up to 1", [](double v) { return v >= 0 && v <= 1; }},
+      usual_largest_correction);
+  flow.max_time_step = in.number("max_time_step", part_of("flow's duration", flow.duration),
+                                 std::min(longest_step_of_turn * mill.turn(), flow.duration));
+  flow.write_interval = in.number("write_interval", part_of("flow's duration", flow.duration),
+                                  std::min(mill.turn() / fields_per_turn, flow.duration));
+}
+
+/// Whole turns at the end of the flow, two thirds of it at the most; of a flow shorter than 1.5 turns its
+/// second half.
+double usual_averages_start(const Flow& flow, double turn) {
+  const double turns = std::floor(share_averaged * flow.duration / turn * (1 + 1e-9));
+  return turns >= 1 ? std::max(0.0, flow.duration - turns * turn) : flow.duration / 2;
+}
+
+FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, const Mill& mill) {
+  Section in =
+      flow_section.optional_section("averages", {"start", "window", "interval", "voxel_size", "counts"});
+  const double radius = mill.geometry.radius();
+  const double size = std::max(shell_cell_size(mill.resolution, mill.geometry), finest_flow_voxel * radius);
+  const double layer = mill.geometry.length / mill.resolution.layers;
+  const int along = std::max(1, static_cast<int>(std::lround(reach(mill.geometry) / layer)));
+  FlowAverages averages;
+  averages.voxels = read_voxels(in, mill.geometry, std::min(size, radius), along);
+  averages.start =
+      in.number("start",
+                {"a flow time in s of 0 or more and below the duration, " + shown(flow.duration) + " s",
+                 [&](double v) { return v >= 0 && v < flow.duration; }},
+                usual_averages_start(flow, mill.turn()));
+  const double rest = flow.duration - averages.start;
+  averages.window = in.number("window", part_of("time after flow.averages.start", rest),
+                              std::min(mill.turn() / windows_per_turn, rest));
+  averages.interval =
+      in.number("interval", part_of("window", averages.window), averages.window / samples_per_window);
+  return averages;
+}
+
+}  // namespace
+
+Averages read_averages(const Section& root, const Mill& mill) {
+  Section in =
+      root.optional_section("averages", {"voxel_size", "counts", "window", "start", "method", "template"});
+  const ChargeNumbers charge = count_charge(mill);
+  const double radius = mill.geometry.radius();
+  const double many_balls = std::min(usual_voxel * charge.sauter_diameter, radius / usual_voxels_of_radius);
+  const double usual_size = std::min(std::max(charge.largest_diameter, many_balls), radius);
+  Averages averages;
+  averages.voxels = read_voxels(in, mill.geometry, usual_size, 0);
+  const double duration = mill.dem.duration;
+  averages.window =
+      in.number("window",
+                {"a time in s of at least dem.record_interval, " + shown(mill.dem.record_interval) +
+                     " s, and not above dem.duration, " + shown(duration) + " s",
+                 [&](double v) { return v >= mill.dem.record_interval * (1 - 1e-9) && v <= duration; }},
+                std::min(whole_records(mill.turn() / windows_per_turn, mill), duration));
+  const Rule time = {
+      "'steady', or a DEM time in s of 0 or more and below dem.duration, " + shown(duration) + " s",
+      [=](double v) { return v >= 0 && v < duration; }};
+  if (!in.has("start") || in.is("start", "steady"))
+    in.choice("start", {"steady"}, "steady");
+  else
+    averages.start = in.number("start", time);
+  averages.method = in.choice("method", {"exact", "sample"}, "exact");
+  averages.template_points =
+      in.integer("template",
+                 {"a whole number of points from 2 to 100", [](double v) { return v >= 2 && v <= 100; }}, 12);
+  return averages;
+}
+
+Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
+  Section in = root.optional_section(
+      "flow", {"solver", "duration", "turns", "balls", "law", "multiplier", "viscosity", "polydispersity",
+               "out_of_range", "start", "feed", "max_courant", "max_surface_courant", "max_voidage_change",
+               "largest_correction", "max_time_step", "write_interval", "slices", "averages"});
+  Flow flow;
+  flow.solver = in.choice("solver", {"slurryFoam", "interFoam"}, "slurryFoam");
+  read_duration(in, mill, flow);
+  flow.balls = in.boolean("balls", true);
+  read_drag(in, flow);
+  flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
+  flow.start = read_start(in, slurry, mill);
+  check_room(in, flow, mill);
+  const double feed = in.number(
+      "feed",
+      zero_up_to("a feed rate in m^3/s (the mill's volume in a second at most)", flow_volume(mill.geometry)),
+      0);
+  if (feed > 0 && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
+    in.refuse("feed", "it with geometry.inlet only");
+  flow.feed = mill.geometry.inlet ? feed : 0;
+  read_steps(in, mill, flow);
+  flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis), mill.resolution.layers);
+  flow.averages = read_flow_averages(in, flow, mill);
+  return flow;
+}
+
+}  // namespace millfoam::meshing

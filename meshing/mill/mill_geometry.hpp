@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meshing/mill/mill.hpp"
+#include "meshing/mill/yaml_section.hpp"
+
+namespace millfoam::meshing {
+
+/// The map `geometry` of a mill.yaml. Throws MillError for what is no mill: lifters that overlap, openings
+/// that do not fit inside the lifters or without plain ends, …
+Geometry read_geometry(const Section& in);
+
+/// The map `resolution` of a mill.yaml. Throws MillError for numbers that the cross-section's blocks cannot
+/// have, or for more cells than OpenFOAM counts.
+Resolution read_resolution(const Section& in, const Geometry& geometry);
+
+/// Width of the flow's cells on the shell, m: the one asked for, or that of the counts around the mill.
+double shell_cell_size(const Resolution& resolution, const Geometry& geometry);
+
+}  // namespace millfoam::meshing

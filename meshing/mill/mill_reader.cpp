@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/mill_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/materials.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_fingerprints.hpp"
+#include "meshing/mill/mill_flow.hpp"
+#include "meshing/mill/mill_geometry.hpp"
+#include "meshing/mill/opening_circles.hpp"
+#include "meshing/mill/rules.hpp"
+#include "meshing/mill/yaml_section.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+/// Where mill.yaml leaves them open: the largest time-step over the Rayleigh time; the time to settle over
+/// that of a fall through the mill's diameter; the turns of the dry run, of which the first brings the charge
+/// into motion; records in a turn, so that a ball at the shell passes three voxels of a tenth of the radius
+/// in ten of them. As in the laboratory mills of cases/mills.
+constexpr double usual_rayleigh_fraction = 0.2;
+constexpr double usual_settling = 1.6;
+constexpr double usual_dem_turns = 3;
+constexpr double records_per_turn = 500;
+
+/// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
+constexpr double slowest_fraction = 0.001;
+constexpr double fastest_fraction = 3;
+
+double read_angular_velocity(Section& in, const Geometry& geometry) {
+  const double critical = critical_speed(geometry);
+  const double slowest = slowest_fraction * critical;
+  const double fastest = fastest_fraction * critical;
+  const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
+                            " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
+                            " of the critical speed), negative for clockwise",
+                        [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
+  // A fraction that --set gives turns the mill as the file's angular velocity does
+  std::optional<std::string> usual_sense;
+  if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
+    usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
+  in.alternatives({"angular_velocity", "fraction_of_critical"});
+  in.displace("angular_velocity", {"sense"});
+  if (in.has("angular_velocity")) {
+    for (const char* other : {"fraction_of_critical", "sense"}) {
+      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
+    }
+    return in.number("angular_velocity", turning);
+  }
+  const double fraction = in.number(
+      "fraction_of_critical", {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
+                                   shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity)",
+                               [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+  const Section::Keys senses = {"clockwise", "anticlockwise"};
+  const std::string sense =
+      usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
+  const double sign = sense == "clockwise" ? -1 : 1;
+  return sign * fraction * critical;
+}
+
+Material read_material(const Section& materials, const std::string& key) {
+  if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
+  const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
+  return {in.number("density", density()), in.number("youngs_modulus", youngs_modulus()),
+          in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
+}
+
+/// A contact by name, by its numbers, or, where the key is missing, by the names of its two materials.
+Contact read_contact(const Section& materials, const std::string& key, const std::string& partner) {
+  if (materials.is_text(key)) return named_contact(materials.choice(key, contact_names()));
+  if (!materials.has(key) && materials.is_text("ball") && materials.is_text(partner)) {
+    const std::string name = materials.text("ball", "") + "-" + materials.text(partner, "");
+    const auto names = contact_names();
+    if (std::find(names.begin(), names.end(), name) != names.end()) return named_contact(name);
+  }
+  const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
+  return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
+                                    [](double v) { return v > 0 && v <= 1; }}),
+          in.number("friction", friction_coefficient("a friction coefficient")),
+          in.number("rolling_friction", friction_coefficient("a rolling friction coefficient"))};
+}
+
+/// The modulus, or the overlap that it follows from.
+void read_softness(Section& in, const Geometry& geometry, Dem& dem) {
+  in.alternatives({"youngs_modulus", "largest_overlap"});
+  if (in.has("youngs_modulus")) {
+    if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
+    dem.youngs_modulus = in.number("youngs_modulus", youngs_modulus());
+  } else {
+    dem.largest_overlap = in.number(
+        "largest_overlap",
+        {"a share of the diameter above 0 and up to 0.15", [](double v) { return v > 0 && v <= 0.15; }},
+        default_largest_overlap);
+  }
+  dem.soften_below = in.number("soften_below", zero_up_to("a diameter in m", geometry.diameter), 0);
+}
+
+/// Time to fall through the mill's diameter, s.
+double fall_time(const Geometry& geometry) {
+  return std::sqrt(2 * geometry.diameter / gravity);
+}
+
+Dem read_dem(Section& in, const Geometry& geometry, double turn) {
+  Dem dem;
+  read_softness(in, geometry, dem);
+  dem.rayleigh_fraction = in.number(
+      "rayleigh_fraction",
+      {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
+      usual_rayleigh_fraction);
+  dem.settle_time = in.number("settle_time", time_from_zero(), usual_settling * fall_time(geometry));
+  dem.duration = in.number("duration", time_above_zero(), usual_dem_turns * turn);
+  dem.record_interval = in.number("record_interval", part_of("duration", dem.duration),
+                                  std::min(turn / records_per_turn, dem.duration));
+  const Rule interval = part_of("duration", dem.duration);
+  dem.contact_interval = in.number(
+      "contact_interval",
+      {"0 for no contacts, or " + interval.expected, [&](double v) { return v == 0 || interval.holds(v); }},
+      0);
+  dem.seed = in.integer(
+      "seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }}, 1);
+  return dem;
+}
+
+/// Honey has 10 Pa s, fresh concrete a yield stress of 1e3 Pa, liquid iron a surface tension of 1.9 N/m.
+Slurry read_slurry(const Section& in) {
+  return {in.number("density", density()),
+          in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
+          in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
+          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07)};
+}
+
+/// Gases reach a liquid's density and viscosity at the critical point at most.
+Air read_air(const Section& in) {
+  return {in.number("density", positive_up_to("a density in kg/m^3", 1000), 1.2),
+          in.number("viscosity", positive_up_to("a viscosity in Pa s", 0.01), 1.8e-5)};
+}
+
+/// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which
+/// the whole mill's layers of the ring would not fit), and as much less charge and layers.
+void take_slice(const Section& in, Mill& mill) {
+  const auto largest = std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
+                                        [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
+  const double whole = mill.geometry.length;
+  const double slice =
+      in.number("slice", {"a length above the largest ball's diameter, " + shown(largest->diameter) +
+                              " m, and up to the mill's, " + shown(whole) + " m",
+                          [&](double v) { return v > largest->diameter && v <= whole; }});
+  mill.geometry.length = slice;
+  mill.geometry.ends = Ends::periodic;
+  mill.geometry.circles_of_whole = opening_circles(mill.geometry);
+  mill.geometry.inlet.reset();
+  mill.geometry.grates.reset();
+  mill.geometry.pulp_lifters.reset();
+  for (SizeClass& size : mill.charge.classes) size.mass *= slice / whole;
+  const auto layers = std::lround(mill.resolution.layers * slice / whole);
+  mill.resolution.layers = std::max(1, static_cast<int>(layers));
+}
+
+void read_materials(const Section& root, Mill& mill) {
+  const Section in = root.section("materials", {"ball", "wall", "ball_ball", "ball_wall"});
+  mill.ball = read_material(in, "ball");
+  mill.wall = read_material(in, "wall");
+  mill.ball_ball = read_contact(in, "ball_ball", "ball");
+  mill.ball_wall = read_contact(in, "ball_wall", "wall");
+}
+
+void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
+  resolution.alternatives({"cell_size", "counts"});
+  mill.resolution = read_resolution(resolution, mill.geometry);
+  mill.whole_length = mill.geometry.length;
+  if (geometry.has("slice")) take_slice(geometry, mill);
+  if (mill.geometry.ends == Ends::plain && mill.resolution.layers < 2)
+    resolution.refuse("layers",
+                      "2 or more layers between two walls, or 'ends: periodic' (else cells have no neighbour "
+                      "along the axis)");
+}
+
+Mill read_root(const Section& in, const std::string& usual_title) {
+  Mill mill;
+  mill.title = in.text("title", usual_title);
+  const Section geometry = in.section(
+      "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
+  mill.geometry = read_geometry(geometry);
+  Section speed = in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"});
+  mill.angular_velocity = read_angular_velocity(speed, mill.geometry);
+  read_materials(in, mill);
+  mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
+                                                  "packing", "fines_below", "start_radius", "start_length"}),
+                            mill.geometry, mill.ball.density);
+  Section dem =
+      in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
+                                  "settle_time", "duration", "record_interval", "contact_interval", "seed"});
+  mill.dem = read_dem(dem, mill.geometry, mill.turn());
+  Section slurry =
+      in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
+  mill.slurry = read_slurry(slurry);
+  mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
+  Section resolution = in.optional_section("resolution", {"cell_size", "counts", "layers"});
+  read_layers(geometry, resolution, mill);
+  mill.averages = read_averages(in, mill);
+  mill.flow = read_flow(in, slurry, mill);
+  return mill;
+}
+
+}  // namespace
+
+MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  const auto document = std::make_shared<MillDocument>(file, set);
+  const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
+                                "slurry", "air", "resolution", "flow"});
+  MillDescription description{read_root(root, file.stem().string()), document};
+  description.mill.fingerprint = fingerprints(document->keys(), description.mill);
+  return description;
+}
+
+Mill read_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  return describe_mill(file, set).mill;
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/resolved_mill.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_fingerprints.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "millfoam_version.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json lifters_numbers(const Lifters& lifters) {
+  return {{"count", lifters.count},
+          {"height_m", lifters.height},
+          {"width_m", lifters.width},
+          {"top_width_m", lifters.top_width}};
+}
+
+Json geometry_numbers(const Mill& mill) {
+  const Geometry& geometry = mill.geometry;
+  Json numbers = {{"radius_m", geometry.radius()},
+                  {"length_m", geometry.length},
+                  {"whole_length_m", mill.whole_length},
+                  {"is_slice", geometry.ends == Ends::periodic},
+                  {"ends", geometry.ends == Ends::plain ? "plain" : "periodic"},
+                  {"section_m2", analytic_section(geometry)},
+                  {"volume_m3", analytic_volume(geometry)},
+                  {"flow_volume_m3", flow_volume(geometry)},
+                  {"lifters", lifters_numbers(geometry.lifters)},
+                  {"inlet", nullptr},
+                  {"grates", nullptr},
+                  {"pulp_lifters", nullptr}};
+  if (geometry.inlet) numbers["inlet"] = {{"radius_m", geometry.inlet->radius}};
+  if (geometry.grates)
+    numbers["grates"] = {{"inner_radius_m", geometry.grates->inner_radius},
+                         {"outer_radius_m", geometry.grates->outer_radius},
+                         {"sectors", geometry.grates->sectors},
+                         {"sector_share", geometry.grates->sector_share},
+                         {"open_fraction", geometry.grates->open_fraction}};
+  if (geometry.pulp_lifters)
+    numbers["pulp_lifters"] = {{"depth_m", geometry.pulp_lifters->depth},
+                               {"layers", geometry.pulp_lifters->layers},
+                               {"discharge_radius_m", geometry.pulp_lifters->discharge_radius}};
+  return numbers;
+}
+
+Json speed_numbers(const Mill& mill) {
+  const double critical = critical_speed(mill.geometry);
+  return {{"angular_velocity_rad_s", mill.angular_velocity},
+          {"sense", mill.sense()},
+          {"critical_speed_rad_s", critical},
+          {"fraction_of_critical", std::abs(mill.angular_velocity) / critical},
+          {"turn_s", mill.turn()}};
+}
+
+Json charge_numbers(const ChargeNumbers& charge, double packing) {
+  Json classes = Json::array();
+  for (const BallCount& size : charge.classes)
+    classes.push_back({{"diameter_m", size.diameter},
+                       {"count", size.count},
+                       {"mass_asked_kg", size.mass_asked},
+                       {"mass_kg", size.mass},
+                       {"simulated", size.simulated}});
+  const double whole = charge.mass + charge.fines_mass;
+  return {{"balls", charge.balls},
+          {"mass_kg", charge.mass},
+          {"volume_m3", charge.volume},
+          {"load", charge.load},
+          {"load_asked", charge.load_asked},
+          {"resting_solidity", packing},
+          {"pore_volume_m3", charge.pore_volume},
+          {"fines_mass_kg", charge.fines_mass},
+          {"fines_share", whole > 0 ? charge.fines_mass / whole : 0},
+          {"sauter_diameter_m", charge.sauter_diameter},
+          {"smallest_diameter_m", charge.smallest_diameter},
+          {"largest_diameter_m", charge.largest_diameter},
+          {"classes", classes}};
+}
+
+Json voxel_numbers(const Voxels& voxels) {
+  return {{"lower_m", voxels.lower}, {"upper_m", voxels.upper}, {"shape", voxels.shape}};
+}
+
+Json averages_numbers(const Mill& mill) {
+  Json numbers = voxel_numbers(mill.averages.voxels);
+  numbers["periodic"] = {false, false, mill.geometry.ends == Ends::periodic};
+  numbers["window_s"] = mill.averages.window;
+  numbers["start_s"] = mill.averages.start ? Json(*mill.averages.start) : Json("steady");
+  numbers["method"] = mill.averages.method;
+  numbers["template"] = mill.averages.template_points;
+  return numbers;
+}
+
+Json start_numbers(const FlowStart& start) {
+  if (start.level) return {{"level_m", *start.level}};
+  return {{"volume_m3", start.volume}, {"fill", start.fill}};
+}
+
+Json flow_numbers(const Mill& mill) {
+  const Flow& flow = mill.flow;
+  Json averages = voxel_numbers(flow.averages.voxels);
+  averages["start_s"] = flow.averages.start;
+  averages["window_s"] = flow.averages.window;
+  averages["interval_s"] = flow.averages.interval;
+  return {{"solver", flow.solver},
+          {"duration_s", flow.duration},
+          {"turns", flow.duration / mill.turn()},
+          {"balls", flow.balls},
+          {"law", flow.law},
+          {"multiplier", flow.multiplier},
+          {"viscosity", flow.viscosity},
+          {"polydispersity", flow.polydispersity},
+          {"out_of_range", flow.out_of_range},
+          {"start", start_numbers(flow.start)},
+          {"feed_m3_s", flow.feed},
+          {"max_courant", flow.max_courant},
+          {"max_surface_courant", flow.max_surface_courant},
+          {"max_voidage_change", flow.max_voidage_change},
+          {"largest_correction", flow.largest_correction},
+          {"max_time_step_s", flow.max_time_step},
+          {"write_interval_s", flow.write_interval},
+          {"slices", flow.slices},
+          {"averages_start_s", flow.averages.start},
+          {"averages", averages}};
+}
+
+Json derived_numbers(const Mill& mill) {
+  return {{"geometry", geometry_numbers(mill)},
+          {"speed", speed_numbers(mill)},
+          {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
+          {"materials", materials_numbers(mill)},
+          {"averages", averages_numbers(mill)},
+          {"gravity_m_s2", gravity},
+          {"slurry",
+           {{"density_kg_m3", mill.slurry.density},
+            {"plastic_viscosity_Pa_s", mill.slurry.plastic_viscosity},
+            {"yield_stress_Pa", mill.slurry.yield_stress},
+            {"surface_tension_N_m", mill.slurry.surface_tension}}},
+          {"air", {{"density_kg_m3", mill.air.density}, {"viscosity_Pa_s", mill.air.viscosity}}},
+          {"resolution", {{"cell_size_m", mill.resolution.cell_size}, {"layers", mill.resolution.layers}}},
+          {"flow", flow_numbers(mill)}};
+}
+
+}  // namespace
+
+Json result_head(const std::string& format, const std::string& program, const Json& mill) {
+  return {{"format", format}, {"program", program + " " + version()}, {"mill", mill}};
+}
+
+Json resolved_mill(const MillDescription& description, const std::string& program) {
+  const MillDocument& document = *description.document;
+  return {{"format", "millfoam-mill"},
+          {"version", 1},
+          {"program", program + " " + version()},
+          {"file", document.source()},
+          {"file_fingerprint", document.source_fingerprint()},
+          {"set", document.changes()},
+          {"lines", document.lines()},
+          {"fingerprint", to_json(description.mill.fingerprint)},
+          {"mill", document.keys()},
+          {"derived", derived_numbers(description.mill)}};
+}
+
+namespace {
+
+/// A file that is no resolved mill, such as the description of the mill itself, is not replaced.
+void require_replaceable(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0) return;
+  std::ifstream in(file);
+  const Json content = Json::parse(in, nullptr, false);
+  if (!content.is_object() || content.value("format", "") != "millfoam-mill")
+    throw std::runtime_error("--resolved " + file.string() +
+                             ": exists and is no resolved mill; expected another file");
+}
+
+}  // namespace
+
+void write_resolved_mill(const MillDescription& description, const std::string& program,
+                         const std::filesystem::path& file) {
+  require_replaceable(file);
+  const std::string text = resolved_mill(description, program).dump(2) + '\n';
+  if (file == "-")
+    std::cout << text << std::flush;
+  else
+    write_file(file, [&](std::ostream& out) { out << text; });
+}
+
+}  // namespace millfoam::meshing

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "meshing/mill/mill_reader.hpp"
+#include "meshing/mill_mesh/openings.hpp"
+#include "meshing/volume/mesh_quality.hpp"
+#include "meshing/walls/wall_surface.hpp"
+
+namespace millfoam::meshing {
+
+/// Writes `mesh.json` of a case: cells, quality against its limits, areas of the openings, and the DEM time
+/// `time` (s) that the mesh is turned to. Layout: FORMATS.md.
+void write_mesh_results(const MillDescription& description, const VolumeMesh& mesh,
+                        const MeshQuality& quality, const Openings& openings, double time,
+                        const std::filesystem::path& case_folder);
+
+/// Writes `walls/walls.json`: where the walls come from, the box and the volume (m^3) that they enclose.
+/// Without a description they come from CAD and belong to no fingerprint.
+void write_wall_results(const std::optional<MillDescription>& description, const WallSurface& walls,
+                        double volume, const std::filesystem::path& walls_folder);
+
+/// DEM time to which the flow's mesh is turned, s: `averages.start`, or, where that is `steady`, `time0_s` of
+/// the `solids.json` in the case's folder; nothing while there is none. A flow without balls begins at 0.
+/// Throws std::runtime_error for a solids.json that has no time0_s.
+std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::path& case_folder);
+
+}  // namespace millfoam::meshing

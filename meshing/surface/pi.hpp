@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+/// Everything of millFoam; each room has a namespace of its own.
+namespace millfoam {
+
+/// The circle's circumference over its diameter.
+inline constexpr double pi = 3.14159265358979323846;
+
+}  // namespace millfoam

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_reader.hpp"
+#include "meshing/mill/mill_shape.hpp"
+#include "tests/meshing/test_mill.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+/// A mill with nothing but what has no default.
+const std::string bare_mill =
+    R"(geometry: {diameter: 0.6, length: 0.1, ends: periodic, lifters: {count: 12, height: 0.03, width: 0.03}}
+speed: {fraction_of_critical: 0.7, sense: anticlockwise}
+charge: {fill: 0.3, diameter: 0.025}
+materials: {ball: glass, wall: HDPE}
+slurry: {density: 1500, plastic_viscosity: 0.01, yield_stress: 1.0}
+)";
+
+Mill mill_of(const std::string& text, const std::vector<std::string>& set = {}) {
+  return describe(text, set).mill;
+}
+
+std::string refusal_of(const std::string& text, const std::vector<std::string>& set = {}) {
+  try {
+    describe(text, set);
+  } catch (const MillError& error) {
+    const std::string message = error.what();
+    return message.rfind("--set", 0) == 0 ? message : message.substr(message.find("mill.yaml"));
+  }
+  return "accepted";
+}
+
+TEST(Defaults, make_a_whole_mill_of_its_geometry_speed_charge_and_slurry) {
+  const Mill mill = mill_of(bare_mill);
+  const double turn = 2 * std::acos(-1.0) / (0.7 * std::sqrt(9.81 / 0.3));
+  EXPECT_DOUBLE_EQ(mill.turn(), turn);
+  EXPECT_DOUBLE_EQ(mill.dem.duration, 3 * turn);
+  EXPECT_DOUBLE_EQ(mill.dem.record_interval, turn / 500);
+  EXPECT_FALSE(mill.averages.start);
+  EXPECT_DOUBLE_EQ(mill.averages.window, 25 * mill.dem.record_interval);
+  EXPECT_DOUBLE_EQ(mill.flow.duration, 3 * turn);
+  // Whole turns at the end
+  EXPECT_NEAR(mill.flow.averages.start, turn, 1e-12);
+  EXPECT_EQ(mill.flow.law, "Beetstra");
+  EXPECT_EQ(mill.flow.out_of_range, "repeat");
+  EXPECT_DOUBLE_EQ(mill.flow.start.fill, 1);
+  EXPECT_EQ(mill.flow.slices, mill.resolution.layers);
+}
+
+TEST(Defaults, voxels_hold_8_to_64_balls_and_cover_the_mill) {
+  const Mill mill = mill_of(bare_mill);
+  const Voxels& voxels = mill.averages.voxels;
+  EXPECT_LE(voxels.lower[0], -0.3);
+  EXPECT_GE(voxels.upper[1], 0.3);
+  EXPECT_EQ(voxels.upper[2], 0.1);
+  EXPECT_EQ(voxels.shape[0] % 2, 0);
+  const double side = 2 * voxels.upper[0] / voxels.shape[0];
+  const double volume = side * side * voxels.upper[2] / voxels.shape[2];
+  const double ball = std::acos(-1.0) / 6 * std::pow(0.025, 3);
+  EXPECT_GE(mill.charge.packing * volume / ball, 8);
+  EXPECT_LE(mill.charge.packing * volume / ball, 64);
+}
+
+TEST(Defaults, voxels_show_the_wall_of_a_small_mill_with_large_balls) {
+  // 2.5 balls, 100 mm, would be a sixth of the diameter
+  EXPECT_EQ(mill_of(bare_mill, {"charge.diameter=0.04"}).averages.voxels.shape[0], 8);
+  // No voxel is smaller than a ball
+  EXPECT_EQ(mill_of(bare_mill, {"charge.diameter=0.099", "geometry.length=0.2"}).averages.voxels.shape[0], 8);
+}
+
+TEST(Voxels, by_counts_end_at_the_shell) {
+  const Mill mill = mill_of(bare_mill + "averages: {counts: {across: 33, along: 2}}\n");
+  EXPECT_EQ(mill.averages.voxels.shape, (std::array<int, 3>{33, 33, 2}));
+  EXPECT_EQ(mill.averages.voxels.lower[0], -0.3);
+  EXPECT_NE(refusal_of(bare_mill + "averages: {counts: {across: 33, along: 2}, voxel_size: 0.01}\n")
+                .find("'averages.voxel_size' = 0.01: expected either voxel_size or counts"),
+            std::string::npos);
+}
+
+TEST(Voxels, of_the_slurry_are_as_thick_as_the_layers_where_their_number_is_open) {
+  const Mill mill = mill_of(bare_mill, {"flow.averages.counts.across=20", "resolution.layers=7"});
+  EXPECT_EQ(mill.flow.averages.voxels.shape, (std::array<int, 3>{20, 20, 7}));
+  EXPECT_NE(refusal_of(bare_mill, {"averages.counts.across=20"}).find("'averages.counts.along' is missing"),
+            std::string::npos);
+}
+
+TEST(FlowStart, by_level_volume_or_fill_of_the_pores) {
+  EXPECT_EQ(mill_of(bare_mill, {"flow.start.level=-0.1"}).flow.start.level, -0.1);
+  EXPECT_EQ(mill_of(bare_mill, {"slurry.level=-0.1"}).flow.start.level, -0.1);
+  EXPECT_EQ(mill_of(bare_mill, {"flow.start.volume=0.002"}).flow.start.volume, 0.002);
+  const Mill mill = mill_of(bare_mill, {"flow.start.fill=0.5"});
+  // Bulk = balls/0.6, of which 0.4 are pores
+  EXPECT_NEAR(mill.flow.start.volume, 0.5 * count_charge(mill).volume * 0.4 / 0.6, 1e-15);
+}
+
+TEST(FlowStart, volumes_are_those_of_the_whole_mill) {
+  const std::string whole = with(bare_mill, "ends: periodic", "ends: plain, slice: 0.05");
+  EXPECT_DOUBLE_EQ(mill_of(whole, {"flow.start.volume=0.002"}).flow.start.volume, 0.001);
+}
+
+TEST(FlowStart, is_refused_when_given_twice_or_too_large) {
+  EXPECT_NE(
+      refusal_of(bare_mill, {"slurry.level=-0.1", "flow.start.fill=1"}).find("either it or slurry.level"),
+      std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"flow.start={level: 0, fill: 1}"}).find("either it or level"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=0.025"}).find("the mill has room for"),
+            std::string::npos);
+}
+
+TEST(Flow, laws_are_those_of_the_table) {
+  EXPECT_EQ(mill_of(bare_mill, {"flow.law=Hill"}).flow.law, "Hill");
+  const std::string message = refusal_of(bare_mill + "flow: {law: Stokes}\n");
+  EXPECT_EQ(message.find("mill.yaml:6: key 'flow.law' = Stokes: expected one of Ergun, "), 0U) << message;
+}
+
+TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
+  EXPECT_DOUBLE_EQ(mill_of(bare_mill, {"flow.duration=0.5"}).flow.averages.start, 0.25);
+}
+
+TEST(Flow, change_of_the_voidage_limits_steps_of_slurryFoam_only) {
+  const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);
+  // The solver of one call leaves the file's key out
+  EXPECT_EQ(refusal_of(text, {"flow.solver=interFoam"}), "accepted");
+  for (const auto& refused : {refusal_of(bare_mill + "flow: {max_voidage_change: 0.2, solver: interFoam}\n"),
+                              refusal_of(text, {"flow.solver=interFoam", "flow.max_voidage_change=0.3"})})
+    EXPECT_NE(refused.find("expected it with flow.solver slurryFoam only"), std::string::npos) << refused;
+}
+
+TEST(Flow, intervals_of_a_run_are_a_millionth_of_it_or_more) {
+  for (const char* key : {"dem.record_interval", "dem.contact_interval", "flow.write_interval",
+                          "flow.max_time_step", "flow.averages.window", "flow.averages.interval"}) {
+    const std::string refused = refusal_of(bare_mill, {std::string(key) + "=1e-12"});
+    EXPECT_NE(refused.find("a time in s from "), std::string::npos) << key << ": " << refused;
+  }
+  EXPECT_EQ(mill_of(bare_mill).dem.contact_interval, 0);
+}
+
+TEST(Flow, feed_needs_an_inlet) {
+  EXPECT_NE(refusal_of(bare_mill, {"flow.feed=1e-5"}).find("expected it with geometry.inlet only"),
+            std::string::npos);
+}
+
+TEST(Set, takes_the_place_of_a_key_and_is_refused_like_one) {
+  EXPECT_EQ(mill_of(example_mill, {"dem.duration=4", "charge.classes[1].mass=0.01"}).charge.classes[1].mass,
+            0.01);
+  EXPECT_EQ(
+      refusal_of(example_mill, {"dem.duration=-4"}),
+      "--set dem.duration=-4: key 'dem.duration' = -4: expected a time in s above 0 and up to 100000 s");
+  EXPECT_EQ(refusal_of(example_mill, {"dem.durtion=4"})
+                .find("--set dem.durtion=4: key 'dem.durtion' is unknown: did you "
+                      "mean 'duration'?"),
+            0U);
+  EXPECT_EQ(refusal_of(example_mill, {"flw.law=Hill"})
+                .find("--set flw.law=Hill: key 'flw' is unknown: did you mean 'flow'?"),
+            0U);
+}
+
+TEST(Set, takes_maps_and_removes_keys) {
+  const Mill mill = mill_of(example_mill, {"charge={fill: 0.3, diameter: 0.005}"});
+  EXPECT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill_of(example_mill, {"geometry.slice=0.012", "geometry.slice=~"}).geometry.length, 0.024);
+}
+
+TEST(Set, of_one_alternative_takes_the_place_of_the_other) {
+  EXPECT_DOUBLE_EQ(mill_of(bare_mill + "flow: {turns: 5}\n", {"flow.duration=2"}).flow.duration, 2);
+  EXPECT_EQ(mill_of(example_mill, {"flow.start.fill=1"}).flow.start.level, std::nullopt);
+  EXPECT_EQ(mill_of(bare_mill + "flow: {start: {fill: 1}}\n", {"slurry.level=-0.1"}).flow.start.level, -0.1);
+  EXPECT_EQ(mill_of(example_mill, {"speed.angular_velocity=2"}).angular_velocity, 2);
+  EXPECT_EQ(mill_of(example_mill, {"dem.largest_overlap=0.05"}).dem.youngs_modulus, 0);
+  EXPECT_NE(refusal_of(bare_mill + "flow: {turns: 5, duration: 2}\n").find("either duration or turns"),
+            std::string::npos);
+}
+
+TEST(Set, of_one_alternative_takes_the_place_of_the_other_in_every_section) {
+  EXPECT_DOUBLE_EQ(mill_of(bare_mill + "flow: {duration: 5}\n", {"flow.turns=1"}).flow.duration,
+                   mill_of(bare_mill).turn());
+  const std::string inlet = with(example_mill, "speed:", "  inlet: {radius: 0.02}\nspeed:");
+  EXPECT_DOUBLE_EQ(mill_of(inlet, {"geometry.inlet.area=0.001"}).geometry.inlet->radius,
+                   std::sqrt(0.001 / std::acos(-1.0)));
+  EXPECT_EQ(mill_of(example_mill, {"resolution.counts={gap: 11, lifter: 3, height: 5, ring: 9}"})
+                .resolution.cell_size,
+            0);
+  EXPECT_EQ(mill_of(bare_mill + "averages: {voxel_size: 0.06}\n", {"averages.counts={across: 9, along: 2}"})
+                .averages.voxels.shape,
+            (std::array<int, 3>{9, 9, 2}));
+  EXPECT_EQ(
+      mill_of(bare_mill + "flow: {start: {volume: 0.001}}\n", {"flow.start.level=-0.1"}).flow.start.level,
+      -0.1);
+}
+
+TEST(Set, of_a_fraction_of_the_critical_speed_keeps_the_sense_of_the_files_angular_velocity) {
+  const std::string speed = "fraction_of_critical: 0.5\n  sense: clockwise";
+  const double critical = std::sqrt(9.81 / 0.06);
+  for (const double sign : {-1, 1}) {
+    const std::string text = with(example_mill, speed, "angular_velocity: " + std::to_string(sign * 6.4));
+    EXPECT_DOUBLE_EQ(mill_of(text, {"speed.fraction_of_critical=0.7"}).angular_velocity,
+                     sign * 0.7 * critical);
+  }
+  const std::string text = with(example_mill, speed, "angular_velocity: -6.4");
+  EXPECT_DOUBLE_EQ(
+      mill_of(text, {"speed.fraction_of_critical=0.7", "speed.sense=anticlockwise"}).angular_velocity,
+      0.7 * critical);
+}
+
+TEST(Set, of_classes_takes_the_place_of_fill_and_diameter) {
+  const Mill mill = mill_of(bare_mill, {"charge.classes=[{diameter: 0.03, mass: 5}]"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.03);
+  EXPECT_EQ(mill.charge.classes[0].mass, 5);
+}
+
+TEST(Set, of_fill_and_diameter_takes_the_place_of_classes) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.3", "charge.diameter=0.005"});
+  ASSERT_EQ(mill.charge.classes.size(), 1U);
+  EXPECT_EQ(mill.charge.classes[0].diameter, 0.005);
+  EXPECT_NEAR(count_charge(mill).load, 0.3, 1e-3);
+}
+
+TEST(Set, of_fill_alone_fills_with_the_files_classes_in_their_shares) {
+  const std::string text = with(example_mill, "  classes", "  reference_length: 0.12\n  classes");
+  const Mill mill = mill_of(text, {"charge.fill=0.25"});
+  const Charge& charge = mill.charge;
+  ASSERT_EQ(charge.classes.size(), 2U);
+  EXPECT_EQ(charge.classes[0].diameter, 0.008);
+  EXPECT_EQ(charge.classes[1].diameter, 0.002);
+  EXPECT_DOUBLE_EQ(charge.classes[1].mass / charge.classes[0].mass, 1.5);
+  const double mass = charge.classes[0].mass + charge.classes[1].mass;
+  EXPECT_DOUBLE_EQ(mass, 0.25 * 0.6 * 2700 * analytic_volume(mill.geometry));
+  // As much with another packing
+  EXPECT_DOUBLE_EQ(mill_of(text, {"charge.fill=0.25", "charge.packing=0.5"}).charge.classes[0].mass,
+                   charge.classes[0].mass * 0.5 / 0.6);
+}
+
+TEST(Set, of_two_alternatives_is_refused) {
+  const auto refused = [](const std::string& text, const std::vector<std::string>& set,
+                          const std::string& message) {
+    EXPECT_NE(refusal_of(text, set).find(message), std::string::npos) << refusal_of(text, set);
+  };
+  refused(example_mill, {"charge.fill=0.3", "charge.classes=[{diameter: 0.005, mass: 0.1}]"},
+          "--set charge.fill=0.3: key 'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.classes[0].mass=0.1"},
+          "'charge.fill' = 0.3: expected either classes, or fill and diameter");
+  refused(example_mill, {"charge.fill=0.3", "charge.reference_length=0.1"},
+          "'charge.reference_length' = 0.1: expected it beside classes only");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.fraction_of_critical=0.5"},
+          "either angular_velocity alone");
+  refused(example_mill, {"speed.angular_velocity=2", "speed.sense=clockwise"},
+          "either angular_velocity alone");
+  refused(bare_mill, {"flow.duration=2", "flow.turns=1"}, "either duration or turns");
+  refused(bare_mill, {"flow.start.level=0", "flow.start.volume=0.001"}, "either it or level");
+  refused(bare_mill, {"flow.start.fill=1", "slurry.level=0"}, "either it or slurry.level");
+  refused(example_mill, {"dem.youngs_modulus=1e7", "dem.largest_overlap=0.05"},
+          "either it or youngs_modulus");
+  refused(example_mill, {"resolution.cell_size=0.003", "resolution.counts={gap: 11}"},
+          "either cell_size or counts");
+}
+
+TEST(Set, leaves_two_alternatives_of_the_file_refused) {
+  const std::string both = with(example_mill, "  classes", "  fill: 0.3\n  classes");
+  EXPECT_NE(refusal_of(both, {"dem.seed=3"}).find("'charge.fill' = 0.3: expected either classes"),
+            std::string::npos);
+}
+
+TEST(Set, says_what_it_is_when_it_is_none) {
+  for (const char* change : {"flow.law", "=3", "a..b=1", "charge.classes[x].mass=1"})
+    EXPECT_NE(refusal_of(example_mill, {change}).find("expected PATH=VALUE"), std::string::npos) << change;
+  EXPECT_NE(refusal_of(example_mill, {"charge.classes[7].mass=1"}).find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(refusal_of(example_mill, {"title.a=1"}).find("holds no keys"), std::string::npos);
+}
+
+TEST(Set, of_an_item_takes_the_lists_numbers_only) {
+  const std::string text =
+      with(bare_mill, "{fill: 0.3, diameter: 0.025}", "{classes: [{diameter: 0.025, mass: 5}]}");
+  for (const char* item : {"1", "99999999999999999999999", "0x0", "-1", "a"}) {
+    const std::string refused = refusal_of(text, {"charge.classes." + std::string(item) + ".mass=1"});
+    EXPECT_NE(refused.find("expected a number of the list's items, from 0 to 0"), std::string::npos)
+        << refused;
+  }
+}
+
+const std::string mill_with_variants = bare_mill + R"(flow: {duration: 2}
+variants:
+  slow: {speed.fraction_of_critical: 0.5, flow.duration: 3}
+  thick:
+    slurry.plastic_viscosity: 0.1
+    slurry.yield_stress: 5
+)";
+
+TEST(Variants, change_keys_as_if_they_stood_in_the_file) {
+  EXPECT_DOUBLE_EQ(mill_of(mill_with_variants).slurry.yield_stress, 1);
+  const Mill mill = mill_of(mill_with_variants, {"variant=slow", "variant=thick"});
+  EXPECT_DOUBLE_EQ(mill.flow.duration, 3);
+  EXPECT_DOUBLE_EQ(mill.slurry.plastic_viscosity, 0.1);
+  EXPECT_NEAR(mill.angular_velocity / critical_speed(mill.geometry), 0.5, 1e-12);
+  // Other changes come after all of them, and take the place of alternatives
+  EXPECT_DOUBLE_EQ(mill_of(mill_with_variants, {"flow.duration=4", "variant=slow"}).flow.duration, 4);
+  const Mill turns = mill_of(mill_with_variants, {"variant=slow", "flow.turns=2"});
+  EXPECT_DOUBLE_EQ(turns.flow.duration, 2 * turns.turn());
+}
+
+TEST(Variants, are_refused_by_line_and_name) {
+  EXPECT_NE(refusal_of(mill_with_variants, {"variant=fast"}).find("expected one of slow, thick"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"variant=fast"}).find("has no variants"), std::string::npos);
+  const std::string list = bare_mill + "variants:\n  slow: [1, 2]\n";
+  EXPECT_EQ(refusal_of(list, {"variant=slow"}).rfind("mill.yaml:7: key 'variants.slow': expected a map", 0),
+            0U);
+  const std::string wrong = bare_mill + "variants:\n  slow:\n    flow.law: Stokes\n";
+  EXPECT_EQ(refusal_of(wrong, {"variant=slow"}).rfind("mill.yaml:8: key 'flow.law' = Stokes", 0), 0U)
+      << refusal_of(wrong, {"variant=slow"});
+  EXPECT_EQ(refusal_of(wrong), "accepted");
+}
+
+TEST(Encoding, is_named_when_it_is_not_utf8) {
+  EXPECT_NE(refusal_of("title: M\xFChle\n" + bare_mill)
+                .find("mill.yaml:1: byte 0xFC is no UTF-8, as in a text in Latin-1"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(std::string("\xFF\xFEt\0i\0", 6)).find("is in UTF-16"), std::string::npos);
+  EXPECT_NE(refusal_of(std::string("t\0i\0", 4)).find("is in UTF-16"), std::string::npos);
+  EXPECT_EQ(mill_of("\xEF\xBB\xBFtitle: Mühle\n" + bare_mill).title, "Mühle");
+}
+
+TEST(Encoding, tabs_before_keys_are_named) {
+  EXPECT_EQ(refusal_of("speed:\n\tsense: clockwise\n").find("mill.yaml:2: a tab before the key"), 0U);
+}
+
+TEST(Lengths, in_millimetres_are_refused) {
+  EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=120"}).find("up to 50 m"), std::string::npos);
+  EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=1e300"}).find("up to 50 m"), std::string::npos);
+  EXPECT_NE(refusal_of(example_mill, {"dem.duration=1e12"}).find("up to 100000 s"), std::string::npos);
+}
+
+/// The paths of all numbers of a resolved mill's keys, and whether each is a whole one.
+std::vector<std::pair<std::string, bool>> numbers_of(const nlohmann::ordered_json& keys) {
+  std::vector<std::pair<std::string, bool>> paths;
+  const nlohmann::ordered_json flat = keys.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (!value.is_number()) continue;
+    std::string path;
+    std::istringstream names(pointer.substr(1));
+    for (std::string name; std::getline(names, name, '/');) {
+      const bool item = name.find_first_not_of("0123456789") == std::string::npos;
+      path += item ? "[" + name + "]" : (path.empty() ? "" : ".") + name;
+    }
+    paths.emplace_back(path, value.is_number_integer());
+  }
+  return paths;
+}
+
+TEST(Numbers, are_bounded_each_by_something_that_a_mill_can_have) {
+  const std::string whole = with(with(with(example_mill, "speed:", R"(  inlet: {radius: 0.02}
+  grates: {inner_radius: 0.03, outer_radius: 0.045, sectors: 6}
+  pulp_lifters: {depth: 0.01, layers: 2, discharge_radius: 0.02}
+speed:)"),
+                                      "  classes", "  reference_length: 0.024\n  classes"),
+                                 "  level: -0.012\n", "");
+  const std::string smooth = with(with(bare_mill, "count: 12", "count: 0"), "ends: periodic", "ends: plain");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> mills{
+      {whole, {"flow.start={volume: 1e-5}", "flow.duration=1", "geometry.slice=0.02"}},
+      {whole, {"geometry.inlet={area: 0.001}", "speed={angular_velocity: 3}", "dem={youngs_modulus: 1e7}"}},
+      {bare_mill, {"averages={counts: {across: 9, along: 2}}", "flow.start={level: -0.1}", "flow.turns=1"}},
+      {smooth, {"resolution={counts: {gap: 48, ring: 9}}", "flow.averages={counts: {across: 9, along: 2}}"}},
+      {example_mill, {"resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9}}"}}};
+  std::set<std::string> tried;
+  for (const auto& [text, set] : mills) {
+    const MillDescription mill = describe(text, set);
+    for (const auto& [path, is_whole] : numbers_of(mill.document->keys())) {
+      for (const std::string& value : is_whole ? std::vector<std::string>{"2000000000", "-2000000000"}
+                                               : std::vector<std::string>{"1e300", "-1e300"}) {
+        std::vector<std::string> changed = set;
+        changed.push_back(path + "=" + value);
+        const std::string message = refusal_of(text, changed);
+        const std::string start =
+            "--set " + changed.back() + ": key '" + path + "' = " + value + ": expected ";
+        EXPECT_EQ(message.rfind(start, 0), 0U) << path << " = " << value << ": " << message;
+      }
+      tried.insert(path);
+    }
+  }
+  EXPECT_GT(tried.size(), 60U);
+}
+
+TEST(Charge, packing_is_that_of_bulk_and_pores) {
+  const ChargeNumbers dense = count_charge(mill_of(bare_mill, {"charge.packing=0.55"}));
+  EXPECT_NEAR(dense.load, 0.3, 0.005);
+  EXPECT_DOUBLE_EQ(dense.pore_volume, dense.volume * 0.45 / 0.55);
+  const std::string classes = with(bare_mill, "{fill: 0.3, diameter: 0.025}",
+                                   "{packing: 0.5, classes: [{diameter: 0.025, mass: 5}]}");
+  const ChargeNumbers loose = count_charge(mill_of(classes));
+  EXPECT_DOUBLE_EQ(loose.pore_volume, loose.volume);
+}
+
+TEST(Charge, counts_whole_balls_and_names_fines) {
+  const ChargeNumbers charge = count_charge(mill_of(example_mill, {"charge.fines_below=0.003"}));
+  ASSERT_EQ(charge.classes.size(), 2U);
+  EXPECT_EQ(charge.classes[0].count, std::lround(0.02 / (2700 * std::acos(-1.0) / 6 * std::pow(0.008, 3))));
+  EXPECT_FALSE(charge.classes[1].simulated);
+  EXPECT_EQ(charge.balls, charge.classes[0].count);
+  EXPECT_EQ(charge.fines_mass, 0.03);
+  EXPECT_EQ(charge.sauter_diameter, 0.008);
+  EXPECT_GT(charge.load_asked, 2 * charge.load);
+}
+
+}  // namespace
+}  // namespace millfoam::meshing

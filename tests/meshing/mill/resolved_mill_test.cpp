@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/resolved_mill.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "meshing/mill/mill_document.hpp"
+#include "tests/meshing/test_mill.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TEST(ResolvedMill, is_read_again_as_the_same_mill) {
+  const std::string fill = with(example_mill, R"(  classes:
+    - {diameter: 0.008, mass: 0.02}
+    - {diameter: 0.002, mass: 0.03}
+)",
+                                "  fill: 0.3\n  diameter: 0.005\n");
+  for (const auto& [text, set] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {example_mill, {}},
+           {example_mill, {"geometry.slice=0.012", "flow.turns=2", "flow.law=Hill"}},
+           {with(example_mill, "  level: -0.012\n", ""),
+            {"flow.start.fill=0.7", "averages.counts={across: 9, along: 2}"}},
+           {example_mill, {"charge.fill=0.25", "speed.angular_velocity=3", "flow.duration=1"}},
+           {with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", "angular_velocity: -6.4"),
+            {"speed.fraction_of_critical=0.6", "geometry.slice=0.012"}},
+           {fill, {"flow.balls=no", "geometry.inlet={radius: 0.02}", "flow.feed=1e-5"}}}) {
+    const TemporaryFolder folder;
+    const MillDescription first = describe(text, set);
+    const MillDescription again =
+        describe_mill(folder.write("mill.json", resolved_mill(first, "test").dump(2)));
+    const Json one = resolved_mill(first, "test");
+    const Json two = resolved_mill(again, "test");
+    EXPECT_EQ(one["mill"], two["mill"]);
+    EXPECT_EQ(one["derived"], two["derived"]);
+    for (const char* key : {"fingerprint", "file", "file_fingerprint", "set", "lines"})
+      EXPECT_EQ(one[key], two[key]) << key;
+  }
+}
+
+TEST(ResolvedMill, holds_every_key_with_its_default) {
+  const Json mill = resolved_mill(describe(example_mill), "test")["mill"];
+  EXPECT_EQ(mill["slurry"]["surface_tension"], 0.07);
+  EXPECT_EQ(mill["averages"]["start"], "steady");
+  EXPECT_EQ(mill["flow"]["law"], "Beetstra");
+  EXPECT_EQ(mill["air"]["density"], 1.2);
+  EXPECT_EQ(mill["charge"]["classes"][1]["diameter"], 0.002);
+}
+
+TEST(ResolvedMill, of_a_changed_resolved_mill_says_where_the_change_is_wrong) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("mill.json", resolved_mill(describe(example_mill), "test").dump(2));
+  EXPECT_EQ(describe_mill(file, {"flow.law=Hill"}).mill.flow.law, "Hill");
+  EXPECT_THROW(describe_mill(file, {"flow.law=Stokes"}), MillError);
+}
+
+TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
+  const MillFingerprints mill = describe(example_mill).mill.fingerprint;
+  const auto changed = [](const std::string& change) {
+    return describe(example_mill, {change}).mill.fingerprint;
+  };
+  EXPECT_EQ(changed("title=another").flow, mill.flow);
+  EXPECT_EQ(changed("flow.law=Hill").averages, mill.averages);
+  EXPECT_NE(changed("flow.law=Hill").flow, mill.flow);
+  EXPECT_EQ(changed("resolution.layers=4").walls, mill.walls);
+  EXPECT_NE(changed("resolution.cell_size=0.004").walls, mill.walls);
+  EXPECT_EQ(changed("averages.window=0.1").charge, mill.charge);
+  EXPECT_NE(changed("averages.window=0.1").averages, mill.averages);
+  EXPECT_EQ(changed("speed.fraction_of_critical=0.6").walls, mill.walls);
+  EXPECT_NE(changed("speed.fraction_of_critical=0.6").charge, mill.charge);
+  // A longer dry run is resumed, but its averages are others
+  EXPECT_EQ(changed("dem.duration=3").charge, mill.charge);
+  EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
+}
+
+TEST(Fingerprints, are_of_the_materials_numbers_by_whatever_name) {
+  const auto of = [](const std::vector<std::string>& set) {
+    return describe(example_mill, set).mill.fingerprint.charge;
+  };
+  const std::string named = of({"materials={ball: glass, wall: HDPE}"});
+  EXPECT_EQ(of({"materials={ball: glass, wall: HDPE, ball_ball: glass-glass, ball_wall: glass-HDPE}"}),
+            named);
+  EXPECT_EQ(of({"materials={ball: glass, wall: {density: 950, youngs_modulus: 1e9, poisson_ratio: 0.42}}",
+                "materials.ball_wall=glass-HDPE"}),
+            named);
+  EXPECT_NE(of({"materials={ball: glass, wall: nylon}"}), named);
+}
+
+TEST(Place, of_a_resolved_mill_is_that_in_its_source) {
+  const TemporaryFolder folder;
+  const MillDescription first = describe(example_mill, {"dem.seed=7"});
+  const MillDescription again =
+      describe_mill(folder.write("mill.json", resolved_mill(first, "test").dump(2)), {"flow.law=Hill"});
+  for (const char* key : {"dem.duration", "dem.seed", "dem.contact_interval", "charge.classes[1]"})
+    EXPECT_EQ(again.document->place(key), first.document->place(key)) << key;
+  EXPECT_EQ(again.document->place("flow.law"), "--set flow.law=Hill");
+}
+
+TEST(Place, of_a_key_is_its_line_its_change_or_the_section_around_it) {
+  const MillDescription mill = describe(example_mill, {"dem.seed=7"});
+  const std::string file = mill.document->file();
+  EXPECT_EQ(mill.document->place("dem.duration"), file + ":26");
+  EXPECT_EQ(mill.document->place("dem.seed"), "--set dem.seed=7");
+  EXPECT_EQ(mill.document->place("dem.contact_interval"), file + ":22");
+  EXPECT_EQ(mill.document->place("charge.classes[1]"), file + ":16");
+  const MillDescription map = describe(example_mill, {"dem={duration: 2}"});
+  EXPECT_EQ(map.document->place("dem.duration"), "--set dem={duration: 2}");
+}
+
+}  // namespace
+}  // namespace millfoam::meshing
