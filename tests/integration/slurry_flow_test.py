@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+import solids
 from millfoam.files import foam
 from openfoam_case import require_environment, rotating_mesh
 from slurry_case import SlurryTest
@@ -141,6 +142,34 @@ class VoidageRate(SlurryTest):
         # The box's corners stir too where it turns: less than balls at 0.4 m/s do
         moving = self.largest_speed("", rotating_mesh(0.3))
         self.assertLess(self.largest_speed("voidageRate no;", rotating_mesh(0.3)), 0.1 * moving)
+
+
+class RecordedBed(SlurryTest):
+    """A bed without drag that grows and shrinks from window to window of a solids.h5, in a pool under an open top."""
+
+    def pressures(self, steps_per_ms):
+        """p at the bottom at each millisecond of 70 (Pa), with steps of a part of it."""
+        case = self.slurry_case(upper=(0.01, 0.1, 0.01), cells=(1, 40, 1), level=lambda x: 0.06 + 0 * x,
+                                bingham="yieldStress 0; plasticViscosity 1e-6; regularisation biviscosity; "
+                                        "viscosityRatio 1000;")
+        case.open_top()
+        for side in ("left", "right", "bottom", "front", "back"):
+            case.at_patch(side, U="type slip;")
+        bed = np.array([0, 0, 0.1, 0.3, 0.3, 0.2, 0.2])
+        solids.write(case.path / "solids.h5", (0, 0, 0), (0.01, 0.1, 0.01),
+                     np.stack([bed, 0 * bed], axis=1)[:, None, :, None], window=0.01)
+        case.bed('solids "solids.h5"; interpolation cell;', drag="law Beetstra; multiplier 0;")
+        case.control(0.07, 1e-3 / steps_per_ms, steps_per_ms)
+        self.assert_runs(case, "slurryFoam")
+        return np.array([case.field("p", time)[0] for time in np.arange(1, 71) * 1e-3])
+
+    def test_the_pressure_does_not_depend_on_the_time_step(self):
+        coarse, fine = self.pressures(1), self.pressures(8)
+        # 200 1/s2 of solidity times 50 mm push 2 to 4 cm of slurry; a jump of the rate would push 8 times as strongly
+        # in steps of an eighth
+        self.assertGreater(np.abs(fine).max(), 5000)
+        self.assertLess(np.abs(fine).max(), 15000)
+        np.testing.assert_allclose(np.abs(coarse).max(), np.abs(fine).max(), rtol=0.1)
 
 
 class Volumes(SlurryTest):

@@ -124,6 +124,10 @@ class Record(RefusedTest):
     def test_what_the_others_are_made_from_is_accepted(self):
         self.assert_runs(self.record(), "slurryFoam")
 
+    def test_solids_that_jump_with_a_rate_of_the_voidage(self):
+        self.assert_says(self.record(entries="inTime window;"), "inTime is window", "voidageRate no")
+        self.assert_runs(self.record(entries="inTime window; voidageRate no;"), "slurryFoam")
+
     def test_missing(self):
         case = self.record()
         (case.path / "solids.h5").unlink()

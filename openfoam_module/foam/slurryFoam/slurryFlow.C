@@ -76,6 +76,13 @@ void Foam::slurryFlow::readBed()
         known.append(movingBed::entries());
         refuseMisspelt(bedDict_, known);
         bed_.requireSolids();
+        if (voidageRate_ && bed_.jumps())
+        {
+            FatalIOErrorInFunction(bedDict_)
+                << "inTime is window: the voidage jumps between windows, and"
+                << " its rate, which moves the fluid, is infinite; expected"
+                << " inTime smooth, or voidageRate no" << exit(FatalIOError);
+        }
 
         const dictionary& drag = bedDict_.subDict("drag");
         requireKnownEntries(drag, bedDrag::entries());
