@@ -108,6 +108,32 @@ class Bed(RefusedTest):
         self.assert_bed_refused(self.block("solidity 0.5", "solidity 1"), "solidity is 1", "0 <= solidity < 1")
 
 
+class Controls(RefusedTest):
+    """Dictionaries and meshes that slurryFoam cannot obey"""
+
+    def test_another_scheme_in_time(self):
+        case = self.small()
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace("default Euler;", "default backward;"))
+        self.assert_says(case, "fvSchemes", "default is backward", "Euler")
+
+    def test_no_prediction_of_momentum(self):
+        case = self.small()
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
+        self.assert_says(case, "fvSolution", "momentumPredictor is no")
+
+    def test_patches_whose_faces_do_not_match(self):
+        case = self.small()
+        boundary = case.path / "constant/polyMesh/boundary"
+        text = boundary.read_text()
+        for here, there in (("left", "right"), ("right", "left")):
+            text = re.sub(rf"({here}\s*{{\s*type\s+)\w+;", rf"\1cyclicAMI; neighbourPatch {there}; "
+                          "matchTolerance 1e-4; transform noOrdering;", text)
+            case.at_patch(here, U="type cyclicAMI;", p_rgh="type cyclicAMI;", alpha="type cyclicAMI;")
+        boundary.write_text(text)
+        self.assert_says(case, "patch left is a cyclicAMI", "expected cyclic patches")
+
+
 class Record(RefusedTest):
     """solids.h5, as bedProperties names it"""
 
@@ -198,7 +224,7 @@ class Surface(RefusedTest):
 
     def assert_surface_refused(self, entries, *words):
         case = self.small()
-        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=entries))
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=entries, pimple=""))
         self.assert_says(case, "fvSolution", *words)
 
     def test_angles_in_the_wrong_order(self):

@@ -168,8 +168,8 @@ class Displacement:
 
     def misses(self):
         wrong_pressure = self.pressure_error > PRESSURE * RUNS[self.name][1]
-        return wrong_pressure or not (max(self.error.max(), self.final_error, self.beyond, self.not_settled) <= TOLERANCE
-                    and self.volume_change <= CONSERVED)
+        largest = max(self.error.max(), self.final_error, self.beyond, self.not_settled)
+        return wrong_pressure or not (largest <= TOLERANCE and self.volume_change <= CONSERVED)
 
 
 def write_pool(case):
@@ -184,10 +184,10 @@ def run(name, case, template):
     shutil.copytree(template / "common", case)
     shutil.copytree(template / kind, case, dirs_exist_ok=True)
     write_parameters(
-        case, width=WIDTH, height=HEIGHT, columns=COLUMNS, layers=LAYERS, slurryDensity=DENSITY, slurryViscosity=VISCOSITY,
-        airDensity=AIR_DENSITY, bedBottom=BED_BOTTOM[kind], bedTop=BED_BOTTOM[kind] + THICKNESS, solidity=SOLIDITY,
-        bedSpeed=BED_SPEED, until=UNTIL, rampBegin=RAMP[0], rampEnd=RAMP[1], firstStep=1e-4, largestStep=largest_step,
-        endTime=END, writeInterval=WRITE_INTERVAL)
+        case, width=WIDTH, height=HEIGHT, columns=COLUMNS, layers=LAYERS, slurryDensity=DENSITY,
+        slurryViscosity=VISCOSITY, airDensity=AIR_DENSITY, bedBottom=BED_BOTTOM[kind], bedTop=BED_BOTTOM[kind] +
+        THICKNESS, solidity=SOLIDITY, bedSpeed=BED_SPEED, until=UNTIL, rampBegin=RAMP[0], rampEnd=RAMP[1],
+        firstStep=1e-4, largestStep=largest_step, endTime=END, writeInterval=WRITE_INTERVAL)
     write_pool(case)
     run_program(case, "blockMesh")
     run_program(case, "slurryFoam")
@@ -195,8 +195,9 @@ def run(name, case, template):
     shares = [foam.read_field(folder / "alpha.slurry").reshape(LAYERS, COLUMNS) for _, folder in written]
     speeds = np.linalg.norm(foam.read_field(written[-1][1] / "U", LAYERS * COLUMNS), axis=1)
     probe = np.loadtxt(case / "postProcessing" / "bottom" / "0" / "p")
-    return Displacement(name, kind, np.array([time for time, _ in written]), np.array(shares), speeds.max(), probe[:, 0],
-                        probe[:, 1] + DENSITY * GRAVITY * LAYER / 2)
+    return Displacement(
+        name, kind, np.array([time for time, _ in written]), np.array(shares), speeds.max(), probe[:, 0],
+        probe[:, 1] + DENSITY * GRAVITY * LAYER / 2)
 
 
 def print_table(results, out):
@@ -206,9 +207,11 @@ def print_table(results, out):
         lines.append(
             f"{result.name:<18} {1e3 * result.level[-1].mean():10.5f} {1e3 * final_level(result.kind):12.5f} "
             f"{result.final_error:8.1e} {result.error.max():12.1e} {result.beyond:18.1e} {result.not_settled:12.1e} "
-            f"{result.volume_change:8.1e} {result.pressure_error:9.1e} {result.last_speed:17.1e}" + ("  MISSED" if result.misses() else ""))
+            f"{result.volume_change:8.1e} {result.pressure_error:9.1e} {result.last_speed:17.1e}"
+            + ("  MISSED" if result.misses() else ""))
     lines.append(f"tolerance of levels (relative) and phase fraction {TOLERANCE:g}, of the slurry's volume "
-                 f"{CONSERVED:g}, of the pressure at the bottom {PRESSURE:g} times the largest step in s; level at the start {1e3 * POOL:g} mm")
+                 f"{CONSERVED:g}, of the pressure at the bottom {PRESSURE:g} times the largest step in s; "
+                 f"level at the start {1e3 * POOL:g} mm")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -238,8 +241,8 @@ def main():
     options = case_options(__doc__)
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
-    results = run_jobs(lambda name: run(name, work / name.replace(", ", "_").replace(" ", "_"), here / "template"), RUNS,
-                       options.jobs)
+    results = run_jobs(lambda name: run(name, work / name.replace(", ", "_").replace(" ", "_"), here / "template"),
+                       RUNS, options.jobs)
     print_table(results, here / "displacement.txt")
     plot(results, here / "displacement.png")
     return 1 if any(result.misses() for result in results) else 0

@@ -192,6 +192,13 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 
 void Foam::slurryFlow::enter()
 {
+    if (mesh_.topoChanging())
+    {
+        FatalErrorInFunction
+            << "the cells of the mesh changed, which slurryFoam cannot follow;"
+            << " expected a mesh that moves with its cells kept"
+            << exit(FatalError);
+    }
     detailBefore_ = fluxDetail_;
     solution_.begin();
     if (mesh_.changing())

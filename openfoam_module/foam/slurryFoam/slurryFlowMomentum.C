@@ -5,6 +5,7 @@
 
 #include "slurryFlow.H"
 #include "constrainHbyA.H"
+#include "findRefCell.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
@@ -85,6 +86,49 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
 }
 
 
+void Foam::slurryFlow::setGivenFluxes(
+    surfaceScalarField& free,
+    const surfaceScalarField::Boundary& wallFlux) const
+{
+    forAll(wallFlux, patchi)
+    {
+        if (U_.boundaryField()[patchi].fixesValue() &&
+            isA<zeroGradientFvPatchScalarField>(p_rgh_.boundaryField()[patchi]))
+        {
+            free.boundaryFieldRef()[patchi] = wallFlux[patchi];
+        }
+    }
+}
+
+
+void Foam::slurryFlow::setReference(const pimpleControl& pimple)
+{
+    if (!p_rgh_.needReference())
+    {
+        return;
+    }
+    const dictionary& controls = pimple.dict();
+    label cell = -1;
+    scalar value = controls.lookupOrDefault<scalar>("pRefValue", 0);
+    scalar present = 0;
+    if (controls.found("pRefCell") || controls.found("pRefPoint"))
+    {
+        setRefCell(p_, p_rgh_, controls, cell, value);
+        present = getRefCellValue(p_, cell);
+    }
+    else
+    {
+        const scalarField air(
+            max(1 - alpha_.primitiveField(), scalar(1e-9)) *
+            voidage_.primitiveField() * mesh_.V());
+        present = gSum(air * p_.primitiveField()) / gSum(air);
+    }
+    const dimensionedScalar lack("lack", dimPressure, value - present);
+    p_rgh_ += lack;
+    p_ += lack;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::slurryFlow::predict(const pimpleControl& pimple)
@@ -138,6 +182,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     const surfaceScalarField::Boundary wallFlux(
         (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
             .boundaryField());
+    setGivenFluxes(free, wallFlux);
     volScalarField::Internal room(swept_.room());
     phi_ = solution_.flux(free, mobility, room, wallFlux, pimple);
 
@@ -152,6 +197,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     forces_ = (U_ - carried) / deltaT;
     fluxDetail_ = phi_ - pressure_.flux(voidage_ * U_);
     p_ = pressure_.staticPressure();
+    setReference(pimple);
     if (mesh_.moving())
     {
         phi_ -= swept_.flux();

@@ -15,6 +15,7 @@ Description
 
 #include "argList.H"
 #include "caseKeeper.H"
+#include "flowControls.H"
 #include "flowRecorder.H"
 #include "functionObjectList.H"
 #include "readableLog.H"
@@ -69,6 +70,7 @@ int main(int argc, char* argv[])
     const caseKeeper keeper(runTime, help.name);
 #include "createDynamicFvMesh.H"
 
+    checkFlowControls(mesh);
     pimpleControl pimple(mesh);
     slurryFlow flow(mesh);
     timeStep step(runTime);

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, the pressure of a
+closed box."""
+import unittest
+
+import numpy as np
+
+from openfoam_case import require_environment
+from slurry_case import SLURRY, SOLUTION, SlurryTest
+
+SLIP = "type slip;"
+
+
+class Channel(SlurryTest):
+    """A flat channel full of slurry between plates, along x; a uniform bed fills it."""
+
+    length, half_gap, viscosity = 0.02, 0.005, 10.0  # m, m, Pa s
+    solidity, diameter = 0.5, 0.04
+
+    @property
+    def beta(self):
+        """Darcy's 150 mu phi^2/(e d^2), kg/(m3 s)."""
+        return 150 * self.viscosity * self.solidity**2 / ((1 - self.solidity) * self.diameter**2)
+
+    def channel(self, rows, end_time, motion="dynamicFvMesh staticFvMesh;"):
+        case = self.slurry_case(
+            upper=(self.length, 2 * self.half_gap, 0.005), cells=(2, rows, 1), level=lambda x: 1 + 0 * x, motion=motion,
+            bingham=f"yieldStress 0; plasticViscosity {self.viscosity}; regularisation biviscosity; viscosityRatio 1;")
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back"):
+            case.at_patch(side, U=SLIP)
+        case.bed(f"block {{ box (-9 -9 -9) (9 9 9); solidity {self.solidity}; diameter {self.diameter};"
+                 " velocity (0 0 0); }", drag="law Darcy;")
+        case.control(end_time, end_time / 100, 100)
+        return case
+
+    def test_the_friction_of_the_bed_and_of_the_walls_is_brinkmans(self):
+        """e mu u'' - beta u + e G = 0: u = e G/beta (1 - cosh(y/l)/cosh(h/l)) with l^2 = e mu/beta. Its mean over
+        e G/beta is 0.405; with the stress of a fluid that fills all space, l^2 = mu/beta, it would be 0.266."""
+        gradient = 1000.0  # Pa/m
+        case = self.channel(40, 0.05)
+        for side, pressure in (("left", gradient * self.length), ("right", 0)):
+            case.at_patch(side, U="type zeroGradient;", alpha="type zeroGradient;",
+                          p_rgh=f"type fixedValue; value uniform {pressure};")
+        self.assert_runs(case, "slurryFoam")
+        found = case.field("U", 0.05)[:, 0] * self.beta / ((1 - self.solidity) * gradient)
+        layer = np.sqrt((1 - self.solidity) * self.viscosity / self.beta)
+        y = case.centres()[:, 1] - self.half_gap
+        expected = 1 - np.cosh(y / layer) / np.cosh(self.half_gap / layer)
+        self.assertAlmostEqual(found.mean(), 0.405, delta=1e-3)
+        np.testing.assert_allclose(found, expected, atol=2e-3)
+
+    def test_a_given_velocity_comes_in_also_where_the_pressure_has_no_gradient(self):
+        speed = 0.05
+        case = self.channel(4, 0.01)
+        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
+                      alpha="type fixedValue; value uniform 1;")
+        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
+                      alpha="type zeroGradient;")
+        for side in ("bottom", "top"):
+            case.at_patch(side, U=SLIP)
+        self.assert_runs(case, "slurryFoam")
+        np.testing.assert_allclose(case.field("U", 0.01)[:, 0], speed, rtol=1e-6)
+
+
+class ClosedBox(SlurryTest):
+    """The pressure of a closed box has a reference."""
+
+    def pressures(self, pimple):
+        case = self.slurry_case(upper=(0.04, 0.1, 0.01), cells=(4, 20, 1), level=lambda x: 0.052 + 0 * x)
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple=pimple))
+        case.control(0.002, 0.001, 2)
+        self.assert_runs(case, "slurryFoam")
+        return case.field("p", 0.002).reshape(20, 4), case.field("U", 0.002)
+
+    def test_is_the_mean_over_the_air(self):
+        p, _ = self.pressures("")
+        air = np.clip(np.arange(1, 21) * 0.005 - 0.052, 0, 0.005)
+        self.assertAlmostEqual((p.mean(axis=1) @ air) / air.sum(), 0, delta=1e-6)
+        np.testing.assert_allclose(p[0] - p[9], SLURRY * 9.81 * 0.045, rtol=1e-6)
+
+    def test_is_what_the_dictionary_gives(self):
+        p, _ = self.pressures("pRefCell 6; pRefValue 1e5;")
+        self.assertAlmostEqual(p[1, 2], 1e5, delta=1e-6)
+        p, _ = self.pressures("pRefPoint (0.005 0.0975 0.005); pRefValue 101325;")
+        self.assertAlmostEqual(p[-1, 0], 101325, delta=1e-6)
+
+
+if __name__ == "__main__":
+    require_environment()
+    unittest.main()
