@@ -47,7 +47,27 @@ Foam::functionObjects::voxelAverages::place() const
 }
 
 
-VoxelSums Foam::functionObjects::voxelAverages::sample()
+Eigen::Isometry3d Foam::functionObjects::voxelAverages::locateCells()
+{
+    if (cells_)
+    {
+        if (const std::optional<Eigen::Isometry3d> motion = place())
+        {
+            return *motion;
+        }
+    }
+    const MeshGeometry geometry(
+        averagingTopology(
+            mesh_.nPoints(), mesh_.nCells(), mesh_.faces(), mesh_.faceOwner(),
+            mesh_.faceNeighbour()),
+        averagingPoints(mesh_.points()));
+    cells_ = std::make_unique<CellPoints>(geometry, divisions_);
+    made_ = mesh_.points();
+    return Eigen::Isometry3d::Identity();
+}
+
+
+std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
 {
     const scalarField voidage(fields_.voidage());
     const scalarField& alpha = fields_.alpha().primitiveField();
@@ -64,28 +84,19 @@ VoxelSums Foam::functionObjects::voxelAverages::sample()
             values.end(), {slurry, voidage[celli], flux.x(), flux.y(), flux.z(),
                            slurry * p[celli], slurry * p_rgh[celli]});
     }
+    return values;
+}
 
+
+VoxelSums Foam::functionObjects::voxelAverages::sample()
+{
+    const std::vector<double> values(cellValues());
     VoxelSums sums(segments_.grid().size(), slurry_components);
     const auto reason = untrapped(
         [&]
         {
-            std::optional<Eigen::Isometry3d> motion;
-            if (cells_)
-            {
-                motion = place();
-            }
-            if (!motion)
-            {
-                const MeshGeometry geometry(
-                    averagingTopology(
-                        mesh_.nPoints(), mesh_.nCells(), mesh_.faces(),
-                        mesh_.faceOwner(), mesh_.faceNeighbour()),
-                    averagingPoints(mesh_.points()));
-                cells_ = std::make_unique<CellPoints>(geometry, divisions_);
-                made_ = mesh_.points();
-                motion = Eigen::Isometry3d::Identity();
-            }
-            cells_->deposit(segments_.grid(), *motion, values, sums);
+            const Eigen::Isometry3d motion(locateCells());
+            cells_->deposit(segments_.grid(), motion, values, sums);
         });
     if (reason)
     {
