@@ -41,7 +41,7 @@ Foam::functionObjects::voxelAverages::place() const
         ((motion.linear() * from).colwise() + motion.translation() - to)
             .cwiseAbs()
             .maxCoeff();
-    // Round-off of the points against the size of the mesh
+    // Round-off of the points, relative to the size of the mesh
     const scalar size = to.cwiseAbs().maxCoeff();
     return off < 1e-10 * size ? std::optional(motion) : std::nullopt;
 }
@@ -115,7 +115,7 @@ void Foam::functionObjects::voxelAverages::checkBox()
     if (!(inside > 0))
     {
         FatalErrorInFunction
-            << name() << ": nothing of the mesh, which reaches from "
+            << name() << ": no part of the mesh, which reaches from "
             << mesh_.bounds().min() << " to " << mesh_.bounds().max()
             << " m, lies in " << segments_.boxDescription().c_str()
             << "; expected a box (lower, upper) that covers the mesh, in m"

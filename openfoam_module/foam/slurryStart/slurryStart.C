@@ -11,12 +11,12 @@ Description
 
     - pool: all below a level, or as high as a volume of slurry reaches between
       the balls
-    - above: a volume of slurry as a layer that rests upon the highest balls
+    - above: a volume of slurry as a layer on top of the highest balls
     - feed: none; it comes with the feed
 
     A case in which a flow has begun, with times after the first, is refused.
 
-    The level is a height against gravity from the origin of the mesh; the
+    The level is a height above the origin of the mesh, opposite to gravity. The
     balls of constant/bedProperties, if there are any, take their room.
 
 Usage
@@ -148,13 +148,13 @@ void refuseBegunFlow(const Time& time)
             << time.path() << ": a flow has begun, there are " << later.size()
             << " written times, from " << later.first() << " to "
             << later.last() << " s, whose slurry would be overwritten or no"
-            << " longer fit its start; expected the first time alone. Remove"
+            << " longer fit its start; expected only the first time. Remove"
             << " the times or run Allclean" << exit(FatalError);
     }
 }
 
 
-//- Direction against gravity
+//- Upward unit vector, opposite to gravity
 vector upwards(const fvMesh& mesh)
 {
     const uniformDimensionedVectorField g(IOobject(
