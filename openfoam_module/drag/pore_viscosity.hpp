@@ -22,7 +22,7 @@ struct BinghamSlurry {
 double pore_shear_rate(double phi, double slip, double diameter);
 
 /// Apparent viscosity (Pa s) mu + tau0/rate at the pores' shear rate, at most `cap` (Pa s, not below the
-/// plastic viscosity mu); to be used in Re and in beta alike.
+/// plastic viscosity mu); use it both in Re and in beta.
 ///
 /// Without slip the rate is 0 and so the apparent viscosity unbounded: there, and down to the slip at which
 /// mu + tau0/rate = cap, it is the cap. It falls continuously with the slip from the cap to mu, so the drag
