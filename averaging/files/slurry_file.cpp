@@ -297,6 +297,7 @@ void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, con
     hdf5::rename_file(part, path);
   });
   std::vector<XdmfField> shown;
+  shown.reserve(fields.size() + 1);
   for (const Field& field : fields) shown.push_back({field.name, field.name, field.vector});
   shown.push_back({"insideFraction", "grid/insideFraction", false});
   try {

@@ -87,10 +87,9 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
 template <typename Exact, typename Sampling, typename Voxels>
 CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const RunSettings& settings,
                         const Note& note) {
-  CellSetup setup{grid,    by_method<Exact, Sampling>(request.method, grid, request.template_points),
-                  {},      nullptr,
-                  nullptr, method_in_words(request),
-                  0};
+  std::unique_ptr<Deposition> deposition =
+      by_method<Exact, Sampling>(request.method, grid, request.template_points);
+  CellSetup setup{grid, std::move(deposition), {}, nullptr, nullptr, method_in_words(request), 0};
   setup.limits.solidity_cap = request.solidity_cap;
   if (!request.walls.empty()) {
     setup.walls = moving_walls(grid, request, settings, note);

@@ -174,7 +174,7 @@ const std::string variant_path = "variant";
 
 }  // namespace
 
-MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> set)
+MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::string> set)
     : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {
   const std::string text = read_bytes(file_);
   require_utf8(file_, text);

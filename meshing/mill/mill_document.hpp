@@ -25,7 +25,7 @@ class MillDocument {
   ///              changes come after all variants
   /// Throws MillError for a file that cannot be read, is not UTF-8 or no single YAML map, and for a change
   /// that is none.
-  MillDocument(std::filesystem::path file, std::vector<std::string> set);
+  MillDocument(const std::filesystem::path& file, std::vector<std::string> set);
   ~MillDocument();
 
   /// The file that was read.

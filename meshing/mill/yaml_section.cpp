@@ -67,7 +67,7 @@ std::string shown(const YAML::Node& node) {
 
 }  // namespace
 
-Section::Section(std::shared_ptr<MillDocument> document, const Keys& known)
+Section::Section(const std::shared_ptr<MillDocument>& document, const Keys& known)
     : Section(document->root(), document, "", known) {}
 
 Section::Section(const YAML::Node& node, std::shared_ptr<MillDocument> document, std::string path,

@@ -78,6 +78,7 @@ std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const
   std::map<std::size_t, std::vector<std::size_t>> chains;
   for (std::size_t e : open) chains[points.find(index(edges.first(e).low))].push_back(e);
   std::vector<std::vector<std::size_t>> list;
+  list.reserve(chains.size());
   for (auto& chain : chains) list.push_back(std::move(chain.second));
   return list;
 }

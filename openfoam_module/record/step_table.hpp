@@ -8,7 +8,7 @@
 
 namespace millfoam::record {
 
-/// What is known of one time-step of a flow, at its end. Shares are 0 to 1. Nothing: not known in this step,
+/// What is known of one time-step of a flow, at its end. Shares are 0 to 1. Empty: not known in this step,
 /// or not in this flow.
 struct StepRow {
   double time = 0;                 ///< flow time at the end of the step, s
@@ -49,7 +49,7 @@ extern const std::array<StepColumn, 24> step_columns;
 /// steps.csv: one row per time-step, each handed to the operating system at once. What is not known is `nan`.
 class StepTable {
  public:
-  /// Begins the file anew. Throws std::runtime_error when it cannot be written.
+  /// Begins a new file. Throws std::runtime_error when it cannot be written.
   explicit StepTable(const std::filesystem::path& path);
 
   /// Appends a row. Throws std::runtime_error when it cannot be written (a full disk).
