@@ -112,6 +112,25 @@ void Foam::slurryFlow::dropRate(const tmp<volScalarField::Internal>& before)
 }
 
 
+void Foam::slurryFlow::checkContinuity(
+    const tmp<volScalarField::Internal>& before)
+{
+    // Solids on the cells of a mesh that moves are not known in space
+    const bool known = before.valid() || !mesh_.moving();
+    if (bed_.empty() || !voidageRate_ || !known || !mesh_.time().writeTime())
+    {
+        continuity_.clear();
+        return;
+    }
+    const volScalarField::Internal& last =
+        before.valid() ? before() : voidage_.oldTime().internalField();
+    continuity_.reset(new solidsContinuity(bed_));
+    continuity_->update(
+        (last - voidage_.internalField()) / mesh_.time().deltaT(), alpha_, U_,
+        mesh_.solver(p_rgh_.name()));
+}
+
+
 void Foam::slurryFlow::keepState()
 {
     voidageChange_ = gMax(mag(
@@ -220,6 +239,7 @@ void Foam::slurryFlow::enter()
             dropRate(before);
         }
     }
+    checkContinuity(before);
     if (before.valid())
     {
         const dimensionedScalar deltaT(mesh_.time().deltaT());
@@ -303,6 +323,13 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     {
         drag_->report(bed_, alpha_, U_);
         drag_->addTo(row);
+    }
+    if (continuity_.valid())
+    {
+        Info << "bed: " << continuity_->description().c_str() << endl;
+        row.continuity_residual = continuity_->residual();
+        row.continuity_speed = continuity_->driven();
+        row.slip = continuity_->slip();
     }
     if (load_.valid() && mesh_.time().writeTime())
     {
