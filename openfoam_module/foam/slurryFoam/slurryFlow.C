@@ -8,6 +8,7 @@
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
+#include "mathematicalConstants.H"
 #include "mixtureFluids.H"
 #include "geometricOneField.H"
 #include "MULES.H"
@@ -278,25 +279,33 @@ void Foam::slurryFlow::transport()
 }
 
 
-Foam::FixedList<Foam::scalar, 3> Foam::slurryFlow::courantNumbers() const
+Foam::FixedList<Foam::scalar, 4> Foam::slurryFlow::courantNumbers() const
 {
     const scalar deltaT = mesh_.time().deltaTValue();
     const scalarField passed(
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
-    FixedList<scalar, 3> result(Zero);
+    const scalar capillary = 4 * constant::mathematical::pi *
+                             surfaceTension(mixture_).value() /
+                             (mixture_.rho1() + mixture_.rho2()).value();
+    scalar smallest = GREAT;
+
+    FixedList<scalar, 4> result(Zero);
     forAll(passed, celli)
     {
         result[0] = max(result[0], passed[celli]);
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result[1] = max(result[1], passed[celli]);
+            smallest = min(smallest, mesh_.V()[celli]);
         }
     }
     reduce(result[0], maxOp<scalar>());
     reduce(result[1], maxOp<scalar>());
     result[2] = voidageChange_;
+    reduce(smallest, minOp<scalar>());
+    result[3] = deltaT * sqrt(capillary / smallest);
     return result;
 }
 

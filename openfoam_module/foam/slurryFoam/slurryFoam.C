@@ -87,7 +87,7 @@ int main(int argc, char* argv[])
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
     flowRecorder recorder(runTime, setup);
-    FixedList<scalar, 3> courant(flow.courantNumbers());
+    FixedList<scalar, 4> courant(flow.courantNumbers());
 
     Info << "Starting time loop\n" << endl;
 
