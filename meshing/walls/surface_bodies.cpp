@@ -109,7 +109,7 @@ Bodies find_bodies(const Points& points, const surface::EdgeTable& edges, std::v
       found.bodies[body_of[index(edges.sides[s].face)]].closed = false;
   }
   for (Body& body : found.bodies) {
-    const Vector3d apex = points[index(faces[index(body.faces.front())].front())];
+    const Vector3d& apex = points[index(faces[index(body.faces.front())].front())];
     for (int face : body.faces) body.volume += pyramid_volume(points, faces[index(face)], apex);
   }
   count_containers(points, faces, found.bodies);
