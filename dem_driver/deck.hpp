@@ -45,7 +45,7 @@ inline constexpr double most_dumps = 1e6;
 /// below the time-step, and for more than `most_steps` or `most_dumps`.
 DemPlan plan_dem(const meshing::Mill& mill);
 
-/// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is no whole
+/// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is not a whole
 /// number from 1 on.
 int read_ranks(const std::string& word);
 

@@ -97,7 +97,7 @@ bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long 
   throw RunError(file.string() + ": " + complaint + "; " + free_in_words(folder.root, plan.charge.balls()) +
                  ".\nThe run was stopped. With more room, --resume " +
                  (step ? "continues from step " + std::to_string(*step)
-                       : std::string("begins again: there is no complete restart file")));
+                       : std::string("starts from the beginning: there is no complete restart file")));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct DumpHeader {
 };
 
 /// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError
-/// for text that is no dump, an item that appears twice, a value that cannot be, or a missing time-step or
+/// for text that is not a dump, an item that appears twice, a value that cannot be, or a missing time-step or
 /// number of atoms.
 DumpHeader read_header(TextLines& lines);
 

@@ -38,7 +38,7 @@ class MetadataValues {
     } catch (const nlohmann::json::parse_error& error) {
       const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
       throw DumpError(file_ + ':' + std::to_string(1 + std::count(text.begin(), end, '\n')) +
-                      ": this is no JSON, expected an object as millDem writes it");
+                      ": this is not JSON, expected an object as millDem writes it");
     } catch (const nlohmann::json::exception& error) {
       throw DumpError(file_ + ": " + error.what());
     }

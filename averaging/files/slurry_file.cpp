@@ -166,7 +166,7 @@ class Assembly {
     const long long number = window_of(segment, header_.window, path.string());
     if (segment.begin < last_end_ - gap * header_.window) {
       throw SlurryFileError(path.string() + ": begins at " + std::to_string(segment.begin) +
-                            " s, before the segment before it ends, at " + std::to_string(last_end_) + " s");
+                            " s, before the previous segment ends, at " + std::to_string(last_end_) + " s");
     }
     last_end_ = segment.end;
     if (filled_ && number != number_) close_window();
@@ -233,7 +233,7 @@ long long window_of(const SlurrySegment& segment, double window, const std::stri
   if (segment.end > (static_cast<double>(number + 1) + gap) * window) {
     throw SlurryFileError(name + ": reaches from " + std::to_string(segment.begin) + " to " +
                           std::to_string(segment.end) + " s and so lies in two windows of " +
-                          std::to_string(window) + " s; expected the windows of the run before");
+                          std::to_string(window) + " s; expected the windows of the previous run");
   }
   return number;
 }

@@ -40,7 +40,7 @@ struct SolidsHeader {
   std::string mill_charge;    ///< fingerprint of the mill whose charge was averaged; empty: not known
   std::string mill_averages;  ///< fingerprint of the mill and its averages; empty: not known
   std::string run_id;         ///< of the dry run whose dumps were averaged, `RunMetadata`; empty: not known
-  std::optional<double> fines_share;  ///< of the charge's mass: fines, which are no balls; unless known
+  std::optional<double> fines_share;  ///< of the charge's mass: fines, which are not simulated; if known
 };
 
 /// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the

@@ -161,12 +161,12 @@ WindowSummary overall(const SolidsSummary& summary) {
 
 std::vector<Remark> remarks(const SolidsSummary& summary) {
   const WindowSummary all = overall(summary);
-  if (all.occupied_cells == 0) return {{true, "there are no balls in any cell: is the grid where they are?"}};
+  if (all.occupied_cells == 0) return {{true, "no cell holds a ball: does the grid cover the charge?"}};
   std::vector<Remark> found = size_advice(all, summary.header.smoothing);
   remark_on_solidity(all.largest_solidity, found);
   if (summary.header.fines_share.value_or(0) > 0) {
     found.push_back(
-        {false, formatted("%.1f %% of the charge's mass are fines, which are no balls: they are in "
+        {false, formatted("%.1f %% of the charge's mass are fines, which are not simulated: they are in "
                           "none of these fields",
                           100 * *summary.header.fines_share)});
   }

@@ -26,9 +26,9 @@ struct Redistributed {
   double lost = 0;   ///< volume too far from any cell inside the mill, m^3; it is in no cell any more
 };
 
-/// Empties cells that lie within walls into the nearest cells inside the mill, in proportion to their volume
+/// Empties cells within walls into the nearest cells inside the mill, in proportion to their volume
 /// inside, with all that travels with it. Balls reach into a wall by a small overlap: what lies more than
-/// three faces from any cell inside is no such thing, and is given back as lost.
+/// three faces from any cell inside is not such an overlap. It is returned as lost.
 /// @param values          as of `redistribute_excess`
 /// @param columns         quantities of a cell
 /// @param inside_volumes  [cells] volume inside the mill, m^3; 0 of the cells to be emptied

@@ -47,7 +47,7 @@ struct Options {
   std::string plan_file;
 };
 
-/// What identifies a run, whatever its ranks and its length: its deck without the lines that depend on these.
+/// What identifies a run of any ranks and length: its deck without the lines that depend on these.
 std::string identity(const std::string& deck) {
   std::istringstream in(deck);
   std::string kept;
@@ -113,8 +113,8 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
 }
 
-/// The step at which the run resumes; nothing where it begins anew: without `--resume`, or with `--or-anew`
-/// where it cannot be resumed.
+/// The step at which the run resumes; nothing where it starts from the beginning: without `--resume`, or with
+/// `--or-anew` where it cannot be resumed.
 std::optional<long> first_step(const Options& options, const dem_driver::CaseFolder& folder,
                                const dem_driver::DemPlan& plan, const std::string& deck) {
   if (!options.resume) return std::nullopt;
@@ -122,7 +122,7 @@ std::optional<long> first_step(const Options& options, const dem_driver::CaseFol
     return resumable(folder, plan, deck);
   } catch (const std::exception& reason) {
     if (!options.or_anew) throw;
-    std::cout << reason.what() << ". The dry run begins anew\n";
+    std::cout << reason.what() << ". The dry run starts from the beginning\n";
     return std::nullopt;
   }
 }
@@ -215,7 +215,7 @@ void add_common(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
-/// `millDem plan …` or `millDem …`: the run has no name of its own, because it is what everybody wants.
+/// `millDem plan …` or `millDem …`: the run has no name of its own, because it is the usual one.
 Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   if (!words.empty() && words.back() == "plan") {
     words.pop_back();
@@ -230,7 +230,8 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   add_common(app, options);
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
   auto* resume = app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
-  app.add_flag("--or-anew", options.or_anew, "begin anew a run that cannot be resumed")->needs(resume);
+  app.add_flag("--or-anew", options.or_anew, "start a run that cannot be resumed from the beginning")
+      ->needs(resume);
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -145,7 +145,7 @@ PulpLifters read_pulp_lifters(const Section& in, const Geometry& geometry, doubl
 /// The openings of the ends, which only plain ends have.
 void read_openings(const Section& in, Geometry& geometry) {
   for (const char* key : {"inlet", "grates", "pulp_lifters"}) {
-    if (in.has(key) && geometry.ends != Ends::plain) in.refuse(key, "it with 'ends: plain' only");
+    if (in.has(key) && geometry.ends != Ends::plain) in.refuse(key, "this key with 'ends: plain' only");
   }
   const double room = geometry.radius() - geometry.lifters.height;
   if (in.has("inlet")) geometry.inlet = read_inlet(in.section("inlet", {"area", "radius"}), room);
@@ -155,7 +155,7 @@ void read_openings(const Section& in, Geometry& geometry) {
         room);
   }
   if (in.has("pulp_lifters")) {
-    if (!geometry.grates) in.refuse("pulp_lifters", "it with the key grates only");
+    if (!geometry.grates) in.refuse("pulp_lifters", "this key with the key grates only");
     geometry.pulp_lifters = read_pulp_lifters(
         in.section("pulp_lifters", {"depth", "layers", "discharge_radius"}), geometry, room);
   }

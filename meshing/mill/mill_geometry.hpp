@@ -6,7 +6,7 @@
 
 namespace millfoam::meshing {
 
-/// The map `geometry` of a mill.yaml. Throws MillError for what is no mill: lifters that overlap, openings
+/// The map `geometry` of a mill.yaml. Throws MillError for an impossible mill: lifters that overlap, openings
 /// that do not fit inside the lifters or without plain ends, …
 Geometry read_geometry(const Section& in);
 

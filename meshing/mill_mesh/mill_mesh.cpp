@@ -223,7 +223,7 @@ class Extrusion {
     add_level(level, level > 0, chosen);
   }
 
-  /// What of the discharge end is no grate; it has two sides where pulp lifters lie behind it.
+  /// The part of the discharge end that is not a grate; it has two sides where pulp lifters lie behind it.
   void add_discharge_end() {
     const auto is_wall = [&](std::size_t q) { return !openings_.grates[q]; };
     add_level(layers_, true, is_wall);

@@ -58,9 +58,9 @@ Sides find_sides(const WeldedSet& welded, const surface::EdgeTable& edges, Probl
     for (int shell : cells.flat) {
       const auto side = std::find(shells.of_side.begin(), shells.of_side.end(), shell);
       const int face = static_cast<int>(side - shells.of_side.begin()) / 2;
-      problems.add("flat shell",
-                   place(welded.set, face) + ": the faces that hang together with this one, around " +
-                       described(middle(welded.points, welded.faces[index(face)])) + ", enclose no volume");
+      problems.add("flat shell", place(welded.set, face) + ": the faces connected to this one, around " +
+                                     described(middle(welded.points, welded.faces[index(face)])) +
+                                     ", enclose no volume");
     }
     problems.stop();
   }

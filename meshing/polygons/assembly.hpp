@@ -24,7 +24,7 @@ struct Assembly {
   int points_unused = 0;              ///< points of no polygon, left out
   int baffles = 0;                    ///< pairs of faces with the same corners, a wall between two cells
   int points_separated = 0;           ///< points that such walls got for their second side
-  int bodies = 0;                     ///< sets of cells that hang together by faces
+  int bodies = 0;                     ///< sets of cells that are connected by faces
   double volume = 0;                  ///< m^3
   double smallest_cell = 0;           ///< m^3
   double largest_cell = 0;            ///< m^3

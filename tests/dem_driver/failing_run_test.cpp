@@ -102,7 +102,8 @@ TEST_F(FailingRun, ADumpThatHadNoRoomStopsTheRunAtOnce) {
   EXPECT_EQ(message.find(file.string() + ": 512 bytes with "), 0u) << message;
   EXPECT_NE(message.find("complete lines, expected 259; "), std::string::npos) << message;
   EXPECT_NE(message.find(" free"), std::string::npos) << message;
-  EXPECT_NE(message.find("--resume begins again: there is no complete restart file"), std::string::npos)
+  EXPECT_NE(message.find("--resume starts from the beginning: there is no complete restart file"),
+            std::string::npos)
       << message;
 }
 

@@ -56,7 +56,7 @@ class Mesh(unittest.TestCase):
         (case / "walls" / "feedEnd.stl").write_text(drawn)
         output = run(case, "millMesh", SLICE, "--case", ".")
         self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", output.replace("./", ""))
-        self.assertIn("removed: walls/feedEnd.stl, no wall of this mill", output.replace("./", ""))
+        self.assertIn("removed: walls/feedEnd.stl, which is not a wall of this mill", output.replace("./", ""))
         self.assertNotIn(lifters.name, output)
 
     def test_periodic_slice(self):

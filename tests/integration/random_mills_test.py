@@ -112,7 +112,7 @@ def written(mill):
 
 
 def leaves(mill, path=""):
-    """Paths of the keys of a mill whose values are no maps and no lists."""
+    """Paths of the keys of a mill whose values are neither maps nor lists."""
     for key, value in mill.items():
         if isinstance(value, dict):
             yield from leaves(value, f"{path}{key}.")

@@ -205,7 +205,7 @@ class Steady(unittest.TestCase):
 
     def test_a_drift_between_the_halves_leaves_a_statement_undecided(self):
         self.assertEqual(self.judged(self.moved(lambda t: 0 * t)).verdict, CONFIRMED)
-        # A wave of whole periods in each half is no drift
+        # A wave of whole periods in each half is not a drift
         self.assertEqual(self.judged(self.moved(lambda t: 1e-3 * np.sin(12 * np.pi * t))).verdict, CONFIRMED)
         found = self.judged(self.moved(lambda t: 2e-3 * t))
         self.assertEqual(found.verdict, UNDECIDED)

@@ -27,7 +27,7 @@ def measured_section(case: MillCase, path: Path) -> Section:
         raise RuntimeError(f"{case.folder}: no solids.h5 to compare {path} with")
     try:
         measured = read_measured(path, case.charge)
-    except ValueError as error:  # also of a file that is no text
+    except ValueError as error:  # also of a binary file
         words = str(error)
         raise RuntimeError(words if words.startswith(str(path)) else f"{path}: {words}") from None
     return "measured", "Comparison with the measurement", cards(case, measured, f"Measured: {path.name}", "measurement")
