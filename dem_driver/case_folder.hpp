@@ -34,7 +34,7 @@ struct CaseFolder {
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   /// Held by FolderLock.
   std::filesystem::path lock() const { return dem() / "lock"; }
-  /// Time-step, interval and speed of the dumps; there only after a whole run.
+  /// Time-step, interval and speed of the dumps; there only after a complete run.
   std::filesystem::path run_file() const { return dumps() / "run.json"; }
   /// Summary: power, energies, overlaps, cost.
   std::filesystem::path results() const { return dumps() / "results.json"; }

@@ -265,7 +265,7 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
           << (mill.angular_velocity > 0 ? 1 : -1) << " period " << period << '\n';
   }
   write_results(out, plan, parts, start);
-  // Renamed when it is whole, so that a run killed while it writes leaves no half restart file of that name.
+  // Renamed when it is complete, so that a run killed while it writes leaves no half restart file of that name.
   out << "dump balls all custom " << plan.step.steps_per_record
       << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"

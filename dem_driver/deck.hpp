@@ -69,7 +69,7 @@ RankGrid split_ranks(int ranks, double length, double largest_diameter);
 inline constexpr char inserted_mark[] = "millFoam inserted";
 /// Begins the line that LIGGGHTS prints at DEM time 0, or where a resumed run begins.
 inline constexpr char turning_mark[] = "millFoam turning";
-/// Begins the line that follows every whole restart file: `… STEP`.
+/// Begins the line that follows every complete restart file: `… STEP`.
 inline constexpr char restart_mark[] = "millFoam restart";
 /// Begins the last line of a deck that came to its end.
 inline constexpr char finished_mark[] = "millFoam finished";

@@ -77,7 +77,7 @@ std::optional<long> count_blocks(const std::string& bytes, std::size_t at) {
   return balls;
 }
 
-/// Whether all dumps of steps from `begin` to `end` are whole, of contacts too.
+/// Whether all dumps of steps from `begin` to `end` are complete, of contacts too.
 bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long end) {
   const auto is_whole = [&](const NumberedFile& dump, long balls) {
     return dump.step < begin || dump.step > end || dump_complaint(dump.file, balls).empty();

@@ -31,7 +31,7 @@ std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::str
 /// when all that the plan asks for are there.
 std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step);
 
-/// Every whole restart file, `dem/restart.<step>`, by step.
+/// Every complete restart file, `dem/restart.<step>`, by step.
 std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
 
 /// A line of numbers of a segment and where it stands.

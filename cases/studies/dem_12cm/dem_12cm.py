@@ -92,7 +92,7 @@ def asked(case, options):
 
 @dataclass
 class Result:
-    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge),
+    """A run that is complete: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge),
     with errors (name -> Reading); the latter two are None where there is nothing to read."""
     case: Case
     folder: Path
@@ -103,7 +103,7 @@ class Result:
 
 
 def make(case, options):
-    """Result of a run that is made, or found whole."""
+    """Result of a run that is made, or found complete."""
     folder, mill = asked(case, options)
     print(f"{folder.name} …", flush=True)
     dry = make_dry_run(folder, mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
@@ -242,7 +242,7 @@ def parse():
 
 
 def report(results, options):
-    """Tables, picture and reports of runs that are whole."""
+    """Tables, picture and reports of runs that are complete."""
     name = "dem_12cm_quick" if options.quick else "dem_12cm"
     rows = [row(result) for result in results]
     write_csv(HERE / f"{name}.csv", COLUMNS, rows)
@@ -276,7 +276,7 @@ def main():
     if results:
         report(results, options)
     if failures:
-        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(results)} runs failed")
+        print(f"NOT COMPLETE: {len(failures)} of {len(failures) + len(results)} runs failed")
     return 1 if failures else 0
 
 

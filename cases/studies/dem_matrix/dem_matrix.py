@@ -116,7 +116,7 @@ def main():
         write_table(rows)
         plot(rows)
     if failures:
-        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(rows)} runs failed")
+        print(f"NOT COMPLETE: {len(failures)} of {len(failures) + len(rows)} runs failed")
     return 1 if failures else 0
 
 

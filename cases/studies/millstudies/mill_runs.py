@@ -125,7 +125,7 @@ def make_flow(case, mill, averages, files):
 
 
 def make_run(setting, runs):
-    """A setting's flow in the folder `runs`, with what it needs, unless it is whole; returns the case's folder."""
+    """A setting's flow in the folder `runs`, with what it needs, unless it is complete; returns the case's folder."""
     runs = Path(runs)
     balls = resolved(MILL, (*BASE, *setting.averages))
     mill = resolved(MILL, (*BASE, *setting.averages, *setting.flow))
@@ -144,7 +144,7 @@ def time_step_limits(share):
 
 
 def make_runs(settings, runs):
-    """Every setting's flow, one after the other: (name -> case's folder of what is whole, messages of what failed)."""
+    """Every setting's flow, one after the other: (name -> case's folder of what is complete, messages of what failed)."""
     cases, failures = {}, []
     for setting in settings:
         print(f"{setting.name} …", flush=True)

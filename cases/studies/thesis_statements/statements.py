@@ -25,7 +25,7 @@ def is_run(folder):
 
 
 def slices_there(runs=LAWS):
-    """The 12 cm slices of mill_drag_comparison that are whole: of the finer mesh, or else all coarse ones."""
+    """The 12 cm slices of mill_drag_comparison that are complete: of the finer mesh, or else all coarse ones."""
     whole = sorted(folder for folder in runs.glob("*")
                    if not folder.name.endswith(OTHERS) and summary_of_whole(folder))
     fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
