@@ -72,8 +72,8 @@ class FolderLock {
   int file_ = -1;
 };
 
-/// Removes `run.json`, `results.json` and the tables beside them, so that a run that fails leaves none of an
-/// earlier one.
+/// Removes `run.json`, `results.json` and the tables in their folder, so that a failed run leaves no results
+/// of an earlier run.
 void remove_results(const CaseFolder& folder);
 
 /// Makes the folders and removes dumps, contacts, run file, results, restart files and histories of an

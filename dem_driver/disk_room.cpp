@@ -19,7 +19,7 @@ constexpr double least_dump = 80;
 constexpr double least_contacts = 150;
 constexpr double least_restart = 200;
 constexpr double full_disk = 1e6;      // bytes: with less room it counts as full
-constexpr double full_per_ball = 500;  // bytes, likewise
+constexpr double full_per_ball = 500;  // bytes, for each ball
 
 double bytes_free(const fs::path& folder) {
   return static_cast<double>(fs::space(folder).available);

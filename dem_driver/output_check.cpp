@@ -118,7 +118,7 @@ std::string dump_complaint(const fs::path& file, long entries) {
 
 std::string restart_complaint(const fs::path& file, long balls) {
   const std::string bytes = contents_of(file);
-  // What stands before the blocks has no length of its own, so that each byte may be where they begin.
+  // The length of the part before the blocks is not in the file, so they may begin at any byte.
   for (std::size_t at = 0; at + sizeof(std::int32_t) < bytes.size(); ++at)
     if (number_at<std::int32_t>(bytes, at) > 0 && count_blocks(bytes, at) == balls) return {};
   return std::to_string(bytes.size()) + " bytes, expected a restart file with all " + std::to_string(balls) +

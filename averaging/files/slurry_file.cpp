@@ -25,7 +25,7 @@ constexpr const char* segment_format = "millfoam-slurry-segment";
 /// which is rounded.
 constexpr double gap = 1e-3;
 
-/// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.
+/// A field of slurry.h5: the place of its sums in a voxel's, and what they are divided by.
 struct Field {
   const char* name;
   const char* units;

@@ -18,7 +18,7 @@ class CellSearch {
   /// @param hint  a cell near to which it may be, or -1; it saves time and does not change the answer
   virtual int locate(const Eigen::Vector3d& point, int hint = -1) const = 0;
 
-  /// Overwrites `cells` with numbers of cells, among them all that meet a box. One may come up twice.
+  /// Overwrites `cells` with numbers of cells, among them all that meet a box. A cell may appear twice.
   virtual void candidates(const Eigen::AlignedBox3d& box, std::vector<int>& cells) const = 0;
 
  protected:

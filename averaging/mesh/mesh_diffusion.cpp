@@ -18,7 +18,7 @@ namespace {
 /// also leaves no pattern of the steps behind.
 constexpr double largest_part = 0.6;
 
-/// Above, smoothing a record takes longer than anyone wants to wait.
+/// Above this, smoothing a record takes too long.
 constexpr double most_steps = 1e5;
 
 /// Of the sums over a record's particles.

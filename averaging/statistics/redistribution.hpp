@@ -31,7 +31,7 @@ struct Redistributed {
 /// three faces from any cell inside is not such an overlap. It is returned as lost.
 /// @param values          as of `redistribute_excess`
 /// @param columns         quantities of a cell
-/// @param inside_volumes  [cells] volume inside the mill, m^3; 0 of the cells to be emptied
+/// @param inside_volumes  [cells] volume inside the mill, m^3; 0 for cells that are emptied
 /// @param neighbours      pairs of cells that share a face
 Redistributed redistribute_from_walls(std::vector<double>& values, std::size_t columns,
                                       const std::vector<double>& inside_volumes,

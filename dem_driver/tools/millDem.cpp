@@ -215,7 +215,7 @@ void add_common(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
-/// `millDem plan …` or `millDem …`: the run has no name of its own, because it is the usual one.
+/// `millDem plan …` or `millDem …`: the run has no name, because it is the usual command.
 Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   if (!words.empty() && words.back() == "plan") {
     words.pop_back();

@@ -115,7 +115,7 @@ std::string section_around(const std::string& path) {
   return cut == std::string::npos ? "" : path.substr(0, cut);
 }
 
-/// Where the value of the key stands among those that were read.
+/// The place of the key's value among those that were read.
 nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
   nlohmann::ordered_json::json_pointer pointer;
   for (const std::string& name : names_of(path)) pointer /= name;

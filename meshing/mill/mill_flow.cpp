@@ -187,7 +187,7 @@ void read_steps(Section& in, const Mill& mill, Flow& flow) {
                                   std::min(mill.turn() / fields_per_turn, flow.duration));
 }
 
-/// Whole turns at the end of the flow, two thirds of it at the most; of a flow shorter than 1.5 turns its
+/// Whole turns at the end of the flow, at most two thirds of it; of a flow shorter than 1.5 turns its
 /// second half.
 double usual_averages_start(const Flow& flow, double turn) {
   const double turns = std::floor(share_averaged * flow.duration / turn * (1 + 1e-9));

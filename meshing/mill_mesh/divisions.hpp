@@ -9,7 +9,7 @@ namespace millfoam::meshing {
 /// Divisions whose cells are about `cell_size` (m) wide on the lifters and the shell. The perimeter is a
 /// multiple of four, as the core needs, and no cell spans more than a fortieth of the shell, so that the
 /// facets of the shell stay within 0.42 % of the circle's area. Layers in the ring are about as thick as they
-/// are wide, or thinner where a band or the rows beside the lifters would be more than 2.5 times as thick as
+/// are wide, or thinner where a band or the rows next to the lifters would be more than 2.5 times as thick as
 /// those they touch.
 Divisions choose_divisions(const Geometry& geometry, double cell_size);
 

@@ -128,7 +128,7 @@ class Extrusion {
     mesh_.owner.push_back(owner);
   }
 
-  /// Whether a radial wall of the pulp lifters stands between two quadrilaterals.
+  /// Whether a radial wall of the pulp lifters lies between two quadrilaterals.
   bool separated(const InnerEdge& edge) const {
     const int a = openings_.compartment[static_cast<std::size_t>(edge.owner)];
     const int b = openings_.compartment[static_cast<std::size_t>(edge.neighbour)];

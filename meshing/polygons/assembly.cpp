@@ -82,7 +82,7 @@ void check_pairs(const WeldedSet& whole, const FacePairs& pairs, const std::vect
 }
 
 /// The cells' numbers in the order in which neighbours reach each other from the first cell of each body, so
-/// that neighbours have near numbers whatever the order of the polygons. Counts the bodies.
+/// that neighbours have near numbers for any order of the polygons. Counts the bodies.
 std::vector<int> numbers_by_neighbourhood(const Sides& sides, int& bodies) {
   std::vector<std::vector<int>> neighbours(sides.volume.size());
   for (std::size_t s = 0; s < sides.open_cell.size(); s += 2) {

@@ -72,7 +72,7 @@ void measure(const Points& points, const std::vector<Face>& faces, Shells& shell
   }
 }
 
-/// The shells of cells, ready to be asked which contains a point.
+/// The shells of cells, prepared to find the one that contains a point.
 class Containers {
  public:
   Containers(const Points& points, const std::vector<Face>& faces, const Shells& shells)

@@ -15,7 +15,7 @@ namespace millfoam::meshing {
 /// Sentences about what is wrong, of each kind at most ten and then their number.
 class Problems {
  public:
-  /// Adds a sentence; those of one `kind` stand together.
+  /// Adds a sentence; those of one `kind` are kept together.
   void add(const std::string& kind, const std::string& sentence);
   /// All sentences, kinds in the order in which they were first added.
   std::vector<std::string> sentences() const;

@@ -77,7 +77,7 @@ void run_faces(const FacesOptions& options) {
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);
 }
 
-/// CLI11's own check tells the largest double as a limit.
+/// CLI11's own check prints the largest double as a limit.
 const CLI::Validator above_nought{
     [](const std::string& word) {
       const auto value = to_number(word);

@@ -22,7 +22,7 @@ struct MeshMeasures {
 /// The measures of a mesh.
 MeshMeasures measure(const VolumeMesh& mesh);
 
-/// What a flow solver asks of a mesh, with OpenFOAM's definitions (primitiveMeshTools in its source).
+/// The quality of a mesh for a flow solver, with OpenFOAM's definitions (primitiveMeshTools in its source).
 struct MeshQuality {
   double volume = 0;         ///< of all cells, m^3
   double smallest_cell = 0;  ///< volume, m^3

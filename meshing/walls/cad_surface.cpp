@@ -181,7 +181,7 @@ bool has_branching_edge(const surface::EdgeTable& edges) {
   return false;
 }
 
-/// Where a triangle stands, for messages.
+/// The place of a triangle, for messages.
 std::string at(const Welded& welded, int face) {
   return sentence(place(welded.set, face), ", around ",
                   described(middle(welded.points, welded.faces[index(face)])));
