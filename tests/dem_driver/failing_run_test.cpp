@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A script stands in for LIGGGHTS here, because LIGGGHTS cannot be asked to fail in a given way.
+// A script replaces LIGGGHTS here, because LIGGGHTS cannot be made to fail in a given way.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using tests::small_mill;
 using tests::TemporaryFolder;
 using tests::Variable;
 
-/// A case with a `liggghts` of its own, before everything else on PATH.
+/// A case with its own `liggghts`, before everything else on PATH.
 class FailingRun : public ::testing::Test {
  protected:
   /// What run_liggghts complains about when LIGGGHTS does `script`.

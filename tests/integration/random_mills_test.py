@@ -280,7 +280,7 @@ class OneChange(MillTest):
     def lifter_tips(self):
         """Least height of the lifters' tops over the axis, of the walls that LIGGGHTS gets (m)."""
         points = re.findall(r"vertex (\S+) (\S+) \S+", (self.case / "walls" / "lifters.stl").read_text())
-        # Lifter 1 stands on +x: its flat top is at x = R - height
+        # Lifter 1 is on +x: its flat top is at x = R - height
         return min(float(x) for x, y in points if float(x) > 0.2 and abs(float(y)) < 0.02)
 
 

@@ -272,7 +272,7 @@ class Study(unittest.TestCase):
         self.assertEqual(self.study.slices_there(self.folder), fine)
 
     def case_of(self, law, multiplier):
-        """A case whose mill asks for a law with a factor on its drag."""
+        """A case whose mill has a law with a factor on its drag."""
         sections = {key: {} for key in ("geometry", "charge", "speed")}
         derived = {**sections, "flow": {"law": law, "multiplier": multiplier}}
         return SimpleNamespace(mill=Mill(Path("a/mill.json"), {"mill": sections, "derived": derived}), law=law)

@@ -23,7 +23,7 @@ def rms(values, parameters=0):
 def cubic_deviation(distance, velocity, parameters=0):
     """RMSD of a velocity [n] (m/s) from its cubic in the distance [n] (m). RuntimeError for fewer than six points."""
     if len(distance) < 6:
-        raise RuntimeError(f"{len(distance)} voxels on the line; a cubic needs at least 6 to be judged by")
+        raise RuntimeError(f"{len(distance)} voxels on the line; expected 6 or more, to judge a cubic")
     # In units of the line's length: the cubic's powers of small lengths are ill-conditioned
     scaled = (distance - distance.mean()) / np.ptp(distance)
     return rms(np.polyval(np.polyfit(scaled, velocity, 3), scaled) - velocity, parameters)

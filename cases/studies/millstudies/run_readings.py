@@ -78,7 +78,7 @@ def charge_tilt(charge, radius, span):
     x, y = free_surface(charge, radius).points.T
     chosen = (x >= span[0]) & (x <= span[1])
     if chosen.sum() < 5:
-        raise RuntimeError(f"the charge's surface does not stand over x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
+        raise RuntimeError(f"the charge's surface does not cover x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
                            "mm")
     return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
 
@@ -105,7 +105,7 @@ def read_reynolds(case):
 
 
 def read_run(case):
-    """RunReadings of a MillCase with a flow; what cannot be read stands in `failures`."""
+    """RunReadings of a MillCase with a flow; what cannot be read is in `failures`."""
     name = f"{case.folder.resolve().parent.name}/{case.name}"
     found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
                         CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)

@@ -138,7 +138,7 @@ class Surface:
 def surface(case):
     mesh = foam.read_mesh(case)
     centre, volume = mesh.centres_and_volumes()
-    # Columns stand on each other's projections: the bottom's faces
+    # The bottom's faces are the columns' projections
     bottom = mesh.patches["bottom"]
     faces = [mesh.points[mesh.faces[face]][:, :2] for face in range(bottom.start, bottom.start + bottom.size)]
     area, r2 = np.array([polygon(face) for face in faces]).T

@@ -31,7 +31,7 @@ FREE_OF_GATE, LAST = 1.4, 5.01
 # measured by Martin & Moyce differ by up to 2 % in speed and 0.1 widths.
 SPEED_TOLERANCE, POSITION_TOLERANCE, LONGEST_DELAY = 0.05, 0.1, 0.4
 PROGRAMS = {"slurryFoam": "slurryFoam", "interFoam": "millInterFoam"}
-# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam uses
 CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 

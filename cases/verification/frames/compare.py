@@ -72,7 +72,7 @@ class Drum:
 def perform(frame, extent, case, here):
     motion, wall = FRAMES[frame]
     shutil.copytree(here / "template", case)
-    # millMesh wants the case's dictionaries whole; the times follow once it has said how fast the drum turns
+    # millMesh needs complete dictionaries; the times follow from the drum's speed, which millMesh computes
     common = dict(meshMotion=motion, wallVelocity=wall, largestStep=extent.step)
     write_parameters(case, **common, endTime=1, writeInterval=1)
     run_program(case, "millMesh", here / "drum.yaml", "--case", ".", "--set", f"resolution.cell_size={extent.cell}")

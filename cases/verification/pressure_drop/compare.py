@@ -192,7 +192,7 @@ def print_table(results, out):
 
 
 def place(bed, laws):
-    """Where a bed stands in the picture: laws side by side at each Reynolds number."""
+    """The place of a bed in the picture: laws side by side at each Reynolds number."""
     return bed.reynolds * 1.09 ** (laws.index(bed.law) - len(laws) / 2)
 
 

@@ -55,7 +55,7 @@ RUNS = [Run(room, solver) for room in ("box", "round") for solver in ("slurryFoa
 RUNS += [Run("round", solver, turning=True) for solver in ("slurryFoam", "interFoam")]
 RUNS += [Run("box", "slurryFoam", bed=True), Run("round", "slurryFoam", bed=True)]
 PROGRAMS = {"interFoam": "millInterFoam", "slurryFoam": "slurryFoam"}
-# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam uses
 CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 

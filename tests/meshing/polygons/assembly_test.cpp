@@ -25,7 +25,7 @@ VolumeMesh mill(const TestMill& mill) {
 
 using Corners = std::vector<std::array<double, 3>>;
 
-/// Faces and cells by the coordinates of their points, whatever the numbering.
+/// Faces and cells by the coordinates of their points, independent of the numbering.
 struct Content {
   std::map<Corners, std::string> patch_of;  ///< of each face; empty between two cells
   std::set<std::set<Corners>> cells;
