@@ -19,7 +19,7 @@ CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 @dataclass
 class Surface:
     """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight
-    line through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the
+    line through it, its deviation from that line (root mean square, m), and over the same width the tilt of the
     charge, if there is one."""
     tilt: Mean
     deviation: Mean
@@ -32,7 +32,7 @@ class RunReadings:
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
     has two ends.
 
-    What it says, None where it does not: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
+    Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
     along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
     volume at each (m3); failures, sentences of what could not be read."""
     name: str
@@ -52,11 +52,11 @@ class RunReadings:
 
 def surface_line(slurry, radius, inner):
     """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free
-    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond.
+    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis, without the slurry that lifters carry.
     RuntimeError if there is none.
 
-    The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing
-    of it."""
+    The surface is the highest pixel of the pool in each column; columns whose highest pixel is on the circle are
+    left out."""
     centres_x, centres_y = slurry.centres()
     within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
     pool = slurry_on_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))

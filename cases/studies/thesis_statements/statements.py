@@ -33,8 +33,8 @@ def slices_there(runs=LAWS):
 
 
 def folders_there():
-    """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike; the slices of
-    mill_drag_comparison, which share their balls; and mill_12cm."""
+    """The runs of mill_30cm, all on 33 layers or else all on 9, because one statement compares equal
+    layers; the slices of mill_drag_comparison, which share their balls; and mill_12cm."""
     layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40")
                for variant in VARIANTS]
               for name in ("runs_33", "runs_9")]

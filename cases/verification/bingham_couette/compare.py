@@ -91,7 +91,7 @@ class Flow:
 
     @property
     def edge(self):
-        """Where the yielded slurry's shear rate comes down to zero, m: it is a straight line in 1/r^2."""
+        """Where the yielded slurry's shear rate reaches zero, m: it is a straight line in 1/r^2."""
         r = (self.r[1:] + self.r[:-1]) / 2
         rate = -r * np.diff(self.u / self.r) / np.diff(self.r)
         # A tenth of the rate at the wall: well above what the regularised plug shears

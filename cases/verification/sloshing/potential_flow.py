@@ -31,7 +31,7 @@ class Wave:
 
     @property
     def slow_rate(self):
-        """Of an overdamped wave, the smaller of the two rates at which it decays, 1/s."""
+        """The smaller of the two rates of decay of an overdamped wave, 1/s."""
         half = self.damping / 2
         return half - np.sqrt(half**2 - self.omega**2)
 

@@ -156,7 +156,7 @@ def measure(mesh, bed, cells, case):
 
 
 def orders(flows):
-    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
+    """Orders of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
     there are two.
 
     None where the coarser error is already the viscosity's."""
@@ -172,12 +172,12 @@ def orders(flows):
 
 
 def misses(flows):
-    """What missed, in words. The staircase that a sharp edge makes of slanted columns is shown, and holds nothing."""
+    """Missed limits, in words. A sharp edge is a staircase on the slanted mesh; its numbers are shown without limits."""
     for flow in flows:
         where = f"{flow.bed}, {flow.mesh}, {flow.cells} cells"
         if flow.mesh == "slanted" and flow.bed == "edges":
             continue
-        # Orders are those of the two finest: the coarsest is shown, and judges nothing
+        # Orders are those of the two finest; the coarsest is only shown
         sizes = [other.cells for other in flows if (other.mesh, other.bed) == (flow.mesh, flow.bed)]
         coarsest = len(sizes) > 2 and flow.cells == min(sizes)
         if not coarsest and not flow.drift <= (JUMP_TOLERANCE if flow.bed == "edges" else STEADY):

@@ -26,7 +26,7 @@ class MillCase:
     """A mill's run in a folder; missing parts are None.
 
     begin: flow time at which the averages begin, s. None: the mill's own (flow.averages_start), or half of the time of
-    a flow that was cut short before. The averages of a dry run begin at the same time of its own, or when it is steady.
+    a flow that was cut short before. The averages of a dry run begin at the same DEM time, or when it is steady.
     unusable: why files cannot be used, in words."""
 
     def __init__(self, folder: Path | str, begin: float | None = None) -> None:

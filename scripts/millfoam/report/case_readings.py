@@ -47,7 +47,7 @@ class Readings:
 
     @staticmethod
     def attempt(read: Callable[[], Any]) -> Any:
-        """What read() gives, or the text of the error that it raises."""
+        """The result of read(), or the text of the error that it raises."""
         try:
             return read()
         except (RuntimeError, ValueError) as error:

@@ -82,7 +82,7 @@ def extent(ends: np.ndarray) -> str:
 
 
 def charge_voxels(case: MillCase) -> tuple[list[np.ndarray], np.ndarray | None, bool, float]:
-    """Of solids.h5: edges x, y, z (m) of its voxels, their share within the mill [nz, ny, nx] in the mean over time,
+    """Voxels of solids.h5: their edges x, y, z (m), their share within the mill [nz, ny, nx] in the mean over time,
     whether they repeat along z, and the balls' volume by the ledger (m3)."""
     with h5py.File(case.solids) as file:
         grid = file["grid"]
