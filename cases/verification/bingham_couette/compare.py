@@ -8,7 +8,8 @@ sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
     w(r) = tau0/(2 mu) [(r0/r)^2 - 1 - 2 ln(r0/r)]        for r < r0, else 0
 
 (Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) Runs have both regularisations and softer plugs: the error must
-decrease with the regularisation, and every profile must agree with its regularised flow curve. Exit code 1 if a check fails."""
+decrease with the regularisation, and every profile must agree with its regularised flow curve. Exit code 1 if a check
+fails."""
 import shutil
 import sys
 from dataclasses import dataclass

@@ -120,8 +120,8 @@ def report(turning, still, extent, out):
         lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} "
                      f"{1e3 * np.sqrt(np.mean(difference**2)):7.3f} {1e3 * largest:10.3f} {share.mean():18.4f} "
                      f"{100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
-    lines.append("height of the surface on the turning mesh minus that on the mesh at rest, at |x| <= 0.8 R; allowed in "
-                 f"the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
+    lines.append("height of the surface on the turning mesh minus that on the mesh at rest, at |x| <= 0.8 R; allowed "
+                 f"in the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
     for name, drum in (("mesh turns", turning), ("wall velocity", still)):
         change = np.abs(drum.volume / still.volume[0] - 1).max()
         bad = not change <= CONSERVED

@@ -24,7 +24,7 @@ matplotlib.use("Agg")
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
-# Box, m. The wave passes through more than two rows of cells, because the error depends on the level's place in its row.
+# Box, m. The wave passes through more than two rows of cells: the error depends on the level's place in its row.
 WIDTH, HEIGHT, DEPTH, CELLS = 0.2, 0.16, 0.0875, (30, 64)
 BOX_AMPLITUDE = 0.003
 # Round section, half full. The mesh is turned so that no line of its cells lies in the surface.

@@ -156,8 +156,8 @@ def measure(mesh, bed, cells, case):
 
 
 def orders(flows):
-    """Orders of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
-    there are two.
+    """Orders of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)},
+    where there are two.
 
     None where the coarser error is already the viscosity's."""
     found = {}
@@ -172,7 +172,7 @@ def orders(flows):
 
 
 def misses(flows):
-    """Missed limits, in words. A sharp edge is a staircase on the slanted mesh; its numbers are shown without limits."""
+    """Missed limits, in words. A sharp edge is a staircase on the slanted mesh; its numbers have no limits."""
     for flow in flows:
         where = f"{flow.bed}, {flow.mesh}, {flow.cells} cells"
         if flow.mesh == "slanted" and flow.bed == "edges":
