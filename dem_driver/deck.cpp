@@ -17,7 +17,8 @@ namespace millfoam::dem_driver {
 namespace {
 
 // Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
-// to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
+// to. In the 12 cm mill, epsd2 costs the same, also lets the balls come to rest and keeps the kinetic energy
+// within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
 /// LIGGGHTS needs a different prime above 10000 for every random stream. Each seed has its own range of

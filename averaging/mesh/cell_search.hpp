@@ -7,8 +7,8 @@
 namespace millfoam::averaging {
 
 /// Finds cells of a mesh. Points of neighbouring cells' common faces, edges and corners belong to the one of
-/// these cells with the lowest number; the boundary belongs to the mesh. Both as far as rounding lets it be
-/// known: 1e-14 of the mesh's coordinates.
+/// these cells with the lowest number; the boundary belongs to the mesh. Both hold within
+/// rounding: 1e-14 of the mesh's coordinates.
 class CellSearch {
  public:
   virtual ~CellSearch() = default;

@@ -196,7 +196,7 @@ void plan(const Options& options, const meshing::MillDescription& description) {
                                 dem_driver::MeasuredForecast{forecast, cost, options.ranks});
 }
 
-/// CLI11 knows no long option with one dash, but `-np` is what every user of MPI types.
+/// CLI11 has no long options with one dash, but `-np` is what every user of MPI types.
 std::vector<std::string> arguments(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   std::replace(words.begin(), words.end(), std::string("-np"), std::string("--np"));

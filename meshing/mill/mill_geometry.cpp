@@ -24,7 +24,8 @@ constexpr double least_open = 0.001;
 
 /// Where sources do not give them: height of lifters over the mill's radius; radii of the grates over the
 /// radius inside the lifters and over each other; depth of pulp lifters over the mill's diameter; radius
-/// inside which these let go over the grates' inner radius. As chosen for the 30 cm mill of cases/mills.
+/// inside which these release the slurry over the grates' inner radius. As chosen for the 30 cm mill of
+/// cases/mills.
 constexpr double usual_lifter_height = 1.0 / 15;
 constexpr double usual_grate_radius = 0.93;
 constexpr double usual_grate_ratio = 0.69;

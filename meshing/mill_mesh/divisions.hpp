@@ -14,7 +14,8 @@ namespace millfoam::meshing {
 Divisions choose_divisions(const Geometry& geometry, double cell_size);
 
 /// The divisions of given counts, whose perimeter must be a multiple of four; the ring's layers, at least one
-/// for each band, are shared out so that they are as thick against their width as far as whole numbers allow.
+/// for each band, are distributed so that their ratios of thickness to width are as equal as whole numbers
+/// allow.
 Divisions given_divisions(const Geometry& geometry, const BlockCounts& counts);
 
 }  // namespace millfoam::meshing

@@ -67,7 +67,7 @@ class Case:
 
 
 def published():
-    """Setting -> (RMSD of the cubic in m/s, of the logistic in mm); NaN where none is at hand."""
+    """Setting -> (RMSD of the cubic in m/s, of the logistic in mm); NaN without a published one."""
     with open(HERE / "published.csv", newline="") as file:
         return {Setting("12cm", line["load_percent"], int(line["speed_percent"])):
                 tuple(float(line[key] or "nan") for key in ("cubic_rmsd_m_s", "logistic_rmsd_mm"))

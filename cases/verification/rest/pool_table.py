@@ -30,7 +30,7 @@ def checks(run, history, reference, end):
         found.append(("largest speed of slurry alone, m/s", history.slurry.max(), IN_BED if run.turning else ALONE))
         return named(run, found)
     if not run.turning:
-        # Turning walls are polygons, which stir waves: those are reported
+        # Turning walls are polygons, which cause waves: those are reported
         found.append(("slurry rms, late over early", history.growth, GROWTH))
         if run.bed:
             found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), IN_BED))
