@@ -7,8 +7,8 @@ With superficial velocity U along x and voidage e(x), u = U/e and
     p(x) + rho u(x)^2/2 + integral of beta u/e dx = const,
 
 with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
-sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose columns of cells stay vertical, and on
-slanted ones through whose columns the sharp edge runs. Exit code 1 if a run fails."""
+sharp edge has Bernoulli's jump of pressure. Meshes: aligned; wavy, with vertical columns of cells; and slanted, whose
+columns the sharp edge cuts. Exit code 1 if a run fails."""
 import itertools
 import shutil
 import sys
