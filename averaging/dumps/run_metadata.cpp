@@ -28,7 +28,7 @@ std::string fnv1a(const std::string& bytes) {
   return digits;
 }
 
-/// The keys of an object in a file, which is named where a value cannot be.
+/// The keys of an object in a file, which messages name.
 class MetadataValues {
  public:
   /// Throws DumpError unless `text` is an object.
@@ -45,7 +45,7 @@ class MetadataValues {
     if (!object_.is_object()) throw DumpError(file_ + ": expected an object of JSON, {\"key\": value, ...}");
   }
 
-  /// A number that `allowed` lets pass; nothing when the key is not there.
+  /// A number that `allowed` accepts; nothing when the key is not there.
   template <typename Allowed>
   std::optional<double> number(const char* key, const char* expected, Allowed allowed) const {
     const nlohmann::json* value = find(object_, key);

@@ -46,7 +46,7 @@ std::vector<double> means(const SlurrySegment& sums, const Field& field) {
   std::vector<double> result(sums.volume.size() * width, 0.0);
   for (std::size_t voxel = 0; voxel < sums.volume.size(); ++voxel) {
     const double* components = &sums.components[voxel * slurry_components];
-    // Less slurry than this has no velocity that means something
+    // The velocity of less slurry than this has no meaning
     const bool enough = components[0] > 1e-9 * sums.volume[voxel];
     const double divisor = field.by_slurry && enough ? components[0] : sums.volume[voxel];
     if (!(divisor > 0) || (field.by_slurry && !enough)) continue;

@@ -214,8 +214,7 @@ class BlockLoop {
     }
   }
 
-  /// Nothing may be thrown out of a parallel region: the first exception is kept, and all that would follow
-  /// is left out.
+  /// No exception may leave a parallel region: the first is kept, and the rest of the work is skipped.
   template <typename Action>
   void guarded(Action&& action) {
     bool failed = false;

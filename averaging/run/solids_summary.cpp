@@ -201,7 +201,7 @@ std::vector<std::string> ledger_failures(const SolidsSummary& summary, double to
     constexpr double round_off = 1e-10;
     const double missing = std::abs(ledger.volume_in - ledger.deposited - ledger.outside);
     if (above(missing, round_off)) fail("is missing in the ledger", missing, round_off);
-    // Round-off of the deposits leaves traces outside that are no loss.
+    // Round-off of the deposits leaves traces outside that are not a loss.
     if (above(ledger.outside, std::max(tolerance, round_off)))
       fail("is outside the grid", ledger.outside, tolerance);
     if (above(ledger.clipped, tolerance))

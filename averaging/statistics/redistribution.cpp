@@ -10,7 +10,7 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Who shares a face with whom, and walks outwards from a cell.
+/// The neighbours of cells, and a walk outwards from a cell.
 class Rings {
  public:
   Rings(std::size_t cells, const std::vector<std::array<int, 2>>& neighbours)

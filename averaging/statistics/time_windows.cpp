@@ -130,7 +130,7 @@ void mark_late_and_short(const std::vector<long long>& steps, long long interval
   }
 }
 
-/// A window that is not full ends with its last record's interval: what was not recorded is not claimed.
+/// A window that is not full ends with its last record's interval: it has no time without records.
 void end_with_the_dumps(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
   WindowSpan& last = plan.windows.back();
   last.end = std::min(last.end, steps[last.first_record + last.records - 1] + interval);

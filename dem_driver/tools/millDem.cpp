@@ -67,7 +67,7 @@ std::string read_text(const fs::path& file) {
 
 constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
 
-/// Throws std::runtime_error when the run in the folder cannot be gone on with at that step.
+/// Throws std::runtime_error when the run in the folder cannot be resumed at that step.
 void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
   if (step > plan.turning_steps) {
     const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
@@ -166,7 +166,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
       dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0}, step);
   const auto results = dem_driver::gather_results(folder, mill, plan, result);
   dem_driver::write_results_files(folder, mill, plan, results);
-  // Only now, so that the dumps of a broken run are not taken for a whole one.
+  // Only now, so that the dumps of a broken run are not taken for a complete one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
 }

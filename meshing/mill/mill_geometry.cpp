@@ -19,7 +19,7 @@ constexpr double most_cells = 1e8;
 constexpr int most_along_side = 100000;
 /// Lifters or sectors: more are no wider than the balls between them.
 constexpr int most_around = 1000;
-/// Share of holes with which a grate lets next to nothing through.
+/// Share of holes with which nearly nothing passes a grate.
 constexpr double least_open = 0.001;
 
 /// Where sources do not give them: height of lifters over the mill's radius; radii of the grates over the

@@ -79,7 +79,7 @@ std::vector<double> wished_bands(const Geometry& geometry, int core) {
   return wished;
 }
 
-/// Shares out layers, at least one to each band: always to the band whose layers are the thickest still.
+/// Distributes layers, at least one to each band: the next always to the band with the thickest layers.
 std::vector<int> share_out(const std::vector<double>& wished, int layers) {
   std::vector<int> bands(wished.size(), 1);
   assert(layers >= static_cast<int>(bands.size()));

@@ -52,7 +52,7 @@ SectionEdges find_edges(const CrossSection& section) {
   return edges;
 }
 
-/// Draws a cross-section along z: through the mill and, where there are any, through the pulp lifters.
+/// Extrudes a cross-section along z: through the mill and, where there are any, through the pulp lifters.
 class Extrusion {
  public:
   Extrusion(const CrossSection& section, const Geometry& geometry, int layers)

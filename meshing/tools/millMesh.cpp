@@ -46,7 +46,7 @@ std::map<fs::path, std::string> contents(const fs::path& folder) {
   return found;
 }
 
-/// Writes the walls and reports which files of others, such as walls from CAD, they replaced.
+/// Writes the walls and reports which other files they replaced, such as walls from CAD.
 void replace_walls(const WallSurface& surface, Ends ends, const fs::path& folder) {
   const auto before = contents(folder);
   write_walls(surface, ends, folder);
