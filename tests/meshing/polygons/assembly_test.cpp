@@ -234,9 +234,9 @@ TEST(Assemble, warns_of_a_cell_that_a_missing_face_made_of_two) {
   const Assembly found = assemble(set);
   EXPECT_EQ(found.mesh.cells, mesh.cells - 1);
   ASSERT_EQ(found.warnings.size(), 1u);
-  EXPECT_NE(
-      found.warnings[0].find(" has 10 faces, nearly all others have 6: is one between two cells missing?"),
-      std::string::npos)
+  EXPECT_NE(found.warnings[0].find(
+                " has 10 faces, and nearly all others have 6: is one between two cells missing?"),
+            std::string::npos)
       << found.warnings[0];
 }
 
@@ -471,7 +471,7 @@ TEST(AssembleRefuses, bodies_that_touch_in_an_edge_only) {
   add_cube(set, {1, 1, 0}, 1);
   expect_refusal(set,
                  "a non-manifold edge from (1 1 0) to (1 1 1): around it the outside appears more than once, "
-                 "for 4 faces meet there");
+                 "because 4 faces meet there");
 }
 
 TEST(AssembleRefuses, faces_that_cross) {
