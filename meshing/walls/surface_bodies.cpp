@@ -32,7 +32,7 @@ std::vector<std::vector<Neighbour>> find_neighbours(const surface::EdgeTable& ed
   return neighbours;
 }
 
-/// Whether each face is to be turned to agree with the first of its body; -1 where not yet reached.
+/// Whether each face must be turned to agree with the first of its body; -1 where not yet reached.
 using Turned = std::vector<int>;
 
 Body reached_from(int first, const std::vector<std::vector<Neighbour>>& neighbours, Turned& turned) {
