@@ -214,7 +214,7 @@ std::shared_ptr<const Motion> parse_translation(Words& words) {
   } else {
     words.refuse("'" + kind + "' is not known, expected 'velocity' or 'table'");
   }
-  if (!words.at_end()) words.refuse("nothing is expected from '" + words.next("") + "' on");
+  if (!words.at_end()) words.refuse("unexpected word '" + words.next("") + "'");
   return motion;
 }
 

@@ -86,7 +86,7 @@ void Section::check_keys() const {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
       fail(path, "key '" + path + "' is unknown: " + suggestion(key, known_));
     }
-    if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected it once");
+    if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }
 }
 

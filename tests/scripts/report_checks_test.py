@@ -73,7 +73,7 @@ class Flow(Verdicts):
         return checks.flow_steadiness(case(balance=columns))
 
     def test_a_drift_of_the_hold_up(self):
-        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is no drift that
+        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is not a drift that
         # matters
         for drift, state in ((0.0, "holds"), (0.018, "holds"), (0.025, "look"), (-0.025, "look"), (0.05, "fails"),
                              (3.0, "fails")):

@@ -72,13 +72,13 @@ class SpinUp:
 
     @property
     def errors(self):
-        """Of every cell at every time, over the bed's speed at the wall."""
+        """Velocity error of every cell at every time, over the bed's speed at the wall."""
         exact = FULL["omega"] * self.radius * self.exact_share[:, None]
         return (self.speed - exact) / (FULL["omega"] * FULL["radius"])
 
     @property
     def rms_error(self):
-        """Of all cells at every time, by volume, over the bed's speed at the wall."""
+        """Rms of the velocity error at every time, weighted by volume, over the bed's speed at the wall."""
         return np.sqrt(self.errors**2 @ self.volume / self.volume.sum())
 
 
@@ -111,7 +111,7 @@ class Surface:
 
     @property
     def rise(self):
-        """From the axis to the wall, m."""
+        """Rise of the paraboloid from the axis to the wall, m."""
         return (HALF["omega"] * HALF["radius"]) ** 2 / (2 * GRAVITY)
 
     def mean(self, values):
@@ -119,14 +119,14 @@ class Surface:
 
     @property
     def curvature_error(self):
-        """At every time, of the factor of r^2 fitted to the heights, relative."""
+        """Relative error at every time of the factor of r^2 that is fitted to the heights."""
         spread = self.r2 - self.mean(self.r2)
         slope = self.mean(self.height * spread) / self.mean(spread**2)
         return slope / (HALF["omega"] ** 2 / (2 * GRAVITY)) - 1
 
     @property
     def rms_error(self):
-        """At every time, of the heights, over the rise."""
+        """Rms error of the heights at every time, over the rise."""
         return np.sqrt(self.mean((self.height - self.exact) ** 2)) / self.rise
 
     @property
@@ -138,7 +138,7 @@ class Surface:
 def surface(case):
     mesh = foam.read_mesh(case)
     centre, volume = mesh.centres_and_volumes()
-    # Columns stand on each other's projections: the bottom's faces
+    # The bottom's faces are the columns' projections
     bottom = mesh.patches["bottom"]
     faces = [mesh.points[mesh.faces[face]][:, :2] for face in range(bottom.start, bottom.start + bottom.size)]
     area, r2 = np.array([polygon(face) for face in faces]).T
@@ -161,7 +161,7 @@ def polygon(corners):
 
 
 def report(spin, shape, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     rows = [
         ("full: angular momentum, largest over time, %", 100 * np.abs(spin.share - spin.exact_share).max(),
          100 * SPIN_TOLERANCE),
@@ -182,7 +182,7 @@ def report(spin, shape, out):
     lines.append(f"full: largest error of any cell {100 * np.abs(spin.errors).max():.2g} % of the wall's velocity")
     if shape:
         settling = np.ptp(shape.curvature_error[-4:])
-        lines.append(f"the surface rises by {1e3 * shape.rise:.2f} mm from axis to wall; its factor still moved by "
+        lines.append(f"the surface rises by {1e3 * shape.rise:.2f} mm from axis to wall; its factor still changed by "
                      f"{100 * settling:.2g} % in the last {shape.time[-1] - shape.time[-4]:.2g} s; largest deviation "
                      f"of a column {1e3 * np.abs(shape.height[-1] - shape.exact).max():.3f} mm")
     print("\n".join(lines))

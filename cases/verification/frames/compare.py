@@ -26,8 +26,8 @@ matplotlib.use("Agg")
 
 @dataclass(frozen=True)
 class Extent:
-    """How long and how finely: quarters of a turn, those of them (the last ones) in which the surface has its shape and
-    is judged, size of the cells (m), largest time-step (s)."""
+    """Duration and resolution: quarters of a turn, number of the last ones, in which the surface has its shape and is
+    judged, size of the cells (m), largest time-step (s)."""
     quarters: int
     late: int
     cell: float
@@ -72,7 +72,7 @@ class Drum:
 def perform(frame, extent, case, here):
     motion, wall = FRAMES[frame]
     shutil.copytree(here / "template", case)
-    # millMesh wants the case's dictionaries whole; the times follow once it has said how fast the drum turns
+    # millMesh needs complete dictionaries; the times follow from the drum's speed, which millMesh computes
     common = dict(meshMotion=motion, wallVelocity=wall, largestStep=extent.step)
     write_parameters(case, **common, endTime=1, writeInterval=1)
     run_program(case, "millMesh", here / "drum.yaml", "--case", ".", "--set", f"resolution.cell_size={extent.cell}")
@@ -101,7 +101,7 @@ def measure(case, radius):
 
 
 def report(turning, still, extent, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     x = np.linspace(-0.8, 0.8, 65) * still.radius
     lines = [f"{'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} {'share, mean |diff|':>18} "
              f"{'u in slurry, rms %':>18}"]
@@ -120,8 +120,8 @@ def report(turning, still, extent, out):
         lines.append(f"{still.time[number]:7.3f} {1e3 * difference.mean():15.3f} "
                      f"{1e3 * np.sqrt(np.mean(difference**2)):7.3f} {1e3 * largest:10.3f} {share.mean():18.4f} "
                      f"{100 * np.sqrt(apart / speed):18.2f}" + ("  MISSED" if bad else ""))
-    lines.append("height of the surface where the mesh turns less that where it does not, at |x| <= 0.8 R; allowed in "
-                 f"the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
+    lines.append("height of the surface on the turning mesh minus that on the mesh at rest, at |x| <= 0.8 R; allowed "
+                 f"in the last {extent.late} quarters: half a cell, {1e3 * still.cell / 2:.2f} mm")
     for name, drum in (("mesh turns", turning), ("wall velocity", still)):
         change = np.abs(drum.volume / still.volume[0] - 1).max()
         bad = not change <= CONSERVED

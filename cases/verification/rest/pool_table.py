@@ -6,7 +6,7 @@ import math
 AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
 REFERENCE, JUDGED = "interFoam", "slurryFoam"
 SHARE = 1 / 3  # of interFoam's rms speed on the same mesh
-GROWTH = 1.1  # late over early rms speed: a pool at rest stirs a little, without a trend
+GROWTH = 1.1  # late over early rms speed: a pool at rest oscillates a little, without a trend
 CONSERVED = 1e-8  # relative change of the slurry's volume
 IN_BED = 1e-3  # m/s: slurry between balls at rest, largest over time and place
 ALONE = 1e-9  # m/s: slurry alone, largest over time and place
@@ -19,7 +19,7 @@ def named(run, found):
 
 
 def checks(run, history, reference, end):
-    """What slurryFoam must hold: list of (text, found, allowed)."""
+    """Limits for slurryFoam: list of (text, found, allowed)."""
     found = [
         ("time reached, s short of the end", end - history.time[-1], 1e-6),
         ("slurry volume, relative change", history.volume_change, CONSERVED),
@@ -30,7 +30,7 @@ def checks(run, history, reference, end):
         found.append(("largest speed of slurry alone, m/s", history.slurry.max(), IN_BED if run.turning else ALONE))
         return named(run, found)
     if not run.turning:
-        # Turning walls are polygons, which stir waves: those are reported
+        # Turning walls are polygons, which cause waves: those are reported
         found.append(("slurry rms, late over early", history.growth, GROWTH))
         if run.bed:
             found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), IN_BED))
@@ -92,8 +92,8 @@ def judge(histories, end):
 
 
 def report(histories, end, out):
-    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that
-    missed."""
+    """Prints the tables, writes them to pool.txt and the numbers to pool.csv in folder `out`; returns the
+    number of values beyond their limit."""
     judged, missed = judge(histories, end)
     text = "\n".join(table(histories, end) + [""] + judged)
     print(text)

@@ -7,8 +7,8 @@ With superficial velocity U along x and voidage e(x), u = U/e and
     p(x) + rho u(x)^2/2 + integral of beta u/e dx = const,
 
 with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
-sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on
-slanted ones through whose columns the sharp edge runs. Exit code 1 if a run fails."""
+sharp edge has Bernoulli's jump of pressure. Meshes: aligned; wavy, with vertical columns of cells; and slanted, whose
+columns the sharp edge cuts. Exit code 1 if a run fails."""
 import itertools
 import shutil
 import sys
@@ -156,8 +156,8 @@ def measure(mesh, bed, cells, case):
 
 
 def orders(flows):
-    """Of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)}, where
-    there are two.
+    """Orders of velocity and pressure on smooth ramps, between the two finest meshes: {(mesh, bed): (order, order)},
+    where there are two.
 
     None where the coarser error is already the viscosity's."""
     found = {}
@@ -172,12 +172,12 @@ def orders(flows):
 
 
 def misses(flows):
-    """What missed, in words. The staircase that a sharp edge makes of slanted columns is shown, and holds nothing."""
+    """Missed limits, in words. A sharp edge is a staircase on the slanted mesh; its numbers have no limits."""
     for flow in flows:
         where = f"{flow.bed}, {flow.mesh}, {flow.cells} cells"
         if flow.mesh == "slanted" and flow.bed == "edges":
             continue
-        # Orders are those of the two finest: the coarsest is shown, and judges nothing
+        # Orders are those of the two finest; the coarsest is only shown
         sizes = [other.cells for other in flows if (other.mesh, other.bed) == (flow.mesh, flow.bed)]
         coarsest = len(sizes) > 2 and flow.cells == min(sizes)
         if not coarsest and not flow.drift <= (JUMP_TOLERANCE if flow.bed == "edges" else STEADY):

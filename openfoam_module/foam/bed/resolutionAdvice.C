@@ -10,6 +10,8 @@
 #include "solidsSource.H"
 #include "volFields.H"
 
+#include <cmath>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -163,7 +165,7 @@ Foam::string Foam::resolutionAdvice(
 
     OStringStream text;
     text.precision(digits_);
-    text << "There are " << label(source.volume() / ballVolume(d) + 0.5)
+    text << "There are " << label(std::lround(source.volume() / ballVolume(d)))
          << " balls of " << d << " m. The voxels are " << voxel.across
          << " m wide and " << voxel.along << " m long (z), the cells "
          << cell.across << " m and " << cell.along << " m in the mean.";
