@@ -8,6 +8,7 @@
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
+#include "laminarModel.H"
 #include "mathematicalConstants.H"
 #include "mixtureFluids.H"
 #include "geometricOneField.H"
@@ -83,6 +84,14 @@ void Foam::slurryFlow::readBed()
                 << "inTime is window: the voidage jumps between windows, and"
                 << " its rate, which moves the fluid, is infinite; expected"
                 << " inTime smooth, or voidageRate no" << exit(FatalIOError);
+        }
+
+        if (!isA<laminarModel<incompressible::turbulenceModel>>(turbulence_()))
+        {
+            FatalErrorInFunction
+                << "turbulenceProperties asks for " << turbulence_->type()
+                << " in a flow between balls, for which no model is known;"
+                << " expected simulationType laminar" << exit(FatalError);
         }
 
         const dictionary& drag = bedDict_.subDict("drag");
