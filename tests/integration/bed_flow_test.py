@@ -118,6 +118,31 @@ class Drop(SlurryTest):
         self.assertLess(speed, 0.08)
 
 
+class StrongDrag(SlurryTest):
+    """Water between two given pressures, through balls whose drag grows with the square of the speed."""
+
+    def test_comes_to_erguns_speed_in_steps_that_the_drag_would_stop_it_in(self):
+        """150 mu phi^2/(e^3 d^2) q + 1.75 rho phi/(e^3 d) q^2 = G with q = e u, in steps of 30 e rho/beta."""
+        length, phi, diameter, density, viscosity, q = 0.04, 0.5, 0.005, SLURRY, 1e-3, 0.5
+        gradient = 150 * viscosity * phi**2 / ((1 - phi) ** 3 * diameter**2) * q \
+            + 1.75 * density * phi / ((1 - phi) ** 3 * diameter) * q**2
+        step = 30 * (1 - phi) * density / (gradient * (1 - phi) ** 2 / q)
+        case = self.slurry_case(
+            upper=(length, 0.02, 0.01), cells=(4, 2, 1), level=lambda x: 1 + 0 * x,
+            bingham=f"yieldStress 0; plasticViscosity {viscosity}; regularisation biviscosity; viscosityRatio 1;")
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back", "bottom", "top"):
+            case.at_patch(side, U=SLIP)
+        for side, pressure in (("left", gradient * length), ("right", 0)):
+            case.at_patch(side, U="type zeroGradient;", alpha="type zeroGradient;",
+                          p_rgh=f"type fixedValue; value uniform {pressure};")
+        case.bed(f"block {{ box (-9 -9 -9) (9 9 9); solidity {phi}; diameter {diameter}; velocity (0 0 0); }}",
+                 drag="law Ergun;")
+        case.control(40 * step, step, 40)
+        self.assert_runs(case, "slurryFoam")
+        np.testing.assert_allclose(case.field("U", 40 * step)[:, 0], q / (1 - phi), rtol=1e-3)
+
+
 class ClosedBox(SlurryTest):
     """The pressure of a closed box has a reference."""
 

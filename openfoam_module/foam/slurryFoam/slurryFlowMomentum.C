@@ -27,7 +27,8 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 }
 
 
-Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce() const
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce(
+    const volVectorField& U, volVectorField& solids) const
 {
     auto tforce = tmp<volScalarField>::New(
         IOobject("dragForce", mesh_.time().timeName(), mesh_), mesh_,
@@ -36,10 +37,24 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce() const
     if (drag_.valid())
     {
         tforce.ref().ref() =
-            drag_->exchange(bed_, alpha_, U_) / voidage_.internalField();
+            drag_->exchange(bed_, alpha_, U) / voidage_.internalField();
         tforce.ref().correctBoundaryConditions();
     }
+    solids = bed_.velocity();
+    grates_.add(tforce.ref(), solids, alpha_, U);
     return tforce;
+}
+
+
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragStiffness(
+    const volScalarField& force, const volVectorField& solids) const
+{
+    const scalar share = 0.01;
+    volVectorField same(solids);
+    const volScalarField faster(dragForce(U_ + share * (U_ - solids), same));
+    return force +
+           max(faster - force, dimensionedScalar(force.dimensions(), Zero)) /
+               share;
 }
 
 
@@ -170,10 +185,10 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
 
     const surfaceScalarField seen(carriedFlux + keptDetail() * detailBefore_);
 
-    volScalarField force(dragForce());
     volVectorField solidsVelocity(bed_.velocity());
-    grates_.add(force, solidsVelocity, alpha_, U_);
-    const surfaceScalarField r(deltaT * pressure_.faceRate(force));
+    const volScalarField force(dragForce(U_, solidsVelocity));
+    const surfaceScalarField r(
+        deltaT * pressure_.faceRate(dragStiffness(force, solidsVelocity)));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
     surfaceScalarField free(
         freeFlux(seen, force, solidsVelocity, r, faceVoidage));
