@@ -83,7 +83,7 @@ void Foam::solidsCells::checkVolumes(
     scalar volume = 0;
     forAll(labels_, celli)
     {
-        const auto i = static_cast<std::size_t>(labels_[celli]);
+        const label i = labels_[celli];
         if (i < first && mag(found[celli] - expected[i]) > 1e-6 * expected[i])
         {
             first = i;
