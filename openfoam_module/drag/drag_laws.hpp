@@ -111,7 +111,7 @@ const Law& find_law(std::string_view name);
 /// A fluid as the drag sees it.
 struct Fluid {
   double density;    ///< kg/m^3
-  double viscosity;  ///< Pa s; for a Bingham slurry its plastic viscosity, or pore_viscosity()
+  double viscosity;  ///< Pa s; for a slurry that is not Newtonian see FlowCurve
 };
 
 /// Reynolds number rho e v d / mu for slip v >= 0 (m/s) and diameter d (m).

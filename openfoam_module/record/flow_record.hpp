@@ -121,6 +121,10 @@ class FlowRecord {
   double force_mean_ = 0;  ///< sums over the written times
   double force_95_ = 0;
   long long forces_ = 0;
+  double continuity_residual_ = 0;  ///< sums over the written times
+  double continuity_speed_ = 0;
+  double slip_ = 0;
+  long long continuities_ = 0;
 };
 
 }  // namespace millfoam::record

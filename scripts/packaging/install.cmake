@@ -72,7 +72,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 string(CONCAT CPACK_DEBIAN_PACKAGE_DEPENDS
        "liggghts, openmpi-bin, python3, python3-numpy, python3-h5py, python3-matplotlib, python3-scipy, "
        "python3-skimage, python3-pil")
-if(MILLFOAM_OPENFOAM)
+# With another OpenFOAM than the distribution's, its owner sources it
+if(MILLFOAM_OPENFOAM AND NOT MILLFOAM_OPENFOAM_SOURCED)
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", openfoam")
 endif()
 # To link with the static libraries

@@ -28,10 +28,25 @@ class RecordTest(OpenFoamTest):
         return np.array([case.field(name, time) for time in times])
 
 
+def spline_coefficients(means, repeats=False):
+    """Of the quadratic B-spline that has these means over windows of one length; no bound is met."""
+    count = len(means)
+    matrix = 4 / 6 * np.eye(count)
+    for k in range(count):
+        for neighbour in (k - 1, k + 1):
+            matrix[k, neighbour % count if repeats else np.clip(neighbour, 0, count - 1)] += 1 / 6
+    return np.linalg.solve(matrix, means)
+
+
+def spline_shares(x):
+    """Of the window before, of the window of which the share x has passed, and of the one after."""
+    return np.array([(1 - x) ** 2 / 2, 0.5 + x - x * x, x * x / 2])
+
+
 class InTime(RecordTest):
     """Three windows with centres at 5, 15 and 25 ms, each uniform."""
 
-    phi = np.array([0.1, 0.2, 0.4])
+    phi = np.array([0.2, 0.3, 0.4])
     speed = np.array([0.3, -0.1, 0.2])
     size = np.array([0.002, 0.004, 0.005])
 
@@ -42,49 +57,52 @@ class InTime(RecordTest):
         return self.record_case(windows(self.phi), end_time=end_time, entries=entries, velocity=velocity,
                                 diameter=windows(self.size))
 
-    def expected(self, lower, upper, weight):
-        """phi, u and d32 of the mean of two windows: means of phi, phi u and phi/d, divided."""
-        share = np.array([1 - weight, weight]) * self.phi[[lower, upper]]
-        phi = share.sum()
-        return phi, share @ self.speed[[lower, upper]] / phi, phi / (share @ (1 / self.size[[lower, upper]]))
+    def expected(self, windows, x, entries):
+        """phi, u and d32 when the share x of the second of three windows has passed: quotients of the spline's phi,
+        phi u and phi/d. Windows that do not change in time have their own phi."""
+        smooth = "smooth" in entries
+        phi = spline_coefficients(self.phi, "repeat" in entries) if smooth else self.phi
+        share = (spline_shares(x) if smooth else np.array([0, 1, 0])) * phi[windows]
+        return share.sum(), share @ self.speed[windows] / share.sum(), share.sum() / (share @ (1 / self.size[windows]))
 
     def assert_means(self, entries, end_time, expected):
-        """expected: {time: (lower window, upper window, weight of the upper)}"""
+        """expected: {time: ([window before, window, window after], share of the window that has passed)}"""
         case = self.three_windows(end_time, entries)
         self.assert_runs(case, "millInterFoam")
         for time, mean in expected.items():
-            phi, speed, size = self.expected(*mean)
+            phi, speed, size = self.expected(*mean, entries)
             for name, value in (("solidity", phi), ("solidsVelocity", speed * np.array([1, -2, 0.5])),
                                 ("solidsDiameter", size)):
                 field = case.field(name, time)
                 np.testing.assert_allclose(field, np.broadcast_to(value, field.shape), rtol=1e-12, err_msg=f"{time}")
 
-    def test_linear_goes_straight_between_centres_and_holds_half_a_window_at_the_ends(self):
-        self.assert_means("inTime linear;", 0.03, {
-            0.002: (0, 0, 0), 0.004: (0, 0, 0), 0.006: (0, 1, 0.1), 0.01: (0, 1, 0.5), 0.014: (0, 1, 0.9),
-            0.016: (1, 2, 0.1), 0.024: (1, 2, 0.9), 0.026: (2, 2, 0), 0.03: (2, 2, 0)})
+    def test_smooth_keeps_means_and_holds_at_the_ends(self):
+        self.assert_means("inTime smooth;", 0.03, {
+            0.002: ([0, 0, 1], 0.2), 0.006: ([0, 0, 1], 0.6), 0.01: ([0, 1, 2], 0), 0.014: ([0, 1, 2], 0.4),
+            0.016: ([0, 1, 2], 0.6), 0.024: ([1, 2, 2], 0.4), 0.03: ([1, 2, 2], 1)})
 
-    def test_window_holds_from_begin_to_end_and_is_what_particleDrag_takes(self):
-        windows = {0.004: (0, 0, 0), 0.008: (0, 0, 0), 0.01: (1, 1, 0), 0.018: (1, 1, 0), 0.024: (2, 2, 0)}
+    def test_window_is_valid_from_begin_to_end_and_is_what_particleDrag_takes(self):
+        windows = {0.004: ([0, 0, 0], 0), 0.008: ([0, 0, 0], 0), 0.01: ([1, 1, 1], 0), 0.018: ([1, 1, 1], 0),
+                   0.024: ([2, 2, 2], 0)}
         for entries in ("", "inTime window;"):
             with self.subTest(entries=entries):
                 self.assert_means(entries, 0.024, windows)
 
     def test_repeat_goes_across_the_seam(self):
-        self.assert_means("inTime linear; outOfRange repeat;", 0.05, {
-            0.002: (2, 0, 0.7), 0.026: (2, 0, 0.1), 0.03: (2, 0, 0.5), 0.034: (2, 0, 0.9), 0.036: (0, 1, 0.1)})
+        self.assert_means("inTime smooth; outOfRange repeat;", 0.05, {
+            0.002: ([2, 0, 1], 0.2), 0.026: ([1, 2, 0], 0.6), 0.03: ([2, 0, 1], 0), 0.036: ([2, 0, 1], 0.6)})
 
     def test_hold_keeps_the_last_window(self):
-        self.assert_means("inTime linear; outOfRange hold;", 0.05, {0.024: (1, 2, 0.9), 0.04: (2, 2, 0)})
+        self.assert_means("inTime smooth; outOfRange hold;", 0.05, {0.024: ([1, 2, 2], 0.4), 0.04: ([2, 2, 2], 1)})
 
     def test_a_restart_takes_up_the_same_mean(self):
-        case = self.three_windows(0.03, "inTime linear;")
+        case = self.three_windows(0.03, "inTime smooth;")
         whole = self.fields(case, "solidity", 0.012, 0.022)
         case.control(end_time=0.03, delta_t=STEP, start_time=0.01)
         np.testing.assert_array_equal(self.fields(case, "solidity", 0.012, 0.022), whole)
 
     def test_something_else_lists_the_known_ones(self):
-        self.assert_refused(self.three_windows(STEP, "inTime cubic;"), "cubic", "window", "linear")
+        self.assert_refused(self.three_windows(STEP, "inTime cubic;"), "cubic", "window", "smooth")
 
 
 class Ledger(RecordTest):
@@ -93,7 +111,7 @@ class Ledger(RecordTest):
     phi = np.array([0.1, 0.5, 0.0, 0.6])
     cell = 0.04**3 / 4
 
-    def ledger_case(self, *factors, phi=None, end_time=STEP, entries="ledgerCorrection yes; inTime linear;"):
+    def ledger_case(self, *factors, phi=None, end_time=STEP, entries="ledgerCorrection yes; inTime smooth;"):
         """Windows of the same solids, in which the ledger says `factor` times their volume."""
         phi = self.phi if phi is None else np.array(phi)
         return self.record_case(np.tile(phi, (len(factors), 1, 1, 1)), end_time=end_time, entries=entries,
@@ -104,8 +122,11 @@ class Ledger(RecordTest):
         np.testing.assert_allclose(found, 1.015 * self.phi, rtol=1e-12)
 
     def test_follows_the_ledger_in_time(self):
-        found = self.fields(self.ledger_case(1, 1.01, end_time=0.02), "solidity", 0.004, 0.008, 0.01, 0.018)
-        np.testing.assert_allclose(found.sum(axis=1) / self.phi.sum(), [1, 1.003, 1.005, 1.01], rtol=1e-12)
+        found = self.fields(self.ledger_case(1, 1.01, end_time=0.02), "solidity", 0.004, 0.01, 0.018)
+        volumes = spline_coefficients([1, 1.01])
+        expected = [spline_shares(0.4)[2], 0.5, 1 - spline_shares(0.8)[0]]
+        expected = volumes[0] + (volumes[1] - volumes[0]) * np.array(expected)
+        np.testing.assert_allclose(found.sum(axis=1) / self.phi.sum(), expected, rtol=1e-12)
 
     def test_what_cells_at_the_largest_solidity_cannot_take_goes_to_the_others(self):
         phi = np.array([0.2, 0.895, 0.0, 0.88])
@@ -126,7 +147,8 @@ class Ledger(RecordTest):
     def test_the_log_has_the_present_and_the_largest_correction(self):
         log = self.assert_runs(self.ledger_case(1.01, 0.995, end_time=0.02), "millInterFoam").log
         added = [tuple(map(float, pair)) for pair in re.findall(r"volume corrected by (\S+) %, at most (\S+) %", log)]
-        np.testing.assert_allclose([added[0], added[-1]], [(1, 1), (-0.5, 1)], rtol=1e-9)
+        ends = 100 * spline_coefficients([1.01, 0.995]) - 100
+        np.testing.assert_allclose([added[0], added[-1]], [(ends[0], ends[0]), (ends[1], ends[0])], rtol=1e-9)
 
     def test_particleDrag_leaves_the_solids_as_they_are(self):
         found, = self.fields(self.ledger_case(1.5, entries=""), "solidity", STEP)
@@ -322,11 +344,11 @@ class Blocks(BlockTest):
     everywhere = "box (-9 -9 -9) (9 9 9);"
     common = "solidity 0.3; diameter 0.004;"
 
-    def test_a_ramp_lets_the_solidity_grow_linearly(self):
+    def test_a_ramp_lets_the_solidity_grow_smoothly(self):
         case = self.block_case(f"{self.everywhere} {self.common} velocity (0 0 0); ramp {{ time (0.004 0.012); }}",
                                end_time=0.016)
         phi = self.fields(case, "solidity", 0.002, 0.006, 0.01, 0.012, 0.016)
-        np.testing.assert_allclose(phi[:, 0], [0, 0.075, 0.225, 0.3, 0.3], rtol=1e-12)
+        np.testing.assert_allclose(phi[:, 0], [0, 0.3 * 53 / 512, 0.3 * 459 / 512, 0.3, 0.3], rtol=1e-12)
         np.testing.assert_array_equal(phi, phi[:, :1] * np.ones_like(phi))
 
     def test_omega_turns_the_balls_about_an_axis(self):

@@ -32,8 +32,7 @@ SOLUTION = """
     }}
     PIMPLE
     {{
-        momentumPredictor yes; nOuterCorrectors 1; nCorrectors 1; nNonOrthogonalCorrectors {non_orthogonal};
-        pRefCell 0; pRefValue 0;
+        {pimple} nOuterCorrectors 1; nCorrectors 1; nNonOrthogonalCorrectors {non_orthogonal};
     }}
     slurrySurface {{ {surface} }}"""
 
@@ -48,7 +47,7 @@ class SlurryCase(BoxCase):
         super().__init__(folder, upper=upper, cells=cells, gravity=(0, -9.81, 0), alpha=self.below(level),
                          delta_t=delta_t, end_time=end_time, write_interval=5,
                          slurry=f"transportModel Bingham; rho {SLURRY}; BinghamCoeffs {{ {bingham} }}", **options)
-        self.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=""))
+        self.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple=""))
         self.write("constant/dynamicMeshDict", motion)
 
     def below(self, level):

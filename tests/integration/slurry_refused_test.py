@@ -108,6 +108,42 @@ class Bed(RefusedTest):
         self.assert_bed_refused(self.block("solidity 0.5", "solidity 1"), "solidity is 1", "0 <= solidity < 1")
 
 
+class Controls(RefusedTest):
+    """Dictionaries and meshes that slurryFoam cannot obey"""
+
+    def test_another_scheme_in_time(self):
+        case = self.small()
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace("default Euler;", "default backward;"))
+        self.assert_says(case, "fvSchemes", "default is backward", "Euler")
+
+    def test_no_prediction_of_momentum(self):
+        case = self.small()
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
+        self.assert_says(case, "fvSolution", "momentumPredictor is no")
+
+    def test_turbulence_between_balls(self):
+        case = self.small()
+        case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
+        for name, dimensions in (("k", "0 2 -2 0 0 0 0"), ("epsilon", "0 2 -3 0 0 0 0"), ("nut", "0 2 -1 0 0 0 0")):
+            case.field_file(name, "volScalarField", dimensions, 1, '".*" { type zeroGradient; }')
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace("default none;", "default Gauss upwind;"))
+        case.bed(f"block {{ {BLOCK} }}")
+        self.assert_says(case, "turbulenceProperties", "kEpsilon", "expected simulationType laminar")
+
+    def test_patches_whose_faces_do_not_match(self):
+        case = self.small()
+        boundary = case.path / "constant/polyMesh/boundary"
+        text = boundary.read_text()
+        for here, there in (("left", "right"), ("right", "left")):
+            text = re.sub(rf"({here}\s*{{\s*type\s+)\w+;", rf"\1cyclicAMI; neighbourPatch {there}; "
+                          "matchTolerance 1e-4; transform noOrdering;", text)
+            case.at_patch(here, U="type cyclicAMI;", p_rgh="type cyclicAMI;", alpha="type cyclicAMI;")
+        boundary.write_text(text)
+        self.assert_says(case, "patch left is a cyclicAMI", "expected cyclic patches")
+
+
 class Record(RefusedTest):
     """solids.h5, as bedProperties names it"""
 
@@ -123,6 +159,10 @@ class Record(RefusedTest):
 
     def test_what_the_others_are_made_from_is_accepted(self):
         self.assert_runs(self.record(), "slurryFoam")
+
+    def test_solids_that_jump_with_a_rate_of_the_voidage(self):
+        self.assert_says(self.record(entries="inTime window;"), "inTime is window", "voidageRate no")
+        self.assert_runs(self.record(entries="inTime window; voidageRate no;"), "slurryFoam")
 
     def test_missing(self):
         case = self.record()
@@ -194,7 +234,7 @@ class Surface(RefusedTest):
 
     def assert_surface_refused(self, entries, *words):
         case = self.small()
-        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=entries))
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface=entries, pimple=""))
         self.assert_says(case, "fvSolution", *words)
 
     def test_angles_in_the_wrong_order(self):

@@ -82,13 +82,15 @@ class clockCase : public smallCase
     }
 
     void expect(
-        const scalar t, const label lower, const label upper,
-        const scalar weight) const
+        const scalar t, const std::array<std::size_t, 3>& windows,
+        const std::array<double, 3>& shares) const
     {
         const solidsClock::moment found = clock->at(t);
-        EXPECT_EQ(found.lower, lower) << t;
-        EXPECT_EQ(found.upper, upper) << t;
-        EXPECT_NEAR(found.weight, weight, 1e-9) << t;
+        EXPECT_EQ(found.windows, windows) << t;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            EXPECT_NEAR(found.shares[i], shares[i], 1e-9) << t;
+        }
     }
 };
 
@@ -96,41 +98,43 @@ class clockCase : public smallCase
 
 // * * * * * * * * * * * * * * * * * Tests * * * * * * * * * * * * * * * * * //
 
-TEST(solidsClock, goesStraightFromCentreToCentre)
+TEST(solidsClock, findsTheWindowAndItsNeighbours)
 {
-    // Centres at 0.05, 0.2 and 0.35 s of flow time
+    // 0.1 s beside 0.2 s: a third of the way between the centres
     const clockCase box("outOfRange error;");
-    box.expect(0, 0, 0, 0);
-    box.expect(0.08, 0, 1, 0.2);
-    box.expect(0.26, 1, 2, 0.4);
-    box.expect(0.32, 1, 2, 0.8);
-    box.expect(0.4, 2, 2, 0);
+    box.expect(0, {0, 0, 1}, {0.5, 0.5, 0});
+    box.expect(0.05, {0, 0, 1}, {0.125, 0.875 - 0.25 / 3, 0.25 / 3});
+    box.expect(0.1, {0, 1, 2}, {2. / 3, 1. / 3, 0});
+    box.expect(0.2, {0, 1, 2}, {0.5 / 3, 2. / 3, 0.5 / 3});
+    box.expect(0.4, {1, 2, 2}, {0, 0.5, 0.5});
+    EXPECT_TRUE(box.clock->spline());
 }
 
-TEST(solidsClock, aWindowHoldsFromBeginToEnd)
+TEST(solidsClock, aWindowIsValidFromBeginToEnd)
 {
     const clockCase box("inTime window;");
-    box.expect(0, 0, 0, 0);
-    box.expect(0.099, 0, 0, 0);
-    box.expect(0.1, 1, 1, 0);
-    box.expect(0.299, 1, 1, 0);
-    box.expect(0.4, 2, 2, 0);
+    box.expect(0, {0, 0, 0}, {0, 1, 0});
+    box.expect(0.099, {0, 0, 0}, {0, 1, 0});
+    box.expect(0.1, {1, 1, 1}, {0, 1, 0});
+    box.expect(0.299, {1, 1, 1}, {0, 1, 0});
+    box.expect(0.4, {2, 2, 2}, {0, 1, 0});
+    EXPECT_FALSE(box.clock->spline());
 }
 
 TEST(solidsClock, repeatsAcrossTheSeam)
 {
-    // From the last centre, 0.35, to the first of the next turn, 0.45
     const clockCase box("outOfRange repeat;");
-    box.expect(0.375, 2, 0, 0.25);
-    box.expect(0.425, 2, 0, 0.75);
-    box.expect(0.025, 2, 0, 0.75);
-    box.expect(0.08 + 7 * 0.4, 0, 1, 0.2);
+    box.expect(
+        0.375, {1, 2, 0}, {0.0625 / 3, 1 - 0.0625 / 3 - 0.28125, 0.28125});
+    box.expect(0.4, {2, 0, 1}, {0.5, 0.5, 0});
+    box.expect(0, {2, 0, 1}, {0.5, 0.5, 0});
+    box.expect(0.05 + 7 * 0.4, {2, 0, 1}, {0.125, 0.875 - 0.25 / 3, 0.25 / 3});
 }
 
 TEST(solidsClock, holdsTheLastWindow)
 {
     const clockCase box("outOfRange hold;");
-    box.expect(100, 2, 2, 0);
+    box.expect(100, {1, 2, 2}, {0, 0.5, 0.5});
 }
 
 TEST(solidsClock, refusesTimesBeyondTheRecord)
@@ -159,7 +163,7 @@ TEST(solidsClock, refusesAnotherTime0)
     EXPECT_NE(error.find("time0 is 1.5 s"), std::string::npos) << error;
 }
 
-TEST(solidsRecord, interpolatesLinearlyInSpaceAndTime)
+TEST(solidsRecord, interpolatesLinearlyInSpaceAndSmoothlyInTime)
 {
     smallCase box({{5, 4, 4}}, 0.08);
     writeSolids(box.folder() / "solids.h5");
@@ -170,13 +174,18 @@ TEST(solidsRecord, interpolatesLinearlyInSpaceAndTime)
     ++box.time();
     bed.update();
 
-    // A fifth of the way from the first window to the second; the velocity is
-    // the mean that the solids' momentum has
+    // At 0.8 of the first window: the velocity and the diameter are means that
+    // the spline's phi u and phi/d have
+    const millfoam::averaging::TimeSpline spline({0.1, 0.2, 0.1}, false);
+    const auto shares = spline.at(0, 0.8).shares;
     forAll(bed.solidity(), celli)
     {
         const scalar x = box.mesh().C()[celli].x();
-        const scalar first = 0.8 * solidityAt(0, x);
-        const scalar second = 0.2 * solidityAt(1, x);
+        const auto phi = spline.coefficients(
+            {solidityAt(0, x), solidityAt(1, x), solidityAt(2, x)}, 0.9);
+        const scalar first = (shares[0] + shares[1]) * phi[0];
+        const scalar second = shares[2] * phi[1];
+        EXPECT_GT(mag(first + second - solidityAt(0, x)), 1e-3);
         EXPECT_NEAR(bed.solidity()[celli], first + second, 1e-12);
         EXPECT_NEAR(bed.voidage()[celli], 1 - first - second, 1e-12);
         EXPECT_NEAR(
@@ -186,13 +195,39 @@ TEST(solidsRecord, interpolatesLinearlyInSpaceAndTime)
     }
 }
 
+TEST(solidsRecord, keepsTheMeansOfTheWindows)
+{
+    // Over the second window, by Gauss' rule of three points
+    smallCase box({{5, 4, 4}}, 1e-3);
+    writeSolids(box.folder() / "solids.h5");
+    movingBed bed(
+        entriesOf("solids \"solids.h5\"; outOfRange hold; ledgerCorrection no;"
+                  "interpolation linear;"),
+        box.mesh());
+    scalarField mean(box.mesh().nCells(), Zero);
+    const scalar off = std::sqrt(0.15);
+    label index = 0;
+    for (const scalar place : {0.5 - off, 0.5, 0.5 + off})
+    {
+        box.time().setTime(0.1 + 0.2 * place, ++index);
+        bed.update();
+        mean += (place == 0.5 ? 8 : 5) * bed.solidity().primitiveField() / 18;
+    }
+    forAll(mean, celli)
+    {
+        const scalar x = box.mesh().C()[celli].x();
+        EXPECT_NEAR(mean[celli], solidityAt(1, x), 1e-12);
+    }
+}
+
 TEST(solidsRecord, hasTheVolumeOfTheLedger)
 {
     // The ledger says 1.01 m3; the cells of the unit cube sample 0.125
     smallCase box;
     writeSolids(box.folder() / "solids.h5");
-    const string entries("solids \"solids.h5\"; interpolation linear;"
-                         "outOfRange hold; largestCorrection 1;");
+    const string entries(
+        "solids \"solids.h5\"; interpolation linear;"
+        "outOfRange hold; inTime window; largestCorrection 1;");
     EXPECT_NE(errorOf([&] { movingBed(entriesOf(entries), box.mesh()); }), "");
     // Twice the edges: all voxels, 8 m3 of mean 0.125
     smallCase whole({{8, 8, 8}, {2, 2, 2}, [](const point& p) {
@@ -200,7 +235,8 @@ TEST(solidsRecord, hasTheVolumeOfTheLedger)
                      }});
     writeSolids(whole.folder() / "solids.h5");
     const movingBed bed(
-        entriesOf("solids \"solids.h5\"; interpolation cell; outOfRange hold;"),
+        entriesOf("solids \"solids.h5\"; interpolation cell; inTime window;"
+                  "outOfRange hold;"),
         whole.mesh());
     EXPECT_NEAR(
         sum(bed.solidity().primitiveField() * whole.mesh().V()), 1.01, 1e-12);

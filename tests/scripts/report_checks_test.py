@@ -223,6 +223,14 @@ class BallsInTheFlow(Verdicts):
         self.check(checks.solids_on_mesh(case()), "unknown")
         self.check(checks.solids_on_mesh(case(steps={"volume_correction": np.array([np.nan])})), "unknown")
 
+    def test_averages_that_drive_a_flow_of_their_own(self):
+        for share, state in ((0.14, "holds"), (0.16, "look"), (0.41, "fails")):
+            # Known at written times
+            steps = {"continuity_speed_m_per_s": np.array([np.nan, 0.2 * share, 0]),
+                     "slip_m_per_s": np.array([np.nan, 0.1, 0.1])}
+            self.check(checks.continuity(case(steps=steps)), state)
+        self.check(checks.continuity(case()), "unknown")
+
     def test_slurry_beyond_the_drag_laws_range_in_the_mean_over_time(self):
         for share, state in ((0.19, "holds"), (0.21, "look"), (0.51, "fails")):
             # A short step of another share, and one in which it is not known

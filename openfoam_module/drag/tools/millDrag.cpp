@@ -8,7 +8,8 @@
 
 #include "millfoam_version.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
-#include "openfoam_module/drag/pore_viscosity.hpp"
+#include "openfoam_module/drag/flow_curve.hpp"
+#include "openfoam_module/drag/pore_shear_rate.hpp"
 
 namespace drag = millfoam::drag;
 
@@ -51,8 +52,9 @@ void print_factor(const drag::Law& law, double phi, double re, const Options& op
 void print_gradient(const drag::Law& law, double phi, double superficial, const Options& options) {
   const double slip = superficial / (1 - phi);
   const double rate = drag::pore_shear_rate(phi, slip, options.diameter);
-  const double mu = drag::pore_viscosity({options.yield_stress, options.viscosity}, rate,
-                                         options.viscosity_ratio * options.viscosity);
+  const auto slurry = drag::FlowCurve::bingham(options.yield_stress, options.viscosity,
+                                               options.viscosity_ratio * options.viscosity);
+  const double mu = slurry.apparent_viscosity(rate);
   const drag::Fluid fluid{options.density, mu};
   const double re = drag::reynolds(phi, slip, options.diameter, fluid);
   const double beta = drag::exchange_coefficient(law, phi, slip, options.diameter, fluid);

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsConservation.H"
+#include "solidsSource.H"
 #include "readableLog.H"
 #include "PstreamReduceOps.H"
 #include "vector2D.H"
@@ -96,19 +97,13 @@ void Foam::solidsConservation::checkSize(
 
 Foam::solidsConservation::solidsConservation(const dictionary& dict)
 : dict_(dict),
-  largestSolidity_(dict.lookupOrDefault<scalar>("largestSolidity", 0.9)),
+  largestSolidity_(solidsSource::largestSolidity(dict)),
   largestCorrection_(dict.lookupOrDefault<scalar>("largestCorrection", 0.02)),
   solids_(0),
   present_(0),
   largest_(0),
   moved_(0)
 {
-    if (!(largestSolidity_ > 0 && largestSolidity_ < 1))
-    {
-        FatalIOErrorInFunction(dict)
-            << "largestSolidity is " << largestSolidity_
-            << "; expected a number above 0 and below 1" << exit(FatalIOError);
-    }
     if (!(largestCorrection_ >= 0 && largestCorrection_ <= 1))
     {
         FatalIOErrorInFunction(dict)
@@ -125,12 +120,14 @@ void Foam::solidsConservation::correct(
     scalarField& solidity, const scalarField& V, const scalar volume,
     const std::function<string()>& advice)
 {
-    scalar found = sum(solidity * V);
-    reduce(found, sumOp<scalar>());
-    checkSize(found, volume, advice);
+    vector2D sums(sum(solidity * V), sum(V));
+    reduce(sums, sumOp<vector2D>());
+    const scalar found = sums.x();
     solids_ = volume;
-    if (found <= 0)
+    // Of a bed that begins to grow both are round-off
+    if (max(found, volume) <= precision * sums.y())
         return;
+    checkSize(found, volume, advice);
 
     const scalar factor = factorFor(solidity, V, found, volume);
     solidity = min(factor * solidity, largestSolidity_);

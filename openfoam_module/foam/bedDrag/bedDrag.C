@@ -5,17 +5,9 @@
 
 #include "bedDrag.H"
 #include "knownEntries.H"
-#include "openfoam_module/drag/pore_viscosity.hpp"
+#include "openfoam_module/drag/pore_shear_rate.hpp"
 
 #include <stdexcept>
-
-// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
-
-const Foam::Enum<Foam::bedDrag::viscosity> Foam::bedDrag::viscosityNames_({
-    {viscosity::plastic, "plastic"},
-    {viscosity::pore, "pore"},
-});
-
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -43,14 +35,20 @@ static bedFluids readFluids(const dictionary& dict)
     const dictionary& slurry = dict.subDict("slurry");
     requireKnownEntries(slurry, {"rho", "mu", "yieldStress", "viscosityRatio"});
     requireKnownEntries(dict.subDict("air"), {"rho", "mu"});
-    bedFluids fluids;
-    fluids.slurry = readFluid(slurry);
-    fluids.air = readFluid(dict.subDict("air"));
-    fluids.yieldStress = slurry.lookupOrDefault<scalar>("yieldStress", 0);
-    fluids.largestViscosity =
-        slurry.lookupOrDefault<scalar>("viscosityRatio", 1000) *
-        fluids.slurry.viscosity;
-    return fluids;
+    const millfoam::drag::Fluid fluid(readFluid(slurry));
+    const scalar ratio = slurry.lookupOrDefault<scalar>("viscosityRatio", 1000);
+    const scalar yieldStress = slurry.lookupOrDefault<scalar>("yieldStress", 0);
+    if (!(yieldStress >= 0 && ratio >= 1))
+    {
+        FatalIOErrorInFunction(slurry)
+            << "yieldStress is " << yieldStress << " Pa and viscosityRatio "
+            << ratio << "; expected a yield stress of 0 or above and a ratio of"
+            << " 1 or above" << exit(FatalIOError);
+    }
+    return {
+        readFluid(dict.subDict("air")), fluid.density,
+        millfoam::drag::FlowCurve::bingham(
+            yieldStress, fluid.viscosity, ratio * fluid.viscosity)};
 }
 
 
@@ -79,15 +77,9 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
 millfoam::drag::Fluid
 Foam::bedDrag::slurryAt(const scalar phi, const scalar v, const scalar d) const
 {
-    millfoam::drag::Fluid fluid = fluids_.slurry;
-    if (viscosity_ == viscosity::pore)
-    {
-        fluid.viscosity = millfoam::drag::pore_viscosity(
-            {fluids_.yieldStress, fluid.viscosity},
-            millfoam::drag::pore_shear_rate(phi, v, d),
-            fluids_.largestViscosity);
-    }
-    return fluid;
+    return {
+        fluids_.slurryDensity,
+        viscosity_.at(millfoam::drag::pore_shear_rate(phi, v, d))};
 }
 
 
@@ -97,8 +89,7 @@ Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
 : law_(readLaw(dict)),
   range_(*law_),
   fluids_(fluids),
-  viscosity_(
-      viscosityNames_.getOrDefault("viscosity", dict, viscosity::plastic)),
+  viscosity_(dict, fluids.slurry),
   polydispersity_(dict.lookupOrDefault<bool>("polydispersity", false)),
   multiplier_(dict.lookupOrDefault<scalar>("multiplier", 1)),
   solids_(0),
@@ -110,18 +101,6 @@ Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
             << "multiplier is " << multiplier_
             << "; expected a factor on the drag, 0 or above"
             << exit(FatalIOError);
-    }
-    if (viscosity_ == viscosity::pore &&
-        !(fluids_.yieldStress >= 0 &&
-          fluids_.largestViscosity >= fluids_.slurry.viscosity))
-    {
-        FatalIOErrorInFunction(dict)
-            << "viscosity is pore and the slurry has the yield stress "
-            << fluids_.yieldStress << " Pa, the plastic viscosity "
-            << fluids_.slurry.viscosity << " Pa s and the largest viscosity "
-            << fluids_.largestViscosity
-            << " Pa s; expected a yield stress of 0 or above and a largest"
-            << " viscosity not below the plastic one" << exit(FatalIOError);
     }
 }
 
@@ -231,7 +210,7 @@ millfoam::record::Drag Foam::bedDrag::forRecord() const
     result.law = law_->name;
     result.reference = law_->reference;
     result.multiplier = multiplier_;
-    result.viscosity = viscosityNames_[viscosity_];
+    result.viscosity = viscosity_.name();
     result.polydispersity = polydispersity_;
     result.solidity_min = law_->range.phi_min;
     result.solidity_max = law_->range.phi_max;

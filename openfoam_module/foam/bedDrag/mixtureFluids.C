@@ -4,30 +4,24 @@
 \*---------------------------------------------------------------------------*/
 
 #include "mixtureFluids.H"
+#include "flowCurve.H"
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
 Foam::bedFluids Foam::fluidsOf(const incompressibleTwoPhaseMixture& mixture)
 {
-    const dictionary& slurry = mixture.subDict(mixture.phase1Name());
-    bedFluids result;
-    result.air = {
-        mixture.rho2().value(),
-        mixture.rho2().value() * gMax(mixture.nuModel2().nu()())};
-    result.slurry.density = mixture.rho1().value();
-    if (const dictionary* bingham = slurry.findDict("BinghamCoeffs"))
+    const dictionary& airDict = mixture.subDict(mixture.phase2Name());
+    const millfoam::drag::FlowCurve air(flowCurveOf(airDict));
+    if (air.model() != "Newtonian")
     {
-        result.slurry.viscosity = bingham->get<scalar>("plasticViscosity");
-        result.yieldStress = bingham->get<scalar>("yieldStress");
-        result.largestViscosity =
-            result.slurry.viscosity * bingham->get<scalar>("viscosityRatio");
+        FatalIOErrorInFunction(airDict)
+            << "transportModel is " << air.model().c_str()
+            << "; expected Newtonian for air" << exit(FatalIOError);
     }
-    else
-    {
-        result.slurry.viscosity =
-            mixture.rho1().value() * gMax(mixture.nuModel1().nu()());
-    }
-    return result;
+    return {
+        {mixture.rho2().value(), *air.plastic_viscosity()},
+        mixture.rho1().value(),
+        flowCurveOf(mixture.subDict(mixture.phase1Name()))};
 }
 
 

@@ -8,6 +8,7 @@
 #include "clock.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
+#include "openfoam_module/drag/pore_shear_rate.hpp"
 #include "openfoam_module/record/rotation.hpp"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -97,9 +98,17 @@ void Foam::functionObjects::slurryBalance::writeSlip()
             "transportProperties"));
     const scalarField slip(
         mag(balls->primitiveField() - fields_.U().primitiveField()));
-    const scalarField reynolds(
-        fluids.slurry.density * (1 - solidity) * slip *
-        diameter->primitiveField() / fluids.slurry.viscosity);
+    const slurryViscosity viscosity(dictionary::null, fluids.slurry);
+    scalarField reynolds(slip.size());
+    forAll(reynolds, celli)
+    {
+        const scalar phi = solidity[celli];
+        const scalar d = (*diameter)[celli];
+        const scalar rate =
+            d > 0 ? millfoam::drag::pore_shear_rate(phi, slip[celli], d) : 0;
+        reynolds[celli] = fluids.slurryDensity * (1 - phi) * slip[celli] * d /
+                          viscosity.at(rate);
+    }
     const scalarField weights(
         solidity * mesh_.V() * pos(fields_.alpha().primitiveField() - 0.5));
 

@@ -5,17 +5,20 @@
 
 #include "grates.H"
 #include "knownEntries.H"
+#include "openfoam_module/drag/pore_shear_rate.hpp"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
 {
-    requireKnownEntries(dict, {"cellZone", "darcy", "forchheimer"});
+    requireKnownEntries(
+        dict, {"cellZone", "darcy", "forchheimer", "viscosity"});
     const word zone(dict.get<word>("cellZone"));
     const layer result{
         mesh_.cellZones().findZoneID(zone),
         dict.lookupOrDefault<scalar>("darcy", 0),
-        dict.lookupOrDefault<scalar>("forchheimer", 0)};
+        dict.lookupOrDefault<scalar>("forchheimer", 0),
+        slurryViscosity(dict, fluids_.slurry)};
     if (result.zone < 0)
     {
         FatalIOErrorInFunction(dict)
@@ -61,7 +64,8 @@ Foam::grates::grates(
   fluids_(fluids),
   layers_()
 {
-    for (const char* ofLayer : {"cellZone", "darcy", "forchheimer"})
+    for (const char* ofLayer :
+         {"cellZone", "darcy", "forchheimer", "viscosity"})
     {
         if (dict.found(ofLayer, keyType::LITERAL))
         {
@@ -76,7 +80,7 @@ Foam::grates::grates(
         // The dictionary may also have numbers that other entries refer to
         if (one.isDict())
         {
-            layers_.append(readLayer(one.dict()));
+            layers_.push_back(readLayer(one.dict()));
         }
     }
 }
@@ -96,12 +100,19 @@ void Foam::grates::add(
             return fluid.viscosity * one.darcy +
                    fluid.density * one.forchheimer * speed / 2;
         };
+        const auto slurryAt = [&](const scalar speed) -> millfoam::drag::Fluid
+        {
+            return {
+                fluids_.slurryDensity,
+                one.viscosity.at(
+                    millfoam::drag::tube_shear_rate(one.darcy, speed))};
+        };
         for (const label celli : mesh_.cellZones()[one.zone])
         {
             const vector w(cellVelocity(celli));
             const scalar speed = mag(U[celli] - w);
             const scalar added =
-                alpha[celli] * resistance(fluids_.slurry, speed) +
+                alpha[celli] * resistance(slurryAt(speed), speed) +
                 (1 - alpha[celli]) * resistance(fluids_.air, speed);
             const scalar all = coefficient[celli] + added;
             if (all > 0)

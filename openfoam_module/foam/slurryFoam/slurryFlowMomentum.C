@@ -5,6 +5,7 @@
 
 #include "slurryFlow.H"
 #include "constrainHbyA.H"
+#include "findRefCell.H"
 #include "fvcDiv.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
@@ -26,7 +27,8 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 }
 
 
-Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce() const
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce(
+    const volVectorField& U, volVectorField& solids) const
 {
     auto tforce = tmp<volScalarField>::New(
         IOobject("dragForce", mesh_.time().timeName(), mesh_), mesh_,
@@ -35,10 +37,24 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce() const
     if (drag_.valid())
     {
         tforce.ref().ref() =
-            drag_->exchange(bed_, alpha_, U_) / voidage_.internalField();
+            drag_->exchange(bed_, alpha_, U) / voidage_.internalField();
         tforce.ref().correctBoundaryConditions();
     }
+    solids = bed_.velocity();
+    grates_.add(tforce.ref(), solids, alpha_, U);
     return tforce;
+}
+
+
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragStiffness(
+    const volScalarField& force, const volVectorField& solids) const
+{
+    const scalar share = 0.01;
+    volVectorField same(solids);
+    const volScalarField faster(dragForce(U_ + share * (U_ - solids), same));
+    return force +
+           max(faster - force, dimensionedScalar(force.dimensions(), Zero)) /
+               share;
 }
 
 
@@ -85,6 +101,49 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
 }
 
 
+void Foam::slurryFlow::setGivenFluxes(
+    surfaceScalarField& free,
+    const surfaceScalarField::Boundary& wallFlux) const
+{
+    forAll(wallFlux, patchi)
+    {
+        if (U_.boundaryField()[patchi].fixesValue() &&
+            isA<zeroGradientFvPatchScalarField>(p_rgh_.boundaryField()[patchi]))
+        {
+            free.boundaryFieldRef()[patchi] = wallFlux[patchi];
+        }
+    }
+}
+
+
+void Foam::slurryFlow::setReference(const pimpleControl& pimple)
+{
+    if (!p_rgh_.needReference())
+    {
+        return;
+    }
+    const dictionary& controls = pimple.dict();
+    label cell = -1;
+    scalar value = controls.lookupOrDefault<scalar>("pRefValue", 0);
+    scalar present = 0;
+    if (controls.found("pRefCell") || controls.found("pRefPoint"))
+    {
+        setRefCell(p_, p_rgh_, controls, cell, value);
+        present = getRefCellValue(p_, cell);
+    }
+    else
+    {
+        const scalarField air(
+            max(1 - alpha_.primitiveField(), scalar(1e-9)) *
+            voidage_.primitiveField() * mesh_.V());
+        present = gSum(air * p_.primitiveField()) / gSum(air);
+    }
+    const dimensionedScalar lack("lack", dimPressure, value - present);
+    p_rgh_ += lack;
+    p_ += lack;
+}
+
+
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::slurryFlow::predict(const pimpleControl& pimple)
@@ -126,10 +185,10 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
 
     const surfaceScalarField seen(carriedFlux + keptDetail() * detailBefore_);
 
-    volScalarField force(dragForce());
     volVectorField solidsVelocity(bed_.velocity());
-    grates_.add(force, solidsVelocity, alpha_, U_);
-    const surfaceScalarField r(deltaT * pressure_.faceRate(force));
+    const volScalarField force(dragForce(U_, solidsVelocity));
+    const surfaceScalarField r(
+        deltaT * pressure_.faceRate(dragStiffness(force, solidsVelocity)));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
     surfaceScalarField free(
         freeFlux(seen, force, solidsVelocity, r, faceVoidage));
@@ -138,6 +197,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     const surfaceScalarField::Boundary wallFlux(
         (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
             .boundaryField());
+    setGivenFluxes(free, wallFlux);
     volScalarField::Internal room(swept_.room());
     phi_ = solution_.flux(free, mobility, room, wallFlux, pimple);
 
@@ -152,6 +212,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     forces_ = (U_ - carried) / deltaT;
     fluxDetail_ = phi_ - pressure_.flux(voidage_ * U_);
     p_ = pressure_.staticPressure();
+    setReference(pimple);
     if (mesh_.moving())
     {
         phi_ -= swept_.flux();

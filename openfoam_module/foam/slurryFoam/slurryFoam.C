@@ -15,6 +15,7 @@ Description
 
 #include "argList.H"
 #include "caseKeeper.H"
+#include "flowControls.H"
 #include "flowRecorder.H"
 #include "functionObjectList.H"
 #include "readableLog.H"
@@ -79,13 +80,14 @@ int main(int argc, char* argv[])
     const caseKeeper keeper(runTime, help.name);
 #include "createDynamicFvMesh.H"
 
+    checkFlowControls(mesh);
     pimpleControl pimple(mesh);
     slurryFlow flow(mesh);
     timeStep step(runTime);
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
     flowRecorder recorder(runTime, setup);
-    FixedList<scalar, 3> courant(flow.courantNumbers());
+    FixedList<scalar, 4> courant(flow.courantNumbers());
 
     Info << "Starting time loop\n" << endl;
 

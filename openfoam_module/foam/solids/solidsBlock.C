@@ -79,8 +79,9 @@ void Foam::solidsBlock::check(const dictionary& dict) const
 
 Foam::scalar Foam::solidsBlock::grown(const scalar t) const
 {
-    const scalar share = (t - rampBegin_) / (rampEnd_ - rampBegin_);
-    return max(scalar(0), min(share, scalar(1)));
+    const scalar share = max(
+        scalar(0), min((t - rampBegin_) / (rampEnd_ - rampBegin_), scalar(1)));
+    return pow3(share) * (10 - 15 * share + 6 * sqr(share));
 }
 
 

@@ -19,7 +19,7 @@ const Foam::Enum<Foam::solidsClock::range> Foam::solidsClock::rangeNames_({
 
 const Foam::Enum<Foam::solidsClock::course> Foam::solidsClock::courseNames_({
     {course::window, "window"},
-    {course::linear, "linear"},
+    {course::smooth, "smooth"},
 });
 
 
@@ -101,39 +101,6 @@ Foam::label Foam::solidsClock::windowAt(const scalar elapsed) const
 }
 
 
-Foam::scalar Foam::solidsClock::centre(const label number) const
-{
-    return (windows_[number].begin + windows_[number].end) / 2 - time0_;
-}
-
-
-Foam::solidsClock::moment Foam::solidsClock::between(const scalar elapsed) const
-{
-    const label n = label(windows_.size());
-    label upper = 0;
-    while (upper < n && centre(upper) <= elapsed)
-    {
-        ++upper;
-    }
-    const label lower = upper - 1;
-    if (lower >= 0 && upper < n)
-    {
-        const scalar step = centre(upper) - centre(lower);
-        return {lower, upper, (elapsed - centre(lower)) / step};
-    }
-
-    if (outOfRange_ == range::repeat && n > 1)
-    {
-        const scalar step = centre(0) + duration() - centre(n - 1);
-        const scalar since =
-            elapsed - centre(n - 1) + (upper == 0 ? duration() : 0);
-        return {n - 1, 0, since / step};
-    }
-    const label held = upper == 0 ? 0 : n - 1;
-    return {held, held, 0};
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::solidsClock::solidsClock(
@@ -145,7 +112,7 @@ Foam::solidsClock::solidsClock(
   time0_(reader.time0()),
   tolerance_(reader.timestep() / 2),
   outOfRange_(rangeNames_.getOrDefault("outOfRange", dict, range::error)),
-  inTime_(courseNames_.getOrDefault("inTime", dict, course::linear))
+  inTime_(courseNames_.getOrDefault("inTime", dict, course::smooth))
 {
     checkTime0();
     checkGaps();
@@ -154,6 +121,14 @@ Foam::solidsClock::solidsClock(
     {
         outOfRange_ = range::hold;
     }
+
+    std::vector<double> lengths;
+    for (const auto& window : windows_)
+    {
+        lengths.push_back(window.end - window.begin);
+    }
+    spline_.reset(new millfoam::averaging::TimeSpline(
+        lengths, outOfRange_ == range::repeat));
 }
 
 
@@ -162,12 +137,15 @@ Foam::solidsClock::solidsClock(
 Foam::solidsClock::moment Foam::solidsClock::at(const scalar t) const
 {
     const scalar elapsed = recorded(t);
-    if (inTime_ == course::linear)
+    const std::size_t own = windowAt(elapsed);
+    if (inTime_ == course::window)
     {
-        return between(elapsed);
+        return {{own, own, own}, {0, 1, 0}};
     }
-    const label number = windowAt(elapsed);
-    return {number, number, 0};
+    const auto& window = windows_[own];
+    const scalar share =
+        (time0_ + elapsed - window.begin) / (window.end - window.begin);
+    return spline_->at(own, min(max(share, scalar(0)), scalar(1)));
 }
 
 
@@ -199,7 +177,7 @@ Foam::string Foam::solidsClock::description() const
     readableText text;
     text << label(windows_.size()) << " windows of " << file_ << ", DEM times "
          << time0_ << " to " << windows_.back().end << " s, "
-         << (inTime_ == course::linear ? "linear in time, " : "")
+         << (inTime_ == course::smooth ? "smooth in time, " : "")
          << rangeNames_[outOfRange_] << " beyond";
     return text.str();
 }

@@ -46,13 +46,19 @@ void Foam::solidsFields::empty(const labelUList& cells)
 
 
 void Foam::solidsFields::blend(
-    const solidsFields& a, const solidsFields& b, const scalar weight)
+    const std::array<const solidsFields*, 3>& solids,
+    const std::array<double, 3>& shares)
 {
-    const scalar rest = 1 - weight;
-    solidity_ = rest * a.solidity_ + weight * b.solidity_;
-    flux_ = rest * a.flux_ + weight * b.flux_;
-    overDiameter_ = rest * a.overDiameter_ + weight * b.overDiameter_;
-    timesDiameter_ = rest * a.timesDiameter_ + weight * b.timesDiameter_;
+    const auto sum = [&](const auto field)
+    {
+        return shares[0] * (solids[0]->*field) +
+               shares[1] * (solids[1]->*field) +
+               shares[2] * (solids[2]->*field);
+    };
+    solidity_ = sum(&solidsFields::solidity_);
+    flux_ = sum(&solidsFields::flux_);
+    overDiameter_ = sum(&solidsFields::overDiameter_);
+    timesDiameter_ = sum(&solidsFields::timesDiameter_);
 }
 
 

@@ -7,6 +7,7 @@
 #include "untrapped.H"
 #include "volFields.H"
 
+#include <algorithm>
 #include <cmath>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -72,6 +73,15 @@ struct voxelLengths
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
+template <class Read> void Foam::solidsRecord::reading(const Read& read) const
+{
+    if (const auto failure = untrapped(read))
+    {
+        FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
+    }
+}
+
+
 void Foam::solidsRecord::open(const Time& time)
 {
     if (!file_.isAbsolute())
@@ -79,16 +89,12 @@ void Foam::solidsRecord::open(const Time& time)
         file_ = time.globalPath() / file_;
     }
 
-    const auto failure = untrapped(
+    reading(
         [this]()
         {
             reader_ = std::make_unique<millfoam::averaging::SolidsReader>(
                 std::string(file_));
         });
-    if (failure)
-    {
-        FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
-    }
 }
 
 
@@ -168,12 +174,7 @@ void Foam::solidsRecord::readInterpolation()
 void Foam::solidsRecord::readLedger()
 {
     std::vector<millfoam::averaging::Ledger> ledgers;
-    const auto failure =
-        untrapped([&]() { ledgers = reader_->read_ledgers(); });
-    if (failure)
-    {
-        FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
-    }
+    reading([&]() { ledgers = reader_->read_ledgers(); });
     for (const auto& ledger : ledgers)
     {
         if (!(std::isfinite(ledger.deposited) && ledger.deposited >= 0))
@@ -189,8 +190,37 @@ void Foam::solidsRecord::readLedger()
 }
 
 
-Foam::solidsRecord::held&
-Foam::solidsRecord::have(const label number, const label other)
+void Foam::solidsRecord::makeSpline(
+    const millfoam::averaging::TimeSpline& spline)
+{
+    solidity_.resize(spline.size());
+    for (std::size_t i = 0; i < spline.size(); ++i)
+    {
+        reading([&]() { solidity_[i] = reader_->read_window(i).solidity; });
+    }
+    const scalar largest = largestSolidity(dict_);
+    std::vector<double> means(spline.size());
+    for (std::size_t cell = 0; cell < solidity_.front().size(); ++cell)
+    {
+        for (std::size_t i = 0; i < spline.size(); ++i)
+        {
+            means[i] = solidity_[i][cell];
+        }
+        if (*std::max_element(means.begin(), means.end()) > 0)
+        {
+            const auto coefficients = spline.coefficients(means, largest);
+            for (std::size_t i = 0; i < spline.size(); ++i)
+            {
+                solidity_[i][cell] = coefficients[i];
+            }
+        }
+    }
+    deposited_ = spline.coefficients(deposited_, GREAT);
+}
+
+
+Foam::solidsRecord::held& Foam::solidsRecord::have(
+    const std::size_t number, const solidsClock::moment& now)
 {
     for (held& one : held_)
     {
@@ -198,12 +228,18 @@ Foam::solidsRecord::have(const label number, const label other)
             return one;
     }
 
-    held& free = held_[0].number == other ? held_[1] : held_[0];
-    const auto failure =
-        untrapped([&]() { free.window = reader_->read_window(number); });
-    if (failure)
+    held& free = *std::find_if(
+        held_.begin(), held_.end(),
+        [&now](const held& one)
+        {
+            return std::find(
+                       now.windows.begin(), now.windows.end(), one.number) ==
+                   now.windows.end();
+        });
+    reading([&]() { free.window = reader_->read_window(number); });
+    if (!solidity_.empty())
     {
-        FatalIOErrorInFunction(dict_) << *failure << exit(FatalIOError);
+        free.window.solidity = solidity_[number];
     }
     free.number = number;
     free.sampled = false;
@@ -249,7 +285,7 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   file_(dict.get<fileName>("solids").expand()),
   interpolation_(),
-  moment_({-1, -1, 0})
+  moment_()
 {
     open(mesh.time());
     checkMill();
@@ -263,6 +299,10 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
         checkMeshTime(*cells);
     }
     readInterpolation();
+    if (clock_->spline())
+    {
+        makeSpline(*clock_->spline());
+    }
 }
 
 
@@ -279,26 +319,20 @@ bool Foam::solidsRecord::sample(
         }
     }
     const solidsClock::moment now = clock_->at(time);
-    bool changed = now.lower != moment_.lower || now.upper != moment_.upper ||
-                   now.weight != moment_.weight;
+    bool changed =
+        now.windows != moment_.windows || now.shares != moment_.shares;
     moment_ = now;
 
-    held& lower = have(now.lower, now.upper);
-    changed = sampleWindow(mesh, lower) || changed;
-    if (now.lower == now.upper)
+    std::array<const solidsFields*, 3> solids;
+    for (std::size_t i = 0; i < solids.size(); ++i)
     {
-        if (changed)
-        {
-            sums = lower.sums;
-        }
-        return changed;
+        held& one = have(now.windows[i], now);
+        changed = sampleWindow(mesh, one) || changed;
+        solids[i] = &one.sums;
     }
-
-    held& upper = have(now.upper, now.lower);
-    changed = sampleWindow(mesh, upper) || changed;
     if (changed)
     {
-        sums.blend(lower.sums, upper.sums, now.weight);
+        sums.blend(solids, now.shares);
     }
     return changed;
 }
@@ -306,8 +340,12 @@ bool Foam::solidsRecord::sample(
 
 Foam::scalar Foam::solidsRecord::volume() const
 {
-    return (1 - moment_.weight) * deposited_[moment_.lower] +
-           moment_.weight * deposited_[moment_.upper];
+    scalar sum = 0;
+    for (std::size_t i = 0; i < moment_.windows.size(); ++i)
+    {
+        sum += moment_.shares[i] * deposited_[moment_.windows[i]];
+    }
+    return sum;
 }
 
 

@@ -51,4 +51,17 @@ millfoam::record::Solids Foam::solidsSource::forRecord() const
 }
 
 
+Foam::scalar Foam::solidsSource::largestSolidity(const dictionary& dict)
+{
+    const scalar largest = dict.lookupOrDefault<scalar>("largestSolidity", 0.9);
+    if (!(largest > 0 && largest < 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "largestSolidity is " << largest
+            << "; expected a number above 0 and below 1" << exit(FatalIOError);
+    }
+    return largest;
+}
+
+
 // ************************************************************************* //

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, drops, the
+pressure of a closed box."""
+import re
+import unittest
+
+import numpy as np
+
+from openfoam_case import require_environment
+from slurry_case import SLURRY, SOLUTION, SlurryTest
+
+SLIP = "type slip;"
+
+
+class Channel(SlurryTest):
+    """A flat channel full of slurry between plates, along x; a uniform bed fills it."""
+
+    length, half_gap, viscosity = 0.02, 0.005, 10.0  # m, m, Pa s
+    solidity, diameter = 0.5, 0.04
+
+    @property
+    def beta(self):
+        """Darcy's 150 mu phi^2/(e d^2), kg/(m3 s)."""
+        return 150 * self.viscosity * self.solidity**2 / ((1 - self.solidity) * self.diameter**2)
+
+    def channel(self, rows, end_time, motion="dynamicFvMesh staticFvMesh;"):
+        case = self.slurry_case(
+            upper=(self.length, 2 * self.half_gap, 0.005), cells=(2, rows, 1), level=lambda x: 1 + 0 * x, motion=motion,
+            bingham=f"yieldStress 0; plasticViscosity {self.viscosity}; regularisation biviscosity; viscosityRatio 1;")
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back"):
+            case.at_patch(side, U=SLIP)
+        case.bed(f"block {{ box (-9 -9 -9) (9 9 9); solidity {self.solidity}; diameter {self.diameter};"
+                 " velocity (0 0 0); }", drag="law Darcy;")
+        case.control(end_time, end_time / 100, 100)
+        return case
+
+    def test_the_friction_of_the_bed_and_of_the_walls_is_brinkmans(self):
+        """e mu u'' - beta u + e G = 0: u = e G/beta (1 - cosh(y/l)/cosh(h/l)) with l^2 = e mu/beta. Its mean over
+        e G/beta is 0.405; with the stress of a fluid that fills all space, l^2 = mu/beta, it would be 0.266."""
+        gradient = 1000.0  # Pa/m
+        case = self.channel(40, 0.05)
+        for side, pressure in (("left", gradient * self.length), ("right", 0)):
+            case.at_patch(side, U="type zeroGradient;", alpha="type zeroGradient;",
+                          p_rgh=f"type fixedValue; value uniform {pressure};")
+        self.assert_runs(case, "slurryFoam")
+        found = case.field("U", 0.05)[:, 0] * self.beta / ((1 - self.solidity) * gradient)
+        layer = np.sqrt((1 - self.solidity) * self.viscosity / self.beta)
+        y = case.centres()[:, 1] - self.half_gap
+        expected = 1 - np.cosh(y / layer) / np.cosh(self.half_gap / layer)
+        self.assertAlmostEqual(found.mean(), 0.405, delta=1e-3)
+        np.testing.assert_allclose(found, expected, atol=2e-3)
+
+    def test_a_given_velocity_comes_in_also_where_the_pressure_has_no_gradient(self):
+        speed = 0.05
+        case = self.channel(4, 0.01)
+        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
+                      alpha="type fixedValue; value uniform 1;")
+        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
+                      alpha="type zeroGradient;")
+        for side in ("bottom", "top"):
+            case.at_patch(side, U=SLIP)
+        self.assert_runs(case, "slurryFoam")
+        np.testing.assert_allclose(case.field("U", 0.01)[:, 0], speed, rtol=1e-6)
+
+
+class Drop(SlurryTest):
+    """A drop without gravity keeps its shape, and its pressure is sigma times its curvature."""
+
+    radius, per_radius, sigma = 0.01, 10, 0.07  # m, cells, N/m
+
+    def share(self, cells, centre):
+        """Share of each cell in the drop, of 8 points along each axis; in one layer of cells it is a cylinder."""
+        points = [(np.arange(8 * n) + 0.5) / 8 * self.radius / self.per_radius - c for n, c in zip(cells, centre)]
+        z, y, x = np.meshgrid(*points[::-1], indexing="ij")
+        inside = x**2 + y**2 + (0 if cells[2] == 1 else z**2) < self.radius**2
+        return inside.reshape(cells[2], 8, cells[1], 8, cells[0], 8).mean(axis=(1, 3, 5)).ravel()
+
+    def jump(self, cells, end):
+        """Pressure (Pa) in the drop less that outside, mean over the later half of 10 times; largest speed (m/s)."""
+        edge = self.radius / self.per_radius
+        case = self.slurry_case(
+            upper=tuple(edge * np.array(cells)), cells=cells, level=lambda x: 0 * x,
+            bingham="yieldStress 0; plasticViscosity 0.05; regularisation biviscosity; viscosityRatio 1;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back"):
+            case.at_patch(side, U=SLIP)
+        centre = edge * (np.array(cells) / 2 + [0.3, 0.2, 0.1])
+        alpha = case.path / "0/alpha.slurry"
+        values = " ".join(map(repr, self.share(cells, centre).tolist()))
+        alpha.write_text(re.sub(r"internalField [^;]*;", f"internalField nonuniform List<scalar> {np.prod(cells)} "
+                                f"({values});", alpha.read_text()))
+        # Neither the flow nor maxDeltaT bounds the steps: the surface tension does
+        case.adjusted(end, end / 10, delta_t=1e-5, courant=0.5)
+        self.assert_runs(case, "slurryFoam")
+        jumps, speeds = [], []
+        distance = np.linalg.norm((case.centres() - centre)[:, :2 if cells[2] == 1 else 3], axis=1)
+        for time in end * np.arange(6, 11) / 10:
+            p = case.field("p", time)
+            jumps.append(p[distance < 0.6 * self.radius].mean() - p[distance > 1.4 * self.radius].mean())
+            speeds.append(np.linalg.norm(case.field("U", time), axis=1).max())
+        limit = 0.25 * np.sqrt((SLURRY + 1.2) * edge**3 / (np.pi * self.sigma))
+        # Steps are stretched to end at written times
+        self.assertAlmostEqual(case.steps()["deltaT_s"].max() / limit, 1, delta=0.1)
+        return np.mean(jumps), max(speeds)
+
+    def test_cylinder(self):
+        jump, speed = self.jump((32, 32, 1), 0.1)
+        self.assertAlmostEqual(jump, self.sigma / self.radius, delta=0.03 * self.sigma / self.radius)
+        self.assertLess(speed, 0.03)
+
+    def test_sphere(self):
+        jump, speed = self.jump((32, 32, 32), 0.03)
+        self.assertAlmostEqual(jump, 2 * self.sigma / self.radius, delta=0.05 * 2 * self.sigma / self.radius)
+        self.assertLess(speed, 0.08)
+
+
+class StrongDrag(SlurryTest):
+    """Water between two given pressures, through balls whose drag grows with the square of the speed."""
+
+    def test_comes_to_erguns_speed_in_steps_that_the_drag_would_stop_it_in(self):
+        """150 mu phi^2/(e^3 d^2) q + 1.75 rho phi/(e^3 d) q^2 = G with q = e u, in steps of 30 e rho/beta."""
+        length, phi, diameter, density, viscosity, q = 0.04, 0.5, 0.005, SLURRY, 1e-3, 0.5
+        gradient = 150 * viscosity * phi**2 / ((1 - phi) ** 3 * diameter**2) * q \
+            + 1.75 * density * phi / ((1 - phi) ** 3 * diameter) * q**2
+        step = 30 * (1 - phi) * density / (gradient * (1 - phi) ** 2 / q)
+        case = self.slurry_case(
+            upper=(length, 0.02, 0.01), cells=(4, 2, 1), level=lambda x: 1 + 0 * x,
+            bingham=f"yieldStress 0; plasticViscosity {viscosity}; regularisation biviscosity; viscosityRatio 1;")
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back", "bottom", "top"):
+            case.at_patch(side, U=SLIP)
+        for side, pressure in (("left", gradient * length), ("right", 0)):
+            case.at_patch(side, U="type zeroGradient;", alpha="type zeroGradient;",
+                          p_rgh=f"type fixedValue; value uniform {pressure};")
+        case.bed(f"block {{ box (-9 -9 -9) (9 9 9); solidity {phi}; diameter {diameter}; velocity (0 0 0); }}",
+                 drag="law Ergun;")
+        case.control(40 * step, step, 40)
+        self.assert_runs(case, "slurryFoam")
+        np.testing.assert_allclose(case.field("U", 40 * step)[:, 0], q / (1 - phi), rtol=1e-3)
+
+
+class ClosedBox(SlurryTest):
+    """The pressure of a closed box has a reference."""
+
+    def pressures(self, pimple):
+        case = self.slurry_case(upper=(0.04, 0.1, 0.01), cells=(4, 20, 1), level=lambda x: 0.052 + 0 * x)
+        case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple=pimple))
+        case.control(0.002, 0.001, 2)
+        self.assert_runs(case, "slurryFoam")
+        return case.field("p", 0.002).reshape(20, 4), case.field("U", 0.002)
+
+    def test_is_the_mean_over_the_air(self):
+        p, _ = self.pressures("")
+        air = np.clip(np.arange(1, 21) * 0.005 - 0.052, 0, 0.005)
+        self.assertAlmostEqual((p.mean(axis=1) @ air) / air.sum(), 0, delta=1e-6)
+        np.testing.assert_allclose(p[0] - p[9], SLURRY * 9.81 * 0.045, rtol=1e-6)
+
+    def test_is_what_the_dictionary_gives(self):
+        p, _ = self.pressures("pRefCell 6; pRefValue 1e5;")
+        self.assertAlmostEqual(p[1, 2], 1e5, delta=1e-6)
+        p, _ = self.pressures("pRefPoint (0.005 0.0975 0.005); pRefValue 101325;")
+        self.assertAlmostEqual(p[-1, 0], 101325, delta=1e-6)
+
+
+if __name__ == "__main__":
+    require_environment()
+    unittest.main()
