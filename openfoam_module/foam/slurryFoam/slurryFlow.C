@@ -89,8 +89,8 @@ void Foam::slurryFlow::readBed()
         if (!isA<laminarModel<incompressible::turbulenceModel>>(turbulence_()))
         {
             FatalErrorInFunction
-                << "turbulenceProperties asks for " << turbulence_->type()
-                << " in a flow between balls, for which no model is known;"
+                << "turbulenceProperties has " << turbulence_->type()
+                << ", but no model is known for a flow between balls;"
                 << " expected simulationType laminar" << exit(FatalError);
         }
 

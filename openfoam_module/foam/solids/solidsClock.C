@@ -123,6 +123,7 @@ Foam::solidsClock::solidsClock(
     }
 
     std::vector<double> lengths;
+    lengths.reserve(windows_.size());
     for (const auto& window : windows_)
     {
         lengths.push_back(window.end - window.begin);
