@@ -183,6 +183,8 @@ struct Flow {
   double max_courant = 0;       ///< limit of the time-step: largest Courant number
   /// The same of cells at the slurry's surface.
   double max_surface_courant = 0;
+  /// The same of cells with air alone.
+  double max_air_courant = 0;
   /// Largest relative change of a cell's voidage in a step.
   double max_voidage_change = 0;
   double largest_correction = 0;  ///< of the balls' volume on the mesh, a share of it

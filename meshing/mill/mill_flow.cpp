@@ -26,7 +26,7 @@ constexpr double share_averaged = 2.0 / 3;
 constexpr double fields_per_turn = 24;
 constexpr double samples_per_window = 10;
 constexpr double finest_flow_voxel = 1.0 / 32;
-constexpr double longest_step_of_turn = 1e-3;
+constexpr double longest_step_of_turn = 1.0 / 250;
 
 /// Voxels of a few balls are up to 2.3 % off the balls' volume on the cells of small mills (radius of four to
 /// seven balls), up to 5.1 % at single times of a smooth course between windows that differ; where averages
@@ -159,25 +159,33 @@ void read_drag(const Section& in, Flow& flow) {
   flow.polydispersity = in.boolean("polydispersity", false);
 }
 
-/// Only slurryFoam's step depends on the voidage.
-void read_voidage_change(Section& in, Flow& flow) {
-  const char* key = "max_voidage_change";
+Rule courant_number() {
+  return {"a Courant number above 0 and up to 10", [](double v) { return v > 0 && v <= 10; }};
+}
+
+/// Only slurryFoam's step depends on the voidage, and on the air by a bound of its own.
+void read_own_bounds(Section& in, Flow& flow) {
   if (flow.solver != "slurryFoam") {
-    if (in.has(key) && (in.is_set(key) || !in.is_set("solver")))
-      in.refuse(key, "this key with flow.solver slurryFoam only");
-    in.drop(key);
+    for (const char* key : {"max_air_courant", "max_voidage_change"}) {
+      if (in.has(key) && (in.is_set(key) || !in.is_set("solver")))
+        in.refuse(key, "this key with flow.solver slurryFoam only");
+      in.drop(key);
+    }
     return;
   }
+  flow.max_air_courant = in.number("max_air_courant", courant_number(), 3);
   flow.max_voidage_change = in.number(
-      key, {"a share of a cell's voidage above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
-      0.1);
+      "max_voidage_change",
+      {"a share of a cell's voidage above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }}, 0.1);
 }
 
 void read_steps(Section& in, const Mill& mill, Flow& flow) {
-  const Rule courant = {"a Courant number above 0 and up to 10", [](double v) { return v > 0 && v <= 10; }};
-  flow.max_courant = in.number("max_courant", courant, 1);
-  flow.max_surface_courant = in.number("max_surface_courant", courant, 0.5);
-  read_voidage_change(in, flow);
+  flow.max_courant = in.number("max_courant", courant_number(), 1);
+  // The planes of slurryFoam's surface may pass a whole cell in a step; interFoam's surface is smeared by
+  // that
+  flow.max_surface_courant =
+      in.number("max_surface_courant", courant_number(), flow.solver == "slurryFoam" ? 1 : 0.5);
+  read_own_bounds(in, flow);
   flow.largest_correction = in.number(
       "largest_correction",
       {"a share of the balls' volume of 0 or more and up to 1", [](double v) { return v >= 0 && v <= 1; }},
@@ -250,10 +258,26 @@ Averages read_averages(const Section& root, const Mill& mill) {
 }
 
 Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
-  Section in = root.optional_section(
-      "flow", {"solver", "duration", "turns", "balls", "law", "multiplier", "viscosity", "polydispersity",
-               "out_of_range", "start", "feed", "max_courant", "max_surface_courant", "max_voidage_change",
-               "largest_correction", "max_time_step", "write_interval", "slices", "averages"});
+  Section in = root.optional_section("flow", {"solver",
+                                              "duration",
+                                              "turns",
+                                              "balls",
+                                              "law",
+                                              "multiplier",
+                                              "viscosity",
+                                              "polydispersity",
+                                              "out_of_range",
+                                              "start",
+                                              "feed",
+                                              "max_courant",
+                                              "max_surface_courant",
+                                              "max_air_courant",
+                                              "max_voidage_change",
+                                              "largest_correction",
+                                              "max_time_step",
+                                              "write_interval",
+                                              "slices",
+                                              "averages"});
   Flow flow;
   flow.solver = in.choice("solver", {"slurryFoam", "interFoam"}, "slurryFoam");
   read_duration(in, mill, flow);

@@ -125,6 +125,7 @@ Json flow_numbers(const Mill& mill) {
           {"feed_m3_s", flow.feed},
           {"max_courant", flow.max_courant},
           {"max_surface_courant", flow.max_surface_courant},
+          {"max_air_courant", flow.max_air_courant},
           {"max_voidage_change", flow.max_voidage_change},
           {"largest_correction", flow.largest_correction},
           {"max_time_step_s", flow.max_time_step},

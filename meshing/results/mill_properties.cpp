@@ -111,6 +111,7 @@ void write_flow(Entries& out, const Mill& mill) {
   out.number("feedRate", flow.feed);
   out.number("maxCourant", flow.max_courant);
   out.number("maxSurfaceCourant", flow.max_surface_courant);
+  out.number("maxAirCourant", flow.max_air_courant);
   out.number("maxVoidageChangeOfStep", flow.max_voidage_change);
   out.number("largestCorrection", flow.largest_correction);
   out.number("maxTimeStep", flow.max_time_step);

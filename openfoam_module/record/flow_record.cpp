@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "millfoam_version.hpp"
 #include "openfoam_module/record/rotation.hpp"
@@ -38,6 +39,7 @@ Json limits_of(const FlowSetup& setup) {
   if (!setup.limits) return nullptr;
   return {{"maxCo", setup.limits->courant},
           {"maxAlphaCo", setup.limits->surface_courant},
+          {"maxAirCo", setup.limits->air_courant},
           {"maxVoidageChange", setup.limits->voidage_change},
           {"maxDeltaT_s", number(setup.limits->delta_t)}};
 }
@@ -146,6 +148,7 @@ void FlowRecord::add(StepRow row) {
   pressure_iterations_ += row.pressure_iterations;
   courant_.add(row.courant, row.delta_t);
   surface_courant_.add(row.surface_courant, row.delta_t);
+  air_courant_.add(row.air_courant, row.delta_t);
   voidage_change_.add(row.voidage_change, row.delta_t);
   volume_correction_.add(row.volume_correction, row.delta_t);
   beyond_law_.add(row.beyond_law, row.delta_t);
@@ -166,11 +169,16 @@ void FlowRecord::add(StepRow row) {
   }
 }
 
+void FlowRecord::set_stages(StageClock::Times stages) {
+  stages_ = std::move(stages);
+}
+
 void FlowRecord::add_steps(nlohmann::ordered_json& result) const {
   const auto of_steps = [this](double value) { return steps_ > 0 ? number(value) : Json(nullptr); };
   const double steps = static_cast<double>(std::max(steps_, 1LL));
   result["largest"] = {{"courant", courant_.largest_value()},
                        {"courant_surface", surface_courant_.largest_value()},
+                       {"courant_air", air_courant_.largest_value()},
                        {"voidage_change", voidage_change_.largest_value()}};
   result["pressure_iterations_per_step"] = of_steps(pressure_iterations_ / steps);
   result["slurry_m3"] = {{"first", of_steps(first_.slurry)}, {"last", of_steps(last_.slurry)}};
@@ -211,6 +219,8 @@ std::string FlowRecord::summary(bool complete) const {
   result["asked_end_s"] = number(setup_.asked_end);
   result["steps"] = steps_;
   result["wall_s"] = wall_time();
+  result["stages_s"] = Json::object();
+  for (const auto& [stage, time] : stages_) result["stages_s"][stage] = time;
   result["ranks"] = setup_.ranks;
   result["openfoam"] = {{"version", text(setup_.openfoam_version)},
                         {"patch", text(setup_.openfoam_patch)},

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "openfoam_module/record/stage_clock.hpp"
 #include "openfoam_module/record/step_table.hpp"
 
 /// What a flow leaves behind to be read by programs: its folder `postProcessing/flow/START` with
@@ -48,6 +49,7 @@ struct Drag {
 struct StepLimits {
   double courant = 0;             ///< maxCo, largest Courant number of the flow
   double surface_courant = 0;     ///< maxAlphaCo, the same of cells that the slurry's surface cuts
+  double air_courant = 0;         ///< maxAirCo, the same of cells with air alone
   double voidage_change = 0;      ///< maxVoidageChange, largest share by which a cell's voidage may change
   std::optional<double> delta_t;  ///< maxDeltaT, s; nothing: no bound
 };
@@ -85,6 +87,9 @@ class FlowRecord {
   /// Appends a step to steps.csv; `wall` is taken here. Throws std::runtime_error when it cannot be written.
   void add(StepRow row);
 
+  /// What the stages of the steps have taken so far, for flow.json.
+  void set_stages(StageClock::Times stages);
+
   /// Writes flow.json by all steps so far. Throws std::runtime_error when it cannot be written.
   /// @param complete  whether the run has come to its end
   void write(bool complete) const;
@@ -109,6 +114,7 @@ class FlowRecord {
   std::filesystem::path folder_;
   FlowSetup setup_;
   StepTable table_;
+  StageClock::Times stages_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   long long steps_ = 0;
   StepRow first_;
@@ -116,7 +122,7 @@ class FlowRecord {
   double alpha_min_ = 0;
   double alpha_above_ = 0;
   double pressure_iterations_ = 0;
-  Course courant_, surface_courant_, voidage_change_, volume_correction_;
+  Course courant_, surface_courant_, air_courant_, voidage_change_, volume_correction_;
   Course beyond_law_, solidity_below_, solidity_above_, reynolds_below_, reynolds_above_;
   double force_mean_ = 0;  ///< sums over the written times
   double force_95_ = 0;

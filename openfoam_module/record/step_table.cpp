@@ -21,11 +21,12 @@ std::string written(const Value& value) {
 
 }  // namespace
 
-const std::array<StepColumn, 27> step_columns{{
+const std::array<StepColumn, 28> step_columns{{
     {"time_s", [](const StepRow& r) -> Value { return r.time; }},
     {"deltaT_s", [](const StepRow& r) -> Value { return r.delta_t; }},
     {"courant", [](const StepRow& r) -> Value { return r.courant; }},
     {"courant_surface", [](const StepRow& r) -> Value { return r.surface_courant; }},
+    {"courant_air", [](const StepRow& r) -> Value { return r.air_courant; }},
     {"voidage_change", [](const StepRow& r) -> Value { return r.voidage_change; }},
     {"pressure_iterations", [](const StepRow& r) -> Value { return r.pressure_iterations; }},
     {"pressure_residual", [](const StepRow& r) -> Value { return r.pressure_residual; }},

@@ -13,8 +13,9 @@ namespace millfoam::record {
 struct StepRow {
   double time = 0;                 ///< flow time at the end of the step, s
   double delta_t = 0;              ///< its length, s
-  double courant = 0;              ///< largest Courant number of the flow
+  double courant = 0;              ///< largest Courant number of cells with slurry
   double surface_courant = 0;      ///< the same of cells that the slurry's surface cuts
+  double air_courant = 0;          ///< the same of cells with air alone
   double voidage_change = 0;       ///< largest share by which the voidage of a cell changed
   double pressure_iterations = 0;  ///< of the linear solver for p_rgh, all its solutions together
   double pressure_residual = 0;    ///< after the last of them, normalised as OpenFOAM does
@@ -48,7 +49,7 @@ struct StepColumn {
 };
 
 /// All columns, in their order.
-extern const std::array<StepColumn, 27> step_columns;
+extern const std::array<StepColumn, 28> step_columns;
 
 /// steps.csv: one row per time-step, each handed to the operating system at once. What is not known is `nan`.
 class StepTable {

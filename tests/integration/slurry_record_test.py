@@ -21,7 +21,8 @@ from slurry_case import SlurryTest
 BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005;"
          " velocity (0.3 0.3 0); moves yes; }")
 BALANCE = 'functions { slurryBalance { type slurryBalance; libs ("libmillFoam.so"); } }'
-COLUMN_OF = {"maxCo": "courant", "maxAlphaCo": "courant_surface", "maxVoidageChange": "voidage_change"}
+COLUMN_OF = {"maxCo": "courant", "maxAlphaCo": "courant_surface", "maxAirCo": "courant_air",
+             "maxVoidageChange": "voidage_change"}
 
 
 class Steps(SlurryTest):
@@ -52,8 +53,8 @@ class Steps(SlurryTest):
     def test_courant_numbers_of_a_step_and_the_limits_give_the_next_step(self):
         _, steps, record, _ = self.run_pool()
         limits = record["limits"]
-        self.assertEqual(limits, {"maxCo": self.courant, "maxAlphaCo": self.courant, "maxVoidageChange": 0.05,
-                                  "maxDeltaT_s": 0.004})
+        self.assertEqual(limits, {"maxCo": self.courant, "maxAlphaCo": self.courant, "maxAirCo": self.courant,
+                                  "maxVoidageChange": 0.05, "maxDeltaT_s": 0.004})
         allowed = np.min([0.004 + 0 * steps["deltaT_s"]] + [
             steps["deltaT_s"] * np.minimum(1.2, limits[key] / np.maximum(steps[column], 1e-15))
             for key, column in COLUMN_OF.items()], axis=0)[:-1]

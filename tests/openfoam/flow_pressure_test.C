@@ -34,6 +34,7 @@ class solutionCase : public smallCase
     volScalarField p_rgh;
     slurrySurface surface;
     sharpPressure force;
+    millfoam::record::StageClock clock;
     flowPressure solution;
     pimpleControl pimple;
     surfaceScalarField free;
@@ -57,7 +58,7 @@ class solutionCase : public smallCase
           dimensionedScalar("rho", dimDensity, 1239),
           dimensionedScalar("rho", dimDensity, 1.2),
           dimensionedScalar("sigma", dimForce / dimLength, 0)),
-      solution(p_rgh, force, true),
+      solution(p_rgh, force, true, clock),
       pimple(mesh()),
       free(faces("free", dimVolume / dimTime, 0)),
       mobilities(faces("mobility", dimVolume * dimTime / dimMass, mobility)),

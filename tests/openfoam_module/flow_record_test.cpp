@@ -25,7 +25,7 @@ struct Flow : ::testing::Test {
     setup.asked_end = 0.6;
     setup.angular_velocity = -6.1;
     setup.mill_flow = "0123456789abcdef";
-    setup.limits = StepLimits{0.5, 0.4, 0.1, 1e-3};
+    setup.limits = StepLimits{0.5, 0.4, 3, 0.1, 1e-3};
     Solids solids;
     solids.file = "/case/solids.h5";
     solids.begin = 1;
@@ -43,6 +43,7 @@ struct Flow : ::testing::Test {
     result.time = time;
     result.delta_t = delta_t;
     result.courant = 0.25;
+    result.air_courant = 2.5;
     result.slurry = 1e-5;
     result.alpha_min = -1e-12;
     return result;
@@ -67,8 +68,9 @@ TEST_F(Flow, LeavesARowForEachStepThatCanBeReadAtOnce) {
   record.add(step);
   ASSERT_EQ(lines().size(), 2U);
   EXPECT_THAT(lines()[0], ::testing::StartsWith(
-                              "time_s,deltaT_s,courant,courant_surface,voidage_change,pressure_iterations"));
-  EXPECT_THAT(lines()[1], ::testing::StartsWith("0.001,0.001,0.25,0,0,0,0,1e-05,0,-1e-12,"));
+                              "time_s,deltaT_s,courant,courant_surface,courant_air,voidage_change,"
+                              "pressure_iterations"));
+  EXPECT_THAT(lines()[1], ::testing::StartsWith("0.001,0.001,0.25,0,2.5,0,0,0,1e-05,0,-1e-12,"));
   EXPECT_THAT(lines()[1], ::testing::HasSubstr(",nan,0.125,nan,"));
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   EXPECT_EQ(commas(lines()[1]), commas(lines()[0]));
@@ -86,6 +88,15 @@ TEST_F(Flow, IsNotCompleteBeforeItsEnd) {
   EXPECT_FALSE(fs::exists(records / "0" / "flow.json.part"));
 }
 
+TEST_F(Flow, TellsWhatItsStagesTook) {
+  FlowRecord record(folder.path, "0", setup);
+  record.add(row(0.3, 0.3));
+  record.set_stages({{"pressure", 1.5}, {"surface", 0.25}});
+  record.write(true);
+  EXPECT_EQ(summary()["stages_s"], (Json{{"pressure", 1.5}, {"surface", 0.25}}));
+  EXPECT_EQ(summary()["largest"]["courant_air"], 2.5);
+}
+
 TEST_F(Flow, TellsWhatItWasRunWith) {
   const FlowRecord record(folder.path, "0", setup);
   const Json found = summary();
@@ -95,6 +106,7 @@ TEST_F(Flow, TellsWhatItWasRunWith) {
   EXPECT_EQ(found["rotation"]["angular_velocity_rad_s"], -6.1);
   EXPECT_EQ(found["rotation"]["sense"], "clockwise");
   EXPECT_EQ(found["limits"]["maxAlphaCo"], 0.4);
+  EXPECT_EQ(found["limits"]["maxAirCo"], 3);
   EXPECT_EQ(found["drag"]["law"], "Beetstra");
   EXPECT_EQ(found["drag"]["reynolds_range"], (Json{20, 1000}));
   EXPECT_EQ(found["solids"]["mill"]["averages"], "fedcba9876543210");

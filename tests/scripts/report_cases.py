@@ -24,9 +24,9 @@ RESULTS = {"balls": 1000, "lost_balls": 0, "steady": True, "steady_from_s": 1.0,
            "power_error_W": 0.0123,
            "ball_overlap_largest_m": 2e-4, "ball_overlap_99_m": 5e-5, "allowed_overlap": 0.15,
            "smallest_diameter_m": 0.005, "wall_time_s": 60.0, "liggghts": "Version 3.8"}
-LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.5, "maxVoidageChange": 0.1, "maxDeltaT_s": 0.01}
-STEPS = ("time_s", "deltaT_s", "courant", "courant_surface", "voidage_change", "slurry_m3", "volume_correction",
-         "beyond_law")
+LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.5, "maxAirCo": 3, "maxVoidageChange": 0.1, "maxDeltaT_s": 0.01}
+STEPS = ("time_s", "deltaT_s", "courant", "courant_surface", "courant_air", "voidage_change", "slurry_m3",
+         "volume_correction", "beyond_law")
 BALANCE = ("Time_s", "holdUp_m3", "feed_m3/s", "discharge_m3/s", "fed_m3", "discharged_m3", "missing_m3", "x_m",
            "y_m", "z_m",
            "torque_shell_Nm", "torque_lifters_Nm", "torque_all_Nm", "power_shell_W", "power_lifters_W", "power_W",

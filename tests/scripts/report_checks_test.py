@@ -17,7 +17,7 @@ from millfoam.report.steadiness import batches_of, error_over_turns, halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow
 
-LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxVoidageChange": 0.1}
+LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxAirCo": 3, "maxVoidageChange": 0.1}
 
 
 def case(**parts):
@@ -140,26 +140,27 @@ class Flow(Verdicts):
         self.assertTrue(np.isnan(error_over_turns(time, time, 5.0, 1.0)))
 
     def courant(self, steps, limits=None):
-        columns = dict(zip(("courant", "courant_surface", "voidage_change"), np.transpose(steps)))
+        columns = dict(zip(("courant", "courant_surface", "courant_air", "voidage_change"), np.transpose(steps)))
         return checks.courant(case(steps={"time_s": np.arange(len(steps)), **columns}, limits=limits or LIMITS))
 
     def test_steps_beyond_their_limits(self):
-        good, bad = (0.5, 0.4, 0.1), ((0.76, 0.4, 0.1), (0.5, 0.61, 0.1), (0.5, 0.4, 0.16), (0.5, np.nan, 0.1))
+        good, bad = (0.5, 0.4, 3, 0.1), ((0.76, 0.4, 3, 0.1), (0.5, 0.61, 3, 0.1), (0.5, 0.4, 4.6, 0.1),
+                                         (0.5, 0.4, 3, 0.16), (0.5, np.nan, 3, 0.1))
         for one in bad:
             for count, state in ((1, "holds"), (3, "look"), (10, "fails")):
                 self.check(self.courant([good] * (101 - count) + [one] * count), state)
-        self.check(self.courant([(0.74, 0.59, 0.149)] * 100), "holds")
+        self.check(self.courant([(0.74, 0.59, 4.4, 0.149)] * 100), "holds")
 
     def test_steps_are_judged_by_the_limits_that_are_known(self):
-        found = self.courant([(0.55, 0.4, 0.1)] * 100,
-                             {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxVoidageChange": None}).found
+        found = self.courant([(0.55, 0.4, 2, 0.1)] * 100,
+                             {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxAirCo": 3, "maxVoidageChange": None}).found
         self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times their limits (limit 1 %); 95 % of the steps "
-                                "are below: Courant number 0.55 (limit 0.5), at the surface 0.4 (limit 0.4), change "
-                                "of voidage 0.1")
+                                "are below: Courant number 0.55 (limit 0.5), at the surface 0.4 (limit 0.4), in air 2 "
+                                "(limit 3), change of voidage 0.1")
 
     def test_steps_or_limits_that_are_missing_are_unknown(self):
         self.check(checks.courant(case(limits=LIMITS)), "unknown")
-        self.check(self.courant([(9, 9, 9)] * 10, {"maxCo": None}), "unknown")
+        self.check(self.courant([(9, 9, 9, 9)] * 10, {"maxCo": None}), "unknown")
 
     def test_a_mesh_that_checkMesh_finds_fault_with(self):
         mesh = {"mesh.json": {"quality": {"skewness": {"value": 0.512, "limit": 1.0}}}}

@@ -28,7 +28,7 @@ COARSE = ("resolution.cell_size=0.0045", "resolution.layers=10")  # a quarter of
 # What the studies' published numbers were made with: a finer mesh and a shorter flow than the mill's own
 BASE = (*FINE, "dem.duration=1.6", "flow.turns=~", "flow.duration=0.6", "flow.max_courant=0.5",
         "flow.max_time_step=0.001", "flow.write_interval=0.02", "flow.out_of_range=error")
-LIMITS = ("max_courant", "max_surface_courant", "max_voidage_change", "max_time_step")
+LIMITS = ("max_courant", "max_surface_courant", "max_air_courant", "max_voidage_change", "max_time_step")
 OTHER_MESH = "\n// Balls of another mesh's walls, so that runs differ in the mesh alone\n#remove fingerprint\n"
 
 

@@ -47,7 +47,9 @@ Foam::tmp<Foam::fvScalarMatrix> Foam::flowPressure::equation(
 void Foam::flowPressure::solve(
     fvScalarMatrix& equation, const dictionary& controls)
 {
+    clock_.begin("pressure solution");
     const solverPerformance solved(equation.solve(controls));
+    clock_.begin("projection");
     iterations_ += solved.nIterations();
     residual_ = solved.finalResidual();
 }
@@ -56,10 +58,12 @@ void Foam::flowPressure::solve(
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::flowPressure::flowPressure(
-    volScalarField& p_rgh, const sharpPressure& force, const bool fresh)
+    volScalarField& p_rgh, const sharpPressure& force, const bool fresh,
+    millfoam::record::StageClock& clock)
 : p_rgh_(p_rgh),
   force_(force),
   mesh_(p_rgh.mesh()),
+  clock_(clock),
   fresh_(fresh),
   misfit_(0),
   iterations_(0),

@@ -84,11 +84,12 @@ Foam::flowRecorder::flowRecorder(
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::flowRecorder::add(
-    millfoam::record::StepRow row, const FixedList<scalar, 4>& courant)
+    millfoam::record::StepRow row, const courantNumbers& courant)
 {
-    row.courant = courant[0];
-    row.surface_courant = courant[1];
-    row.voidage_change = courant[2];
+    row.courant = courant.flow;
+    row.surface_courant = courant.surface;
+    row.air_courant = courant.air;
+    row.voidage_change = courant.voidageChange;
     onMaster(
         [&]
         {
@@ -98,6 +99,12 @@ void Foam::flowRecorder::add(
                 record_->write(false);
             }
         });
+}
+
+
+void Foam::flowRecorder::setStages(const millfoam::record::StageClock& clock)
+{
+    onMaster([&] { record_->set_stages(clock.times()); });
 }
 
 

@@ -153,8 +153,10 @@ void Foam::slurryFlow::keepState()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
+Foam::slurryFlow::slurryFlow(
+    dynamicFvMesh& mesh, millfoam::record::StageClock& clock)
 : mesh_(mesh),
+  clock_(clock),
   bedDict_(optionalDictionary("bedProperties", mesh)),
   g_(IOobject(
       "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
@@ -181,7 +183,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
   pressure_(
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
       surfaceTension(mixture_)),
-  solution_(p_rgh_, pressure_, !isThere("forceAcceleration", mesh)),
+  solution_(p_rgh_, pressure_, !isThere("forceAcceleration", mesh), clock),
   transport_(surface_, alpha_),
   grates_(
       IOdictionary(optionalDictionary("grateProperties", mesh)), mesh,
@@ -221,6 +223,7 @@ Foam::slurryFlow::slurryFlow(dynamicFvMesh& mesh)
 
 void Foam::slurryFlow::enter()
 {
+    clock_.begin("balls");
     if (mesh_.topoChanging())
     {
         FatalErrorInFunction
@@ -267,6 +270,7 @@ void Foam::slurryFlow::enter()
 
 void Foam::slurryFlow::transport()
 {
+    clock_.begin("surface");
     const vectorField relative(
         fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
     slurryFlux_ = transport_.flux(phi_, relative);
@@ -288,33 +292,34 @@ void Foam::slurryFlow::transport()
 }
 
 
-Foam::FixedList<Foam::scalar, 4> Foam::slurryFlow::courantNumbers() const
+Foam::courantNumbers Foam::slurryFlow::bounds() const
 {
     const scalar deltaT = mesh_.time().deltaTValue();
     const scalarField passed(
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
-    const scalar capillary = 4 * constant::mathematical::pi *
-                             surfaceTension(mixture_).value() /
-                             (mixture_.rho1() + mixture_.rho2()).value();
     scalar smallest = GREAT;
-
-    FixedList<scalar, 4> result(Zero);
+    courantNumbers result;
     forAll(passed, celli)
     {
-        result[0] = max(result[0], passed[celli]);
+        scalar& largest = alpha_[celli] > 0.01 ? result.flow : result.air;
+        largest = max(largest, passed[celli]);
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
-            result[1] = max(result[1], passed[celli]);
+            result.surface = max(result.surface, passed[celli]);
             smallest = min(smallest, mesh_.V()[celli]);
         }
     }
-    reduce(result[0], maxOp<scalar>());
-    reduce(result[1], maxOp<scalar>());
-    result[2] = voidageChange_;
+    reduce(result.flow, maxOp<scalar>());
+    reduce(result.surface, maxOp<scalar>());
+    reduce(result.air, maxOp<scalar>());
     reduce(smallest, minOp<scalar>());
-    result[3] = deltaT * sqrt(capillary / smallest);
+    result.voidageChange = voidageChange_;
+    const scalar capillary = 4 * constant::mathematical::pi *
+                             surfaceTension(mixture_).value() /
+                             (mixture_.rho1() + mixture_.rho2()).value();
+    result.capillary = deltaT * sqrt(capillary / smallest);
     return result;
 }
 

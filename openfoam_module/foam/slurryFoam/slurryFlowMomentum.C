@@ -148,6 +148,7 @@ void Foam::slurryFlow::setReference(const pimpleControl& pimple)
 
 void Foam::slurryFlow::predict(const pimpleControl& pimple)
 {
+    clock_.begin("momentum");
     const dimensionedScalar deltaT(mesh_.time().deltaT());
     const volScalarField density("rho", massDensity());
     const surfaceScalarField flux("rhoPhi", massMoved_ / deltaT);
@@ -177,6 +178,7 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
 
 void Foam::slurryFlow::project(pimpleControl& pimple)
 {
+    clock_.begin("projection");
     const dimensionedScalar deltaT(mesh_.time().deltaT());
 
     const volVectorField carried(

@@ -82,21 +82,24 @@ int main(int argc, char* argv[])
 
     checkFlowControls(mesh);
     pimpleControl pimple(mesh);
-    slurryFlow flow(mesh);
+    millfoam::record::StageClock clock;
+    slurryFlow flow(mesh, clock);
     timeStep step(runTime);
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
     flowRecorder recorder(runTime, setup);
-    FixedList<scalar, 4> courant(flow.courantNumbers());
+    courantNumbers courant(flow.bounds());
 
     Info << "Starting time loop\n" << endl;
 
     while (runTime.run())
     {
+        clock.begin("output");
         step.adjust(courant);
         ++runTime;
         Info << "Time = " << runTime.timeName() << nl << endl;
 
+        clock.begin("mesh");
         mesh.update();
         flow.enter();
         while (pimple.loop())
@@ -108,10 +111,12 @@ int main(int argc, char* argv[])
             }
         }
         flow.transport();
+        clock.begin("output");
         const millfoam::record::StepRow row(flow.report());
-        courant = flow.courantNumbers();
+        courant = flow.bounds();
 
         runTime.write();
+        recorder.setStages(clock);
         recorder.add(row, courant);
         runTime.printExecutionTime(Info);
     }
@@ -122,6 +127,7 @@ int main(int argc, char* argv[])
     }
 
     flow.summary();
+    recorder.setStages(clock);
     recorder.end();
     Info << "End\n" << endl;
     return 0;

@@ -63,6 +63,8 @@ Foam::timeStep::limits(const dictionary& control)
     millfoam::record::StepLimits result;
     result.courant = control.get<scalar>("maxCo");
     result.surface_courant = control.get<scalar>("maxAlphaCo");
+    result.air_courant =
+        control.lookupOrDefault<scalar>("maxAirCo", result.courant);
     result.voidage_change =
         control.lookupOrDefault<scalar>("maxVoidageChange", 0.1);
     scalar deltaT;
@@ -74,10 +76,11 @@ Foam::timeStep::limits(const dictionary& control)
 }
 
 
-void Foam::timeStep::adjust(const FixedList<scalar, 4>& courant)
+void Foam::timeStep::adjust(const courantNumbers& courant)
 {
-    Info << "Courant number " << courant[0] << ", at the surface " << courant[1]
-         << ", change of voidage " << courant[2] << endl;
+    Info << "Courant number " << courant.flow << ", at the surface "
+         << courant.surface << ", of air " << courant.air
+         << ", change of voidage " << courant.voidageChange << endl;
 
     const auto asked = limits(time_.controlDict());
     if (!asked)
@@ -85,22 +88,22 @@ void Foam::timeStep::adjust(const FixedList<scalar, 4>& courant)
         return;
     }
 
-    const FixedList<word, 4> causes{
-        "flow", "flow at the surface", "change of voidage", "surface tension"};
-    const FixedList<scalar, 4> bounds{
-        asked->courant, asked->surface_courant, asked->voidage_change, 0.5};
-
     scalar factor = 1.2;
     word cause("growth from a short step");
-    forAll(bounds, i)
+    const auto keep = [&](const scalar bound, const scalar now, const char* why)
     {
-        const scalar allowed = bounds[i] / max(courant[i], SMALL);
+        const scalar allowed = bound / max(now, SMALL);
         if (allowed < factor)
         {
             factor = allowed;
-            cause = causes[i];
+            cause = why;
         }
-    }
+    };
+    keep(asked->courant, courant.flow, "flow");
+    keep(asked->surface_courant, courant.surface, "flow at the surface");
+    keep(asked->air_courant, courant.air, "flow of air");
+    keep(asked->voidage_change, courant.voidageChange, "change of voidage");
+    keep(0.5, courant.capillary, "surface tension");
     const scalar deltaT =
         min(factor * time_.deltaTValue(), asked->delta_t.value_or(GREAT));
     time_.setDeltaT(deltaT);

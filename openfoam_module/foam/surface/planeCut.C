@@ -4,7 +4,6 @@
 \*---------------------------------------------------------------------------*/
 
 #include "planeCut.H"
-#include "cellColumn.H"
 #include "cutTriangles.H"
 
 #include <array>
@@ -15,6 +14,10 @@ namespace Foam
 {
 namespace
 {
+
+//- Error of a share that counts as none
+constexpr scalar roundOff = 4e-15;
+
 
 //- Share of a triangle's area below height d
 scalar shareBelow(const heights& s, const scalar d)
@@ -54,35 +57,40 @@ scalar integralBelow(const heights& s, const scalar d)
     return d - mean + pow3(s[2] - d) / (3 * (s[2] - s[0]) * (s[2] - s[1]));
 }
 
-
-//- Where the segment from a to b, at heights sa and sb, meets height d
-point crossing(
-    const point& a, const point& b, const scalar sa, const scalar sb,
-    const scalar d)
+//- Level, from the cell's centre, that leaves a share below it; guess: a level
+scalar levelOf(
+    const cellColumn& column, const scalar share, const scalar guess,
+    const scalar tolerance)
 {
-    return a + (d - sa) / (sb - sa) * (b - a);
-}
+    const scalar whole = column.below(column.high()).volume;
+    scalar low = column.low();
+    scalar high = column.high();
 
-
-//- Where the plane n & x = level cuts two sides of a triangle with corners x.
-//  False where it misses the triangle
-bool crossSides(
-    const std::array<point, 3>& x, const vector& n, const scalar level,
-    std::array<point, 2>& ends)
-{
-    label found = 0;
-    for (label i = 0; i < 3; ++i)
+    // Newton's steps, halves where they leave the bracket; V(d) is monotone
+    // and smooth
+    scalar level = guess;
+    if (!(level > low && level < high))
     {
-        const point& p = x[i];
-        const point& q = x[(i + 1) % 3];
-        const scalar sp = n & p;
-        const scalar sq = n & q;
-        if ((sp < level) != (sq < level) && found < 2)
+        level = low + share * (high - low);
+    }
+    for (label i = 0; i < 100 && high - low > 1e-15 * (mag(low) + mag(high));
+         ++i)
+    {
+        const cellColumn::part part(column.below(level));
+        const scalar error = part.volume / whole - share;
+        if (mag(error) < tolerance)
         {
-            ends[found++] = crossing(p, q, sp, sq, level);
+            return level;
+        }
+        (error < 0 ? low : high) = level;
+        const scalar step = error * whole / max(part.area, VSMALL);
+        level -= step;
+        if (!(level > low && level < high))
+        {
+            level = 0.5 * (low + high);
         }
     }
-    return found == 2;
+    return 0.5 * (low + high);
 }
 
 } // End anonymous namespace
@@ -114,35 +122,18 @@ Foam::scalar Foam::planeCut::offset(
 {
     const cellColumn column(mesh_, celli, n);
     const scalar base = n & mesh_.cellCentres()[celli];
-    const scalar whole = column.below(column.high()).volume;
-    scalar low = column.low();
-    scalar high = column.high();
+    return base + levelOf(column, alpha, guess - base, roundOff);
+}
 
-    // Newton's steps, halves where they leave the bracket; V(d) is monotone
-    // and smooth
-    scalar level = guess - base;
-    if (!(level > low && level < high))
-    {
-        level = low + alpha * (high - low);
-    }
-    for (label i = 0; i < 100 && high - low > 1e-15 * (mag(low) + mag(high));
-         ++i)
-    {
-        const cellColumn::part part(column.below(level));
-        const scalar error = part.volume / whole - alpha;
-        if (mag(error) < 4e-15)
-        {
-            return base + level;
-        }
-        (error < 0 ? low : high) = level;
-        const scalar step = error * whole / max(part.area, VSMALL);
-        level -= step;
-        if (!(level > low && level < high))
-        {
-            level = 0.5 * (low + high);
-        }
-    }
-    return base + 0.5 * (low + high);
+
+Foam::planeCut::placement Foam::planeCut::place(
+    const label celli, const vector& n, const scalar alpha, const scalar guess,
+    const scalar tolerance) const
+{
+    const cellColumn column(mesh_, celli, n);
+    const scalar level =
+        levelOf(column, alpha, guess, max(tolerance, roundOff));
+    return {level, column.cut(level)};
 }
 
 
@@ -150,37 +141,9 @@ Foam::planeCut::section
 Foam::planeCut::cut(const label celli, const vector& n, const scalar d) const
 {
     const point& origin = mesh_.cellCentres()[celli];
-    const scalar level = d - (n & origin);
-    const point centre(origin + level * n);
-
-    // Each triangle that is cut gives one side of the polygon in the plane,
-    // seen from its centre
-    scalar area = 0;
-    vector moment(Zero);
-    forOutwardTriangles(
-        mesh_, celli,
-        [&](const point& a, const point& b, const point& c)
-        {
-            const std::array<point, 3> x{a - origin, b - origin, c - origin};
-            std::array<point, 2> ends;
-            if (!crossSides(x, n, level, ends))
-            {
-                return;
-            }
-            const vector u(ends[0] - level * n);
-            const vector v(ends[1] - level * n);
-            const vector outward((x[1] - x[0]) ^ (x[2] - x[0]));
-            const scalar sense = ((n ^ outward) & (v - u)) > 0 ? 0.5 : -0.5;
-            const scalar part = sense * (n & (u ^ v));
-            area += part;
-            moment += part * (u + v) / 3;
-        });
-
-    if (area <= VSMALL)
-    {
-        return {centre, 0};
-    }
-    return {centre + moment / area, area};
+    section result(cellColumn(mesh_, celli, n).cut(d - (n & origin)));
+    result.centre += origin;
+    return result;
 }
 
 

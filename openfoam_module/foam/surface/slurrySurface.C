@@ -26,25 +26,29 @@ constexpr scalar held = 1e-6;
 //- Slurry or air below this share makes a cell's level less trusted
 constexpr scalar traceShare = 0.02;
 
+//- Error of the smaller share of a cell that a rough plane may have
+constexpr scalar rough = 1e-3;
+
 } // End anonymous namespace
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::slurrySurface::place(const label celli)
+void Foam::slurrySurface::place(const label celli, const scalar precision)
 {
     const vector& n = normal()[celli];
-    const point& origin = mesh_.cellCentres()[celli];
-    offset_[celli] = cut_.offset(
-        celli, n, alpha_[celli], n & (origin + pieces_.centre[celli]));
-    const planeCut::section section(cut_.cut(celli, n, offset_[celli]));
-    pieces_.centre[celli] = section.centre - origin;
-    pieces_.area[celli] = section.area;
+    const scalar alpha = alpha_[celli];
+    const planeCut::placement placed(cut_.place(
+        celli, n, alpha, n & pieces_.centre[celli],
+        precision * min(alpha, 1 - alpha)));
+    offset_[celli] = placed.level + (n & mesh_.cellCentres()[celli]);
+    pieces_.centre[celli] = placed.cut.centre;
+    pieces_.area[celli] = placed.cut.area;
 }
 
 
-void Foam::slurrySurface::guessNormals()
+void Foam::slurrySurface::guessNormals(const scalar precision)
 {
     const volVectorField gradient(fvc::grad(alpha_));
     const scalarField& volume = mesh_.V();
@@ -60,13 +64,13 @@ void Foam::slurrySurface::guessNormals()
         pieces_.normal[celli] = mag(outward) > 1e-6
                                     ? outward / mag(outward)
                                     : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
-        place(celli);
+        place(celli, precision);
     }
     pieces_.correctBoundaryConditions();
 }
 
 
-void Foam::slurrySurface::fitNormals()
+void Foam::slurrySurface::fitNormals(const scalar precision)
 {
     symmTensorField ways(mesh_.nCells(), Zero);
     pieces_.forNeighbours(
@@ -97,7 +101,7 @@ void Foam::slurrySurface::fitNormals()
         }
         const vector n(inv(m) & normal()[celli]);
         pieces_.normal[celli] = n / mag(n);
-        place(celli);
+        place(celli, precision);
     }
     pieces_.correctBoundaryConditions();
 }
@@ -205,7 +209,8 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   trust_(zeroCells<scalar>(mesh_, "surface:trust", dimless)),
   wet_(zeroCells<scalar>(mesh_, "wet", dimless)),
   loose_(zeroCells<scalar>(mesh_, "loose", dimless)),
-  crossing_(zeroFaces(mesh_, "surface:crossing", dimless))
+  crossing_(zeroFaces(mesh_, "surface:crossing", dimless)),
+  curvature_()
 {
     readControls();
     reconstruct();
@@ -217,12 +222,14 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
 
 void Foam::slurrySurface::reconstruct()
 {
-    guessNormals();
-    for (label i = 0; i < fits_; ++i)
+    // The planes before the last ones only show where their neighbours are
+    guessNormals(fits_ > 0 ? rough : 0);
+    for (label i = 1; i <= fits_; ++i)
     {
-        fitNormals();
+        fitNormals(i < fits_ ? rough : 0);
     }
     findLevels();
+    curvature_.clear();
 }
 
 

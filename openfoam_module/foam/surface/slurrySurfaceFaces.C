@@ -175,14 +175,17 @@ Foam::slurrySurface::potential(const vector& g) const
 
 Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::curvature() const
 {
-    // Without smoothing the noise of the normals drives currents that grow until
-    // a drop of 10 cells a radius has lost half of its pressure
-    tmp<volScalarField> tcurvature(cellCurvature(pieces_));
-    for (label pass = 0; pass < 2; ++pass)
+    if (!curvature_.valid())
     {
-        smoothAlong(tcurvature.ref(), pieces_);
+        // Without smoothing the noise of the normals drives currents that grow
+        // until a drop of 10 cells a radius has lost half of its pressure
+        curvature_ = cellCurvature(pieces_);
+        for (label pass = 0; pass < 2; ++pass)
+        {
+            smoothAlong(curvature_.ref(), pieces_);
+        }
     }
-    return mag(side()) * trustedMean(tcurvature, trust_);
+    return mag(side()) * trustedMean(curvature_(), trust_);
 }
 
 

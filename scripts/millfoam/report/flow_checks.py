@@ -14,7 +14,7 @@ LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, a
 STEPS = 0.01  # of the time-steps that may go beyond 1.5 times a limit
 # Columns of steps.csv, their limits in flow.json and what they are
 LIMITS = (("courant", "maxCo", "Courant number"), ("courant_surface", "maxAlphaCo", "at the surface"),
-          ("voidage_change", "maxVoidageChange", "change of voidage"))
+          ("courant_air", "maxAirCo", "in air"), ("voidage_change", "maxVoidageChange", "change of voidage"))
 QUALITY = (("volume_error", "volume error"), ("non_orthogonality_deg", "non-orthogonality in degrees"),
            ("skewness", "skewness"), ("volume_ratio", "volume ratio"))
 NO_STEPS = "slurryFoam writes postProcessing/flow/START/steps.csv: run the flow with it."
@@ -46,11 +46,11 @@ def courant(case: MillCase) -> Check:
     steps = case.record.steps
     if steps is None or len(steps["time_s"]) == 0:
         return Check(name, "unknown", "the flow has no steps.csv", NO_STEPS)
-    found = np.column_stack([steps[key] for key, _, _ in LIMITS])
+    found = np.column_stack([steps.get(key, 0 * steps["time_s"]) for key, _, _ in LIMITS])
     limits = step_limits(case)
     if not np.isfinite(limits).any():
         return Check(name, "unknown", "flow.json has no limits of the time-step",
-                     "Give maxCo, maxAlphaCo and maxVoidageChange in controlDict (adjustTimeStep yes).")
+                     "Give maxCo, maxAlphaCo, maxAirCo and maxVoidageChange in controlDict (adjustTimeStep yes).")
     # NaN counts as beyond
     over = (~(found <= 1.5 * limits)).any(axis=1).mean()
     words = ", ".join(f"{what} {np.percentile(found[:, k], 95):.2g}"
@@ -62,7 +62,7 @@ def courant(case: MillCase) -> Check:
 
 
 def step_limits(case: MillCase) -> np.ndarray:
-    """Limits of the quantities of LIMITS [3] in flow.json's last start; infinite if there is none."""
+    """Limits of the quantities of LIMITS [4] in flow.json's last start; infinite if there is none."""
     limits = case.record.last.get("limits") or {}
     return np.array([limits.get(key) or np.inf for _, key, _ in LIMITS], dtype=float)
 

@@ -126,12 +126,16 @@ TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
   EXPECT_DOUBLE_EQ(mill_of(bare_mill, {"flow.duration=0.5"}).flow.averages.start, 0.25);
 }
 
-TEST(Flow, change_of_the_voidage_limits_steps_of_slurryFoam_only) {
+TEST(Flow, change_of_the_voidage_and_air_limit_steps_of_slurryFoam_only) {
   const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
   EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_air_courant, 3);
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_surface_courant, 1);
+  EXPECT_DOUBLE_EQ(mill_of(text, {"flow.solver=interFoam"}).flow.max_surface_courant, 0.5);
   // The solver of one call leaves the file's key out
   EXPECT_EQ(refusal_of(text, {"flow.solver=interFoam"}), "accepted");
-  for (const auto& refused : {refusal_of(bare_mill + "flow: {max_voidage_change: 0.2, solver: interFoam}\n"),
+  for (const auto& refused : {refusal_of(bare_mill + "flow: {max_air_courant: 2, solver: interFoam}\n"),
+                              refusal_of(bare_mill + "flow: {max_voidage_change: 0.2, solver: interFoam}\n"),
                               refusal_of(text, {"flow.solver=interFoam", "flow.max_voidage_change=0.3"})})
     EXPECT_NE(refused.find("expected this key with flow.solver slurryFoam only"), std::string::npos)
         << refused;
