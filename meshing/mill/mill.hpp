@@ -176,6 +176,7 @@ struct Flow {
   std::string law;              ///< drag law, a name of the table in openfoam_module/drag
   double multiplier = 1;        ///< on the drag
   std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
+  std::string mixed_drag;       ///< of cells with slurry and air: weights or permeability
   bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
   std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
   FlowStart start;              ///< slurry at time 0

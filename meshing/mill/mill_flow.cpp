@@ -157,6 +157,7 @@ void read_drag(const Section& in, Flow& flow) {
   flow.multiplier = in.number("multiplier", zero_up_to("a factor on the drag", largest_multiplier), 1);
   flow.viscosity = in.choice("viscosity", {"plastic", "pore"}, "plastic");
   flow.polydispersity = in.boolean("polydispersity", false);
+  flow.mixed_drag = in.choice("mixed_drag", {"weights", "permeability"}, "weights");
 }
 
 Rule courant_number() {
@@ -266,6 +267,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
                                               "multiplier",
                                               "viscosity",
                                               "polydispersity",
+                                              "mixed_drag",
                                               "out_of_range",
                                               "start",
                                               "feed",

@@ -120,6 +120,7 @@ Json flow_numbers(const Mill& mill) {
           {"multiplier", flow.multiplier},
           {"viscosity", flow.viscosity},
           {"polydispersity", flow.polydispersity},
+          {"mixed_drag", flow.mixed_drag},
           {"out_of_range", flow.out_of_range},
           {"start", start_numbers(flow.start)},
           {"feed_m3_s", flow.feed},

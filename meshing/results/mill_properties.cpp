@@ -107,6 +107,7 @@ void write_flow(Entries& out, const Mill& mill) {
   out.number("dragMultiplier", flow.multiplier);
   out.word("dragViscosity", flow.viscosity);
   out.truth("dragPolydispersity", flow.polydispersity);
+  out.word("dragMixed", flow.mixed_drag);
   out.word("chargeOutOfRange", flow.out_of_range);
   out.number("feedRate", flow.feed);
   out.number("maxCourant", flow.max_courant);

@@ -82,6 +82,7 @@ Json drag_of(const FlowSetup& setup) {
           {"multiplier", drag.multiplier},
           {"viscosity", drag.viscosity},
           {"polydispersity", drag.polydispersity},
+          {"mixed", drag.mixed},
           {"solidity_range", {number(drag.solidity_min), number(drag.solidity_max)}},
           {"reynolds_range", {number(drag.reynolds_min), number(drag.reynolds_max)}}};
 }

@@ -39,6 +39,7 @@ struct Drag {
   double multiplier = 1;        ///< on the law's drag
   std::string viscosity;        ///< that the drag feels: plastic or pore
   bool polydispersity = false;  ///< whether it has the factor for a mixture of sizes
+  std::string mixed;            ///< drag of cells with slurry and air: weights or permeability
   double solidity_min = 0,      ///< smallest solidity of the law's range
       solidity_max = 1;         ///< largest solidity of the law's range
   double reynolds_min = 0,      ///< smallest particle Reynolds number of the law's range

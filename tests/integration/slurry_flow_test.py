@@ -195,6 +195,15 @@ class Volumes(SlurryTest):
         self.assertLess(abs(voidage.sum() * cell - (start.sum() * cell - 0.5 * 0.03 * 0.03 * 0.02)), 1e-8 * slurry)
         self.assertAlmostEqual(slurry, case.steps()["slurry_m3"][0], delta=1e-8 * slurry)
 
+    def test_are_kept_where_a_step_passes_more_than_a_cell(self):
+        # A column of slurry that collapses
+        for motion in ({}, {"motion": rotating_mesh(3)}):
+            case = self.slurry_case(end_time=0.36, delta_t=0.012, level=lambda x: np.where(x < 0.05, 0.08, 0.005),
+                                    **motion)
+            self.assert_runs(case, "slurryFoam")
+            self.assertGreater(case.steps()["courant"].max(), 1.4)
+            self.assert_kept(case, alpha=1e-8)
+
     def test_are_kept_in_a_turning_box(self):
         case = self.slurry_case(end_time=0.1, motion=rotating_mesh(3))
         self.assert_runs(case, "slurryFoam")

@@ -74,6 +74,21 @@ TEST(bedDrag, isTheLawOfTheTableAtTheSlip)
         1.032 * slurry, 1e-11 * slurry);
 }
 
+TEST(bedDrag, sharesItsResistanceByRelativePermeabilities)
+{
+    const auto found = [](const scalar alpha)
+    { return exchangeOf("law Hill; mixed permeability;", alpha, -0.3); };
+    const scalar slurry = found(1);
+    const scalar air = found(0);
+    EXPECT_NEAR(slurry, exchangeOf("law Hill;", 1, -0.3), 1e-12 * slurry);
+    EXPECT_NEAR(air, exchangeOf("law Hill;", 0, -0.3), 1e-12 * air);
+    const scalar expected = 1 / (0.512 / slurry + 0.008 / air);
+    EXPECT_NEAR(found(0.8), expected, 1e-12 * expected);
+    EXPECT_EQ(
+        exchangeOf("law Hill; mixed permeability; multiplier 0;", 0.8, -0.3),
+        0);
+}
+
 TEST(bedDrag, poreViscosityIsCappedWhereNothingMoves)
 {
     const scalar plastic = exchangeOf("law Darcy;", 1, 0.2);

@@ -35,7 +35,7 @@ struct Flow : ::testing::Test {
     solids.out_of_range = "repeat";
     solids.mill_averages = "fedcba9876543210";
     setup.solids = solids;
-    setup.drag = Drag{"Beetstra", "Beetstra et al.", 1, "plastic", false, 0.1, 0.6, 20, 1000};
+    setup.drag = Drag{"Beetstra", "Beetstra et al.", 1, "plastic", false, "weights", 0.1, 0.6, 20, 1000};
   }
 
   static StepRow row(double time, double delta_t) {

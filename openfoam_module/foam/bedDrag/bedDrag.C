@@ -72,6 +72,12 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
 } // End namespace Foam
 
 
+const Foam::Enum<Foam::bedDrag::mixture> Foam::bedDrag::mixtureNames_({
+    {mixture::weights, "weights"},
+    {mixture::permeability, "permeability"},
+});
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 millfoam::drag::Fluid
@@ -83,6 +89,28 @@ Foam::bedDrag::slurryAt(const scalar phi, const scalar v, const scalar d) const
 }
 
 
+Foam::scalar Foam::bedDrag::exchangeAt(
+    const scalar share, const scalar phi, const scalar v, const scalar d) const
+{
+    using millfoam::drag::exchange_coefficient;
+
+    const bool wet = share > 0;
+    const bool dry = share < 1;
+    const scalar slurry =
+        wet ? exchange_coefficient(*law_, phi, v, d, slurryAt(phi, v, d)) : 0;
+    const scalar air =
+        dry ? exchange_coefficient(*law_, phi, v, d, fluids_.air) : 0;
+    if (mixed_ == mixture::weights || !(wet && dry))
+    {
+        return share * slurry + (1 - share) * air;
+    }
+    // Without drag there is no resistance to share
+    return slurry > 0 && air > 0
+               ? 1 / (pow3(share) / slurry + pow3(1 - share) / air)
+               : 0;
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
@@ -90,6 +118,7 @@ Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
   range_(*law_),
   fluids_(fluids),
   viscosity_(dict, fluids.slurry),
+  mixed_(mixtureNames_.getOrDefault("mixed", dict, mixture::weights)),
   polydispersity_(dict.lookupOrDefault<bool>("polydispersity", false)),
   multiplier_(dict.lookupOrDefault<scalar>("multiplier", 1)),
   solids_(0),
@@ -115,7 +144,7 @@ Foam::bedDrag::bedDrag(const dictionary& dict)
 
 Foam::wordList Foam::bedDrag::entries()
 {
-    return {"law", "viscosity", "polydispersity", "multiplier"};
+    return {"law", "viscosity", "polydispersity", "multiplier", "mixed"};
 }
 
 
@@ -123,8 +152,6 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::bedDrag::exchange(
     const movingBed& bed, const volScalarField& alpha,
     const volVectorField& U) const
 {
-    using millfoam::drag::exchange_coefficient;
-
     auto tresult = tmp<volScalarField::Internal>::New(
         IOobject("exchange", U.time().timeName(), U.mesh()), U.mesh(),
         dimensionedScalar(dimDensity / dimTime, Zero));
@@ -139,17 +166,7 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::bedDrag::exchange(
         const scalar v = mag(bed.velocity()[celli] - U[celli]);
         const scalar d = bed.diameter()[celli];
         const scalar share = max(scalar(0), min(alpha[celli], scalar(1)));
-        scalar beta = 0;
-        if (share > 0)
-        {
-            beta += share *
-                    exchange_coefficient(*law_, phi, v, d, slurryAt(phi, v, d));
-        }
-        if (share < 1)
-        {
-            beta += (1 - share) *
-                    exchange_coefficient(*law_, phi, v, d, fluids_.air);
-        }
+        scalar beta = exchangeAt(share, phi, v, d);
         if (polydispersity_)
         {
             beta *= millfoam::drag::polydispersity_factor(
@@ -212,6 +229,7 @@ millfoam::record::Drag Foam::bedDrag::forRecord() const
     result.multiplier = multiplier_;
     result.viscosity = viscosity_.name();
     result.polydispersity = polydispersity_;
+    result.mixed = mixtureNames_[mixed_];
     result.solidity_min = law_->range.phi_min;
     result.solidity_max = law_->range.phi_max;
     result.reynolds_min = law_->range.re_min;

@@ -5,17 +5,12 @@
 
 #include "slurryFlow.H"
 #include "fvcFlux.H"
-#include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
 #include "laminarModel.H"
 #include "mathematicalConstants.H"
 #include "mixtureFluids.H"
-#include "geometricOneField.H"
-#include "MULES.H"
 #include "staticFvMesh.H"
-#include "zeroField.H"
-#include "oneField.H"
 #include "optionalDictionary.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -265,30 +260,6 @@ void Foam::slurryFlow::enter()
     {
         swept_.update();
     }
-}
-
-
-void Foam::slurryFlow::transport()
-{
-    clock_.begin("surface");
-    const vectorField relative(
-        fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
-    slurryFlux_ = transport_.flux(phi_, relative);
-    MULES::explicitSolve(
-        voidage_, alpha_, phi_, slurryFlux_, zeroField(), zeroField(),
-        oneField(), zeroField());
-
-    massMoved_ = mesh_.time().deltaT() *
-                 (slurryFlux_ * (mixture_.rho1() - mixture_.rho2()) +
-                  phi_ * mixture_.rho2());
-
-    surface_.reconstruct();
-    surface_.locate();
-    rho_ = alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2();
-    pressure_.update(p_rgh_, rho_);
-    mixture_.correct();
-    turbulence_->correct();
-    keepState();
 }
 
 

@@ -48,29 +48,33 @@ void Foam::slurrySurface::place(const label celli, const scalar precision)
 }
 
 
-void Foam::slurrySurface::guessNormals(const scalar precision)
+void Foam::slurrySurface::guessNormals(const scalar precision, const bool keep)
 {
     const volVectorField gradient(fvc::grad(alpha_));
     const scalarField& volume = mesh_.V();
 
     forAll(volume, celli)
     {
-        pieces_.remove(celli);
         if (alpha_[celli] <= trace || alpha_[celli] >= 1 - trace)
         {
+            pieces_.remove(celli);
             continue;
         }
-        const vector outward(-cbrt(volume[celli]) * gradient[celli]);
-        pieces_.normal[celli] = mag(outward) > 1e-6
-                                    ? outward / mag(outward)
+        if (!(keep && pieces_.isCut(celli)))
+        {
+            pieces_.remove(celli);
+            const vector outward(-cbrt(volume[celli]) * gradient[celli]);
+            pieces_.normal[celli] =
+                mag(outward) > 1e-6 ? outward / mag(outward)
                                     : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
+        }
         place(celli, precision);
     }
     pieces_.correctBoundaryConditions();
 }
 
 
-void Foam::slurrySurface::fitNormals(const scalar precision)
+void Foam::slurrySurface::fitNormals()
 {
     symmTensorField ways(mesh_.nCells(), Zero);
     pieces_.forNeighbours(
@@ -101,7 +105,18 @@ void Foam::slurrySurface::fitNormals(const scalar precision)
         }
         const vector n(inv(m) & normal()[celli]);
         pieces_.normal[celli] = n / mag(n);
-        place(celli, precision);
+    }
+}
+
+
+void Foam::slurrySurface::placeAll(const scalar precision)
+{
+    forAll(normal(), celli)
+    {
+        if (pieces_.isCut(celli))
+        {
+            place(celli, precision);
+        }
     }
     pieces_.correctBoundaryConditions();
 }
@@ -223,13 +238,24 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
 void Foam::slurrySurface::reconstruct()
 {
     // The planes before the last ones only show where their neighbours are
-    guessNormals(fits_ > 0 ? rough : 0);
+    guessNormals(fits_ > 0 ? rough : 0, false);
     for (label i = 1; i <= fits_; ++i)
     {
-        fitNormals(i < fits_ ? rough : 0);
+        fitNormals();
+        placeAll(i < fits_ ? rough : 0);
     }
     findLevels();
     curvature_.clear();
+}
+
+
+void Foam::slurrySurface::follow()
+{
+    guessNormals(rough, true);
+    if (fits_ > 0)
+    {
+        fitNormals();
+    }
 }
 
 

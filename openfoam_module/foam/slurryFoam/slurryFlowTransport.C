@@ -1,0 +1,91 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "slurryFlow.H"
+#include "fvcReconstruct.H"
+#include "fvcSurfaceIntegrate.H"
+#include "geometricOneField.H"
+#include "MULES.H"
+#include "oneField.H"
+#include "subCycle.H"
+#include "zeroField.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::label Foam::slurryFlow::surfaceSteps(const scalarField& smaller) const
+{
+    const scalarField given(
+        0.5 * fvc::surfaceSum(mag(phi_))().primitiveField() +
+        0.5 * fvc::surfaceIntegrate(phi_)().primitiveField() * mesh_.V());
+    const scalar largest =
+        gMax((given / smaller)()) * mesh_.time().deltaTValue();
+    // A flow that diverges is stopped by its time-step
+    return largest < 20 ? max(label(1), label(std::ceil(largest))) : 1;
+}
+
+
+void Foam::slurryFlow::carrySlurry(const vectorField& relative)
+{
+    // Not within the sub-cycles, where a field's old time is another one
+    const scalarField first(
+        voidage_.oldTime().primitiveField() *
+        (mesh_.moving() ? mesh_.V0().field() : mesh_.V().field()));
+    const scalarField last(voidage_.primitiveField() * mesh_.V());
+    const label steps = surfaceSteps(min(first, last));
+    volScalarField voidage("voidage", voidage_);
+    surfaceScalarField carried("carried", 0 * slurryFlux_);
+    label step = 0;
+    for (subCycle<volScalarField> part(alpha_, steps); !(++part).end(); ++step)
+    {
+        const scalarField now(
+            mesh_.moving() ? mesh_.Vsc()().field() : mesh_.V().field());
+        const scalarField before(
+            mesh_.moving() ? mesh_.Vsc0()().field() : mesh_.V().field());
+        voidage.oldTime().primitiveFieldRef() =
+            (first + scalar(step) / steps * (last - first)) / before;
+        voidage.primitiveFieldRef() =
+            (first + scalar(step + 1) / steps * (last - first)) / now;
+
+        slurryFlux_ = transport_.flux(phi_, relative);
+        MULES::explicitSolve(
+            voidage, alpha_, phi_, slurryFlux_, zeroField(), zeroField(),
+            oneField(), zeroField());
+        if (step + 1 < steps)
+        {
+            surface_.follow();
+        }
+        else
+        {
+            surface_.reconstruct();
+        }
+        carried += slurryFlux_ / steps;
+    }
+    slurryFlux_ = carried;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::slurryFlow::transport()
+{
+    clock_.begin("surface");
+    const vectorField relative(
+        fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
+    carrySlurry(relative);
+
+    massMoved_ = mesh_.time().deltaT() *
+                 (slurryFlux_ * (mixture_.rho1() - mixture_.rho2()) +
+                  phi_ * mixture_.rho2());
+
+    surface_.locate();
+    rho_ = alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2();
+    pressure_.update(p_rgh_, rho_);
+    mixture_.correct();
+    turbulence_->correct();
+    keepState();
+}
+
+
+// ************************************************************************* //
