@@ -177,12 +177,19 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::curvature() const
 {
     // Without smoothing the noise of the normals drives currents that grow until
     // a drop of 10 cells a radius has lost half of its pressure
-    tmp<volScalarField> tcurvature(cellCurvature(pieces_));
-    for (label pass = 0; pass < 2; ++pass)
+    const auto smooth = [this](volScalarField& values)
     {
-        smoothAlong(tcurvature.ref(), pieces_);
-    }
-    return mag(side()) * trustedMean(tcurvature, trust_);
+        smoothAlong(values, pieces_);
+        smoothAlong(values, pieces_);
+    };
+    volScalarField curvature("surface:curvature", cellCurvature(pieces_));
+    smooth(curvature);
+    // Of a wave with k h rad a cell the differences of the normals take (k h)^2/3
+    // and the smoothing 2 (k h)^2/3: this gives both back
+    volScalarField smoother("surface:smoother", curvature);
+    smooth(smoother);
+    curvature += 1.5 * (curvature - smoother);
+    return mag(side()) * trustedMean(curvature, trust_);
 }
 
 
