@@ -241,7 +241,7 @@ TEST(slurrySurface, aDropCurvesTwiceAndABubbleTheOtherWay)
 TEST(slurrySurface, aWaveKeepsItsCurvature)
 {
     // y = a cos(k x): the share of cos(k x) in the curvature is a k^2 to
-    // 3/8 (a k)^2 of it, 0.6 %. Smoothed twice, without more, it has 6 % less
+    // 3/8 (a k)^2 of it, 0.6 %. Smoothed twice, without more, it has 5 % less
     const label cells = 32;
     const scalar k = constant::mathematical::twoPi, a = 0.02;
     smallBox shape;
