@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, drops, the
-pressure of a closed box."""
+"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, drops,
+menisci, suction of pores, the pressure of a closed box."""
 import re
 import unittest
 
@@ -116,6 +116,117 @@ class Drop(SlurryTest):
         jump, speed = self.jump((32, 32, 32), 0.03)
         self.assertAlmostEqual(jump, 2 * self.sigma / self.radius, delta=0.05 * 2 * self.sigma / self.radius)
         self.assertLess(speed, 0.08)
+
+
+class Meniscus(SlurryTest):
+    """Slurry between two plates without gravity, whose surface starts as a plane: an arc of a circle that meets the
+    plates at the contact angle."""
+
+    gap, cells, sigma, end = 0.01, (20, 40, 1), 0.07, 0.3  # m, of the box, N/m, s
+
+    def settled(self, plates, tilt=0.0):
+        """Pressure (Pa) in the slurry less that in the air, and height (m) of the surface in each column of cells, mean
+        over the later half of 60 times; plates: the share's condition there; tilt: slope at the start."""
+        edge = self.gap / self.cells[0]
+        case = self.slurry_case(
+            upper=tuple(edge * np.array(self.cells)), cells=self.cells,
+            level=lambda x: 20.3 * edge + tilt * (x - self.gap / 2),
+            bingham="yieldStress 0; plasticViscosity 0.1; regularisation biviscosity; viscosityRatio 1;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back"):
+            case.at_patch(side, U=SLIP)
+        for side in ("left", "right"):
+            case.at_patch(side, alpha=plates)
+        case.adjusted(self.end, self.end / 60, delta_t=1e-5, courant=0.5)
+        self.assert_runs(case, "slurryFoam")
+        self.assert_kept(case)
+        jumps, heights = [], []
+        height = case.centres()[:, 1]
+        for time in self.end * np.arange(31, 61) / 60:
+            p = case.field("p", time)
+            jumps.append(p[height < 0.3 * self.gap].mean() - p[height > 1.7 * self.gap].mean())
+            heights.append(edge * case.field("alpha.slurry", time).reshape(self.cells[1], self.cells[0]).sum(axis=0))
+        return np.mean(jumps), np.mean(heights, axis=0)
+
+    def test_has_the_angles_arc_and_pressure(self):
+        for angle in (45, 90, 135):
+            with self.subTest(angle=angle):
+                cosine = np.cos(np.radians(angle))
+                jump, height = self.settled(f"type constantAlphaContactAngle; theta0 {angle}; limit gradient;",
+                                            tilt=0.3)
+                scale = 2 * self.sigma / self.gap
+                x = (np.arange(self.cells[0]) + 0.5) / self.cells[0] - 0.5
+                arc = 0 * x if angle == 90 else (
+                    np.sign(cosine) * self.gap * (0.5 / abs(cosine) - np.sqrt((0.5 / cosine) ** 2 - x**2)))
+                error = height - height.mean() - arc + arc.mean()
+                self.assertAlmostEqual(jump / scale, -cosine, delta=0.12)
+                self.assertLess(np.abs(error).max(), 0.08 * self.gap)
+
+    def test_without_an_angle_keeps_its_tilt(self):
+        jump, height = self.settled("type zeroGradient;", tilt=0.3)
+        self.assertLess(abs(jump), 0.04 * 2 * self.sigma / self.gap)
+        edge = self.gap / self.cells[0]
+        self.assertAlmostEqual(np.polyfit(edge * np.arange(self.cells[0]), height, 1)[0], 0.3, delta=0.02)
+
+
+class PoreSuction(SlurryTest):
+    """A bed whose lower end is at the level of a large pool: its pores pull the slurry up by p_c/(rho g), at the speed
+    that Darcy's drag allows (Washburn 1921)."""
+
+    solidity, diameter, sigma, angle, viscosity = 0.5, 0.002, 0.07, 30, 0.02  # m, N/m, degrees, Pa s
+    cells, height, first = 40, 0.025, 0.002  # m, of the column and of the slurry in it at the start
+
+    @property
+    def rise(self):
+        """Height at the end, m."""
+        suction = 6 * self.solidity * self.sigma * np.cos(np.radians(self.angle)) / (
+            (1 - self.solidity) * self.diameter)
+        return suction / (SLURRY * 9.81)
+
+    def column(self, end, option="poreSuction {{ contactAngle {angle}; }}", first=None):
+        edge = self.height / self.cells
+        case = self.slurry_case(
+            upper=(edge, self.height, edge), cells=(1, self.cells, 1), level=lambda x: first or self.first + 0 * x,
+            bingham=f"yieldStress 0; plasticViscosity {self.viscosity}; regularisation biviscosity; viscosityRatio 1;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
+        for side in ("front", "back", "left", "right"):
+            case.at_patch(side, U=SLIP)
+        case.open_top()
+        case.at_patch("bottom", U="type pressureInletOutletVelocity; value uniform (0 0 0);",
+                      p_rgh="type prghPressure; p uniform 0; value uniform 0;",
+                      alpha="type inletOutlet; inletValue uniform 1; value uniform 1;")
+        case.bed(f"block {{ box (-9 -9 -9) (9 9 9); solidity {self.solidity}; diameter {self.diameter};"
+                 " velocity (0 0 0); }", drag="law Darcy;", entries=option.format(angle=self.angle))
+        case.adjusted(end, end / 20, delta_t=1e-4, courant=0.3)
+        self.assert_runs(case, "slurryFoam")
+        times = end * np.arange(1, 21) / 20
+        return times, np.array([case.field("alpha.slurry", time).sum() * edge for time in times])
+
+    @property
+    def speed(self):
+        """Speed of a front that falls through the bed by its weight alone, m/s: K = k rho g/(mu e), with Darcy's
+        k = e^3 d^2/(150 phi^2)."""
+        e = 1 - self.solidity
+        return e**2 * self.diameter**2 / (150 * self.solidity**2) * SLURRY * 9.81 / self.viscosity
+
+    def duration(self, height):
+        """Time, s, of a rise from 0 to a height (m): of k (p_c - rho g h) = mu e h dh/dt."""
+        share = height / self.rise
+        return self.rise / self.speed * (-np.log(1 - share) - share)
+
+    def test_pulls_the_slurry_up(self):
+        end = self.duration(0.98 * self.rise) - self.duration(self.first)
+        times, heights = self.column(end)
+        levels = np.linspace(self.first, 0.99 * self.rise, 5000)
+        expected = np.interp(times, self.duration(levels) - self.duration(self.first), levels)
+        np.testing.assert_allclose(heights, expected, atol=2e-3 * self.rise)
+
+    def test_is_off_by_default(self):
+        times, heights = self.column(0.5, option="", first=self.rise)
+        np.testing.assert_allclose(heights, self.rise - self.speed * times, atol=2e-3 * self.rise)
 
 
 class StrongDrag(SlurryTest):

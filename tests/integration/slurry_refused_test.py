@@ -249,6 +249,40 @@ class Surface(RefusedTest):
     def test_a_misspelt_entry(self):
         self.assert_surface_refused("levelAngles (15 30);", "levelAngles", "levelAngle")
 
+    def assert_angle_refused(self, condition, *words):
+        case = self.small()
+        case.at_patch("left", alpha=condition)
+        self.assert_says(case, "alpha.slurry at the patch left", *words)
+
+    def test_a_contact_angle_beyond_a_half_turn(self):
+        self.assert_angle_refused("type constantAlphaContactAngle; theta0 270; limit gradient;",
+                                  "is 270", "above 0 and below 180")
+
+    def test_a_contact_angle_that_changes(self):
+        self.assert_angle_refused(
+            "type dynamicAlphaContactAngle; uTheta 1; theta0 90; thetaA 110; thetaR 70; limit gradient;",
+            "dynamicAlphaContactAngle", "expected constantAlphaContactAngle")
+
+
+class Suction(RefusedTest):
+    """The sub-dictionary poreSuction of constant/bedProperties"""
+
+    def assert_suction_refused(self, entries, *words, sigma=0.07):
+        case = self.small()
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0", f"sigma {sigma}"))
+        case.bed(f"block {{ {BLOCK} }}", entries=f"poreSuction {{ {entries} }}")
+        self.assert_says(case, *words)
+
+    def test_without_a_surface_tension(self):
+        self.assert_suction_refused("contactAngle 30;", "sigma of transportProperties is 0", "above 0", sigma=0)
+
+    def test_an_angle_that_is_none(self):
+        self.assert_suction_refused("contactAngle -30;", "contactAngle is -30", "0 to 180")
+
+    def test_a_misspelt_angle(self):
+        self.assert_suction_refused("theta0 30;", "theta0", "contactAngle")
+
 
 class Start(RefusedTest):
     """system/slurryStartDict"""

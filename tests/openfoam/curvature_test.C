@@ -11,6 +11,7 @@ Description
 
 #include "smallCase.H"
 #include "surfaceCurvature.H"
+#include "unitConversion.H"
 
 using namespace Foam;
 
@@ -91,6 +92,40 @@ TEST(cellCurvature, ofABubbleIsNegative)
     surfacePieces pieces(piecesOf(box.mesh(), vector(1, 1, 1)));
     pieces.normal *= -1;
     EXPECT_LT(largestError(pieces, -2 / radius), 1e-9);
+}
+
+TEST(cellCurvature, atAWallIsThatOfTheArcWithTheContactAngle)
+{
+    // A cylinder about z whose axis lies beyond the wall on the right, or
+    // inside: the angle is that of its normal there
+    for (const scalar angle : {50., 90., 130.})
+    {
+        const scalar theta = degToRad(angle);
+        smallBox shape;
+        shape.cells = {10, 24, 1};
+        shape.ends = "empty";
+        smallCase box(shape);
+        const point axis(1 + radius * Foam::cos(theta), 0.51, 0.5);
+        surfacePieces pieces(box.mesh());
+        pieces.angles.resize(std::size_t(box.mesh().boundary().size()));
+        pieces.angles[std::size_t(
+            box.mesh().boundaryMesh().findPatchID("right"))] = theta;
+        const auto place = [&](const label celli)
+        {
+            const vector out(
+                cmptMultiply(vector(1, 1, 0), box.mesh().C()[celli] - axis));
+            pieces.normal[celli] = out / mag(out);
+            pieces.centre[celli] = (radius / mag(out) - 1) * out;
+            pieces.area[celli] = 1;
+        };
+        // The piece at the wall alone: its image is all that it has
+        const scalar height = radius * Foam::sin(theta);
+        const label celli =
+            box.mesh().findCell(point(0.951, axis.y() + height, 0.5));
+        place(celli);
+        pieces.correctBoundaryConditions();
+        EXPECT_NEAR(cellCurvature(pieces)()[celli], 1 / radius, 1e-9) << angle;
+    }
 }
 
 TEST(cellCurvature, seesAcrossACyclicPair)

@@ -234,12 +234,19 @@ Foam::sharpPressure::sharpPressure(
   lineDensity_("lineDensity", faceDensity_),
   massWeights_("massWeights", mesh_.weights()),
   lineWeights_("lineWeights", mesh_.weights()),
+  suction_(),
   jump_(zeroFaces(mesh_, "pressureJump", dimPressure))
 {
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::sharpPressure::setSuction(tmp<surfaceScalarField> suction)
+{
+    suction_ = suction;
+}
+
 
 void Foam::sharpPressure::update(
     volScalarField& p_rgh, const volScalarField& mixtureDensity)
@@ -258,6 +265,10 @@ void Foam::sharpPressure::update(
     if (surfaceTension_.value() > 0)
     {
         jump_ += surfaceTension_ * side * surface_.curvature();
+    }
+    if (suction_.valid())
+    {
+        jump_ -= side * suction_();
     }
     boundaryJumps(mixtureDensity);
 }

@@ -69,7 +69,7 @@ void Foam::slurryFlow::readBed()
     Info << "Bed: " << bed_.description().c_str() << nl;
     if (!bedDict_.dictionary::empty())
     {
-        wordList known({"drag", "voidageRate", "ballDensity"});
+        wordList known({"drag", "voidageRate", "ballDensity", "poreSuction"});
         known.append(movingBed::entries());
         refuseMisspelt(bedDict_, known);
         bed_.requireSolids();
@@ -93,6 +93,13 @@ void Foam::slurryFlow::readBed()
         requireKnownEntries(drag, bedDrag::entries());
         drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
         Info << "Drag: " << drag_->description().c_str() << nl;
+    }
+    if (bedDict_.found("poreSuction"))
+    {
+        suction_.reset(new poreSuction(
+            bedDict_.subDict("poreSuction"), surfaceTension(mixture_)));
+        pressure_.setSuction(suction_->atFaces(bed_));
+        pressure_.update(p_rgh_, rho_);
     }
     if (bedDict_.found("ballDensity"))
     {
@@ -245,6 +252,10 @@ void Foam::slurryFlow::enter()
         if (!voidageRate_)
         {
             dropRate(before);
+        }
+        if (suction_.valid())
+        {
+            pressure_.setSuction(suction_->atFaces(bed_));
         }
     }
     checkContinuity(before);

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurrySurface.H"
+#include "contactAngles.H"
 #include "fvcGrad.H"
 #include "knownEntries.H"
 #include "syncTools.H"
@@ -216,7 +217,7 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   levelCosine_(),
   surfaceCosine_(),
   fits_(),
-  pieces_(mesh_),
+  pieces_(mesh_, contactAngles(alpha)),
   offset_(mesh_.nCells(), Zero),
   levelNormal_(zeroCells<vector>(mesh_, "surface:levelNormal", dimless)),
   levelOffset_(mesh_.nCells(), Zero),

@@ -173,17 +173,32 @@ Foam::slurrySurface::potential(const vector& g) const
 }
 
 
+Foam::tmp<Foam::volScalarField> Foam::slurrySurface::smoothCurvature() const
+{
+    // Without smoothing the noise of the normals drives currents that grow until
+    // a drop of 10 cells a radius has lost half of its pressure
+    const auto smooth = [this](volScalarField& values)
+    {
+        smoothAlong(values, pieces_);
+        smoothAlong(values, pieces_);
+    };
+    tmp<volScalarField> tcurvature(cellCurvature(pieces_));
+    volScalarField& curvature = tcurvature.ref();
+    smooth(curvature);
+    // Of a wave with k h rad a cell the differences of the normals take (k h)^2/3
+    // and the smoothing 2 (k h)^2/3: this gives both back
+    volScalarField smoother("surface:smoother", curvature);
+    smooth(smoother);
+    curvature += 1.5 * (curvature - smoother);
+    return tcurvature;
+}
+
+
 Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::curvature() const
 {
     if (!curvature_.valid())
     {
-        // Without smoothing the noise of the normals drives currents that grow
-        // until a drop of 10 cells a radius has lost half of its pressure
-        curvature_ = cellCurvature(pieces_);
-        for (label pass = 0; pass < 2; ++pass)
-        {
-            smoothAlong(curvature_.ref(), pieces_);
-        }
+        curvature_ = smoothCurvature();
     }
     return mag(side()) * trustedMean(curvature_(), trust_);
 }

@@ -72,14 +72,16 @@ Foam::tmp<Foam::volScalarField> Foam::cellCurvature(const surfacePieces& pieces)
     const fvMesh& mesh = pieces.normal.mesh();
     symmTensorField ways(mesh.nCells(), Zero);
     tensorField turns(mesh.nCells(), Zero);
-    pieces.forNeighbours(
+    const auto add =
         [&](const label celli, const surfacePieces::neighbour& other)
-        {
-            const scalar square = max(magSqr(other.way), VSMALL);
-            ways[celli] += sqr(other.way) / square;
-            turns[celli] +=
-                (other.normal - pieces.normal[celli]) * other.way / square;
-        });
+    {
+        const scalar square = max(magSqr(other.way), VSMALL);
+        ways[celli] += sqr(other.way) / square;
+        turns[celli] +=
+            (other.normal - pieces.normal[celli]) * other.way / square;
+    };
+    pieces.forNeighbours(add);
+    pieces.forImages(add);
 
     tmp<volScalarField> tcurvature(
         zeroCells<scalar>(mesh, "cellCurvature", dimless / dimLength));
