@@ -245,7 +245,7 @@ def plot(results, out):
     handles += [plt.Line2D([], [], marker=m, ls="", color="k", mfc="none", label=f"φ = {phi}")
                 for m, phi in zip("os", SOLIDITIES)]
     figure.legend(handles=handles, loc="lower center", ncol=8, fontsize=8, bbox_to_anchor=(0.5, -0.08))
-    figure.suptitle("Pressure drop across a bed of moving balls in a closed box or a duct (size of marker: length of bed)")
+    figure.suptitle("Pressure drop across a bed of moving balls in a box or a duct (size of marker: length of bed)")
     figure.savefig(out, dpi=110, bbox_inches="tight")
 
 
