@@ -38,8 +38,9 @@ REGULARISATIONS = ("biviscosity", "Papanastasiou")
 # Of the stiffest plug: viscosity ratio, and m times tau0/mu, which is its viscosity ratio less 1
 STIFFEST = {"biviscosity": 300.0, "Papanastasiou": 600.0}
 SOFTER = (0.1, 0.3)
-# The viscosity ratio of the mills' cases, 1000, on a finer mesh: the viscosity's jump at the plug's edge is larger
-MILL, MILL_CELLS = 1000 / STIFFEST["biviscosity"], 120
+# The viscosity ratio of the mills' cases, 1000, on a finer mesh and for longer: the viscosity jumps more at the plug's
+# edge
+MILL, MILL_CELLS, MILL_END = 1000 / STIFFEST["biviscosity"], 120, 4.0
 STEP, END = 8e-3, 2.4  # s
 TOLERANCE = 0.01
 # Steady to this change of the largest speed inside the yielded slurry over the last tenth of the run
@@ -112,14 +113,14 @@ class Flow:
 
 
 def run(regularisation, stiffness, case, template):
-    cells = MILL_CELLS if stiffness == MILL else RADIAL_CELLS
+    cells, end = (MILL_CELLS, MILL_END) if stiffness == MILL else (RADIAL_CELLS, END)
     shutil.copytree(template, case)
     ratio = stiffness * STIFFEST[regularisation]
     write_parameters(
         case, density=DENSITY, yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY,
         regularisation=regularisation, viscosityRatio=ratio, m=ratio * PLASTIC_VISCOSITY / YIELD_STRESS, omega=OMEGA,
-        innerRadius=CORNERS * INNER, radialCells=cells, quarterCells=QUARTER_CELLS, step=STEP, endTime=END,
-        writeInterval=round(END / STEP / 10))
+        innerRadius=CORNERS * INNER, radialCells=cells, quarterCells=QUARTER_CELLS, step=STEP, endTime=end,
+        writeInterval=round(end / STEP / 10))
     run_program(case, "blockMesh")
     run_program(case, "slurryFoam")
     mesh = foam.read_mesh(case)
