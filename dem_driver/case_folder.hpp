@@ -34,7 +34,7 @@ struct CaseFolder {
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   /// Held by FolderLock.
   std::filesystem::path lock() const { return dem() / "lock"; }
-  /// Time-step, interval and speed of the dumps; there only after a whole run.
+  /// Time-step, interval and speed of the dumps; there only after a complete run.
   std::filesystem::path run_file() const { return dumps() / "run.json"; }
   /// Summary: power, energies, overlaps, cost.
   std::filesystem::path results() const { return dumps() / "results.json"; }
@@ -72,8 +72,8 @@ class FolderLock {
   int file_ = -1;
 };
 
-/// Removes `run.json`, `results.json` and the tables beside them, so that a run that fails leaves none of an
-/// earlier one.
+/// Removes `run.json`, `results.json` and the tables in their folder, so that a failed run leaves no results
+/// of an earlier run.
 void remove_results(const CaseFolder& folder);
 
 /// Makes the folders and removes dumps, contacts, run file, results, restart files and histories of an

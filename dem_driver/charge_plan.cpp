@@ -151,15 +151,15 @@ ChargePlan plan_charge(const meshing::Mill& mill) {
 void print_charge(std::ostream& out, const ChargePlan& plan) {
   out << "charge: " << plan.balls() << " balls, inserted largest first in " << plan.rounds.size()
       << " round(s)\n"
-      << "  diameter mm     balls   asked kg   realised kg   difference %\n";
+      << "  diameter mm     balls   requested kg   realised kg   difference %\n";
   double asked = 0;
   for (const auto& size : plan.classes) {
     asked += size.mass_asked;
     out << std::setw(13) << std::setprecision(4) << size.diameter * 1e3 << std::setw(10) << size.count
-        << std::setw(11) << size.mass_asked << std::setw(14) << size.mass_realised << std::setw(15)
+        << std::setw(15) << size.mass_asked << std::setw(14) << size.mass_realised << std::setw(15)
         << std::setprecision(2) << 100 * (size.mass_realised / size.mass_asked - 1) << '\n';
   }
-  out << "        total" << std::setw(10) << plan.balls() << std::setw(11) << std::setprecision(4) << asked
+  out << "        total" << std::setw(10) << plan.balls() << std::setw(15) << std::setprecision(4) << asked
       << std::setw(14) << plan.mass() << std::setw(15) << std::setprecision(2)
       << 100 * (plan.mass() / asked - 1) << '\n';
   for (const auto& size : plan.fines)

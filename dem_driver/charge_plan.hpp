@@ -8,7 +8,7 @@
 
 namespace millfoam::dem_driver {
 
-/// How many balls stand for the mass of one size class.
+/// The number of balls with the mass of one size class.
 struct ClassCount {
   double diameter = 0;       ///< m
   double mass_asked = 0;     ///< kg
@@ -23,7 +23,7 @@ struct Insertion {
   long count = 0;       ///< balls put in by this insertion
 };
 
-/// Insertions, one after the other, before the balls are let fall.
+/// Insertions, one after the other, before the balls fall.
 using Round = std::vector<Insertion>;
 
 /// The charge as whole balls, and the order in which they enter the mill.
@@ -34,8 +34,8 @@ struct ChargePlan {
   double round_settle_time = 0;     ///< s, that the balls of a round fall before the next round comes
   long balls() const;               ///< number of balls that are simulated
   double mass() const;              ///< kg realised
-  double fines_mass() const;        ///< kg that `mill.yaml` asks of the classes that are left out
-  double asked_mass() const;        ///< kg that `mill.yaml` asks of all classes, fines too
+  double fines_mass() const;        ///< kg, requested, of the classes that are left out
+  double asked_mass() const;        ///< kg, requested, of all classes, fines too
 };
 
 /// Random insertion without overlap jams near a solidity of 0.38; a round fills the free part of the start
@@ -50,7 +50,7 @@ inline constexpr double heap_solidity = 0.6;
 /// ball is larger than the start cylinder, or when the charge does not fit into the start cylinder.
 ChargePlan plan_charge(const meshing::Mill& mill);
 
-/// Prints asked and realised mass per class, and what is left out as fines.
+/// Prints the requested and realised mass per class, and the fines that are left out.
 void print_charge(std::ostream& out, const ChargePlan& plan);
 
 /// Writes the books of the charge as CSV: diameter_m, balls, mass_kg, surface_m2 and simulated (1 or 0) of

@@ -17,11 +17,12 @@ namespace millfoam::dem_driver {
 namespace {
 
 // Constant directional torque (cdt) is what the published rolling friction coefficients of the mills belong
-// to. In the 12 cm mill, epsd2 costs the same, comes to rest as well and keeps the kinetic energy within 5 %.
+// to. In the 12 cm mill, epsd2 costs the same, also lets the balls come to rest and keeps the kinetic energy
+// within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
-/// LIGGGHTS wants a different prime above 10000 for every random stream. Each seed has a stretch of numbers
-/// of its own, so that two seeds have no stream in common.
+/// LIGGGHTS needs a different prime above 10000 for every random stream. Each seed has its own range of
+/// numbers, so that two seeds have no stream in common.
 class Primes {
  public:
   explicit Primes(int seed) : last_(10006 + stretch * seed) {}
@@ -144,7 +145,7 @@ void write_walls(std::ostream& out, const std::vector<std::string>& parts, const
 struct ContactTable {
   const char* compute;     ///< its name in the deck
   const char* style;       ///< of the compute
-  const char* properties;  ///< in the order of the columns, whatever the order in which they are asked for
+  const char* properties;  ///< in the order of the columns, which does not depend on that of the request
   int columns;             ///< the last of which is the overlap
 };
 
@@ -265,7 +266,8 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
           << (mill.angular_velocity > 0 ? 1 : -1) << " period " << period << '\n';
   }
   write_results(out, plan, parts, start);
-  // Renamed when it is whole, so that a run killed while it writes leaves no half restart file of that name.
+  // Renamed when it is complete, so that a run killed while it writes leaves no half restart file of that
+  // name.
   out << "dump balls all custom " << plan.step.steps_per_record
       << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"

@@ -45,7 +45,7 @@ inline constexpr double most_dumps = 1e6;
 /// below the time-step, and for more than `most_steps` or `most_dumps`.
 DemPlan plan_dem(const meshing::Mill& mill);
 
-/// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is no whole
+/// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is not a whole
 /// number from 1 on.
 int read_ranks(const std::string& word);
 
@@ -69,7 +69,7 @@ RankGrid split_ranks(int ranks, double length, double largest_diameter);
 inline constexpr char inserted_mark[] = "millFoam inserted";
 /// Begins the line that LIGGGHTS prints at DEM time 0, or where a resumed run begins.
 inline constexpr char turning_mark[] = "millFoam turning";
-/// Begins the line that follows every whole restart file: `… STEP`.
+/// Begins the line that follows every complete restart file: `… STEP`.
 inline constexpr char restart_mark[] = "millFoam restart";
 /// Begins the last line of a deck that came to its end.
 inline constexpr char finished_mark[] = "millFoam finished";

@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of every ball, bytes. Measured are 101 in a dump, 255 in the three dumps of the contacts and 290 to 440 in
-// a restart file; these are less, so that only what cannot be is refused.
+// Of every ball, bytes. Measured: 101 in a dump, 255 in the three dumps of the contacts and 290 to 440 in
+// a restart file; these are less, so that only impossible runs are refused.
 constexpr double least_dump = 80;
 constexpr double least_contacts = 150;
 constexpr double least_restart = 200;
 constexpr double full_disk = 1e6;      // bytes: with less room it counts as full
-constexpr double full_per_ball = 500;  // bytes, likewise
+constexpr double full_per_ball = 500;  // bytes, for each ball
 
 double bytes_free(const fs::path& folder) {
   return static_cast<double>(fs::space(folder).available);

@@ -18,6 +18,7 @@
 #include "dem_driver/pairs.hpp"
 #include "dem_driver/segments.hpp"
 #include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/walls/wall_files.hpp"
 #include "meshing/walls/wall_surface.hpp"

@@ -35,7 +35,7 @@ class LiggghtsLog {
   bool turning() const { return turning_; }            ///< DEM time 0 is reached
   bool finished() const { return finished_; }          ///< the deck came to its end
   const std::string& error() const { return error_; }  ///< first line that begins with ERROR, or empty
-  std::optional<long> restart_step() const { return restart_step_; }  ///< of the last whole restart file
+  std::optional<long> restart_step() const { return restart_step_; }  ///< of the last complete restart file
   /// Step of the turning mill up to which all dumps are written; nothing before the first.
   std::optional<long> dumped_until() const { return dumped_until_; }
   const std::string& version() const { return version_; }  ///< of LIGGGHTS, by its first line

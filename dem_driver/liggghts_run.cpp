@@ -38,8 +38,7 @@ std::vector<std::string> command(const std::filesystem::path& deck, int ranks) {
 }
 
 /// For Open MPI (others ignore it): ranks that wait give way and are not tied to a core, so that they do not
-/// take time from a rank that works or from another program on the same core; and root has to say twice that
-/// it means it.
+/// take time from a rank that works or from another program on the same core; and root must confirm twice.
 std::vector<std::string> environment() {
   std::vector<std::string> variables{"OMPI_MCA_mpi_yield_when_idle=1",
                                      "OMPI_MCA_hwloc_base_binding_policy=none"};

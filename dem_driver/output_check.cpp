@@ -77,7 +77,7 @@ std::optional<long> count_blocks(const std::string& bytes, std::size_t at) {
   return balls;
 }
 
-/// Whether all dumps of steps from `begin` to `end` are whole, of contacts too.
+/// Whether all dumps of steps from `begin` to `end` are complete, of contacts too.
 bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long end) {
   const auto is_whole = [&](const NumberedFile& dump, long balls) {
     return dump.step < begin || dump.step > end || dump_complaint(dump.file, balls).empty();
@@ -97,7 +97,7 @@ bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long 
   throw RunError(file.string() + ": " + complaint + "; " + free_in_words(folder.root, plan.charge.balls()) +
                  ".\nThe run was stopped. With more room, --resume " +
                  (step ? "continues from step " + std::to_string(*step)
-                       : std::string("begins again: there is no complete restart file")));
+                       : std::string("starts from the beginning: there is no complete restart file")));
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ std::string dump_complaint(const fs::path& file, long entries) {
 
 std::string restart_complaint(const fs::path& file, long balls) {
   const std::string bytes = contents_of(file);
-  // What stands before the blocks has no length of its own, so that each byte may be where they begin.
+  // The length of the part before the blocks is not in the file, so they may begin at any byte.
   for (std::size_t at = 0; at + sizeof(std::int32_t) < bytes.size(); ++at)
     if (number_at<std::int32_t>(bytes, at) > 0 && count_blocks(bytes, at) == balls) return {};
   return std::to_string(bytes.size()) + " bytes, expected a restart file with all " + std::to_string(balls) +

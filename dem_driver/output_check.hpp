@@ -10,20 +10,20 @@
 
 namespace millfoam::dem_driver {
 
-/// Stands for a number of entries that is not known ahead, as that of the contacts in a dump.
+/// A number of entries that is not known before, such as the contacts in a dump.
 inline constexpr long any_number = -1;
 
-/// What is wrong with a dump of LIGGGHTS: "0 bytes, expected …"; empty when it is whole. A whole one
+/// What is wrong with a dump of LIGGGHTS: "0 bytes, expected …"; empty when it is complete. A complete one
 /// announces `entries` lines (or `any_number`), has them all, and ends with a line end.
 std::string dump_complaint(const std::filesystem::path& file, long entries);
 
-/// What is wrong with a restart file of LIGGGHTS; empty when it is whole. At its end it has one block for
+/// What is wrong with a restart file of LIGGGHTS; empty when it is complete. At its end it has one block for
 /// each rank: a count n (int) and n numbers (double), which are the records of the rank's balls, each begun
-/// by its own length (write_restart.cpp of LIGGGHTS-PUBLIC 3.8). A whole file has records of `balls` balls up
-/// to its last byte.
+/// by its own length (write_restart.cpp of LIGGGHTS-PUBLIC 3.8). A complete file has records of `balls` balls
+/// up to its last byte.
 std::string restart_complaint(const std::filesystem::path& file, long balls);
 
-/// Step of the last restart file that is whole, as are all dumps of the part of the run that ends with it;
+/// Step of the last restart file that is complete, as are all dumps of the part of the run that ends with it;
 /// nothing when there is none. The dumps of earlier parts were checked before their restart files were
 /// removed.
 std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& plan);
@@ -36,11 +36,11 @@ class OutputCheck {
   OutputCheck(const CaseFolder& folder, const DemPlan& plan, long start);
 
   /// Dumps, of contacts too, of all steps up to `step` that were not yet checked. Throws RunError that names
-  /// the first that is not whole, and says what room the disk has and where --resume continues. Dumps that
-  /// are not there are counted at the end.
+  /// the first that is not complete, the free room on the disk, and the step from which --resume resumes.
+  /// Dumps that are not there are counted at the end.
   void dumps_until(long step);
 
-  /// The restart file of a step, after the dumps up to it. Throws RunError likewise.
+  /// The restart file of a step, after the dumps up to it. Throws RunError as above.
   void restart(long step);
 
  private:

@@ -82,7 +82,7 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder) {
     expect_columns(line, 4);
     const auto row = rows.find(step_of(line));
     if (row == rows.end()) continue;  // step 0, before which there is no torque
-    // Without a single contact LIGGGHTS says -1e20
+    // Without any contact LIGGGHTS prints -1e20
     row->second = {row->first, row->second.torque, line.values[1], line.values[2],
                    std::max(0.0, line.values[3])};
   }

@@ -43,7 +43,7 @@ struct OverlapStatistics {
 /// @param largest_diameter  of the balls, m; the deck's bins follow from it
 OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kind, double largest_diameter);
 
-/// What a dry run comes to.
+/// The results of a dry run.
 struct Results {
   RunResult run;                    ///< what LIGGGHTS did
   long balls = 0;                   ///< put into the mill; `run.balls` are left at the end

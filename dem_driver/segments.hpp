@@ -15,7 +15,7 @@ struct NumberedFile {
   std::filesystem::path file;  ///< with its folder
 };
 
-/// What a run writes in segments: every resumed run begins files of its own.
+/// What a run writes in segments: every resumed run begins its own files.
 inline constexpr const char* segment_kinds[] = {"torque", "energy", "ballOverlaps", "wallOverlaps"};
 
 /// Every `dem/<kind>.<step>.txt`, by step.
@@ -28,13 +28,13 @@ inline constexpr const char* contact_kinds[] = {"pairs", "walls", "balls"};
 std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::string& kind);
 
 /// What is wrong with the contacts of steps up to `step`: "folder: 3 pairs up to step 50, expected 6"; empty
-/// when all that the plan asks for are there.
+/// when all contacts of the plan are there.
 std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step);
 
-/// Every whole restart file, `dem/restart.<step>`, by step.
+/// Every complete restart file, `dem/restart.<step>`, by step.
 std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
 
-/// A line of numbers of a segment and where it stands.
+/// A line of numbers of a segment and its place.
 struct SegmentLine {
   std::vector<double> values;  ///< at least one
   std::filesystem::path file;  ///< with its folder

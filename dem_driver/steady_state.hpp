@@ -12,7 +12,7 @@ struct Steadiness {
   std::size_t begin = 0;      ///< index of the first value after the transient
   double mean = 0;            ///< of the values from there on
   double standard_error = 0;  ///< of that mean, from ten batch means about their line
-  double drift = 0;           ///< mean of the second half of these values less that of the first half
+  double drift = 0;           ///< mean of the second half of these values minus that of the first half
 };
 
 /// Share of the series' scale (mean or range after the cut, whichever is larger) that its drift may be where

@@ -28,7 +28,7 @@ void check_modulus(const meshing::Mill& mill, const Stiffness& stiffness) {
                      ", not " + shown(softest) + " Pa");
 }
 
-/// All overlaps go with modulus^-0.4, so one trial gives the modulus.
+/// All overlaps are proportional to modulus^-0.4, so one trial gives the modulus.
 double modulus_for_overlap(const meshing::Mill& mill) {
   const Stiffness trial{mill.ball.youngs_modulus, mill.dem.soften_below};
   const double needed =

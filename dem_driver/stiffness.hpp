@@ -33,7 +33,7 @@ double expected_impact_speed(const meshing::Mill& mill);
 /// The largest overlap over the smaller diameter of all pairs at the expected impact speed.
 ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& stiffness);
 
-/// The stiffness that `mill.yaml` asks for: dem.youngs_modulus as it stands, or the softest with which the
+/// The stiffness of a `mill.yaml`: its dem.youngs_modulus, or the softest with which the
 /// largest expected overlap stays within dem.largest_overlap, never stiffer than the real ball. Throws
 /// KeyError when a modulus is softer than LIGGGHTS accepts.
 Stiffness choose_stiffness(const meshing::Mill& mill);

@@ -43,7 +43,8 @@ void check_binary(const std::string& bytes, const std::string& name) {
            "another header, because LIGGGHTS reads such a file as text");
 }
 
-/// Of a text: the last line that is not blank, and the lines with which LIGGGHTS takes a triangle as whole.
+/// Of a text: the last line that is not blank, and the lines with which LIGGGHTS takes a triangle as
+/// complete.
 struct TextEnd {
   std::string line;
   int number = 0;  ///< of that line, from 1

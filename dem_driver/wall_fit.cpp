@@ -115,7 +115,7 @@ void require_walls_of(const std::filesystem::path& walls_folder, const meshing::
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object())
     throw std::runtime_error(file.string() +
-                             ": is no JSON object, expected what millMesh writes; run millMesh again");
+                             ": is not a JSON object, expected what millMesh writes; run millMesh again");
   const std::string found = json.value(Json::json_pointer("/mill/walls"), std::string());
   if (!found.empty() && found != mill.fingerprint.walls)
     throw std::runtime_error(file.string() + ": the walls are of another mill (" + found +

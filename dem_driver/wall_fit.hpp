@@ -38,7 +38,7 @@ struct EndCover {
 /// Triangles that lie behind one another count each.
 EndCover cover_of_ends(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
 
-/// An end that has no file of its own is closed from here on: a shell with both ends covers about 1, one that
+/// An end without its own file is closed from here on: a shell with both ends covers about 1, one that
 /// is open next to nothing.
 inline constexpr double least_cover = 0.5;
 

@@ -125,7 +125,7 @@ def main():
     words = [word for word in sys.argv[1:] if not word.startswith("-")]
     case = Path(words[0] if words else os.environ.get("MILL_CASE", ".")).resolve()
     if not (case / "constant").is_dir() and not (case / "solids.xdmf").is_file():
-        raise SystemExit(f"paraview_mill: {case} is no mill's case: it has neither constant/ nor solids.xdmf")
+        raise SystemExit(f"paraview_mill: {case} is not a mill's case: it has neither constant/ nor solids.xdmf")
     view = show(case)
     if len(words) > 1:
         simple.SaveScreenshot(words[1], view, ImageResolution=[1100, 800])

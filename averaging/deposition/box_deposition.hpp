@@ -12,8 +12,8 @@
 
 namespace millfoam::averaging {
 
-/// What all ways to deposit balls in the voxels of a box have in common. Along periodic axes what leaves the
-/// box comes in on the other side.
+/// The common part of all ways to deposit balls in the voxels of a box. Along periodic axes, parts beyond one
+/// side of the box enter on the other side.
 class BoxDeposition : public Deposition {
  public:
   const std::vector<double>& volumes() const override { return *volumes_; }

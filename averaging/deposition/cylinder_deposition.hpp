@@ -11,8 +11,8 @@
 
 namespace millfoam::averaging {
 
-/// What all ways to deposit balls in the voxels of a cylinder have in common. Where the cylinder is periodic
-/// along z, what leaves one end comes in at the other.
+/// The common part of all ways to deposit balls in the voxels of a cylinder. Where the cylinder is periodic
+/// along z, parts beyond one end enter at the other.
 class CylinderDeposition : public Deposition {
  public:
   const std::vector<double>& volumes() const override { return *volumes_; }

@@ -16,7 +16,7 @@ struct Deposit {
 };
 
 /// Deposits the volume of balls in the cells of a grid or mesh, as other codes deposit mass or charge: one
-/// class for each kind of grid and method. Copies have in common what takes long to prepare (templates,
+/// class for each kind of grid and method. Copies share what takes long to prepare (templates,
 /// search structures); one copy serves one thread.
 class Deposition {
  public:
@@ -34,13 +34,12 @@ class Deposition {
 
   /// Deposits a sphere.
   /// @param sphere    centre and radius in m, in the lab's frame
-  /// @param deposits  overwritten; a cell may come up more than once, and always in an order that depends on
-  ///                  nothing but the arguments. What is missing to the sphere's volume lies outside all
-  ///                  cells.
+  /// @param deposits  overwritten; a cell may appear more than once, in an order that depends only on the
+  ///                  arguments. The rest of the sphere's volume lies outside all cells.
   /// The exact methods on voxels throw as `GridAxis::cut`.
   virtual void deposit(const Particle& sphere, std::vector<Deposit>& deposits) = 0;
 
-  /// Deposits a superquadric by sampling, whatever the method for spheres; its volume is
+  /// Deposits a superquadric by sampling, with any method for spheres; its volume is
   /// `superquadric_volume(shape)`, m^3. Throws as that.
   virtual void deposit(const Particle& particle, const Superquadric& shape,
                        std::vector<Deposit>& deposits) = 0;

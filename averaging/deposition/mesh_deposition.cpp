@@ -48,10 +48,10 @@ void MeshDeposition::deposit(const Particle& sphere, std::vector<Deposit>& depos
   Vector3d centre = mesh_->into_mesh() * Vector3d::Map(sphere.position.data());
   if (!is_periodic()) return deposit_image(centre, radius, deposits);
   const double period = *period_z_, z = wrapped(centre.z());
-  const double first = std::ceil((begin_z_ - radius - z) / period);
-  const double last = std::floor((begin_z_ + period + radius - z) / period);
-  for (double image = first; image <= last; ++image) {
-    centre.z() = z + image * period;
+  const auto first = static_cast<long>(std::ceil((begin_z_ - radius - z) / period));
+  const auto last = static_cast<long>(std::floor((begin_z_ + period + radius - z) / period));
+  for (long image = first; image <= last; ++image) {
+    centre.z() = z + static_cast<double>(image) * period;
     deposit_image(centre, radius, deposits);
   }
 }

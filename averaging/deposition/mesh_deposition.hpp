@@ -13,7 +13,7 @@
 
 namespace millfoam::averaging {
 
-/// What all ways to deposit balls in the cells of a mesh have in common: the mesh at the time of the record,
+/// The common part of all ways to deposit balls in the cells of a mesh: the mesh at the time of the record,
 /// the way into its frame, its repeats along z, and superquadrics by sampling.
 class MeshDeposition : public Deposition {
  public:
@@ -27,7 +27,7 @@ class MeshDeposition : public Deposition {
   /// @param mesh                 begin_record is called on it before it is used
   /// @param points_per_diameter  of the lattice for sampling (`SphereTemplate`, `SuperquadricTemplate`)
   /// @param period_z  length after which the mesh repeats along the z axis of its frame, m: a ball that
-  ///                  reaches over an end of the mesh comes in on the other side; without it the mesh ends
+  ///                  reaches over an end of the mesh enters on the other side; without it the mesh ends
   ///                  there. Throws std::invalid_argument when the mesh's extent along z differs from it.
   MeshDeposition(std::unique_ptr<MovingMesh> mesh, int points_per_diameter, std::optional<double> period_z);
   /// A copy for another thread, with a clone of the mesh.

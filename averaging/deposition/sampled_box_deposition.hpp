@@ -14,8 +14,8 @@ namespace millfoam::averaging {
 /// volume as of the template's points; a sphere wholly in one voxel gives it exactly its volume.
 ///
 /// The template's coordinates along an axis do not depend on those along the others, so the points in a voxel
-/// are a block of the lattice, counted by a table: the cost is a few look-ups per voxel met, whatever the
-/// template's size.
+/// are a block of the lattice, counted by a table: the cost is a few look-ups per voxel met,
+/// independent of the template's size.
 class SampledBoxDeposition : public BoxDeposition {
  public:
   /// @param grid             where balls are deposited; it is copied

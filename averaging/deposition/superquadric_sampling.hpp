@@ -16,8 +16,8 @@
 namespace millfoam::averaging {
 
 /// Deposits superquadrics in cells by sampling: the points of a lattice in the body are turned and shifted
-/// with it and located one by one, each carrying an equal part of the volume. The lattices of shapes that
-/// came up before are kept.
+/// with it and located one by one, each carrying an equal part of the volume. The lattices of earlier shapes
+/// are kept.
 class SuperquadricSampling {
  public:
   /// @param points_per_diameter  of the lattice, along each axis of the body

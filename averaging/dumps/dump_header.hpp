@@ -17,7 +17,7 @@ struct DumpBox {
   bool tilted = false;            ///< not along x, y and z
 };
 
-/// What stands in a dump before its particles.
+/// The part of a dump before its particles.
 struct DumpHeader {
   std::optional<long long> step;   ///< DEM time-step
   std::optional<long long> count;  ///< of particles
@@ -26,7 +26,7 @@ struct DumpHeader {
 };
 
 /// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError
-/// for text that is no dump, an item that appears twice, a value that cannot be, or a missing time-step or
+/// for text that is not a dump, an item that appears twice, an impossible value, or a missing time-step or
 /// number of atoms.
 DumpHeader read_header(TextLines& lines);
 

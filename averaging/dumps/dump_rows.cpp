@@ -186,7 +186,7 @@ Superquadric DumpRows::shape(std::size_t line) const {
   std::copy_n(values.begin() + quantity_quaternion, 4, shape.quaternion.begin());
   const auto& [w, x, y, z] = shape.quaternion;
   const double norm = std::hypot(std::hypot(w, x), std::hypot(y, z));
-  // What LIGGGHTS writes is of length 1 to its printed digits; anything far from it is no rotation.
+  // What LIGGGHTS writes is of length 1 to its printed digits; anything far from it is not a rotation.
   if (!(norm > 0.5 && norm < 2)) {
     refuse(line, "the quaternion 'quat1 quat2 quat3 quat4' has the length " + exact(norm) + ", expected 1");
   }

@@ -20,7 +20,7 @@ class DumpRows {
   DumpRows(const DumpHeader& header, TextLines& lines);
 
   /// Appends the header's number of particles to `record`. Throws DumpError for fewer of them, a row of the
-  /// wrong length, a value that cannot be, or two particles of one id.
+  /// wrong length, an impossible value, or two particles of one id.
   void read(ParticleRecord& record);
 
  private:
@@ -39,7 +39,7 @@ class DumpRows {
   void read_carefully(std::string_view line);
   double column_value(std::string_view word, std::size_t quantity) const;
 
-  /// Checks the row's values, which stand on `line`, and appends the particle.
+  /// Checks the row's values, which are on `line`, and appends the particle.
   void append(std::size_t line, ParticleRecord& record) const;
   Superquadric shape(std::size_t line) const;
   [[noreturn]] void refuse(std::size_t line, const std::string& reason) const;

@@ -11,7 +11,7 @@ namespace millfoam::averaging {
 /// Reads numbers as they mostly are in dumps, fast. The functions begin at `text` and return where the number
 /// stops, or null when it is not one of the easy ones: no number at all, too many digits, an exponent out of
 /// range, or within eight bytes of `end`. `as_number` then decides; for an easy number both give the same
-/// value to the last bit. A line end must stand before `end`.
+/// value to the last bit. A line end must come before `end`.
 class QuickNumber {
  public:
   /// A decimal number with or without minus, point and exponent: m 10^e with m <= 2^53 and |e| <= 22. Both m
@@ -82,7 +82,7 @@ class QuickNumber {
         continue;
       }
       const auto bits = static_cast<unsigned>(__builtin_ctzll(others)) - 7;  // eight for each digit
-      // The text's first digit is the lowest byte: shifted up, zeros come to stand before it.
+      // The text's first digit is the lowest byte: shifted up, it gets leading zeros.
       digits = digits * small_powers[bits / 8] + eight_digits(bytes << (56 - bits) << 8U);
       return text + bits / 8;
     }

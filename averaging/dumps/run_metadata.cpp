@@ -28,7 +28,7 @@ std::string fnv1a(const std::string& bytes) {
   return digits;
 }
 
-/// The keys of an object in a file, which is named where a value cannot be.
+/// The keys of an object in a file, which messages name.
 class MetadataValues {
  public:
   /// Throws DumpError unless `text` is an object.
@@ -38,14 +38,14 @@ class MetadataValues {
     } catch (const nlohmann::json::parse_error& error) {
       const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
       throw DumpError(file_ + ':' + std::to_string(1 + std::count(text.begin(), end, '\n')) +
-                      ": this is no JSON, expected an object as millDem writes it");
+                      ": this is not JSON, expected an object as millDem writes it");
     } catch (const nlohmann::json::exception& error) {
       throw DumpError(file_ + ": " + error.what());
     }
     if (!object_.is_object()) throw DumpError(file_ + ": expected an object of JSON, {\"key\": value, ...}");
   }
 
-  /// A number that `allowed` lets pass; nothing when the key is not there.
+  /// A number that `allowed` accepts; nothing when the key is not there.
   template <typename Allowed>
   std::optional<double> number(const char* key, const char* expected, Allowed allowed) const {
     const nlohmann::json* value = find(object_, key);

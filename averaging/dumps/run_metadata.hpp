@@ -16,16 +16,16 @@ struct RunMetadata {
   std::optional<long long> interval;       ///< key `interval`, time-steps between dumps
   std::optional<double> angular_velocity;  ///< key `angular_velocity_rad_s`, of the mill about z, rad/s
   std::string mill_charge;                 ///< key `charge` of `mill`: fingerprint; empty: not known
-  /// Mass of the fines, which are no balls, over that of the whole charge: fines_mass_kg / (fines_mass_kg +
-  /// charge_mass_kg), where both keys are there.
+  /// Mass of the fines, which are not simulated, over that of the whole charge: fines_mass_kg /
+  /// (fines_mass_kg + charge_mass_kg), where both keys are there.
   std::optional<double> fines_share;
 };
 
 /// Reads `run.json` in a folder; nothing when there is none.
-/// Throws DumpError, naming the file and its line, for text that is no JSON; naming the file and the key, for
-/// a `format` other than millfoam-dumps, a `timestep_s` that is not a positive number, an `interval` that is
-/// not a positive whole number, and other values of another kind than above. A key that is null counts as not
-/// there.
+/// Throws DumpError, naming the file and its line, for text that is not JSON; naming the file and the key,
+/// for a `format` other than millfoam-dumps, a `timestep_s` that is not a positive number, an `interval` that
+/// is not a positive whole number, and other values of another kind than above. A key that is null counts as
+/// not there.
 std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder);
 
 /// The DEM time-step, s: `given`, or else the metadata's.

@@ -94,7 +94,7 @@ inline std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-/// The number that a word is, as a whole and whatever the locale; nothing for any other word.
+/// The number that a whole word is, in any locale; nothing for any other word.
 template <typename Number>
 std::optional<Number> as_number(std::string_view word) {
   Number value{};

@@ -18,7 +18,7 @@ constexpr std::size_t most_text = std::size_t{1} << 30U;
 constexpr std::size_t most_ratio = 1032;   // what deflate can reach at best
 constexpr std::size_t shortest_file = 18;  // header and trailer of gzip
 
-/// The length of the text, which stands in the last four bytes.
+/// The length of the text, which is in the last four bytes.
 std::size_t text_length(std::string_view gzip) {
   std::size_t length = 0;
   for (std::size_t byte = gzip.size(); byte-- > gzip.size() - 4;) {

@@ -66,7 +66,7 @@ class CellPoints::Voxels {
     gathered_ += volume;
   }
 
-  /// Hands on what was added last.
+  /// Passes on the last sum.
   void finish() {
     if (gathered_ == 0) return;
     const double volume = std::exchange(gathered_, 0.0);

@@ -12,8 +12,8 @@
 
 namespace millfoam::averaging {
 
-/// The cells of a flow's mesh as points that carry volume, by which its fields come to a box grid of the lab
-/// frame, however the mesh is turned.
+/// The cells of a flow's mesh as points that carry volume. They transfer its fields to a box grid of the lab
+/// frame, at any angle of the mesh.
 ///
 /// Each cell is cut into the tetrahedra over its centroid and the triangles of its faces. One with all
 /// corners in a voxel belongs there. Any other is cut into m^3 of equal volume, and each of those belongs to

@@ -18,8 +18,7 @@ struct SplineMoment {
 /// with a continuous derivative.
 ///
 /// Its value is the sum of three coefficients, one for each window, with shares that are 0 or above. So
-/// bounds on the coefficients are bounds on the values. With `coefficients` the mean of the spline over each
-/// window is the window's mean, wherever the bounds allow it.
+/// bounds on the coefficients are bounds on the values.
 ///
 /// Before the first window there is one like it, and after the last one, unless the windows repeat.
 class TimeSpline {
@@ -34,11 +33,14 @@ class TimeSpline {
   /// @param share   of it that has passed, 0 to 1
   SplineMoment at(std::size_t window, double share) const;
 
-  /// Coefficients between 0 and `largest` for which the mean of the spline over each window is the window's
-  /// mean; where a bound does not allow it, the mean is as near as it does: for windows of one length, the
-  /// spline is the one of least energy. By Gauss-Seidel with projection on the bounds, to 1e-15.
+  /// Coefficients for which the mean of the spline over each window is the window's mean. Where they would be
+  /// below 0 or above `largest`, what the windows exchange for it is limited (Zalesak 1979, J. Comput. Phys.
+  /// 31:335). These windows keep less of their means, but the mean of the spline over all windows is always
+  /// theirs. The coefficient of a window with the mean 0 is 0.
   /// @param means    [size()] each 0 or above
-  /// @param largest  upper bound; that of a window with a larger mean is this mean
+  /// @param largest  upper bound; means above it are kept. The coefficient of a window that is longer than
+  /// its
+  ///                 neighbours may exceed it by the ratio of their lengths
   /// @return [size()]
   std::vector<double> coefficients(const std::vector<double>& means, double largest) const;
 
@@ -47,6 +49,10 @@ class TimeSpline {
   std::size_t after(std::size_t window) const;
   /// Share of the window before at the begin of a window, and of the window after at its end.
   std::array<double, 2> outer_shares(std::size_t window) const;
+  /// Integral in time of each coefficient's share, s; their sum is that of the lengths.
+  std::vector<double> integrals() const;
+  /// Coefficients without bounds.
+  std::vector<double> unbounded(const std::vector<double>& means) const;
 
   std::vector<double> lengths_;
   bool repeats_;

@@ -7,7 +7,7 @@
 #include "averaging/files/hdf5_handle.hpp"
 
 /// @file
-/// Files that say what they are and whether they are whole. All functions throw hdf5::Error.
+/// Files that say what they are and whether they are complete. All functions throw hdf5::Error.
 
 namespace millfoam::averaging::hdf5 {
 

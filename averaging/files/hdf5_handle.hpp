@@ -62,7 +62,7 @@ inline void check(herr_t status, const std::string& action) {
 ///
 /// Also takes away HDF5's work at the program's exit: where a full disk kept a file from being flushed, the
 /// handler of HDF5 1.10 crashes on what is left of it. All that is opened here is closed by its handle. That
-/// has an effect only before the library's first other call, which is why it stands here.
+/// has an effect only before the library's first other call, so it is done here.
 class QuietErrors {
  public:
   QuietErrors() {

@@ -26,7 +26,7 @@ void require_solids_or_nothing(const std::filesystem::path& path) {
       found.clear();
     }
     if (found == layout::format) return;
-    throw hdf5::Error(std::string("this file exists and is no ") + layout::format +
+    throw hdf5::Error(std::string("this file exists and is not a ") + layout::format +
                       " file; it would be overwritten: give another name or remove it");
   });
 }

@@ -25,7 +25,7 @@ constexpr const char* segment_format = "millfoam-slurry-segment";
 /// which is rounded.
 constexpr double gap = 1e-3;
 
-/// A field of slurry.h5: where its sums stand in a voxel's, and what they are divided by.
+/// A field of slurry.h5: the place of its sums in a voxel's, and what they are divided by.
 struct Field {
   const char* name;
   const char* units;
@@ -46,7 +46,7 @@ std::vector<double> means(const SlurrySegment& sums, const Field& field) {
   std::vector<double> result(sums.volume.size() * width, 0.0);
   for (std::size_t voxel = 0; voxel < sums.volume.size(); ++voxel) {
     const double* components = &sums.components[voxel * slurry_components];
-    // Less slurry than this has no velocity that means something
+    // The velocity of less slurry than this has no meaning
     const bool enough = components[0] > 1e-9 * sums.volume[voxel];
     const double divisor = field.by_slurry && enough ? components[0] : sums.volume[voxel];
     if (!(divisor > 0) || (field.by_slurry && !enough)) continue;
@@ -166,7 +166,7 @@ class Assembly {
     const long long number = window_of(segment, header_.window, path.string());
     if (segment.begin < last_end_ - gap * header_.window) {
       throw SlurryFileError(path.string() + ": begins at " + std::to_string(segment.begin) +
-                            " s, before the segment before it ends, at " + std::to_string(last_end_) + " s");
+                            " s, before the previous segment ends, at " + std::to_string(last_end_) + " s");
     }
     last_end_ = segment.end;
     if (filled_ && number != number_) close_window();
@@ -233,7 +233,7 @@ long long window_of(const SlurrySegment& segment, double window, const std::stri
   if (segment.end > (static_cast<double>(number + 1) + gap) * window) {
     throw SlurryFileError(name + ": reaches from " + std::to_string(segment.begin) + " to " +
                           std::to_string(segment.end) + " s and so lies in two windows of " +
-                          std::to_string(window) + " s; expected the windows of the run before");
+                          std::to_string(window) + " s; expected the windows of the previous run");
   }
   return number;
 }
@@ -297,6 +297,7 @@ void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, con
     hdf5::rename_file(part, path);
   });
   std::vector<XdmfField> shown;
+  shown.reserve(fields.size() + 1);
   for (const Field& field : fields) shown.push_back({field.name, field.name, field.vector});
   shown.push_back({"insideFraction", "grid/insideFraction", false});
   try {

@@ -33,7 +33,7 @@ struct SlurrySegment {
   double begin = 0;                ///< flow time, s
   double end = 0;                  ///< s
   long long samples = 0;           ///< times at which the fields were taken
-  double duration = 0;             ///< that the samples stand for, s
+  double duration = 0;             ///< that the samples represent, s
   double slurry = 0;               ///< integral over time of the slurry's volume in the cells, m^3 s
   std::vector<double> volume;      ///< [n] of the cells' parts in each voxel, m^3 s
   std::vector<double> components;  ///< [n][slurry_components], see there, times m^3 s
@@ -45,7 +45,7 @@ struct SlurrySegment {
   /// Adds fields that were sampled once, for so many seconds.
   /// @param sample  with slurry_components components
   /// @param slurry_volume  in all cells, m^3
-  /// @param seconds  of flow time that the sample stands for
+  /// @param seconds  of flow time that the sample represents
   void add(const VoxelSums& sample, double slurry_volume, double seconds);
 
   /// Adds another stretch's sums; the times become those that both cover.

@@ -40,7 +40,7 @@ struct SolidsHeader {
   std::string mill_charge;    ///< fingerprint of the mill whose charge was averaged; empty: not known
   std::string mill_averages;  ///< fingerprint of the mill and its averages; empty: not known
   std::string run_id;         ///< of the dry run whose dumps were averaged, `RunMetadata`; empty: not known
-  std::optional<double> fines_share;  ///< of the charge's mass: fines, which are no balls; unless known
+  std::optional<double> fines_share;  ///< of the charge's mass: fines, which are not simulated; if known
 };
 
 /// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the
@@ -70,8 +70,7 @@ class SolidsWriter {
 };
 
 /// Reads a solids file, one window at a time. Any number of processes may read one file at once: it is opened
-/// read-only and without HDF5's file locks (which some network file systems refuse), and HDF5 prints nothing
-/// of its own.
+/// read-only and without HDF5's file locks (which some network file systems refuse), and HDF5 prints nothing.
 class SolidsReader {
  public:
   /// Opens and checks the file: there, HDF5, of this format and version, complete, all data sets of matching
@@ -86,14 +85,14 @@ class SolidsReader {
   const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
   double time0() const;                            ///< DEM time at which the first window begins, s
   double timestep() const;                         ///< of the DEM run, s
-  bool whole_run() const;                          ///< one window over the whole run, to be held
+  bool whole_run() const;                          ///< one window over the whole run, which a flow holds
   const SolidsHeader& header() const;              ///< all that holds for the whole file
 
   /// Fields of window `number`, from 0. Throws SolidsFileError for a number beyond the last, a value that is
   /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which cell.
   SolidsWindow read_window(std::size_t number) const;
 
-  /// The same as they are, whatever their values: to look at a file that a flow would refuse.
+  /// The same without checks of the values, to inspect a file that a flow would refuse.
   SolidsWindow read_unchecked(std::size_t number) const;
 
   /// Where the particles' volume went, per window. Throws SolidsFileError.

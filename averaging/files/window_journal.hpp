@@ -17,13 +17,13 @@ class WindowJournal {
   static bool holds(const std::filesystem::path& path, std::size_t id, std::size_t cells,
                     bool inside_fractions, std::size_t rows);
 
-  /// Opens a journal, keeping its first `rows` rows and dropping others. With no rows a new one is begun,
-  /// whatever was there; with some, it must hold them (`holds`).
+  /// Opens a journal, keeping its first `rows` rows and dropping others. With no rows it starts a new
+  /// one and drops the old one; with some, the old one must hold them (`holds`).
   /// @param path  of the journal
   /// @param id  of the run, so that no other run's windows are taken for its own
   /// @param cells  of a window's fields
   /// @param inside_fractions  whether windows have them
-  /// @param rows  finished windows to keep, 0 to begin anew
+  /// @param rows  finished windows to keep, 0 for a new journal
   WindowJournal(const std::filesystem::path& path, std::size_t id, std::size_t cells, bool inside_fractions,
                 std::size_t rows);
   ~WindowJournal();

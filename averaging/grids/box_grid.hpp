@@ -9,12 +9,12 @@
 
 namespace millfoam::averaging {
 
-/// Numbers of a voxel along x, y, z, each from 0 to the shape along that axis less one.
+/// Numbers of a voxel along x, y, z, each from 0 to the shape along that axis minus one.
 using VoxelIndex = std::array<int, 3>;
 
 /// A box, fixed in the lab frame, cut into equal voxels. A voxel holds its lower faces and not its upper
 /// ones, so every point of [lower, upper) lies in exactly one voxel. Along a periodic axis the box repeats
-/// for ever.
+/// without end.
 ///
 /// Fields on it are stored in C order [z][y][x]: the voxel (i, j, k) is entry (k*ny + j)*nx + i.
 class BoxGrid {

@@ -11,7 +11,7 @@ namespace millfoam::averaging {
 
 /// A cylinder about the lab's z axis (x = y = 0), or the shell between two radii, cut into equal steps of r,
 /// theta and z. theta goes from +x towards +y, from 0 to 2 pi. A voxel holds its lower faces and not its
-/// upper ones. Along z the cylinder may repeat for ever.
+/// upper ones. Along z the cylinder may repeat without end.
 ///
 /// Fields on it are stored in C order [z][theta][r]: the voxel (i, j, k) along r, theta, z is entry
 /// (k*ntheta + j)*nr + i.

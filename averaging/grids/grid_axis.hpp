@@ -8,11 +8,11 @@
 
 namespace millfoam::averaging {
 
-/// Equal steps along a straight axis of a grid, which may repeat for ever. Cells beyond its ends are called
-/// `outside`.
+/// Equal steps along a straight axis of a grid, which may repeat without end. Cells beyond its ends are
+/// called `outside`.
 class GridAxis {
  public:
-  /// Stands for a cell beyond the ends.
+  /// Means a cell beyond the ends.
   static constexpr int outside = -1;
 
   /// @param name          for messages

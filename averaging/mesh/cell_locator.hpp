@@ -54,12 +54,13 @@ class CellLocator : public CellSearch {
     if (voxel.depth == 0) return voxel.first;
     const Eigen::Array3i fine =
         (place - place / (1 << deepest) * (1 << deepest)) / (1 << (deepest - voxel.depth));
-    return codes_[static_cast<std::size_t>(voxel.first +
-                                           (((fine[2] << voxel.depth) + fine[1]) << voxel.depth) + fine[0])];
+    const int code = voxel.first + (((fine[2] << voxel.depth) + fine[1]) << voxel.depth) + fine[0];
+    return codes_[static_cast<std::size_t>(code)];
   }
 
   std::size_t index(const Eigen::Array3i& voxel) const {
-    return static_cast<std::size_t>((voxel[2] * shape_[1] + voxel[1]) * shape_[0] + voxel[0]);
+    const int number = (voxel[2] * shape_[1] + voxel[1]) * shape_[0] + voxel[0];
+    return static_cast<std::size_t>(number);
   }
 
   int choose(const Eigen::Vector3d& point, int hint, int list) const;

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t cells_per_leaf = 4;
 
-/// Boxes that overlap so much more than when the tree was built are worth a new tree.
+/// The tree is rebuilt when its boxes overlap by this factor more than after the last build.
 constexpr double worn = 1.15;
 
 double half_surface(const Vector3d& size) {

@@ -13,13 +13,13 @@ namespace millfoam::averaging {
 
 /// Finds cells of a mesh whose points move: a binary tree of boxes, each around the boxes of some cells,
 /// split at the median of the cells' centres along the longest axis. When the mesh has moved the boxes are
-/// fitted anew from the leaves up; only when they have come to overlap much is the tree built anew. A point
+/// fitted again from the leaves up; the tree is rebuilt only when they overlap much. A point
 /// costs of the order of log(cells).
 ///
 /// Measured on 49 000 warped hexahedra (tests/benchmarks/mesh_benchmark.cpp): a record of 10^6 coherent
 /// points, with the geometry, the planes and the tree, runs at 4.8 million points/s (1.5 in random order),
-/// and the tree with its planes is built in 34 ms. CGAL's AABB_tree over the facets' triangles, asked for the
-/// first facet along a ray, takes 270 ms to build and finds 0.09 million points/s.
+/// and the tree with its planes is built in 34 ms. CGAL's AABB_tree over the facets' triangles, which finds
+/// the first facet along a ray, takes 270 ms to build and finds 0.09 million points/s.
 class CellTree : public CellSearch {
  public:
   /// Follows `geometry`, which must outlive the tree.

@@ -18,7 +18,7 @@ namespace {
 /// also leaves no pattern of the steps behind.
 constexpr double largest_part = 0.6;
 
-/// Above, smoothing a record takes longer than anyone wants to wait.
+/// Above this, smoothing a record takes too long.
 constexpr double most_steps = 1e5;
 
 /// Of the sums over a record's particles.
@@ -116,7 +116,7 @@ MeshDiffusion::MeshDiffusion(const MeshGeometry& mesh, double width, std::option
 
 template <std::size_t Components>
 void MeshDiffusion::step(const std::vector<double>& from, std::vector<double>& to, std::size_t some) const {
-  // Known to the compiler, the number of components lets it keep a cell's sums in registers.
+  // With a number of components that the compiler knows, it keeps a cell's sums in registers.
   const std::size_t components = Components > 0 ? Components : some;
   for (std::size_t cell = 0; cell < kept_.size(); ++cell) {
     double* const sum = &to[cell * components];

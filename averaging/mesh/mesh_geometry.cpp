@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 /// Of the mesh's extent: coordinates that come from files or out of a rotation are not exact.
 constexpr double rounding = 1e-14;
 
-/// Of a face's size: below it a fan's middle point would buy nothing.
+/// Of a face's size: below it a fan's middle point has no advantage.
 constexpr double nearly_flat = 1e-6;
 
 /// Largest distance of a quadrangle's corners from the plane midway between its diagonals, m.

@@ -57,7 +57,7 @@ class MeshGeometry {
   /// Numbers of a cell's faces: [0] the first and [1] the one after the last, in rising order.
   std::array<const int*, 2> faces_of(int cell) const { return range(cell_faces_, cell); }
 
-  /// Numbers of a cell's facets, likewise.
+  /// Numbers of a cell's facets, in the same form.
   std::array<const int*, 2> facets_of(int cell) const { return range(cell_facets_, cell); }
 
  private:

@@ -104,6 +104,13 @@ bool read_number(const std::string& word, double& value) {
   return !word.empty() && *end == '\0' && std::isfinite(value);
 }
 
+/// The number that a word in a line of a table file is; `place` names the line in the error.
+double table_number(const std::string& word, const std::string& place) {
+  double value = 0;
+  if (!read_number(word, value)) throw std::invalid_argument(place + "'" + word + "' is not a finite number");
+  return value;
+}
+
 /// The columns of a table file, each with the times of the first one.
 std::vector<TimeTable> read_tables(const std::string& path, std::size_t columns) {
   std::ifstream in(path);
@@ -114,13 +121,7 @@ std::vector<TimeTable> read_tables(const std::string& path, std::size_t columns)
     const std::string place = path + ":" + std::to_string(number) + ": ";
     std::istringstream words(line.substr(0, line.find('#')));
     std::vector<double> row;
-    for (std::string word; words >> word;) {
-      double value = 0;
-      if (!read_number(word, value)) {
-        throw std::invalid_argument(place + "'" + word + "' is not a finite number");
-      }
-      row.push_back(value);
-    }
+    for (std::string word; words >> word;) row.push_back(table_number(word, place));
     if (row.empty()) continue;
     if (row.size() != columns + 1) {
       throw std::invalid_argument(place + "there are " + std::to_string(row.size()) +
@@ -213,7 +214,7 @@ std::shared_ptr<const Motion> parse_translation(Words& words) {
   } else {
     words.refuse("'" + kind + "' is not known, expected 'velocity' or 'table'");
   }
-  if (!words.at_end()) words.refuse("nothing is expected from '" + words.next("") + "' on");
+  if (!words.at_end()) words.refuse("unexpected word '" + words.next("") + "'");
   return motion;
 }
 

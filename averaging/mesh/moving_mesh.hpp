@@ -10,8 +10,8 @@
 
 namespace millfoam::averaging {
 
-/// A mesh whose place is known at every time. It has a frame of its own: a point of the lab is carried into
-/// it to be located. One object serves one thread.
+/// A mesh whose place is known at every time. A point of the lab is transformed into the mesh's frame and
+/// located there. One object serves one thread.
 class MovingMesh {
  public:
   virtual ~MovingMesh() = default;

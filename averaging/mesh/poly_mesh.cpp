@@ -46,7 +46,7 @@ void check_corners(const MeshTopology& topology) {
       const int point = topology.face_points[static_cast<std::size_t>(i)];
       if (point < 0 || static_cast<std::size_t>(point) >= topology.points) {
         refuse(face_name(face) + " has the point " + std::to_string(point) + ", expected 0 to " +
-               std::to_string(topology.points) + " less one");
+               std::to_string(topology.points - 1));
       }
     }
   }
@@ -55,7 +55,7 @@ void check_corners(const MeshTopology& topology) {
 void check_cell_number(const MeshTopology& topology, std::size_t face, const char* role, int cell) {
   if (cell >= 0 && static_cast<std::size_t>(cell) < topology.cells) return;
   refuse(face_name(face) + " has the " + role + " cell " + std::to_string(cell) + ", expected 0 to " +
-         std::to_string(topology.cells) + " less one");
+         std::to_string(topology.cells - 1));
 }
 
 void check_cells(const MeshTopology& topology) {

@@ -9,8 +9,8 @@ namespace millfoam::averaging {
 
 /// Exact volumes of the boxes into which planes across the axes cut a sphere.
 ///
-/// With s_a = sgn(a - x) and likewise for planes y = b and z = c, and the unit ball about the origin, the box
-/// between two planes per axis has the volume
+/// With s_a = sgn(a - x), s_b and s_c of the planes y = b and z = c, and the unit ball about the origin, the
+/// box between two planes per axis has the volume
 ///
 ///     1/8 of the mixed difference over its corners of I(a, b, c) = integral of s_a s_b s_c over the ball.
 ///

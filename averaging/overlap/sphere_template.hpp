@@ -6,7 +6,7 @@
 
 namespace millfoam::averaging {
 
-/// The points of an n x n x n lattice that lie in the unit sphere; each stands for 1/N of a sphere's volume,
+/// The points of an n x n x n lattice that lie in the unit sphere; each represents 1/N of a sphere's volume,
 /// N being their number. The lattice's coordinates along each axis are (2 i + 1)/n - 1, i = 0 ... n-1.
 ///
 /// Deposited in voxels, a sphere's volume is kept exactly; its places are known to the lattice's spacing.

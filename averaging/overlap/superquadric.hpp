@@ -21,7 +21,7 @@ double superquadric_volume(const Superquadric& shape);
 double volume_equivalent_diameter(const Superquadric& shape);
 
 /// The points of a lattice over a superquadric's bounding box that lie in it, in its own frame and in units
-/// of its half axes; each stands for an equal part of its volume. They depend on the blockiness alone. There
+/// of its half axes; each represents an equal part of its volume. They depend on the blockiness alone. There
 /// is always one: when the lattice is too coarse for the shape, it is the centre.
 class SuperquadricTemplate {
  public:

@@ -49,7 +49,7 @@ class Collector {
     const std::size_t cells = cell_count(setup.grid);
     const std::size_t id = std::hash<std::string>()(signature_);
     const std::optional<Checkpoint> earlier = usable_checkpoint(id, cells);
-    // Journals are begun anew only when no note of an earlier run can lead to them.
+    // New journals are started only when no note of an earlier run can refer to them.
     if (!earlier) std::filesystem::remove(resume_);
     for (std::size_t s = 0; s < plan.series.size(); ++s) {
       series_.emplace_back(request.windows[s].output, plan.series[s], plan.settings.timestep, setup.limits,
@@ -214,8 +214,7 @@ class BlockLoop {
     }
   }
 
-  /// Nothing may be thrown out of a parallel region: the first exception is kept, and all that would follow
-  /// is left out.
+  /// No exception may leave a parallel region: the first is kept, and the rest of the work is skipped.
   template <typename Action>
   void guarded(Action&& action) {
     bool failed = false;

@@ -54,7 +54,7 @@ struct AverageRequest {
 
   std::string dumps;                       ///< pattern of the dumps' names, see `find_dumps`
   std::optional<double> timestep;          ///< of the DEM run, s; unless given, from the dumps' run.json
-  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; likewise
+  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; unless given, as above
   GridRequest grid;                        ///< where balls are deposited
   DepositionMethod method = DepositionMethod::exact;  ///< of spheres; superquadrics are always sampled
   int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics

@@ -36,7 +36,7 @@ std::string rotation(double angular_velocity) {
   return text.str();
 }
 
-/// One of two classes for the same cells, by the method asked for.
+/// One of two classes for the same cells, by the requested method.
 template <typename Exact, typename Sampling, typename... Arguments>
 std::unique_ptr<Deposition> by_method(DepositionMethod method, Arguments&&... arguments) {
   if (method == DepositionMethod::exact)
@@ -71,14 +71,13 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
                                   " is one of several files, expected it alone, or STL files");
     }
     surface = read_surface(request.walls);
-    if (surface.caps > 0)
-      note("the walls are open at an end across z; they count as closed by a plane there");
+    if (surface.caps > 0) note("the walls are open at an end across z; a plane closes them there");
   }
   std::shared_ptr<const Motion> motion;
   if (settings.angular_velocity.value_or(0) != 0) {
     motion = parse_motion({rotation(*settings.angular_velocity)});
   } else if (!settings.angular_velocity) {
-    note("the walls count as at rest: neither --speed nor run.json gives the mill's angular velocity");
+    note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
   return std::make_shared<MovingWalls>(grid, surface, motion, time);
 }
@@ -87,10 +86,9 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
 template <typename Exact, typename Sampling, typename Voxels>
 CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const RunSettings& settings,
                         const Note& note) {
-  CellSetup setup{grid,    by_method<Exact, Sampling>(request.method, grid, request.template_points),
-                  {},      nullptr,
-                  nullptr, method_in_words(request),
-                  0};
+  std::unique_ptr<Deposition> deposition =
+      by_method<Exact, Sampling>(request.method, grid, request.template_points);
+  CellSetup setup{grid, std::move(deposition), {}, nullptr, nullptr, method_in_words(request), 0};
   setup.limits.solidity_cap = request.solidity_cap;
   if (!request.walls.empty()) {
     setup.walls = moving_walls(grid, request, settings, note);
@@ -115,7 +113,7 @@ std::vector<std::string> motion_of(const MeshRequest& mesh, const RunSettings& s
   if (mesh.at_rest) return {};
   if (!mesh.motion.empty()) return mesh.motion;
   if (!settings.angular_velocity) {
-    note("the mesh counts as at rest: neither --motion, --speed nor run.json gives its motion");
+    note("the mesh is taken to be at rest: neither --motion, --speed nor run.json gives its motion");
     return {};
   }
   note("the mesh turns with the mill: " + rotation(*settings.angular_velocity) + " rad/s");

@@ -22,7 +22,7 @@ struct RunSettings {
   double sauter_diameter = 0;              ///< of the balls in the first dump that is used, m
 };
 
-/// What a request's grid, method and walls come to: prepared once, and shared by all threads.
+/// The grid, method and walls of a request, prepared once and shared by all threads.
 struct CellSetup {
   Grid grid;                                       ///< for the solids file
   std::unique_ptr<Deposition> deposition;          ///< each thread has a clone of it

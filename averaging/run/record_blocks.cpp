@@ -23,7 +23,7 @@ std::vector<RecordBlock> plan_blocks(const std::vector<WindowPlan>& plans, std::
   for (auto cut = cuts.begin(); std::next(cut) != cuts.end(); ++cut) {
     if (!used[*cut]) continue;
     const std::size_t records = *std::next(cut) - *cut;
-    // Of equal length, so that those who share them wait for each other as little as may be.
+    // Of equal length, so that the threads that share them wait little for each other.
     const std::size_t parts = (records + largest - 1) / largest;
     for (std::size_t n = 0; n < parts; ++n) {
       blocks.push_back({*cut + n * records / parts, *cut + (n + 1) * records / parts});

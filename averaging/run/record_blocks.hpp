@@ -17,7 +17,7 @@ struct RecordBlock {
 /// Cuts the records that the plans use into blocks, such that every window of every plan is made of whole
 /// blocks. Results are merged block by block in this order, so they do not depend on how many threads or
 /// ranks share the blocks.
-/// @param plans    windows of each length that is asked for
+/// @param plans    windows of each requested length
 /// @param largest  number of records in a block, at most
 std::vector<RecordBlock> plan_blocks(const std::vector<WindowPlan>& plans, std::size_t largest);
 

@@ -161,12 +161,12 @@ WindowSummary overall(const SolidsSummary& summary) {
 
 std::vector<Remark> remarks(const SolidsSummary& summary) {
   const WindowSummary all = overall(summary);
-  if (all.occupied_cells == 0) return {{true, "there are no balls in any cell: is the grid where they are?"}};
+  if (all.occupied_cells == 0) return {{true, "no cell holds a ball: does the grid cover the charge?"}};
   std::vector<Remark> found = size_advice(all, summary.header.smoothing);
   remark_on_solidity(all.largest_solidity, found);
   if (summary.header.fines_share.value_or(0) > 0) {
     found.push_back(
-        {false, formatted("%.1f %% of the charge's mass are fines, which are no balls: they are in "
+        {false, formatted("%.1f %% of the charge's mass are fines, which are not simulated: they are in "
                           "none of these fields",
                           100 * *summary.header.fines_share)});
   }
@@ -201,7 +201,7 @@ std::vector<std::string> ledger_failures(const SolidsSummary& summary, double to
     constexpr double round_off = 1e-10;
     const double missing = std::abs(ledger.volume_in - ledger.deposited - ledger.outside);
     if (above(missing, round_off)) fail("is missing in the ledger", missing, round_off);
-    // Round-off of the deposits leaves traces outside that are no loss.
+    // Round-off of the deposits leaves traces outside that are not a loss.
     if (above(ledger.outside, std::max(tolerance, round_off)))
       fail("is outside the grid", ledger.outside, tolerance);
     if (above(ledger.clipped, tolerance))

@@ -124,7 +124,7 @@ void require_summary_or_nothing(const std::filesystem::path& path) {
   if (!input) return;
   const Json found = Json::parse(input, nullptr, false);
   if (found.is_object() && found.value("format", Json()) == summary_format) return;
-  throw SolidsFileError(path.string() + ": this file exists and is no " + summary_format +
+  throw SolidsFileError(path.string() + ": this file exists and is not a " + summary_format +
                         " file; it would be overwritten: give another name or remove it");
 }
 

@@ -19,7 +19,7 @@ void require_summary_or_nothing(const std::filesystem::path& path);
 /// What is not known is null.
 std::string as_json(const SolidsSummary& summary);
 
-/// Writes that into a file, replacing an older one only when it is whole. Throws SolidsFileError.
+/// Writes that into a file, replacing an older one only when it is complete. Throws SolidsFileError.
 void write_summary(const std::filesystem::path& path, const SolidsSummary& summary);
 
 }  // namespace millfoam::averaging

@@ -14,7 +14,7 @@ namespace millfoam::averaging {
 /// is in, and writes the solids file when all are.
 class WindowSeries {
  public:
-  /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is whole
+  /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is complete
   /// @param plan    the windows, in order of time
   /// @param timestep  of the DEM run, s
   /// @param cells   number of cells of the fields

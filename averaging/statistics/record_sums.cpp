@@ -53,7 +53,7 @@ void sum_record(Deposition& deposition, const ParticleRecord& record, double tim
     const double deposited = add_deposits(particle, diameter, particle_volume, deposits, sums);
     sums.ledger.volume_in += particle_volume;
     sums.ledger.deposited += deposited;
-    // A ball wholly inside is deposited to rounding, which is no loss.
+    // A ball wholly inside is deposited to rounding, which is not a loss.
     const double left = particle_volume - deposited;
     if (left > 1e-14 * particle_volume) sums.ledger.outside += left;
   }

@@ -30,7 +30,7 @@ struct RecordSums {
   std::size_t cells() const { return cell_volumes.size(); }  ///< their number
   /// The entry of a cell and Column.
   double at(std::size_t cell, std::size_t column) const { return values[cell * columns + column]; }
-  /// The same, to be changed.
+  /// The same, for changes.
   double& at(std::size_t cell, std::size_t column) { return values[cell * columns + column]; }
 };
 

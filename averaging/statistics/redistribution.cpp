@@ -10,7 +10,7 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Who shares a face with whom, and walks outwards from a cell.
+/// The neighbours of cells, and a walk outwards from a cell.
 class Rings {
  public:
   Rings(std::size_t cells, const std::vector<std::array<int, 2>>& neighbours)
@@ -93,7 +93,7 @@ double redistribute_excess(std::vector<double>& values, std::size_t columns,
   double moved = 0;
   for (std::size_t cell = 0; cell < capacities.size(); ++cell) {
     const double excess = values[cell * columns] - capacities[cell];
-    // Full cells are filled to round-off of their capacity, which is no excess.
+    // Full cells are filled to round-off of their capacity, which is not an excess.
     if (!(excess > 1e-12 * capacities[cell])) continue;
     move_from(cell, excess, columns, capacities, rings, values);
     moved += excess;

@@ -26,12 +26,12 @@ struct Redistributed {
   double lost = 0;   ///< volume too far from any cell inside the mill, m^3; it is in no cell any more
 };
 
-/// Empties cells that lie within walls into the nearest cells inside the mill, in proportion to their volume
+/// Empties cells within walls into the nearest cells inside the mill, in proportion to their volume
 /// inside, with all that travels with it. Balls reach into a wall by a small overlap: what lies more than
-/// three faces from any cell inside is no such thing, and is given back as lost.
+/// three faces from any cell inside is not such an overlap. It is returned as lost.
 /// @param values          as of `redistribute_excess`
 /// @param columns         quantities of a cell
-/// @param inside_volumes  [cells] volume inside the mill, m^3; 0 of the cells to be emptied
+/// @param inside_volumes  [cells] volume inside the mill, m^3; 0 for cells that are emptied
 /// @param neighbours      pairs of cells that share a face
 Redistributed redistribute_from_walls(std::vector<double>& values, std::size_t columns,
                                       const std::vector<double>& inside_volumes,

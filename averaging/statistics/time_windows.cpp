@@ -108,7 +108,7 @@ void drop_closing_record(const std::vector<long long>& steps, long long interval
   const bool only_its_beginning = last.records == 1 && steps[last.first_record] == last.begin;
   if (plan.windows.size() < 2 || !only_its_beginning || last.end - last.begin <= interval) return;
   plan.notes.push_back("the record at " + seconds(last.begin, timestep) +
-                       " closes the last window and opens none: it is not used");
+                       " lies exactly at the end of the last window: it is not used");
   plan.windows.pop_back();
 }
 
@@ -130,7 +130,7 @@ void mark_late_and_short(const std::vector<long long>& steps, long long interval
   }
 }
 
-/// A window that is not full ends with its last record's interval: what was not recorded is not claimed.
+/// A window that is not full ends with its last record's interval: it has no time without records.
 void end_with_the_dumps(const std::vector<long long>& steps, long long interval, WindowPlan& plan) {
   WindowSpan& last = plan.windows.back();
   last.end = std::min(last.end, steps[last.first_record + last.records - 1] + interval);

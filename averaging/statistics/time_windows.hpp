@@ -13,7 +13,7 @@ class WindowError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// How a run is to be cut into windows. Times are rounded to whole time-steps.
+/// The request for the division of a run into windows. Times are rounded to whole time-steps.
 struct WindowRequest {
   double timestep = 0;                ///< of the DEM run, s
   std::optional<long long> interval;  ///< time-steps between records; unless known, the median between two
@@ -29,7 +29,7 @@ struct WindowSpan {
   std::size_t first_record = 0;  ///< its number, from 0
   std::size_t records = 0;       ///< how many from there on
   bool starts_late = false;      ///< a record or more is missing at its beginning
-  bool ends_short = false;       ///< or at its end, as it was asked for
+  bool ends_short = false;       ///< or at its requested end
 };
 
 /// A run cut into windows.

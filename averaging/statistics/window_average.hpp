@@ -10,7 +10,7 @@
 
 namespace millfoam::averaging {
 
-/// A cell of which less than this share lies inside the mill cannot hold a solidity of its own: what balls
+/// A cell of which less than this share lies inside the mill cannot have a solidity: what balls
 /// reach into it, by their overlap with the wall, belongs to its neighbours.
 inline constexpr double smallest_inside_fraction = 0.01;
 

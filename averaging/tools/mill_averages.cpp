@@ -22,7 +22,7 @@ nlohmann::json read_object(const fs::path& file) {
         file.string() + ": cannot be read; expected the file that millDem writes at the end of a run");
   nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object())
-    throw std::invalid_argument(file.string() + ": is no JSON object; run millDem again");
+    throw std::invalid_argument(file.string() + ": is not a JSON object; run millDem again");
   return json;
 }
 
@@ -81,7 +81,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     options.dumps = (dumps / "dump.*.txt").string();
     if (!own_windows) take_windows(mill, dumps, run.value("duration_s", mill.dem.duration), options);
   } else if (!own_windows) {
-    throw std::invalid_argument("--dumps: with dumps of another folder, give also --window and --start");
+    throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }
   if (!own_grid) take_grid(mill, options);
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();

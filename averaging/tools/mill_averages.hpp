@@ -11,7 +11,7 @@ namespace millfoam::averaging {
 /// Fills what the options leave open from the section `averages` of a mill and the layout of its case's
 /// folder: dumps, walls, grid, method, windows, start and output. A start `steady` is `steady_from_s` of
 /// `dumps/results.json`; windows that the dumps do not fill are left out. Returns the fingerprint of the
-/// mill's averages, or an empty text where the options ask for others. With the mill's grid the method is its
+/// mill's averages, or an empty text where the options request others. With the mill's grid the method is its
 /// own too.
 ///
 /// Throws MillError, and std::invalid_argument for dumps of another mill, or where no window is left.

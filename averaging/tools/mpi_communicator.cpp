@@ -47,9 +47,8 @@ void MpiCommunicator::send(const std::vector<double>& numbers) {
   wait_until_sent();
   sending_ = numbers;
   in_pieces(sending_, [this](const double* first, int count) {
-    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Request& request = requests_.emplace_back(MPI_REQUEST_NULL);
     MPI_Isend(first, count, MPI_DOUBLE, 0, 0, MPI_COMM_WORLD, &request);
-    requests_.push_back(request);
   });
 }
 

@@ -13,7 +13,7 @@ struct TimeWindow {
   double end = 0;            ///< s, not included
   long long records = 0;     ///< averaged in it
   bool starts_late = false;  ///< records are missing at its beginning
-  bool ends_short = false;   ///< or at the end that was asked for
+  bool ends_short = false;   ///< or at the requested end
 };
 
 /// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.

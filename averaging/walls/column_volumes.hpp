@@ -15,7 +15,7 @@ class ColumnVolumes {
 
   /// Adds a piece that lies in slab number `slab`, or beyond the last one.
   /// @param column  number of the column, from 0
-  /// @param slab    from 0; the number of slabs stands for beyond the last one
+  /// @param slab    from 0; the number of slabs means beyond the last one
   /// @param area    of its projection along the column, m^2, positive where the surface looks upwards
   /// @param volume  between it and the bottom of the slab, m^3, with the area's sign; of no use beyond the
   /// last

@@ -36,7 +36,7 @@ class Wedges {
       most = std::max(most, turn);
       about_the_axis = about_the_axis || (corner.x() == 0 && corner.y() == 0);
     }
-    // A convex polygon that reaches half way round the axis holds it, or all but holds it.
+    // A convex polygon that reaches halfway around the axis contains it, or nearly.
     constexpr double half_way = pi - 1e-6;
     if (about_the_axis || most - least > half_way) return cut_by_all(polygon, visit);
     cut_by_some(polygon, static_cast<int>(std::floor((start + least) / width_)),

@@ -56,7 +56,7 @@ SurfaceError not_closed(const Surface& walls, const std::vector<OpenEdge>& edges
 }
 
 /// Closes what is open at the lowest and the highest z: each open edge makes a triangle with a point of that
-/// plane. Whatever the shape of the opening, the triangles' signed areas add up to it.
+/// plane. For any shape of the opening, the triangles' signed areas add up to it.
 void close_ends(Surface& surface, double tolerance, const std::string& files) {
   const std::vector<OpenEdge> edges = open_edges(surface.triangles);
   if (edges.empty()) return;

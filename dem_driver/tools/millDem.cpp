@@ -47,7 +47,7 @@ struct Options {
   std::string plan_file;
 };
 
-/// What identifies a run, whatever its ranks and its length: its deck without the lines that depend on these.
+/// What identifies a run of any ranks and length: its deck without the lines that depend on these.
 std::string identity(const std::string& deck) {
   std::istringstream in(deck);
   std::string kept;
@@ -67,7 +67,7 @@ std::string read_text(const fs::path& file) {
 
 constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
 
-/// Throws std::runtime_error when the run in the folder cannot be gone on with at that step.
+/// Throws std::runtime_error when the run in the folder cannot be resumed at that step.
 void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
   if (step > plan.turning_steps) {
     const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
@@ -113,8 +113,8 @@ void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (removed > 0) std::cout << "removed " << removed << " dumps of an earlier run\n";
 }
 
-/// The step at which the run resumes; nothing where it begins anew: without `--resume`, or with `--or-anew`
-/// where it cannot be resumed.
+/// The step at which the run resumes; nothing where it starts from the beginning: without `--resume`, or with
+/// `--or-anew` where it cannot be resumed.
 std::optional<long> first_step(const Options& options, const dem_driver::CaseFolder& folder,
                                const dem_driver::DemPlan& plan, const std::string& deck) {
   if (!options.resume) return std::nullopt;
@@ -122,7 +122,7 @@ std::optional<long> first_step(const Options& options, const dem_driver::CaseFol
     return resumable(folder, plan, deck);
   } catch (const std::exception& reason) {
     if (!options.or_anew) throw;
-    std::cout << reason.what() << ". The dry run begins anew\n";
+    std::cout << reason.what() << ". The dry run starts from the beginning\n";
     return std::nullopt;
   }
 }
@@ -166,7 +166,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
       dem_driver::run_liggghts(folder, plan, options.ranks, {std::cerr, isatty(STDERR_FILENO) != 0}, step);
   const auto results = dem_driver::gather_results(folder, mill, plan, result);
   dem_driver::write_results_files(folder, mill, plan, results);
-  // Only now, so that the dumps of a broken run are not taken for a whole one.
+  // Only now, so that the dumps of a broken run are not taken for a complete one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
 }
@@ -196,7 +196,7 @@ void plan(const Options& options, const meshing::MillDescription& description) {
                                 dem_driver::MeasuredForecast{forecast, cost, options.ranks});
 }
 
-/// CLI11 knows no long option with one dash, but `-np` is what every user of MPI types.
+/// CLI11 has no long options with one dash, but `-np` is what every user of MPI types.
 std::vector<std::string> arguments(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   std::replace(words.begin(), words.end(), std::string("-np"), std::string("--np"));
@@ -215,7 +215,7 @@ void add_common(CLI::App& app, Options& options) {
       ->type_name("N");
 }
 
-/// `millDem plan …` or `millDem …`: the run has no name of its own, because it is what everybody wants.
+/// `millDem plan …` or `millDem …`: the run has no name, because it is the usual command.
 Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   if (!words.empty() && words.back() == "plan") {
     words.pop_back();
@@ -230,7 +230,8 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   add_common(app, options);
   app.add_option("--case", options.case_folder, "case folder DIR that millMesh has made");
   auto* resume = app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
-  app.add_flag("--or-anew", options.or_anew, "begin anew a run that cannot be resumed")->needs(resume);
+  app.add_flag("--or-anew", options.or_anew, "start a run that cannot be resumed from the beginning")
+      ->needs(resume);
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -22,7 +22,7 @@ inline CgalKernel::Point_3 to_cgal(const Eigen::Vector3d& point) {
   return {point.x(), point.y(), point.z()};
 }
 
-/// CGAL's mesh of triangles, whose faces have the triangles' numbers; nothing where they are no oriented
+/// CGAL's mesh of triangles, whose faces have the triangles' numbers; nothing where they are not oriented
 /// manifold, closed or not. For sources only: CGAL's headers take long to compile.
 inline std::optional<CgalMesh> to_cgal(const Points& points, const std::vector<Face>& triangles) {
   namespace pmp = CGAL::Polygon_mesh_processing;

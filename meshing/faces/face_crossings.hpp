@@ -19,7 +19,7 @@ struct Crossing {
 std::vector<Crossing> find_crossings(const Points& points, const std::vector<Face>& faces);
 
 /// The triangles that cross or overlap, those with a common corner too (CGAL's Polygon_mesh_processing).
-/// Where they are no manifold, or some have no area, as find_crossings() does it.
+/// Where they are not manifold, or some have no area, as find_crossings() does it.
 std::vector<Crossing> crossing_triangles(const Points& points, const std::vector<Face>& triangles);
 
 }  // namespace millfoam::meshing

@@ -108,6 +108,7 @@ std::vector<std::array<int, 3>> triangles_of(const Points& points, const Face& f
   if (face.size() == 4) return halves(face, flat);
   if (crosses_itself(points, face)) return {};
   std::vector<std::array<int, 2>> sides;
+  sides.reserve(face.size());
   const int n = static_cast<int>(face.size());
   for (int i = 0; i < n; ++i) sides.push_back({i, (i + 1) % n});
   std::vector<std::array<int, 3>> triangles = fill_polygon(flat, sides);

@@ -12,7 +12,7 @@ namespace millfoam::meshing {
 /// Disjoint sets of the numbers 0 to n - 1.
 class UnionFind {
  public:
-  /// Each of the `n` numbers is a set of its own.
+  /// Each of the `n` numbers is one set.
   explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
 
   /// The root of the set that holds a number: the same for all its members.

@@ -8,7 +8,7 @@
 
 namespace millfoam {
 
-/// The finite number that a word is as a whole, whatever the locale; nothing for any other word.
+/// The finite number that a whole word is, in any locale; nothing for any other word.
 std::optional<double> to_number(std::string_view word);
 
 /// The shortest decimal form of a number that reads back to its last bit.

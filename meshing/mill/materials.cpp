@@ -29,6 +29,7 @@ const std::map<std::string, Contact>& contacts() {
 template <typename Table>
 std::vector<std::string> names(const Table& table) {
   std::vector<std::string> found;
+  found.reserve(table.size());
   for (const auto& entry : table) found.push_back(entry.first);
   return found;
 }

@@ -10,7 +10,7 @@
 /// faces. Units are SI.
 namespace millfoam::meshing {
 
-/// What closes the mill along its axis: two plain walls, or nothing (a periodic slice of a long mill).
+/// The ends of the mill along its axis: two plain walls, or none (a periodic slice of a long mill).
 enum class Ends { plain, periodic };
 
 /// Equally spaced lifters on the shell, whose section is a rectangle or a symmetric trapezoid. Lifter 1 is
@@ -193,7 +193,7 @@ struct Flow {
   FlowAverages averages;
 };
 
-/// What tells the inputs of stages apart: hashes of those keys of the resolved mill on which a stage's result
+/// Fingerprints of the inputs of stages: hashes of those keys of the resolved mill on which a stage's result
 /// depends, 16 hexadecimal digits each.
 struct MillFingerprints {
   std::string walls;     ///< geometry and the mesh's cross-section

@@ -53,9 +53,9 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry,
   return classes;
 }
 
-/// Mass in kg of balls that fill the asked share of the mill in bulk.
+/// Mass in kg of balls that fill the requested share of the mill in bulk.
 double read_fill_mass(const Section& in, const Geometry& geometry, double density, double packing) {
-  if (in.has("reference_length")) in.refuse("reference_length", "it beside classes only, not beside fill");
+  if (in.has("reference_length")) in.refuse("reference_length", "this key with classes only, not with fill");
   const double fill =
       in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
   return fill * packing * density * analytic_volume(geometry);

@@ -16,7 +16,7 @@ class Section;
 /// Throws MillError for an impossible value, for both ways, and for balls that do not fit.
 Charge read_charge(Section in, const Geometry& geometry, double density);
 
-/// How many whole balls stand for the mass of a size class.
+/// The number of whole balls with the mass of a size class.
 struct BallCount {
   double diameter = 0;    ///< m
   double mass_asked = 0;  ///< kg
@@ -25,14 +25,14 @@ struct BallCount {
   bool simulated = true;  ///< false for fines (charge.fines_below)
 };
 
-/// The charge in numbers; lengths in m, masses in kg, volumes in m^3. What is simulated counts, unless fines
-/// are named.
+/// The charge in numbers; lengths in m, masses in kg, volumes in m^3. They are of the simulated balls, unless
+/// fines are named.
 struct ChargeNumbers {
   std::vector<BallCount> classes;  ///< in the order of mill.yaml
   long balls = 0;                  ///< number of all
   double mass = 0;                 ///< of all balls
   double volume = 0;               ///< of the balls alone
-  double fines_mass = 0;           ///< asked for and left out
+  double fines_mass = 0;           ///< requested and left out
   double sauter_diameter = 0;      ///< Σm/Σ(m/d)
   double smallest_diameter = 0;    ///< of a ball
   double largest_diameter = 0;     ///< of a ball

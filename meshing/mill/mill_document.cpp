@@ -44,14 +44,15 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
 void require_utf8(const std::string& file, const std::string& text) {
   const bool marked = text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0;
   if (marked || text.find('\0') != std::string::npos)
-    throw MillError(file + ": is in UTF-16: expected UTF-8; save it so");
+    throw MillError(file + ": is in UTF-16: expected UTF-8: save the file in this encoding");
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = utf8_length(text, at);
     if (length == 0) {
       char byte[8];
       std::snprintf(byte, sizeof byte, "0x%02X", static_cast<unsigned>(static_cast<unsigned char>(text[at])));
       throw MillError(file + ":" + std::to_string(line_at(text, at)) + ": byte " + byte +
-                      " is no UTF-8, as in a text in Latin-1 (ISO 8859-1): expected UTF-8; save it so");
+                      " is not UTF-8, as in a text in Latin-1 (ISO 8859-1): expected UTF-8: save the file in "
+                      "this encoding");
     }
     at += length;
   }
@@ -86,7 +87,7 @@ YAML::Node load(const std::string& file, const std::string& text) {
   return documents.front();
 }
 
-/// "a.b[2].c" as {"a", "b", "2", "c"}; empty when it is no path.
+/// "a.b[2].c" as {"a", "b", "2", "c"}; empty when it is not a path.
 std::vector<std::string> names_of(const std::string& path) {
   std::vector<std::string> names(1);
   for (std::size_t at = 0; at < path.size(); ++at) {
@@ -114,7 +115,7 @@ std::string section_around(const std::string& path) {
   return cut == std::string::npos ? "" : path.substr(0, cut);
 }
 
-/// Where the value of the key stands among those that were read.
+/// The place of the key's value among those that were read.
 nlohmann::ordered_json::json_pointer pointer_to(const std::string& path) {
   nlohmann::ordered_json::json_pointer pointer;
   for (const std::string& name : names_of(path)) pointer /= name;
@@ -174,7 +175,7 @@ const std::string variant_path = "variant";
 
 }  // namespace
 
-MillDocument::MillDocument(std::filesystem::path file, std::vector<std::string> set)
+MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::string> set)
     : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {
   const std::string text = read_bytes(file_);
   require_utf8(file_, text);

@@ -21,11 +21,11 @@ class MillDocument {
   /// @param file  YAML, or a resolved mill (JSON), whose keys are read again
   /// @param set   changes "path=value", in their order: "flow.law=Hill", "charge.classes[0].mass=0.1",
   ///              "dem={duration: 4}"; the value is YAML, and `~` removes the key. "variant=NAME" takes the
-  ///              values of the map NAME under the file's key `variants` as if they stood in the file; other
+  ///              values of the map NAME under the file's key `variants` as if they were in the file; other
   ///              changes come after all variants
   /// Throws MillError for a file that cannot be read, is not UTF-8 or no single YAML map, and for a change
-  /// that is none.
-  MillDocument(std::filesystem::path file, std::vector<std::string> set);
+  /// of a wrong form.
+  MillDocument(const std::filesystem::path& file, std::vector<std::string> set);
   ~MillDocument();
 
   /// The file that was read.
@@ -43,7 +43,7 @@ class MillDocument {
   void note_line(const std::string& path, int line);
   /// The lines that are known, by the key's path.
   const std::map<std::string, int>& lines() const { return lines_; }
-  /// Where a key stands, or the innermost section around it that is there: "mill.yaml:12", or
+  /// The place of a key, or of the innermost section around it that exists: "mill.yaml:12", or
   /// "--set flow.law=Hill".
   std::string place(const std::string& path) const;
 

@@ -40,7 +40,7 @@ Json materials_numbers(const Mill& mill) {
 }
 
 MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
-  // Names of materials stand for numbers
+  // Names of materials mean numbers
   const Json materials = materials_numbers(mill);
   Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
   of["resolution"].erase("layers");

@@ -19,12 +19,13 @@ constexpr double most_cells = 1e8;
 constexpr int most_along_side = 100000;
 /// Lifters or sectors: more are no wider than the balls between them.
 constexpr int most_around = 1000;
-/// Share of holes with which a grate lets next to nothing through.
+/// Share of holes with which nearly nothing passes a grate.
 constexpr double least_open = 0.001;
 
 /// Where sources do not give them: height of lifters over the mill's radius; radii of the grates over the
 /// radius inside the lifters and over each other; depth of pulp lifters over the mill's diameter; radius
-/// inside which these let go over the grates' inner radius. As chosen for the 30 cm mill of cases/mills.
+/// inside which these release the slurry over the grates' inner radius. As chosen for the 30 cm mill of
+/// cases/mills.
 constexpr double usual_lifter_height = 1.0 / 15;
 constexpr double usual_grate_radius = 0.93;
 constexpr double usual_grate_ratio = 0.69;
@@ -145,7 +146,7 @@ PulpLifters read_pulp_lifters(const Section& in, const Geometry& geometry, doubl
 /// The openings of the ends, which only plain ends have.
 void read_openings(const Section& in, Geometry& geometry) {
   for (const char* key : {"inlet", "grates", "pulp_lifters"}) {
-    if (in.has(key) && geometry.ends != Ends::plain) in.refuse(key, "it with 'ends: plain' only");
+    if (in.has(key) && geometry.ends != Ends::plain) in.refuse(key, "this key with 'ends: plain' only");
   }
   const double room = geometry.radius() - geometry.lifters.height;
   if (in.has("inlet")) geometry.inlet = read_inlet(in.section("inlet", {"area", "radius"}), room);
@@ -155,7 +156,7 @@ void read_openings(const Section& in, Geometry& geometry) {
         room);
   }
   if (in.has("pulp_lifters")) {
-    if (!geometry.grates) in.refuse("pulp_lifters", "it with the key grates only");
+    if (!geometry.grates) in.refuse("pulp_lifters", "this key with the key grates only");
     geometry.pulp_lifters = read_pulp_lifters(
         in.section("pulp_lifters", {"depth", "layers", "discharge_radius"}), geometry, room);
   }

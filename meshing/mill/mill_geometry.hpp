@@ -6,7 +6,7 @@
 
 namespace millfoam::meshing {
 
-/// The map `geometry` of a mill.yaml. Throws MillError for what is no mill: lifters that overlap, openings
+/// The map `geometry` of a mill.yaml. Throws MillError for an impossible mill: lifters that overlap, openings
 /// that do not fit inside the lifters or without plain ends, …
 Geometry read_geometry(const Section& in);
 
@@ -14,7 +14,7 @@ Geometry read_geometry(const Section& in);
 /// have, or for more cells than OpenFOAM counts.
 Resolution read_resolution(const Section& in, const Geometry& geometry);
 
-/// Width of the flow's cells on the shell, m: the one asked for, or that of the counts around the mill.
+/// Width of the flow's cells on the shell, m: the requested one, or that of the counts around the mill.
 double shell_cell_size(const Resolution& resolution, const Geometry& geometry);
 
 }  // namespace millfoam::meshing

@@ -88,7 +88,7 @@ Contact read_contact(const Section& materials, const std::string& key, const std
 void read_softness(Section& in, const Geometry& geometry, Dem& dem) {
   in.alternatives({"youngs_modulus", "largest_overlap"});
   if (in.has("youngs_modulus")) {
-    if (in.has("largest_overlap")) in.refuse("largest_overlap", "either it or youngs_modulus");
+    if (in.has("largest_overlap")) in.refuse("largest_overlap", "either this key or youngs_modulus");
     dem.youngs_modulus = in.number("youngs_modulus", youngs_modulus());
   } else {
     dem.largest_overlap = in.number(
@@ -174,9 +174,10 @@ void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
   mill.whole_length = mill.geometry.length;
   if (geometry.has("slice")) take_slice(geometry, mill);
   if (mill.geometry.ends == Ends::plain && mill.resolution.layers < 2)
-    resolution.refuse("layers",
-                      "2 or more layers between two walls, or 'ends: periodic' (else cells have no neighbour "
-                      "along the axis)");
+    resolution.refuse(
+        "layers",
+        "2 or more layers between two walls, or 'ends: periodic' (otherwise cells have no neighbour "
+        "along the axis)");
 }
 
 Mill read_root(const Section& in, const std::string& usual_title) {

@@ -19,10 +19,10 @@ inline constexpr double same_circle = 0.005;
 /// An inlet smaller than the smallest circle has none. A periodic slice has those of the whole mill.
 std::vector<double> opening_circles(const Geometry& geometry);
 
-/// Area of the inlet as mill.yaml asks for it, m^2; 0 without one.
+/// Requested area of the inlet, m^2; 0 without one.
 double asked_inlet_area(const Geometry& geometry);
 
-/// Area of all grates as mill.yaml asks for it, holes and bars together, m^2; 0 without grates.
+/// Requested area of all grates, holes and bars together, m^2; 0 without grates.
 double asked_grate_area(const Geometry& geometry);
 
 }  // namespace millfoam::meshing

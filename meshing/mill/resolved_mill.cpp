@@ -173,14 +173,14 @@ Json resolved_mill(const MillDescription& description, const std::string& progra
 
 namespace {
 
-/// A file that is no resolved mill, such as the description of the mill itself, is not replaced.
+/// A file that is not a resolved mill, such as the description of the mill itself, is not replaced.
 void require_replaceable(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0) return;
   std::ifstream in(file);
   const Json content = Json::parse(in, nullptr, false);
   if (!content.is_object() || content.value("format", "") != "millfoam-mill")
     throw std::runtime_error("--resolved " + file.string() +
-                             ": exists and is no resolved mill; expected another file");
+                             ": exists and is not a resolved mill; expected another file");
 }
 
 }  // namespace

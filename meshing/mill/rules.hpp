@@ -9,7 +9,7 @@
 namespace millfoam::meshing {
 
 // Rules that many keys share; `what` is the quantity with its unit, as a message shows it. Every number has
-// an upper bound, so that a slip (another unit, a digit too many) does not become a mill.
+// an upper bound, so that an error (another unit, a digit too many) is refused.
 
 /// A number above 0 and up to `most`.
 inline Rule positive_up_to(const std::string& what, double most) {
@@ -30,7 +30,7 @@ inline Rule whole_number(const std::string& what, int least, int most) {
 /// m. Lengths above this are millimetres, not metres: the largest mills are 13 m wide.
 inline constexpr double longest = 50;
 
-/// s. Longer times than this are a slip: a mill's first turn takes seconds.
+/// s. Longer times than this are an error: a mill's first turn takes seconds.
 inline constexpr double longest_time = 1e5;
 
 /// A length, m, that a part of a mill can have.

@@ -67,7 +67,7 @@ std::string shown(const YAML::Node& node) {
 
 }  // namespace
 
-Section::Section(std::shared_ptr<MillDocument> document, const Keys& known)
+Section::Section(const std::shared_ptr<MillDocument>& document, const Keys& known)
     : Section(document->root(), document, "", known) {}
 
 Section::Section(const YAML::Node& node, std::shared_ptr<MillDocument> document, std::string path,
@@ -86,7 +86,7 @@ void Section::check_keys() const {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
       fail(path, "key '" + path + "' is unknown: " + suggestion(key, known_));
     }
-    if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected it once");
+    if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }
 }
 

@@ -28,7 +28,7 @@ class Section {
   using Keys = std::vector<std::string>;
 
   /// The document's root, a map with no keys but the `known` ones.
-  Section(std::shared_ptr<MillDocument> document, const Keys& known);
+  Section(const std::shared_ptr<MillDocument>& document, const Keys& known);
 
   /// The map under `key`, which must be there.
   Section section(const std::string& key, const Keys& known) const;

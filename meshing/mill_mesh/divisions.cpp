@@ -30,7 +30,7 @@ double misfit(int cells, double wished) {
 /// about.
 constexpr double wished_ratio = 2.5;
 
-/// A cost above every misfit where cells beside a lifter's corner at its top differ too much in width.
+/// A cost above every misfit where cells next to a lifter's corner at its top differ too much in width.
 double unevenness(double lifter_cell, double gap_cell) {
   return std::max({lifter_cell / gap_cell, gap_cell / lifter_cell, wished_ratio}) > wished_ratio ? 100 : 0;
 }
@@ -79,7 +79,7 @@ std::vector<double> wished_bands(const Geometry& geometry, int core) {
   return wished;
 }
 
-/// Shares out layers, at least one to each band: always to the band whose layers are the thickest still.
+/// Distributes layers, at least one to each band: the next always to the band with the thickest layers.
 std::vector<int> share_out(const std::vector<double>& wished, int layers) {
   std::vector<int> bands(wished.size(), 1);
   assert(layers >= static_cast<int>(bands.size()));
@@ -101,7 +101,7 @@ struct Layers {
   int* number = nullptr;
 };
 
-/// Adds layers to `layers` where they are too thick beside the other's.
+/// Adds layers to `layers` where they are too thick compared with the other's.
 bool thin_out(const Layers& layers, const Layers& other) {
   const int enough = static_cast<int>(std::ceil(layers.most * *other.number / (wished_ratio * other.least)));
   if (*layers.number >= enough) return false;
@@ -109,7 +109,7 @@ bool thin_out(const Layers& layers, const Layers& other) {
   return true;
 }
 
-/// Adds layers to the bands, and rows beside the lifters, until all that touch are alike.
+/// Adds layers to the bands, and rows next to the lifters, until all that touch are alike.
 void even_out(const Geometry& geometry, Divisions& divisions) {
   std::vector<double> circles = opening_circles(geometry);
   circles.push_back(lifter_top_distance(geometry));

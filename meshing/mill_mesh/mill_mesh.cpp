@@ -52,7 +52,7 @@ SectionEdges find_edges(const CrossSection& section) {
   return edges;
 }
 
-/// Draws a cross-section along z: through the mill and, where there are any, through the pulp lifters.
+/// Extrudes a cross-section along z: through the mill and, where there are any, through the pulp lifters.
 class Extrusion {
  public:
   Extrusion(const CrossSection& section, const Geometry& geometry, int layers)
@@ -128,7 +128,7 @@ class Extrusion {
     mesh_.owner.push_back(owner);
   }
 
-  /// Whether a radial wall of the pulp lifters stands between two quadrilaterals.
+  /// Whether a radial wall of the pulp lifters lies between two quadrilaterals.
   bool separated(const InnerEdge& edge) const {
     const int a = openings_.compartment[static_cast<std::size_t>(edge.owner)];
     const int b = openings_.compartment[static_cast<std::size_t>(edge.neighbour)];
@@ -223,7 +223,7 @@ class Extrusion {
     add_level(level, level > 0, chosen);
   }
 
-  /// What of the discharge end is no grate; it has two sides where pulp lifters lie behind it.
+  /// The part of the discharge end that is not a grate; it has two sides where pulp lifters lie behind it.
   void add_discharge_end() {
     const auto is_wall = [&](std::size_t q) { return !openings_.grates[q]; };
     add_level(layers_, true, is_wall);

@@ -87,7 +87,7 @@ bool may_carry_wall(const Divisions& divisions, int line) {
   return from_lifter != divisions.lifter + 1 && from_lifter != pitch - 1;
 }
 
-/// The line nearest to a position in columns, and fit for a wall where one stands there.
+/// The line nearest to a position in columns, and fit for a wall where there is one.
 int nearest_line(const Divisions& divisions, double position, bool carries_wall) {
   const int nearest = static_cast<int>(std::lround(position));
   if (!carries_wall) return nearest;

@@ -58,9 +58,9 @@ Sides find_sides(const WeldedSet& welded, const surface::EdgeTable& edges, Probl
     for (int shell : cells.flat) {
       const auto side = std::find(shells.of_side.begin(), shells.of_side.end(), shell);
       const int face = static_cast<int>(side - shells.of_side.begin()) / 2;
-      problems.add("flat shell",
-                   place(welded.set, face) + ": the faces that hang together with this one, around " +
-                       described(middle(welded.points, welded.faces[index(face)])) + ", enclose no volume");
+      problems.add("flat shell", place(welded.set, face) + ": the faces connected to this one, around " +
+                                     described(middle(welded.points, welded.faces[index(face)])) +
+                                     ", enclose no volume");
     }
     problems.stop();
   }
@@ -82,7 +82,7 @@ void check_pairs(const WeldedSet& whole, const FacePairs& pairs, const std::vect
 }
 
 /// The cells' numbers in the order in which neighbours reach each other from the first cell of each body, so
-/// that neighbours have near numbers whatever the order of the polygons. Counts the bodies.
+/// that neighbours have near numbers for any order of the polygons. Counts the bodies.
 std::vector<int> numbers_by_neighbourhood(const Sides& sides, int& bodies) {
   std::vector<std::vector<int>> neighbours(sides.volume.size());
   for (std::size_t s = 0; s < sides.open_cell.size(); s += 2) {

@@ -58,7 +58,7 @@ FacePairs find_pairs(const WeldedSet& whole, const std::set<int>& refused, Probl
 std::vector<PairGroups> groups_of_sides(const PolygonSet& whole, const FacePairs& pairs,
                                         const std::vector<int>& cell_of_side) {
   const int cells = 1 + *std::max_element(cell_of_side.begin(), cell_of_side.end());
-  std::vector<std::set<int>> points_of(index(std::max(cells, 0)));  // of cells beside pairs
+  std::vector<std::set<int>> points_of(index(std::max(cells, 0)));  // of cells next to pairs
   std::vector<bool> beside(points_of.size(), false);
   const auto for_each_cell = [&](std::size_t f, const auto& visit) {
     for (std::size_t s : {2 * f + in_front, 2 * f + behind}) {

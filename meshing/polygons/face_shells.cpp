@@ -46,7 +46,7 @@ std::vector<Leaf> sorted_about(const Points& points, const std::vector<Face>& fa
   return leaves;
 }
 
-/// The side of a face that looks on, or back, in rotation about its edge.
+/// The side of a face that looks forward, or back, in rotation about its edge.
 std::size_t looking(const surface::FaceSide& side, bool on) {
   return 2 * static_cast<std::size_t>(side.face) + (side.forward == on ? in_front : behind);
 }
@@ -72,7 +72,7 @@ void measure(const Points& points, const std::vector<Face>& faces, Shells& shell
   }
 }
 
-/// The shells of cells, ready to be asked which contains a point.
+/// The shells of cells, prepared to find the one that contains a point.
 class Containers {
  public:
   Containers(const Points& points, const std::vector<Face>& faces, const Shells& shells)

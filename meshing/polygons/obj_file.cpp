@@ -18,7 +18,7 @@ const std::set<std::string> passed_over{
     "vn", "vt", "vp", "o",   "s",          "usemtl", "mtllib",   "usemap",   "maplib",
     "l",  "p",  "mg", "lod", "shadow_obj", "bevel",  "c_interp", "d_interp", "trace_obj"};
 
-/// Second word of a group whose patch is no wall.
+/// Second word of a group whose patch is not a wall.
 constexpr const char* open_word = "patch";
 
 class Reader {

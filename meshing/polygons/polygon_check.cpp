@@ -65,7 +65,7 @@ bool check_face(const WeldedSet& welded, int f, Problems& problems) {
   return true;
 }
 
-/// Edges with one face that hang together by their ends.
+/// Edges with one face that are connected by their ends.
 std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const surface::EdgeTable& edges,
                                                   const std::set<std::size_t>& explained) {
   UnionFind points(welded.points.size());
@@ -78,6 +78,7 @@ std::vector<std::vector<std::size_t>> free_chains(const WeldedSet& welded, const
   std::map<std::size_t, std::vector<std::size_t>> chains;
   for (std::size_t e : open) chains[points.find(index(edges.first(e).low))].push_back(e);
   std::vector<std::vector<std::size_t>> list;
+  list.reserve(chains.size());
   for (auto& chain : chains) list.push_back(std::move(chain.second));
   return list;
 }
@@ -110,7 +111,7 @@ void add_chain(const WeldedSet& welded, const surface::EdgeTable& edges,
                           std::to_string(chain.size()) + " such edges around " + described(centre);
   problems.add(hole ? "hole" : "dangling face",
                place(welded, first.face) + ": " +
-                   (hole ? "a hole: " : "a dangling face, or one beside it is missing: ") + rim);
+                   (hole ? "a hole: " : "a dangling face, or a neighbouring face is missing: ") + rim);
 }
 
 /// T-junctions into the problems; returns the edges with one face that they explain.
@@ -258,10 +259,10 @@ void check_manifold(const WeldedSet& welded, const surface::EdgeTable& edges,
     const auto twice = std::adjacent_find(cells.begin(), cells.end());
     if (twice == cells.end()) continue;
     problems.add("non-manifold edge", place(welded, edges.first(e).face) + ": a non-manifold edge " +
-                                          described_edge(welded, edges.first(e)) + ": about it " +
+                                          described_edge(welded, edges.first(e)) + ": around it " +
                                           (*twice < 0 ? "the outside" : "the same cell") +
-                                          " comes more than once, for " + std::to_string(edges.faces(e)) +
-                                          " faces meet there");
+                                          " appears more than once, because " +
+                                          std::to_string(edges.faces(e)) + " faces meet there");
   }
 }
 
@@ -273,7 +274,7 @@ void check_internal(const WeldedSet& welded, const std::vector<int>& cell_of_sid
     const int face = static_cast<int>(f);
     problems.add("internal face at the boundary",
                  place(welded, face) + ": the face " + around(welded, face) +
-                     " of the group 'internal' has a cell on one side only: a face beside it is missing");
+                     " of the group 'internal' has a cell on one side only: a neighbouring face is missing");
   }
 }
 
@@ -310,7 +311,7 @@ void warn_of_shared_faces(const WeldedSet& welded, const std::vector<int>& cell_
     warnings.add("two cells with several faces between them",
                  place(welded, faces[1]) + ": the face " + around(welded, faces[1]) +
                      " lies between the same two cells as " + place(welded, faces[0]) + ", one of " +
-                     std::to_string(faces.size()) + " such faces: is one between others missing?");
+                     std::to_string(faces.size()) + " such faces: is a face between them missing?");
   }
 }
 
@@ -329,7 +330,7 @@ void warn_of_merged_cells(const WeldedSet& welded, const std::vector<int>& cell_
     if (faces.size() <= usual->first) continue;
     warnings.add("cells with more faces than the others",
                  place(welded, faces[0]) + ": the cell behind the face " + around(welded, faces[0]) +
-                     " has " + std::to_string(faces.size()) + " faces, nearly all others have " +
+                     " has " + std::to_string(faces.size()) + " faces, and nearly all others have " +
                      std::to_string(usual->first) + ": is one between two cells missing?");
   }
 }

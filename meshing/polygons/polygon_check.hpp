@@ -15,7 +15,7 @@ namespace millfoam::meshing {
 /// Sentences about what is wrong, of each kind at most ten and then their number.
 class Problems {
  public:
-  /// Adds a sentence; those of one `kind` stand together.
+  /// Adds a sentence; those of one `kind` are kept together.
   void add(const std::string& kind, const std::string& sentence);
   /// All sentences, kinds in the order in which they were first added.
   std::vector<std::string> sentences() const;
@@ -40,7 +40,7 @@ struct WeldedSet {
 /// Names of groups that cannot name a patch.
 void check_groups(const PolygonSet& set, Problems& problems);
 
-/// Polygons that are no faces. Returns their indices.
+/// Polygons that are not faces. Returns their indices.
 std::set<int> check_faces(const WeldedSet& welded, Problems& problems);
 
 /// Polygons with the same points.
@@ -59,7 +59,7 @@ void check_crossings(const WeldedSet& welded, const surface::EdgeTable& edges,
 /// Faces with the same cell on both sides. `cell_of_side` has two entries a face, see FaceSideNumber.
 void check_dangling(const WeldedSet& welded, const std::vector<int>& cell_of_side, Problems& problems);
 
-/// Edges about which the same cell, or the outside, comes more than once.
+/// Edges around which the same cell, or the outside, appears more than once.
 void check_manifold(const WeldedSet& welded, const surface::EdgeTable& edges,
                     const std::vector<int>& cell_of_side, Problems& problems);
 

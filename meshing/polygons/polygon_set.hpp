@@ -29,7 +29,7 @@ struct PolygonSet {
   std::vector<Eigen::Vector3d> points;  ///< m
   std::vector<Polygon> polygons;        ///< in the order of the file
   std::vector<std::string> groups;      ///< names, in the order in which the file gives them
-  std::set<std::string> open;           ///< groups whose patches are of the type `patch`, no walls
+  std::set<std::string> open;           ///< groups whose patches are of the type `patch`, not walls
   std::vector<std::string> files;       ///< of each group, where each comes from its own; otherwise empty
 };
 
@@ -38,7 +38,7 @@ inline constexpr const char* default_group = "walls";
 /// The group whose polygons lie between two cells. It makes no patch; one at the boundary is an error.
 inline constexpr const char* internal_group = "internal";
 
-/// Where a polygon stands, as in `faces.obj:12` or `faces.ply: face 3`.
+/// The place of a polygon, as in `faces.obj:12` or `faces.ply: face 3`.
 std::string place(const PolygonSet& set, int polygon);
 
 /// The index of the group of a name, which is added if it is new.

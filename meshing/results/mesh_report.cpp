@@ -32,7 +32,7 @@ std::string quality_line(const char* what, const char* format, double value, dou
 }
 
 std::string area_line(const char* what, double area, double asked) {
-  return line("%-24s %.5g cm^2 (asked for %.5g, relative error %.2e)", what, 1e4 * area, 1e4 * asked,
+  return line("%-24s %.5g cm^2 (requested %.5g, relative error %.2e)", what, 1e4 * area, 1e4 * asked,
               area / asked - 1);
 }
 

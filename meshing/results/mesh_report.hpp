@@ -15,8 +15,8 @@ namespace millfoam::meshing {
 std::string mill_lines(const MillDescription& description);
 
 /// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
-/// openings against those asked for, and advice on averaging where cells are smaller than the largest ball.
-/// Lines end with '\n'.
+/// openings compared with those of mill.yaml, and advice on averaging where cells are smaller than the
+/// largest ball. Lines end with '\n'.
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& quality,
                         const Openings& openings);
 

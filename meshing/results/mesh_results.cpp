@@ -81,7 +81,7 @@ std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::pat
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object() || !json.contains("time0_s") || !json["time0_s"].is_number())
     throw std::runtime_error(file.string() +
-                             ": no number time0_s; expected what millAverage writes beside solids.h5");
+                             ": no number time0_s; expected what millAverage writes next to solids.h5");
   return json["time0_s"].get<double>();
 }
 

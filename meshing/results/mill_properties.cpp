@@ -11,8 +11,7 @@
 namespace millfoam::meshing {
 namespace {
 
-/// With fewer layers a mesh is not cut along the axis for two ranks: each would have next to nothing but
-/// borders.
+/// With fewer layers a mesh is not cut along the axis for two ranks: each part would be mostly borders.
 constexpr int fewest_layers_to_cut = 8;
 
 /// Lines of an OpenFOAM dictionary.

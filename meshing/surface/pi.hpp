@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Everything of millFoam; each room has a namespace of its own.
+/// Everything of millFoam; each room has its own namespace.
 namespace millfoam {
 
 /// The circle's circumference over its diameter.

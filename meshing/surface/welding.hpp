@@ -9,9 +9,9 @@ namespace millfoam::surface {
 /// Points of which those closer than a tolerance have become one.
 struct Welding {
   std::vector<Eigen::Vector3d> points;  ///< those that are kept, in their order, where they were
-  std::vector<int> kept;                ///< for each point given, the index of the one that stands for it
-  int moved = 0;                        ///< points that lay elsewhere than the one that stands for them
-  double largest_distance = 0;          ///< between a point and the one that stands for it, m
+  std::vector<int> kept;        ///< for each point given, the index of the kept point that replaces it
+  int moved = 0;                ///< points that lay elsewhere than the kept point
+  double largest_distance = 0;  ///< between a point and its kept point, m
   Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  ///< where that is
 
   /// Number of points that were joined to another.

@@ -46,14 +46,15 @@ std::map<fs::path, std::string> contents(const fs::path& folder) {
   return found;
 }
 
-/// Writes the walls and tells which files of others, such as walls from CAD, they replaced.
+/// Writes the walls and reports which other files they replaced, such as walls from CAD.
 void replace_walls(const WallSurface& surface, Ends ends, const fs::path& folder) {
   const auto before = contents(folder);
   write_walls(surface, ends, folder);
   const auto after = contents(folder);
   for (const auto& [file, content] : before) {
     const auto now = after.find(file);
-    if (now == after.end()) std::cout << "removed: " << file.string() << ", no wall of this mill\n";
+    if (now == after.end())
+      std::cout << "removed: " << file.string() << ", which is not a wall of this mill\n";
     if (now != after.end() && now->second != content)
       std::cout << "replaced: " << file.string() << ", which held another surface\n";
   }

@@ -15,7 +15,7 @@ namespace millfoam::meshing {
 struct MillOptions {
   std::string file;              ///< mill.yaml, or a resolved mill.json
   std::vector<std::string> set;  ///< changes "path=value"
-  std::string resolved;          ///< file that receives the resolved mill; empty: none is asked for
+  std::string resolved;          ///< file that receives the resolved mill; empty: none is requested
 
   MillDescription read() const { return describe_mill(file, set); }
 };

@@ -67,9 +67,10 @@ void run_faces(const FacesOptions& options) {
     throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
   const Mill mill = options.mill.read().mill;
   if (mill.geometry.ends == Ends::periodic)
-    throw std::runtime_error(options.mill.file +
-                             ": the mill's ends are periodic, and cells out of faces know no cyclic patches: "
-                             "expected 'ends: plain' without 'slice'");
+    throw std::runtime_error(
+        options.mill.file +
+        ": the mill's ends are periodic, and cells out of faces cannot have cyclic patches: "
+        "expected 'ends: plain' without 'slice'");
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
   write_obj(mesh, options.file);
@@ -77,7 +78,7 @@ void run_faces(const FacesOptions& options) {
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);
 }
 
-/// CLI11's own check tells the largest double as a limit.
+/// CLI11's own check prints the largest double as a limit.
 const CLI::Validator above_nought{
     [](const std::string& word) {
       const auto value = to_number(word);

@@ -5,7 +5,7 @@
 
 namespace millfoam::meshing {
 
-/// Adds the subcommands that read what others made: `assemble` (polygons), `surface` (STL), and `faces`,
+/// Adds the subcommands for geometry of other programs: `assemble` (polygons), `surface` (STL), and `faces`,
 /// which writes polygons.
 void add_polygon_commands(CLI::App& app);
 

@@ -22,7 +22,7 @@ struct MeshMeasures {
 /// The measures of a mesh.
 MeshMeasures measure(const VolumeMesh& mesh);
 
-/// What a flow solver asks of a mesh, with OpenFOAM's definitions (primitiveMeshTools in its source).
+/// The quality of a mesh for a flow solver, with OpenFOAM's definitions (primitiveMeshTools in its source).
 struct MeshQuality {
   double volume = 0;         ///< of all cells, m^3
   double smallest_cell = 0;  ///< volume, m^3
@@ -54,8 +54,8 @@ inline constexpr double allowed_volume_ratio = 3;
 /// Largest error of a mill's mesh in volume, relative to the closed form.
 inline constexpr double allowed_volume_error = 0.005;
 
-/// Throws std::runtime_error with the value, the limit, the place and advice for a mesh that is no good;
-/// `analytic_volume` in m^3. From z = `length`, m, on, cells are those of pulp lifters.
+/// Throws std::runtime_error with the value, the limit, the place and advice for a mesh that is not good
+/// enough; `analytic_volume` in m^3. From z = `length`, m, on, cells are those of pulp lifters.
 void require_quality(const MeshQuality& quality, double analytic_volume,
                      double length = std::numeric_limits<double>::infinity());
 

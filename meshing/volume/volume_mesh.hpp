@@ -17,7 +17,7 @@ struct Patch {
   int start = 0;          ///< index of the first face
   int size = 0;           ///< number of faces, which may be 0
   std::string neighbour;  ///< name of the patch that this one is joined to periodically; empty for a wall
-  bool open = false;      ///< fluid may pass: no wall
+  bool open = false;      ///< fluid may pass: not a wall
 };
 
 /// Cells or faces between two cells that the flow treats alike.
@@ -26,7 +26,7 @@ struct Zone {
   std::vector<int> members;  ///< indices, ascending
 };
 
-/// Cells bounded by faces of type `Face`, a list of point indices, in the order that OpenFOAM asks for: first
+/// Cells bounded by faces of type `Face`, a list of point indices, in the order that OpenFOAM needs: first
 /// the faces between two cells, sorted by owner and then by neighbour, with owner < neighbour; then the
 /// patches' faces. A face's normal points out of its owner. In a pair of periodic patches face i matches face
 /// i, and their first points match.

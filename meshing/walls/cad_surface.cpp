@@ -69,7 +69,7 @@ void check_frame(const PolygonSet& set, CadReport& report) {
   const double largest = size.maxCoeff();
   if (largest > largest_mill) {
     report.problems.push_back(sentence("the bounding box is ", largest, " m long, above ", largest_mill,
-                                       " m: is this in millimetres? Then say --scale 0.001"));
+                                       " m: is this in millimetres? Then give --scale 0.001"));
   } else if (largest < smallest_mill) {
     report.warnings.push_back(
         sentence("the bounding box is only ", largest, " m long: is its unit the metre?"));
@@ -181,7 +181,7 @@ bool has_branching_edge(const surface::EdgeTable& edges) {
   return false;
 }
 
-/// Where a triangle stands, for messages.
+/// The place of a triangle, for messages.
 std::string at(const Welded& welded, int face) {
   return sentence(place(welded.set, face), ", around ",
                   described(middle(welded.points, welded.faces[index(face)])));
@@ -210,7 +210,7 @@ int turn_bodies(Welded& welded, const std::vector<Body>& bodies, Problems& probl
   for (const Body& body : bodies) {
     if (!body.two_sided)
       problems.add("one side only", sentence("the surface that contains ", at(welded, body.faces.front()),
-                                             ", has one side only: its triangles cannot all face outwards"));
+                                             ", is one-sided: its triangles cannot all face outwards"));
     if (!body.two_sided || !body.closed) continue;
     const bool wrong = (body.inside_of % 2 == 0) != (body.volume > 0);
     report.volume += (body.inside_of % 2 == 0 ? 1 : -1) * std::abs(body.volume);
@@ -252,7 +252,7 @@ void orient_bodies(Welded& welded, const std::vector<Face>& covers, const surfac
                                       turned == 1 ? "was" : "were", " turned"));
   if (found.bodies.size() == 1 || has_branching_edge(edges)) return;
   report.warnings.push_back(
-      sentence(found.bodies.size(), " bodies that do not hang together: ", listed(welded, found.bodies)));
+      sentence(found.bodies.size(), " bodies that are not connected: ", listed(welded, found.bodies)));
 }
 
 WallSurface to_walls(const Welded& welded) {

@@ -32,7 +32,7 @@ std::vector<std::vector<Neighbour>> find_neighbours(const surface::EdgeTable& ed
   return neighbours;
 }
 
-/// Whether each face is to be turned to agree with the first of its body; -1 where not yet reached.
+/// Whether each face must be turned to agree with the first of its body; -1 where not yet reached.
 using Turned = std::vector<int>;
 
 Body reached_from(int first, const std::vector<std::vector<Neighbour>>& neighbours, Turned& turned) {
@@ -109,7 +109,7 @@ Bodies find_bodies(const Points& points, const surface::EdgeTable& edges, std::v
       found.bodies[body_of[index(edges.sides[s].face)]].closed = false;
   }
   for (Body& body : found.bodies) {
-    const Vector3d apex = points[index(faces[index(body.faces.front())].front())];
+    const Vector3d& apex = points[index(faces[index(body.faces.front())].front())];
     for (int face : body.faces) body.volume += pyramid_volume(points, faces[index(face)], apex);
   }
   count_containers(points, faces, found.bodies);

@@ -8,7 +8,7 @@
 
 namespace millfoam::meshing {
 
-/// Faces that hang together over edges with two faces.
+/// Faces that are connected by edges with two faces.
 struct Body {
   std::vector<int> faces;  ///< indices
   bool closed = true;      ///< no edge with one face, nor with more than two

@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 /// Longest side of a triangle along the axis, in units of the outline's longest side.
 constexpr double axial_stretch = 4;
 
-/// The closed polygon around a cross-section: its points numbered anew, its sides with the interior to their
+/// The closed polygon around a cross-section: its points renumbered, its sides with the interior to their
 /// left.
 struct Outline {
   std::vector<Vector2d> points;

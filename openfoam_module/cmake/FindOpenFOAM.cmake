@@ -82,7 +82,7 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   else()
     target_compile_options(OpenFOAM::OpenFOAM INTERFACE -fno-tree-loop-vectorize)
   endif()
-  # With sanitizers at -O2, GCC 12 takes std::function inside std::regex for uninitialized.
+  # With sanitizers at -O2, GCC 12 takes std::function inside std::regex, of OpenFOAM's regExp, for uninitialized.
   target_compile_options(OpenFOAM::OpenFOAM INTERFACE $<$<BOOL:${MILLFOAM_SANITIZE}>:-Wno-maybe-uninitialized>)
   target_link_libraries(OpenFOAM::OpenFOAM INTERFACE ${OpenFOAM_LIBRARY} ${OpenFOAM_PSTREAM_LIBRARY})
   target_link_options(OpenFOAM::OpenFOAM INTERFACE LINKER:--no-as-needed)

@@ -16,13 +16,13 @@
 ///     beta = 18 mu phi e^2 F / d^2              exchange coefficient, kg/(m^3 s)
 ///     -dp/dx = beta v / e = 18 mu phi e F v/d^2 pressure gradient in a fixed bed, Pa/m
 ///
-/// Correlations published as drag alone (Ergun, Wen-Yu, Beetstra, Di Felice, Rong, Tang) are divided by e;
+/// Correlations published as drag only (Ergun, Wen-Yu, Beetstra, Di Felice, Rong, Tang) are divided by e;
 /// Hill-Koch-Ladd, Benyahia and Tenneti are published as totals, Fand, Kozeny-Carman and Darcy as pressure
 /// gradients.
 ///
-/// Each function is defined for 0 <= phi < 1 and every Re >= 0; the range in which it is valid
-/// stands in its comment and, machine-readable, in the table. Its ends are those usually quoted for the
-/// publication, or were chosen here where it gives words only; then the comment says so.
+/// Each function is defined for 0 <= phi < 1 and every Re >= 0. The range in which it is valid is in its
+/// comment and, for programs, in the table. The limits are those usually quoted for the publication. Where
+/// the publication gives words only, they were chosen here, and the comment says so.
 namespace millfoam::drag {
 
 /// Ergun 1952, Chem. Eng. Prog. 48:89. Dense beds; goes to 0 with phi.
@@ -38,7 +38,7 @@ double fand(double phi, double re);
 
 /// Kozeny & Carman's viscous bed with Carman's constant 5 (Carman 1937, Trans. Inst. Chem. Eng. 15:150); goes
 /// to 0 with phi.
-/// Range: phi >= 0.4 and Re <= 2.3; chosen, for it is the limit Re -> 0 alone: Hill, Koch & Ladd's beds
+/// Range: phi >= 0.4 and Re <= 2.3; chosen, because it is only the limit Re -> 0: Hill, Koch & Ladd's beds
 /// follow it from phi 0.4 on, and 2.3 is the end of Fand's regime without inertia.
 double kozeny_carman(double phi, double re);
 

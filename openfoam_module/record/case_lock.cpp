@@ -24,8 +24,8 @@ std::string holder(int file) {
 
 void sign(int file, const std::string& program) {
   const std::string text = program + " (process " + std::to_string(getpid()) + ")";
-  const bool signed_ = ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) >= 0;
-  static_cast<void>(signed_);  // only a name for messages: the lock holds without it
+  const bool is_signed = ftruncate(file, 0) == 0 && pwrite(file, text.data(), text.size(), 0) >= 0;
+  static_cast<void>(is_signed);  // only a name for messages: the lock holds without it
 }
 
 }  // namespace

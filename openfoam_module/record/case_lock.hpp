@@ -11,7 +11,7 @@ namespace millfoam::record {
 class CaseLock {
  public:
   /// @param folder  of the case; its file postProcessing/flow/.lock is locked
-  /// @param program  that asks, for the message of another that finds the case locked
+  /// @param program  name of the program, for the message of another one that finds the case locked
   ///
   /// Throws std::runtime_error when another program has the lock, after waiting for a second, or when the
   /// file cannot be written.

@@ -158,6 +158,12 @@ void FlowRecord::add(StepRow row) {
     force_95_ += *row.force_95;
     ++forces_;
   }
+  if (row.continuity_residual && row.continuity_speed && row.slip) {
+    continuity_residual_ += *row.continuity_residual;
+    continuity_speed_ += *row.continuity_speed;
+    slip_ += *row.slip;
+    ++continuities_;
+  }
 }
 
 void FlowRecord::add_steps(nlohmann::ordered_json& result) const {
@@ -182,11 +188,15 @@ void FlowRecord::add_balls(nlohmann::ordered_json& result) const {
       {"largest", beyond_law_.largest_value()},         {"mean", beyond_law_.mean_value()},
       {"solidity_below", solidity_below_.mean_value()}, {"solidity_above", solidity_above_.mean_value()},
       {"reynolds_below", reynolds_below_.mean_value()}, {"reynolds_above", reynolds_above_.mean_value()}};
-  const auto force = [this](double sum) {
-    return forces_ > 0 ? Json(sum / static_cast<double>(forces_)) : Json(nullptr);
+  const auto mean = [](double sum, long long times) {
+    return times > 0 ? Json(sum / static_cast<double>(times)) : Json(nullptr);
   };
   result["force_on_balls"] = {
-      {"mean", force(force_mean_)}, {"below_95", force(force_95_)}, {"times", forces_}};
+      {"mean", mean(force_mean_, forces_)}, {"below_95", mean(force_95_, forces_)}, {"times", forces_}};
+  result["solids_continuity"] = {{"residual_per_s", mean(continuity_residual_, continuities_)},
+                                 {"speed_m_per_s", mean(continuity_speed_, continuities_)},
+                                 {"slip_m_per_s", mean(slip_, continuities_)},
+                                 {"times", continuities_}};
 }
 
 std::string FlowRecord::summary(bool complete) const {

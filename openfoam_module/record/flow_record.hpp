@@ -73,7 +73,7 @@ struct FlowSetup {
 /// Keeps the record of a running flow.
 class FlowRecord {
  public:
-  /// Begins the record of a run in `case_folder`/postProcessing/flow/`start`, anew, and removes the records
+  /// Begins a new record of a run in `case_folder`/postProcessing/flow/`start` and removes the records
   /// of runs that began later: their steps are computed again.
   /// @param case_folder  of the OpenFOAM case
   /// @param start  name of the time at which the run begins or resumes
@@ -121,6 +121,10 @@ class FlowRecord {
   double force_mean_ = 0;  ///< sums over the written times
   double force_95_ = 0;
   long long forces_ = 0;
+  double continuity_residual_ = 0;  ///< sums over the written times
+  double continuity_speed_ = 0;
+  double slip_ = 0;
+  long long continuities_ = 0;
 };
 
 }  // namespace millfoam::record

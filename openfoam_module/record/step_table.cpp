@@ -21,7 +21,7 @@ std::string written(const Value& value) {
 
 }  // namespace
 
-const std::array<StepColumn, 24> step_columns{{
+const std::array<StepColumn, 27> step_columns{{
     {"time_s", [](const StepRow& r) -> Value { return r.time; }},
     {"deltaT_s", [](const StepRow& r) -> Value { return r.delta_t; }},
     {"courant", [](const StepRow& r) -> Value { return r.courant; }},
@@ -45,6 +45,9 @@ const std::array<StepColumn, 24> step_columns{{
     {"reynolds_above", [](const StepRow& r) { return r.reynolds_above; }},
     {"force_mean", [](const StepRow& r) { return r.force_mean; }},
     {"force_95", [](const StepRow& r) { return r.force_95; }},
+    {"continuity_residual_per_s", [](const StepRow& r) { return r.continuity_residual; }},
+    {"continuity_speed_m_per_s", [](const StepRow& r) { return r.continuity_speed; }},
+    {"slip_m_per_s", [](const StepRow& r) { return r.slip; }},
     {"wall_s", [](const StepRow& r) -> Value { return r.wall; }},
 }};
 

@@ -8,7 +8,7 @@
 
 namespace millfoam::record {
 
-/// What is known of one time-step of a flow, at its end. Shares are 0 to 1. Nothing: not known in this step,
+/// What is known of one time-step of a flow, at its end. Shares are 0 to 1. Empty: not known in this step,
 /// or not in this flow.
 struct StepRow {
   double time = 0;                 ///< flow time at the end of the step, s
@@ -34,7 +34,11 @@ struct StepRow {
   std::optional<double> reynolds_above;     ///< above its largest
   std::optional<double> force_mean;  ///< of the fluid on the balls over their weight, mean over the balls
   std::optional<double> force_95;    ///< what 95 % of the balls stay below
-  double wall = 0;                   ///< wall time since the run began, s
+  std::optional<double> continuity_residual;  ///< rms of d(phi)/dt + div(phi u_s) over the solids, 1/s
+  std::optional<double>
+      continuity_speed;        ///< rms of the flow that it drives, over the slurry between balls, m/s
+  std::optional<double> slip;  ///< rms of the slip between slurry and balls, over the same, m/s
+  double wall = 0;             ///< wall time since the run began, s
 };
 
 /// A column of steps.csv.
@@ -44,12 +48,12 @@ struct StepColumn {
 };
 
 /// All columns, in their order.
-extern const std::array<StepColumn, 24> step_columns;
+extern const std::array<StepColumn, 27> step_columns;
 
 /// steps.csv: one row per time-step, each handed to the operating system at once. What is not known is `nan`.
 class StepTable {
  public:
-  /// Begins the file anew. Throws std::runtime_error when it cannot be written.
+  /// Begins a new file. Throws std::runtime_error when it cannot be written.
   explicit StepTable(const std::filesystem::path& path);
 
   /// Appends a row. Throws std::runtime_error when it cannot be written (a full disk).

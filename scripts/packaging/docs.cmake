@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Target `docs`: the site build/PRESET/docs/html, made by Doxygen from the pages, the docstrings of headers and the
-# manuals at the head of OpenFOAM classes (doxygen_page). It fails where a public name of a .hpp has no docstring.
+# manuals at the head of OpenFOAM classes (doxygen_page). It fails where a public name of a header has no docstring.
 find_package(Doxygen QUIET)
 if(DOXYGEN_FOUND)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/Doxyfile.in ${CMAKE_BINARY_DIR}/Doxyfile @ONLY)

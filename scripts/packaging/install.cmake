@@ -49,7 +49,8 @@ install(PROGRAMS ${CMAKE_SOURCE_DIR}/scripts/new_mill ${CMAKE_SOURCE_DIR}/script
 install(FILES ${CMAKE_SOURCE_DIR}/scripts/case_functions ${CMAKE_SOURCE_DIR}/scripts/env
               ${CMAKE_SOURCE_DIR}/scripts/mill_stages ${CMAKE_SOURCE_DIR}/scripts/paraview_mill.py
         DESTINATION ${share}/scripts)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/mill_case ${CMAKE_SOURCE_DIR}/scripts/millfoam DESTINATION ${share}/scripts
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/mill_case ${CMAKE_SOURCE_DIR}/scripts/millfoam
+        DESTINATION ${share}/scripts
         PATTERN __pycache__ EXCLUDE)
 file(GLOB mills CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/cases ${CMAKE_SOURCE_DIR}/cases/mills/*/mill.yaml)
 foreach(mill ${mills})
@@ -68,11 +69,14 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What the programs start, and the report's Python; libraries are found by dpkg-shlibdeps
-set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "liggghts, openmpi-bin, python3, python3-numpy, python3-h5py, python3-matplotlib, python3-scipy, python3-skimage, python3-pil")
-if(MILLFOAM_OPENFOAM)
+string(CONCAT CPACK_DEBIAN_PACKAGE_DEPENDS
+       "liggghts, openmpi-bin, python3, python3-numpy, python3-h5py, python3-matplotlib, python3-scipy, "
+       "python3-skimage, python3-pil")
+# With another OpenFOAM than the distribution's, its owner sources it
+if(MILLFOAM_OPENFOAM AND NOT MILLFOAM_OPENFOAM_SOURCED)
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", openfoam")
 endif()
 # To link with the static libraries
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libcgal-dev, libyaml-cpp-dev, nlohmann-json3-dev, libhdf5-dev, zlib1g-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+    "libeigen3-dev, libcgal-dev, libyaml-cpp-dev, nlohmann-json3-dev, libhdf5-dev, zlib1g-dev")
 include(CPack)

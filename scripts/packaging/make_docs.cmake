@@ -2,8 +2,8 @@
 cmake_minimum_required(VERSION 3.25)
 # cmake -DDOXYGEN=… -DFOLDER=… -P make_docs.cmake runs Doxygen in a build folder. It fails and names them where public
 # names have no docstring, where a description leaves out some of a function's arguments, and where a page's link to a
-# heading leads nowhere. Copies and moves that the compiler writes need no docstring. The test scripts.readme checks the
-# pages' links as they stand.
+# heading has no target. Copies and moves that the compiler writes need no docstring. The test scripts.readme checks the
+# pages' links as they are.
 file(MAKE_DIRECTORY ${FOLDER}/docs)
 execute_process(COMMAND ${DOXYGEN} ${FOLDER}/Doxyfile RESULT_VARIABLE failed)
 if(failed)
@@ -20,5 +20,5 @@ endif()
 file(STRINGS ${FOLDER}/docs/warnings.txt broken REGEX "unable to resolve reference")
 if(broken)
   list(JOIN broken "\n" lines)
-  message(FATAL_ERROR "docs: links of the pages lead nowhere:\n${lines}")
+  message(FATAL_ERROR "docs: links of the pages have no target:\n${lines}")
 endif()

@@ -22,7 +22,7 @@ namespace {
 using millfoam::averaging::parse_dump;
 using millfoam::averaging::read_dump;
 
-/// A dump as LIGGGHTS writes it: numbers of six digits, unless another number is asked for.
+/// A dump as LIGGGHTS writes it: numbers of six digits, unless another number is requested.
 std::string dump_of(std::size_t balls, int digits) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-0.06, 0.06);

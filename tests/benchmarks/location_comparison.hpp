@@ -13,7 +13,7 @@
 /// several.
 namespace millfoam::averaging {
 
-/// Points as sampling asks for them: the template of one ball after the other, at random places in the mesh;
+/// Points in the order of sampling: the template of one ball after the other, at random places in the mesh;
 /// some stick out of it. Of about the size of a cell.
 std::vector<Eigen::Vector3d> sampled_points(const MeshGeometry& geometry, std::size_t balls);
 

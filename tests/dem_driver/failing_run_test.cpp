@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A script stands in for LIGGGHTS here, because LIGGGHTS cannot be asked to fail in a given way.
+// A script replaces LIGGGHTS here, because LIGGGHTS cannot be made to fail in a given way.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using tests::small_mill;
 using tests::TemporaryFolder;
 using tests::Variable;
 
-/// A case with a `liggghts` of its own, before everything else on PATH.
+/// A case with its own `liggghts`, before everything else on PATH.
 class FailingRun : public ::testing::Test {
  protected:
   /// What run_liggghts complains about when LIGGGHTS does `script`.
@@ -102,7 +102,8 @@ TEST_F(FailingRun, ADumpThatHadNoRoomStopsTheRunAtOnce) {
   EXPECT_EQ(message.find(file.string() + ": 512 bytes with "), 0u) << message;
   EXPECT_NE(message.find("complete lines, expected 259; "), std::string::npos) << message;
   EXPECT_NE(message.find(" free"), std::string::npos) << message;
-  EXPECT_NE(message.find("--resume begins again: there is no complete restart file"), std::string::npos)
+  EXPECT_NE(message.find("--resume starts from the beginning: there is no complete restart file"),
+            std::string::npos)
       << message;
 }
 

@@ -16,7 +16,7 @@ namespace millfoam::dem_driver::tests {
 /// A smooth periodic drum of 40 mm diameter, turning clockwise, with 150 balls of 3 mm and 100 of 2 mm.
 meshing::Mill small_mill();
 
-/// A folder of its own with a blank in its name, removed at the end of the test.
+/// A folder with a blank in its name, removed at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -45,7 +45,7 @@ nlohmann::json read_json(const std::filesystem::path& file);
 /// Writes a shell script that can be run.
 void write_script(const std::filesystem::path& file, const std::string& commands);
 
-/// Script of an mpirun that does what Open MPI's does when it has fewer slots than are asked for.
+/// Script of an mpirun that does what Open MPI's does when it has fewer slots than requested.
 inline constexpr char refusal_of_open_mpi[] = R"(cat <<'END'
 --------------------------------------------------------------------------
 There are not enough slots available in the system to satisfy the 64

@@ -187,11 +187,11 @@ class MillAverage(unittest.TestCase):
     def test_only_solids_files_are_overwritten(self):
         mill = "geometry: {diameter: 2}\n"
         (self.folder / "mill.yaml").write_text(mill)
-        self.refused(self.command(output="mill.yaml"), "mill.yaml", "exists and is no millfoam-solids file")
-        self.refused([*MPIRUN, "2", *self.command(output="mill.yaml")], "exists and is no millfoam-solids file")
+        self.refused(self.command(output="mill.yaml"), "mill.yaml", "exists and is not a millfoam-solids file")
+        self.refused([*MPIRUN, "2", *self.command(output="mill.yaml")], "exists and is not a millfoam-solids file")
         self.average()
         self.refused(["millAverage", "--report", "solids.h5", "--json", "mill.yaml"], "mill.yaml",
-                     "exists and is no millfoam-averages file")
+                     "exists and is not a millfoam-averages file")
         self.assertEqual((self.folder / "mill.yaml").read_text(), mill)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
                          ["mill.yaml", "solids.h5", "solids.json", "solids.xdmf"])

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, the pressure of a
-closed box."""
+"""slurryFoam compared with closed forms in small boxes: friction at the walls of a bed, given inflow, drops, the
+pressure of a closed box."""
+import re
 import unittest
 
 import numpy as np
@@ -62,6 +63,59 @@ class Channel(SlurryTest):
             case.at_patch(side, U=SLIP)
         self.assert_runs(case, "slurryFoam")
         np.testing.assert_allclose(case.field("U", 0.01)[:, 0], speed, rtol=1e-6)
+
+
+class Drop(SlurryTest):
+    """A drop without gravity keeps its shape, and its pressure is sigma times its curvature."""
+
+    radius, per_radius, sigma = 0.01, 10, 0.07  # m, cells, N/m
+
+    def share(self, cells, centre):
+        """Share of each cell in the drop, of 8 points along each axis; in one layer of cells it is a cylinder."""
+        points = [(np.arange(8 * n) + 0.5) / 8 * self.radius / self.per_radius - c for n, c in zip(cells, centre)]
+        z, y, x = np.meshgrid(*points[::-1], indexing="ij")
+        inside = x**2 + y**2 + (0 if cells[2] == 1 else z**2) < self.radius**2
+        return inside.reshape(cells[2], 8, cells[1], 8, cells[0], 8).mean(axis=(1, 3, 5)).ravel()
+
+    def jump(self, cells, end):
+        """Pressure (Pa) in the drop less that outside, mean over the later half of 10 times; largest speed (m/s)."""
+        edge = self.radius / self.per_radius
+        case = self.slurry_case(
+            upper=tuple(edge * np.array(cells)), cells=cells, level=lambda x: 0 * x,
+            bingham="yieldStress 0; plasticViscosity 0.05; regularisation biviscosity; viscosityRatio 1;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        for side in ("front", "back"):
+            case.at_patch(side, U=SLIP)
+        centre = edge * (np.array(cells) / 2 + [0.3, 0.2, 0.1])
+        alpha = case.path / "0/alpha.slurry"
+        values = " ".join(map(repr, self.share(cells, centre).tolist()))
+        alpha.write_text(re.sub(r"internalField [^;]*;", f"internalField nonuniform List<scalar> {np.prod(cells)} "
+                                f"({values});", alpha.read_text()))
+        # Neither the flow nor maxDeltaT bounds the steps: the surface tension does
+        case.adjusted(end, end / 10, delta_t=1e-5, courant=0.5)
+        self.assert_runs(case, "slurryFoam")
+        jumps, speeds = [], []
+        distance = np.linalg.norm((case.centres() - centre)[:, :2 if cells[2] == 1 else 3], axis=1)
+        for time in end * np.arange(6, 11) / 10:
+            p = case.field("p", time)
+            jumps.append(p[distance < 0.6 * self.radius].mean() - p[distance > 1.4 * self.radius].mean())
+            speeds.append(np.linalg.norm(case.field("U", time), axis=1).max())
+        limit = 0.25 * np.sqrt((SLURRY + 1.2) * edge**3 / (np.pi * self.sigma))
+        # Steps are stretched to end at written times
+        self.assertAlmostEqual(case.steps()["deltaT_s"].max() / limit, 1, delta=0.1)
+        return np.mean(jumps), max(speeds)
+
+    def test_cylinder(self):
+        jump, speed = self.jump((32, 32, 1), 0.1)
+        self.assertAlmostEqual(jump, self.sigma / self.radius, delta=0.03 * self.sigma / self.radius)
+        self.assertLess(speed, 0.03)
+
+    def test_sphere(self):
+        jump, speed = self.jump((32, 32, 32), 0.03)
+        self.assertAlmostEqual(jump, 2 * self.sigma / self.radius, delta=0.05 * 2 * self.sigma / self.radius)
+        self.assertLess(speed, 0.08)
 
 
 class StrongDrag(SlurryTest):

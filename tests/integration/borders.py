@@ -15,10 +15,10 @@ MAY_USE = {
     "meshing/files": set(),
     "meshing/surface": {"meshing/files"},
     "meshing": {"meshing/files", "meshing/surface",
-                "openfoam_module/drag"},  # the names of the laws, which stand in its table alone
+                "openfoam_module/drag"},  # the names of the laws, which are only in its table
     "dem_driver": {"meshing", "meshing/files", "meshing/surface"},
     "averaging": {"meshing/files", "meshing/surface"},
-    # The tool reads a mill's section; the library knows no mills
+    # The tool reads a mill's section; the library does not depend on mills
     "averaging/tools": {"averaging", "meshing", "meshing/files", "meshing/surface"},
     "openfoam_module/drag": set(),
     "openfoam_module": {"openfoam_module/drag", "averaging"},

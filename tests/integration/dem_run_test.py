@@ -378,7 +378,7 @@ class Tracer(unittest.TestCase):
         found = self.apart(self.tracks(0.004))
         self.assertLess(found.solidity, 0.03)
         self.assertLess(max(found.velocity_x, found.velocity_y), 0.02)
-        # Small balls gather in the middle of the charge: they are no tracers of all of it, but of its motion
+        # Small balls gather in the middle of the charge: they are not tracers of all of it, but of its motion
         small = self.apart(self.tracks(0.002))
         self.assertGreater(small.solidity, 2 * found.solidity)
         self.assertLess(small.solidity, 0.15)

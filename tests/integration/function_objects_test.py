@@ -273,7 +273,7 @@ class InABox(SlurryTest):
         _, result = self.voxels("0.2 0.2 0", "0.3 0.3 0.02")
         self.assertNotEqual(result.code, 0)
         log = " ".join(result.log.split())
-        for words in ("voxelAverages: nothing of the mesh", "(0.14 0.1 0.02)", "(0.2 0.2 0) to (0.3 0.3 0.02) m"):
+        for words in ("voxelAverages: no part of the mesh", "(0.14 0.1 0.02)", "(0.2 0.2 0) to (0.3 0.3 0.02) m"):
             self.assertIn(words, log)
         self.assertNotIn("\nTime = ", result.log)
 

@@ -19,7 +19,7 @@ def sources(root, *tops):
 
 
 def includes(root, file):
-    """[(name, file that it stands for, or None for headers from elsewhere)] of a C++ source; paths are relative to the
+    """[(name, file that it means, or None for headers from elsewhere)] of a C++ source; paths are relative to the
     root."""
     found = []
     foam = {header.name: header.parent for header in (root / FOAM).glob("*/*.H")} if file.suffix in FOAM_SOURCES else {}

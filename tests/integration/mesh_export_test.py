@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""foamMeshToH5: the same mesh.h5 whatever the format and decomposition, moving points, refused input."""
+"""foamMeshToH5: the same mesh.h5 for any format and decomposition, moving points, refused input."""
 import gzip
 import re
 import shutil
@@ -185,7 +185,7 @@ class Times(ExportTest):
         for time in (0.1, 0.25, 0.5):
             self.points[time] = self.points[0] * (1 + time)
             self.write_points(case, time, self.points[time])
-        # A time without points of its own
+        # A time without its own points
         case.write("0.3/U", "", "volVectorField")
         return case
 

@@ -23,7 +23,7 @@ NINE_LAYERS = ("resolution.layers=9", "geometry.pulp_lifters.layers=2")
 
 
 def counts(gap, lifter, height, ring, layers):
-    """The numbers of cells in the place of whatever resolution the mill has."""
+    """The numbers of cells instead of the mill's resolution."""
     return f"resolution={{counts: {{gap: {gap}, lifter: {lifter}, height: {height}, ring: {ring}}}, layers: {layers}}}"
 
 
@@ -56,7 +56,7 @@ class Mesh(unittest.TestCase):
         (case / "walls" / "feedEnd.stl").write_text(drawn)
         output = run(case, "millMesh", SLICE, "--case", ".")
         self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", output.replace("./", ""))
-        self.assertIn("removed: walls/feedEnd.stl, no wall of this mill", output.replace("./", ""))
+        self.assertIn("removed: walls/feedEnd.stl, which is not a wall of this mill", output.replace("./", ""))
         self.assertNotIn(lifters.name, output)
 
     def test_periodic_slice(self):
@@ -111,7 +111,7 @@ class Mesh(unittest.TestCase):
         case = Path(tempfile.mkdtemp(prefix="mesh-"))
         self.addCleanup(shutil.rmtree, case)
         shutil.copytree(SYSTEM, case / "system")
-        (case / "system" / "controlDict").write_text(CONTROL)  # the mills' own wants numbers of a mill
+        (case / "system" / "controlDict").write_text(CONTROL)  # the mills' controlDict needs numbers of a mill
         (case / "faces.obj").write_text("\n".join(lines) + "\n")
         run(case, "millMesh", "assemble", "faces.obj", "--case", ".")
         return run(case, "checkMesh", "-constant", "-allTopology", "-allGeometry")

@@ -70,7 +70,7 @@ class FedMill(unittest.TestCase):
         radius, level, length = 0.15, -0.0467, 0.305 + 0.033
         segment = radius ** 2 * np.arccos(-level / radius) + level * np.sqrt(radius ** 2 - level ** 2)
         start = self.start_volume()
-        # Eight lifters of 1 cm2 stand below that level
+        # Eight lifters of 1 cm2 are below that level
         self.assertAlmostEqual(start / ((segment - 8e-4) * length), 1, delta=0.005)
 
     def test_the_profile_along_the_axis_is_flat_at_first(self):

@@ -270,7 +270,7 @@ class Again(unittest.TestCase):
         self.allrun("--until", "start")
         self.assertEqual(properties.read_text(), text)
 
-    def test_a_shorter_dry_run_begins_anew(self):
+    def test_a_shorter_dry_run_starts_from_the_beginning(self):
         made, kept = self.allrun("--until", "average", "--set", "dem.duration=0.3")
         self.assertEqual((made, kept), (["charge", "average"], ["walls"]))
         self.assertAlmostEqual(read_json(self.case / "dumps" / "results.json", "charge")["duration_s"], 0.3)
@@ -287,8 +287,8 @@ class Again(unittest.TestCase):
     def test_the_description_is_not_overwritten(self):
         before = (self.case / "mill.yaml").read_bytes()
         output = self.refused("millMesh", "mill.yaml", "--resolved", "mill.yaml")
-        self.assertIn("exists and is no resolved mill", output)
-        self.assertIn("exists and is no HTML", self.refused(ROOT / "scripts" / "report", ".", "-o", "mill.yaml"))
+        self.assertIn("exists and is not a resolved mill", output)
+        self.assertIn("exists and is not HTML", self.refused(ROOT / "scripts" / "report", ".", "-o", "mill.yaml"))
         self.assertEqual((self.case / "mill.yaml").read_bytes(), before)
 
     def test_a_resolved_mill_goes_into_a_pipe(self):

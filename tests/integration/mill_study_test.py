@@ -18,7 +18,7 @@ from millstudies import mill_runs
 from millstudies.convergence import judge
 from millstudies.mill_runs import Setting
 
-TILT = 25.0  # of a pool's surface, degrees: it stands higher on the rising side
+TILT = 25.0  # of a pool's surface, degrees: it is higher on the rising side
 TIMES = (0.1, 0.2, 0.3)
 FIELD = ("FoamFile {{ version 2.0; format ascii; class vol{kind}Field; }}\n"
          "internalField nonuniform List<{item}> {count}\n(\n{rows}\n);\n")
@@ -175,7 +175,7 @@ class MadeOnce(unittest.TestCase):
 
     ALL = ["millMesh", "millDem", "millAverage", "millMesh", "slurryStart", "slurryFoam"]
 
-    def test_a_whole_run_is_kept_and_a_changed_or_interrupted_one_is_made_anew(self):
+    def test_a_complete_run_is_kept_and_a_changed_or_interrupted_one_is_made_again(self):
         plain = Setting("one")
         for self.failing in ("millDem", "millAverage", "slurryFoam"):
             with self.assertRaises(RunError):

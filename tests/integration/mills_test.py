@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mills that the project does not have, from their YAML alone to the report: `new_mill`, `Allrun`, and what came of it.
 
-Each mill is a few hundred balls at the most, some tenths of a second and a coarse mesh. What is expected of it is
+Each mill is at most a few hundred balls, some tenths of a second and a coarse mesh. What is expected of it is
 computed here from its numbers. `-k Slice`, `-k Whole`, `-k Ranks`: groups that ctest runs on several cores."""
 import os
 import re
@@ -30,7 +30,7 @@ def ball(diameter):
 
 
 def section(radius, count=0, height=0.0, width=0.0, top=None):
-    """Area of a mill's cross-section, m2: the circle without lifters, each of which stands on an arc of the shell."""
+    """Area of a mill's cross-section, m2: the circle without lifters, each of which is on an arc of the shell."""
     half = asin(width / 2 / radius)
     arc = radius ** 2 * (half - np.sin(2 * half) / 2)
     trapezoid = (width + (width if top is None else top)) / 2 * (sqrt(radius ** 2 - width ** 2 / 4) - radius + height)

@@ -112,7 +112,7 @@ def written(mill):
 
 
 def leaves(mill, path=""):
-    """Paths of the keys of a mill whose values are no maps and no lists."""
+    """Paths of the keys of a mill whose values are neither maps nor lists."""
     for key, value in mill.items():
         if isinstance(value, dict):
             yield from leaves(value, f"{path}{key}.")
@@ -280,7 +280,7 @@ class OneChange(MillTest):
     def lifter_tips(self):
         """Least height of the lifters' tops over the axis, of the walls that LIGGGHTS gets (m)."""
         points = re.findall(r"vertex (\S+) (\S+) \S+", (self.case / "walls" / "lifters.stl").read_text())
-        # Lifter 1 stands on +x: its flat top is at x = R - height
+        # Lifter 1 is on +x: its flat top is at x = R - height
         return min(float(x) for x, y in points if float(x) > 0.2 and abs(float(y)) < 0.02)
 
 

@@ -122,6 +122,16 @@ class Controls(RefusedTest):
         case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
         self.assert_says(case, "fvSolution", "momentumPredictor is no")
 
+    def test_turbulence_between_balls(self):
+        case = self.small()
+        case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
+        for name, dimensions in (("k", "0 2 -2 0 0 0 0"), ("epsilon", "0 2 -3 0 0 0 0"), ("nut", "0 2 -1 0 0 0 0")):
+            case.field_file(name, "volScalarField", dimensions, 1, '".*" { type zeroGradient; }')
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace("default none;", "default Gauss upwind;"))
+        case.bed(f"block {{ {BLOCK} }}")
+        self.assert_says(case, "turbulenceProperties", "kEpsilon", "expected simulationType laminar")
+
     def test_patches_whose_faces_do_not_match(self):
         case = self.small()
         boundary = case.path / "constant/polyMesh/boundary"

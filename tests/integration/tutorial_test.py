@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tutorial's mill and its commands as they stand on the page, with shorter runs."""
+"""The tutorial's mill and its commands as on the page, with shorter runs."""
 import os
 import re
 import shutil

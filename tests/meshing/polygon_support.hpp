@@ -12,7 +12,7 @@
 
 namespace millfoam::meshing {
 
-/// Adds a polygon with points of its own; its line is 10 times its number, counted from 1.
+/// Adds a polygon with its own points; its line is 10 times its number, counted from 1.
 inline void add_polygon(PolygonSet& set, const std::vector<Eigen::Vector3d>& corners,
                         const std::string& group = "walls") {
   Polygon polygon;

@@ -59,7 +59,7 @@ inline std::string with(std::string text, const std::string& from, const std::st
   return text.replace(at, from.size(), to);
 }
 
-/// A folder of this process and object that goes with it.
+/// A folder of this process and object, removed with it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

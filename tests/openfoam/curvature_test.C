@@ -114,6 +114,42 @@ TEST(cellCurvature, seesAcrossACyclicPair)
     EXPECT_EQ(neighbours, 2 * cut);
 }
 
+TEST(smoothAlong, isTheMeanOfACellAndItsNeighboursByTheirAreas)
+{
+    // A flat surface of one layer of cells, with a cyclic pair along x
+    smallCase box({{4, 1, 1}, {1, 1, 1}, smallBox().map, true});
+    surfacePieces pieces(box.mesh());
+    forAll(pieces.area, celli)
+    {
+        pieces.normal[celli] = vector(0, 1, 0);
+        pieces.area[celli] = celli == 1 ? 3 : 1;
+    }
+    pieces.correctBoundaryConditions();
+    volScalarField values(box.field<scalar>("values", dimless, 0));
+    values.primitiveFieldRef() = scalarList{0, 10, 0, 5};
+    smoothAlong(values, pieces);
+    EXPECT_NEAR(values[0], (0 + 30 + 5) / 5., 1e-14);
+    EXPECT_NEAR(values[1], (0 + 30 + 0) / 5., 1e-14);
+    EXPECT_NEAR(values[2], (30 + 0 + 5) / 5., 1e-14);
+    EXPECT_NEAR(values[3], (0 + 5 + 0) / 3., 1e-14);
+}
+
+TEST(smoothAlong, leavesOtherSurfacesOut)
+{
+    smallCase box({{3, 1, 1}});
+    surfacePieces pieces(box.mesh());
+    pieces.normal.primitiveFieldRef() =
+        vectorField({vector(0, 1, 0), vector(0, -1, 0), vector::zero});
+    pieces.area.primitiveFieldRef() = scalarList{1, 1, 0};
+    pieces.correctBoundaryConditions();
+    volScalarField values(box.field<scalar>("values", dimless, 0));
+    values.primitiveFieldRef() = scalarList{1, 2, 3};
+    smoothAlong(values, pieces);
+    EXPECT_NEAR(values[0], 1, 1e-14);
+    EXPECT_NEAR(values[1], 2, 1e-14);
+    EXPECT_NEAR(values[2], 3, 1e-14);
+}
+
 TEST(trustedMean, countsCellsByTheirTrust)
 {
     smallCase box({{3, 1, 1}});

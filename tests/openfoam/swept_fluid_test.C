@@ -54,7 +54,7 @@ class sweptCase : public smallCase
         voidage.oldTime();
     }
 
-    //- Carry the points on by a time-step, and the voidage anew; change: what
+    //- Carry the points on by a time-step, and set the voidage; change: what
     //  the bed has grown by there
     void move(
         const std::function<vector(const point&)>& way, const scalar change = 0)

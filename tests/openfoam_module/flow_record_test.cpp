@@ -136,6 +136,23 @@ TEST_F(Flow, ForceOnTheBallsIsTheMeanOfTheTimesAtWhichItWasTaken) {
   EXPECT_EQ(summary()["force_on_balls"]["times"], 2);
 }
 
+TEST_F(Flow, ContinuityOfTheSolidsIsTheMeanOfTheTimesAtWhichItWasFound) {
+  FlowRecord record(folder.path, "0", setup);
+  for (const double residual : {0.1, 0.3}) {
+    StepRow step = row(residual, 0.1);
+    step.continuity_residual = residual;
+    step.continuity_speed = 2 * residual;
+    step.slip = 3 * residual;
+    record.add(step);
+    record.add(row(residual + 0.1, 0.1));
+  }
+  record.write(true);
+  EXPECT_DOUBLE_EQ(summary()["solids_continuity"]["residual_per_s"], 0.2);
+  EXPECT_DOUBLE_EQ(summary()["solids_continuity"]["speed_m_per_s"], 0.4);
+  EXPECT_NEAR(summary()["solids_continuity"]["slip_m_per_s"].get<double>(), 0.6, 1e-15);
+  EXPECT_EQ(summary()["solids_continuity"]["times"], 2);
+}
+
 TEST_F(Flow, CountsHowOftenASeriesOfBallsBeganAgain) {
   const auto repeated = [&](double time) {
     FlowRecord record(folder.path, "0", setup);

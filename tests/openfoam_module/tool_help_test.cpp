@@ -20,7 +20,7 @@ std::string printed(std::vector<const char*> words) {
   words.insert(words.begin(), "/somewhere/slurryStart");
   std::ostringstream out;
   return printed_help_or_version(static_cast<int>(words.size()), words.data(), help, out) ? out.str()
-                                                                                 : "-" + out.str();
+                                                                                          : "-" + out.str();
 }
 
 TEST(ToolHelp, SaysWhatTheToolReadsAndWrites) {

@@ -190,8 +190,8 @@ class Measured(unittest.TestCase):
                 ([head, "0.125,0.125,1.2,0,0"], "line 2, column solidity: '1.2'; expected a number from 0 to 1"),
                 ([head, "0.125,0.125,0.4,nan,0"], "line 2, column vx: 'nan'; expected a number"),
                 ([head, "0.125,0.125,0.4,1"], "line 2, column vy: ''; expected a number"),
-                ([head, "0.2,0.125,0.4,0,0"], "line 2, column x_m: 0.2 m is no voxel's centre; expected 4 voxels"),
-                ([head, "0.125,1.125,0.4,0,0"], "line 2, column y_m: 1.125 m is no voxel's centre"),
+                ([head, "0.2,0.125,0.4,0,0"], "line 2, column x_m: 0.2 m is not a voxel's centre; expected 4 voxels"),
+                ([head, "0.125,1.125,0.4,0,0"], "line 2, column y_m: 1.125 m is not a voxel's centre"),
                 ([head, first, first], "line 3, columns x_m, y_m: voxel 0.125, 0.125 was given before")):
             with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 self.read(*rows)

@@ -154,7 +154,7 @@ class Spectra(Case):
         self.assertAlmostEqual(time / self.duration, 1, places=3)
 
     def stream(self, interval, number=1000, records=1000):
-        """What `spectra` makes of collisions at random times, each of a pair of its own."""
+        """What `spectra` makes of collisions at random times, each of another pair."""
         begins = np.random.default_rng(3).uniform(0, records * interval, number)
         open_at = [[] for _ in range(records)]
         for ball, begin in enumerate(begins):

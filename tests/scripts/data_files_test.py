@@ -35,7 +35,7 @@ class Json(Folder):
 
     def test_a_file_that_is_not_there_cut_short_or_of_another_format_is_named(self):
         whole = '{"format": "millfoam-mesh", "cells": 4}'
-        for text, words in ((None, "file: No such file"), (whole[:-1], "file: line 1, column .* no JSON: .*cut short"),
+        for text, words in ((None, "file: No such file"), (whole[:-1], "file: line 1, column .* not JSON: .*cut short"),
                             (whole.replace("mesh", "flow"), "file: format 'millfoam-flow'; expected 'millfoam-mesh'"),
                             ("3", "file: format None")):
             if text is not None:
@@ -159,7 +159,7 @@ class Flow(Folder):
         path = self.folder / "postProcessing" / "flow" / "0" / "flow.json"
         change_json(path, "complete", to=False)
         path.write_text(path.read_text()[:40])
-        with self.assertRaisesRegex(DataError, "flow.json: line 1.* no JSON"):
+        with self.assertRaisesRegex(DataError, "flow.json: line 1.* not JSON"):
             read_flow_record(self.folder)
 
 

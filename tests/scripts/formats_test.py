@@ -30,7 +30,7 @@ def listed(heading):
 
 
 def keys(content, before=""):
-    """Dotted paths of all values in JSON; `[]` stands for the items of a list of objects. A null has no keys."""
+    """Dotted paths of all values in JSON; `[]` means the items of a list of objects. A null has no keys."""
     found = set()
     for key, value in content.items():
         if isinstance(value, dict):
@@ -58,7 +58,7 @@ class Formats(unittest.TestCase):
 
     def same(self, heading, found):
         names = listed(heading)
-        self.assertEqual(sorted(names), sorted(set(names)), f"{heading}: a key stands twice on the page")
+        self.assertEqual(sorted(names), sorted(set(names)), f"{heading}: a key is twice on the page")
         self.assertEqual(sorted(names), sorted(found), heading)
 
     def test_the_resolved_mill(self):

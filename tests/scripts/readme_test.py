@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pages for people: their links lead somewhere, and the mills that they show are accepted as they stand."""
+"""Pages for people: their links lead somewhere, and the mills that they show are accepted."""
 import json
 import re
 import tempfile

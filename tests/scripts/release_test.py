@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A release has one number wherever it stands."""
+"""A release has one number in all places."""
 import os
 import re
 import shutil
@@ -15,7 +15,7 @@ PLACES = {"CMakeLists.txt": r"project\(millFoam VERSION ([\d.]+)", "CITATION.cff
 
 
 def versions(root):
-    """The version that stands in each place."""
+    """The version in each place."""
     return {place: re.search(pattern, (root / place).read_text()).group(1) for place, pattern in PLACES.items()}
 
 

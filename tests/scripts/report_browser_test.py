@@ -19,7 +19,7 @@ from report_cases import write_dry, write_flow, write_fluid_only
 ROOT = Path(__file__).resolve().parents[2]
 WIDTHS = (1280, 390)
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-# Without them a browser asks for a display, a sandbox, a profile and the network
+# Without them a browser needs a display, a sandbox, a profile and the network
 QUIET = ("--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking",
          "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage", "--allow-file-access-from-files",
          "--hide-scrollbars", "--enable-logging=stderr", "--v=0")

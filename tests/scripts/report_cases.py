@@ -133,7 +133,7 @@ def write_solids(path, complete=1):
 
 
 def write_flow(folder, title="A mill", tables=True, voxels=True):
-    """A dry run and a flow of slurry at rest through it, of which tables and slurry.h5 were written if asked for."""
+    """A dry run and a flow of slurry at rest through it, of which tables and slurry.h5 were written if requested."""
     write_dry(folder, title)
     points = hexahedra.drum((10, 10, 4)) * (RADIUS, RADIUS, LENGTH)
     write_mesh(folder / "constant" / "polyMesh", points)

@@ -73,7 +73,7 @@ class Flow(Verdicts):
         return checks.flow_steadiness(case(balance=columns))
 
     def test_a_drift_of_the_hold_up(self):
-        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is no drift that
+        # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is not a drift that
         # matters
         for drift, state in ((0.0, "holds"), (0.018, "holds"), (0.025, "look"), (-0.025, "look"), (0.05, "fails"),
                              (3.0, "fails")):
@@ -222,6 +222,14 @@ class BallsInTheFlow(Verdicts):
             self.check(checks.solids_on_mesh(case(steps=steps)), state)
         self.check(checks.solids_on_mesh(case()), "unknown")
         self.check(checks.solids_on_mesh(case(steps={"volume_correction": np.array([np.nan])})), "unknown")
+
+    def test_averages_that_drive_a_flow_of_their_own(self):
+        for share, state in ((0.14, "holds"), (0.16, "look"), (0.41, "fails")):
+            # Known at written times
+            steps = {"continuity_speed_m_per_s": np.array([np.nan, 0.2 * share, 0]),
+                     "slip_m_per_s": np.array([np.nan, 0.1, 0.1])}
+            self.check(checks.continuity(case(steps=steps)), state)
+        self.check(checks.continuity(case()), "unknown")
 
     def test_slurry_beyond_the_drag_laws_range_in_the_mean_over_time(self):
         for share, state in ((0.19, "holds"), (0.21, "look"), (0.51, "fails")):

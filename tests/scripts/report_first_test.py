@@ -127,7 +127,7 @@ class TheMill(Case):
         found = self.assert_whole(report_case(dry))
         words = re.sub(r"\s+", " ", found.text)
         self.assertIn("Mill of 37.5 % load – dry, without balls of 3 mm and less (52 % of the mass)", words)
-        self.assertIn("load of balls, as simulated 17.9 % load of balls, as asked for 37.5 %", words)
+        self.assertIn("load of balls, as simulated 17.9 % load of balls, as requested 37.5 %", words)
         self.assertIn("left out: balls of 3 mm and less 52 % of the mass", words)
 
     def test_all_balls_that_are_simulated_have_one_load(self):

@@ -297,12 +297,12 @@ class Refused(Case):
         file = self.folder / "mill.json"
         write_mill(self.folder)
         whole = file.read_bytes()
-        for content, message in ((whole[:300], "mill.json: line .* no JSON: .*cut short"),
-                                 (b"", "mill.json: line 1.* no JSON"),
-                                 ("{\"title\": \"Mühle\"}".encode("latin-1"), "mill.json: no UTF-8 text .byte 12.; "
+        for content, message in ((whole[:300], "mill.json: line .* not JSON: .*cut short"),
+                                 (b"", "mill.json: line 1.* not JSON"),
+                                 ("{\"title\": \"Mühle\"}".encode("latin-1"), "mill.json: not UTF-8 text .byte 12.; "
                                                                               "expected UTF-8"),
-                                 (whole.decode().encode("utf-16"), "mill.json: no UTF-8 text"),
-                                 (b"[" * 10**5, "mill.json: no JSON: too many brackets"),
+                                 (whole.decode().encode("utf-16"), "mill.json: not UTF-8 text"),
+                                 (b"[" * 10**5, "mill.json: not JSON: too many brackets"),
                                  (b"[]", "mill.json: format None; expected"),
                                  (b'{"format": "millfoam-mesh"}', "format 'millfoam-mesh'; expected 'millfoam-mill'"),
                                  (b'{"format": "millfoam-mill"}', "mill.json: no derived"),

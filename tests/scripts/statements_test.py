@@ -205,7 +205,7 @@ class Steady(unittest.TestCase):
 
     def test_a_drift_between_the_halves_leaves_a_statement_undecided(self):
         self.assertEqual(self.judged(self.moved(lambda t: 0 * t)).verdict, CONFIRMED)
-        # A wave of whole periods in each half is no drift
+        # A wave of whole periods in each half is not a drift
         self.assertEqual(self.judged(self.moved(lambda t: 1e-3 * np.sin(12 * np.pi * t))).verdict, CONFIRMED)
         found = self.judged(self.moved(lambda t: 2e-3 * t))
         self.assertEqual(found.verdict, UNDECIDED)
@@ -272,7 +272,7 @@ class Study(unittest.TestCase):
         self.assertEqual(self.study.slices_there(self.folder), fine)
 
     def case_of(self, law, multiplier):
-        """A case whose mill asks for a law with a factor on its drag."""
+        """A case whose mill has a law with a factor on its drag."""
         sections = {key: {} for key in ("geometry", "charge", "speed")}
         derived = {**sections, "flow": {"law": law, "multiplier": multiplier}}
         return SimpleNamespace(mill=Mill(Path("a/mill.json"), {"mill": sections, "derived": derived}), law=law)

@@ -62,7 +62,7 @@ def millimetres(lengths, digits):
 
 
 def print_axial_flow(flow, slurry):
-    """Where the slurry reaches, and its way along the axis at the toe and at the shoulder."""
+    """Prints the ends of the slurry, and its motion along the axis at the toe and at the shoulder."""
     height = float(foam.read_dictionary(flow.case / "constant" / "millProperties")["lifterHeight"])
     toe, shoulder = slurry_ends(slurry, flow.radius, ring_depth(height))
     print(f"slurry from {toe:.0f} (toe) to {shoulder:.0f} degrees (shoulder) from straight down, {RING:g} lifters' "

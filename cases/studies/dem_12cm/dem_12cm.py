@@ -67,7 +67,7 @@ class Case:
 
 
 def published():
-    """Setting -> (RMSD of the cubic in m/s, of the logistic in mm); NaN where none is at hand."""
+    """Setting -> (RMSD of the cubic in m/s, of the logistic in mm); NaN without a published one."""
     with open(HERE / "published.csv", newline="") as file:
         return {Setting("12cm", line["load_percent"], int(line["speed_percent"])):
                 tuple(float(line[key] or "nan") for key in ("cubic_rmsd_m_s", "logistic_rmsd_mm"))
@@ -92,7 +92,7 @@ def asked(case, options):
 
 @dataclass
 class Result:
-    """A run that is whole: case, folder, its results and map (DryRun), maps of its windows, what was read off (Charge),
+    """A complete run: case, folder, its results and map (DryRun), maps of its windows, its readings (Charge),
     with errors (name -> Reading); the latter two are None where there is nothing to read."""
     case: Case
     folder: Path
@@ -103,7 +103,7 @@ class Result:
 
 
 def make(case, options):
-    """Result of a run that is made, or found whole."""
+    """Result of a run, which is made unless it is complete."""
     folder, mill = asked(case, options)
     print(f"{folder.name} …", flush=True)
     dry = make_dry_run(folder, mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
@@ -230,7 +230,7 @@ def parse():
                         help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
     parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
     parser.add_argument("--quick", action="store_true",
-                        help="0.2 s of two thin slices: shows that it works, not what it says")
+                        help="0.2 s of two thin slices: tests the study, without meaningful results")
     parser.add_argument("--readings", action="store_true",
                         help="other ways to read both numbers, in a table of their own")
     parser.add_argument("--duration", type=float, help=f"of the turning mill, s [{published_mills.DURATION:g}]")
@@ -242,7 +242,7 @@ def parse():
 
 
 def report(results, options):
-    """Tables, picture and reports of runs that are whole."""
+    """Tables, picture and reports of complete runs."""
     name = "dem_12cm_quick" if options.quick else "dem_12cm"
     rows = [row(result) for result in results]
     write_csv(HERE / f"{name}.csv", COLUMNS, rows)
@@ -276,7 +276,7 @@ def main():
     if results:
         report(results, options)
     if failures:
-        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(results)} runs failed")
+        print(f"NOT COMPLETE: {len(failures)} of {len(failures) + len(results)} runs failed")
     return 1 if failures else 0
 
 

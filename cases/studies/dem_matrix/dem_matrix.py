@@ -32,7 +32,7 @@ def asked(setting, options):
 
 
 def make(setting, options):
-    """Runs one setting, or finds it whole."""
+    """Runs one setting unless it is complete."""
     folder, chosen_mill = asked(setting, options)
     print(f"{folder.name} …", flush=True)
     return make_dry_run(folder, chosen_mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
@@ -116,7 +116,7 @@ def main():
         write_table(rows)
         plot(rows)
     if failures:
-        print(f"NOT WHOLE: {len(failures)} of {len(failures) + len(rows)} runs failed")
+        print(f"NOT COMPLETE: {len(failures)} of {len(failures) + len(rows)} runs failed")
     return 1 if failures else 0
 
 

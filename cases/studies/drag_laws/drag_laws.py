@@ -65,7 +65,7 @@ def ranges():
 
 
 def inside(limits, solidity, reynolds):
-    """1 where the law is to be believed. Solidity 0 stands for the limit, not for the absence of drag."""
+    """1 within the law's range. Solidity 0 means the limit of a single ball, not the absence of drag."""
     return int(limits["phi_min"] <= solidity <= limits["phi_max"] and limits["Re_min"] <= reynolds <= limits["Re_max"])
 
 
@@ -102,16 +102,16 @@ def crossing():
         reynolds = np.linspace(low, high, 101)
 
 
-def draw_law(axis, x, y, believed, law):
-    """One law's curve: solid where it is to be believed, thin and dashed elsewhere, with a few markers."""
+def draw_law(axis, x, y, in_range, law):
+    """One law's curve: solid within its range, thin and dashed outside it, with a few markers."""
     colour, marker = STYLES[law]
-    believed = np.asarray(believed, bool)
+    in_range = np.asarray(in_range, bool)
     # A solid piece reaches to the first point outside, so that no gap shows
-    joined = believed | np.roll(believed, 1) & (np.arange(len(believed)) > 0)
+    joined = in_range | np.roll(in_range, 1) & (np.arange(len(in_range)) > 0)
     axis.plot(x, y, "--", lw=0.9, color=colour, alpha=0.75)
     axis.plot(x, np.where(joined, y, np.nan), "-", lw=1.9, color=colour)
     every = len(x) // 8
-    start = list(STYLES).index(law) * every // len(STYLES)  # markers of different laws beside each other
+    start = list(STYLES).index(law) * every // len(STYLES)  # markers of different laws next to each other
     axis.plot(x[start::every], y[start::every], marker, ms=5, mfc="none", color=colour, mew=1.1)
 
 
@@ -125,10 +125,10 @@ def draw_panels(panels, name, out, title):
         curves = {law: [row for row in rows if row["law"] == law] for law in STYLES}
         reference = np.array([row["F"] for row in curves[REFERENCE]])
         for law, points in curves.items():
-            x, factor, believed = (np.array([row[key] for row in points]) for key in (name, "F", "in_range"))
+            x, factor, in_range = (np.array([row[key] for row in points]) for key in (name, "F", "in_range"))
             factor = np.where(factor > 0, factor, np.nan)
-            draw_law(above, x, factor, believed, law)
-            draw_law(below, x, factor / reference, believed, law)
+            draw_law(above, x, factor, in_range, law)
+            draw_law(below, x, factor / reference, in_range, law)
         for axis in (above, below):
             axis.set(xscale="log" if name == "Re" else "linear", yscale="log")
             axis.grid(alpha=0.25, which="both", lw=0.5)
@@ -189,8 +189,8 @@ def study_gradient(limits, folder):
         for axis, fluid in zip(line, FLUIDS):
             for law in STYLES:
                 points = [row for row in rows if (row["fluid"], row["phi"], row["law"]) == (fluid, phi, law)]
-                x, gradient, believed = (np.array([row[key] for row in points]) for key in ("U", "dpdx", "in_range"))
-                draw_law(axis, x, gradient, believed, law)
+                x, gradient, in_range = (np.array([row[key] for row in points]) for key in ("U", "dpdx", "in_range"))
+                draw_law(axis, x, gradient, in_range, law)
             axis.set(xscale="log", yscale="log", title=f"{fluid}, φ = {phi:g}")
             axis.grid(alpha=0.25, which="both", lw=0.5)
         line[0].set(ylabel="pressure gradient −dp/dx, Pa/m")
@@ -200,7 +200,7 @@ def study_gradient(limits, folder):
 
 
 def spread_table(limits):
-    """How far the laws that are to be believed lie apart, at a few points."""
+    """The spread of the laws that are within their range, at a few points."""
     lines = [f"{'phi':>5} {'Re':>6} {'smallest F':>24} {'largest F':>24} {'ratio':>6}   (laws within their range)"]
     for row_phi in SOLIDITIES[1:]:
         for re in REYNOLDS:

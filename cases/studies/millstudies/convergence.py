@@ -12,7 +12,7 @@ SAFETY = 1.25  # Roache's for three sizes
 
 @dataclass
 class Convergence:
-    """order: NaN where the numbers are not monotone; limit: at size 0; bar: of the number at the size asked for."""
+    """order: NaN where the numbers are not monotone; limit: at size 0; bar: of the number at the requested size."""
     order: float
     limit: float
     bar: float
@@ -40,7 +40,7 @@ def observed_order(sizes, values):
 def judge(sizes, values, asked):
     """Convergence of `values` at `sizes`, and the bar of the value at size `asked`.
 
-    Three sizes, monotone: the limit by Richardson's extrapolation from the two finest with the observed order, held
+    Three sizes, monotone: the limit by Richardson's extrapolation from the two finest with the observed order, kept
     within ORDERS, and the bar SAFETY times the distance to it. Not monotone: no limit, and the bar is the largest
     difference between two of the values. Two sizes: the same as three with order 1."""
     order_of = np.argsort(sizes)

@@ -55,4 +55,4 @@ def refuse_another(folder, mill):
     if not (folder / "mill.json").is_file():
         return
     if (folder / "solids.json").is_file() or read_mill(folder).fingerprint["charge"] != mill.fingerprint["charge"]:
-        raise RunError(f"{folder}: holds a run of another mill or with other averages; remove it, or keep it elsewhere")
+        raise RunError(f"{folder}: holds a run of another mill or with other averages; remove it or move it")

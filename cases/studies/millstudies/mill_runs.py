@@ -34,7 +34,7 @@ OTHER_MESH = "\n// Balls of another mesh's walls, so that runs differ in the mes
 
 @dataclass(frozen=True)
 class Setting:
-    """What a run of the slice changes of BASE: settings of the balls' averages, and settings of the mesh and the flow,
+    """Changes of a run of the slice from BASE: settings of the balls' averages, and settings of the mesh and the flow,
     which leave the balls as they are."""
     name: str
     averages: tuple = ()
@@ -42,7 +42,7 @@ class Setting:
 
 
 def resolved(mill, changes=()):
-    """The Mill of a mill.yaml with settings `path=value`. RunError with millMesh's words where it refuses one."""
+    """The Mill of a mill.yaml with settings `path=value`. RunError with millMesh's message where it refuses one."""
     done = subprocess.run(["millMesh", str(mill), *set_options(changes), "--resolved", "-"], capture_output=True,
                           text=True)
     if done.returncode:
@@ -110,7 +110,7 @@ def is_whole(case, mill, averages, files):
 
 
 def make_flow(case, mill, averages, files):
-    """A case of these dictionaries and its slurryFoam run; what was in the folder goes."""
+    """Makes a case of these dictionaries and runs slurryFoam in it; removes the folder's earlier content."""
     shutil.rmtree(case, ignore_errors=True)
     write_mill(mill, case)
     for name, text in files.items():
@@ -125,7 +125,7 @@ def make_flow(case, mill, averages, files):
 
 
 def make_run(setting, runs):
-    """A setting's flow in the folder `runs`, with what it needs, unless it is whole; returns the case's folder."""
+    """A setting's flow in the folder `runs`, with what it needs, unless it is complete; returns the case's folder."""
     runs = Path(runs)
     balls = resolved(MILL, (*BASE, *setting.averages))
     mill = resolved(MILL, (*BASE, *setting.averages, *setting.flow))
@@ -144,7 +144,7 @@ def time_step_limits(share):
 
 
 def make_runs(settings, runs):
-    """Every setting's flow, one after the other: (name -> case's folder of what is whole, messages of what failed)."""
+    """Every setting's flow, one after the other: (name -> case's folder of complete ones, messages of failed ones)."""
     cases, failures = {}, []
     for setting in settings:
         print(f"{setting.name} …", flush=True)

@@ -16,14 +16,14 @@ PLACES = np.linspace(-2, 2, 81)  # of its step, radii
 
 
 def rms(values, parameters=0):
-    """Root mean square [n] of residuals; over n less the number of fitted parameters where that is given."""
+    """Root mean square [n] of residuals; over n minus the number of fitted parameters where that is given."""
     return float(np.sqrt(np.sum(np.square(values)) / (len(values) - parameters)))
 
 
 def cubic_deviation(distance, velocity, parameters=0):
     """RMSD of a velocity [n] (m/s) from its cubic in the distance [n] (m). RuntimeError for fewer than six points."""
     if len(distance) < 6:
-        raise RuntimeError(f"{len(distance)} voxels on the line; a cubic needs at least 6 to be judged by")
+        raise RuntimeError(f"{len(distance)} voxels on the line; expected 6 or more, to judge a cubic")
     # In units of the line's length: the cubic's powers of small lengths are ill-conditioned
     scaled = (distance - distance.mean()) / np.ptp(distance)
     return rms(np.polyval(np.polyfit(scaled, velocity, 3), scaled) - velocity, parameters)
@@ -54,7 +54,7 @@ def voxels_on_line(charge, outwards, largest):
 
 def by_voxel(charge, radius, *, begin=None, wall=WALL, degrees=0.0, parameters=0):
     """RMSD (m/s) of the cubic through the velocities of the voxels on the line, one point each, from the free surface
-    (or where the solidity comes to FIRST_BALLS of the largest, for `begin` 0) to `wall` (m) from the shell."""
+    (or where the solidity reaches FIRST_BALLS of the largest, for `begin` 0) to `wall` (m) from the shell."""
     outwards = turned_line(charge, radius, degrees)
     rows, columns, distance = voxels_on_line(charge, outwards, radius - wall)
     solidity = np.nan_to_num(charge.solidity)
@@ -137,8 +137,8 @@ SURFACE = {
 
 
 def mean_of_windows(reading, maps, radius, most=10):
-    """Mean of a reading of single SolidsMap, at most so many evenly among them: what averages as short as a window
-    would show. NaN where none of them has it."""
+    """Mean of a reading of single SolidsMap, at most so many evenly among them: the reading of an average over
+    one window. NaN where none of them has it."""
     chosen = np.unique(np.linspace(0, len(maps) - 1, most).round().astype(int))
     found = []
     for index in chosen:

@@ -29,7 +29,7 @@ class Setting:
 
     @property
     def duration(self):
-        """Of the turning mill, s."""
+        """Duration of the turning mill, s."""
         return DURATIONS.get((self.mill, self.speed), DURATION)
 
 

@@ -19,7 +19,7 @@ CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 @dataclass
 class Surface:
     """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight
-    line through it, what it deviates from that line (root mean square, m), and over the same width the tilt of the
+    line through it, its deviation from that line (root mean square, m), and over the same width the tilt of the
     charge, if there is one."""
     tilt: Mean
     deviation: Mean
@@ -32,7 +32,7 @@ class RunReadings:
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
     has two ends.
 
-    What it says, None where it does not: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
+    Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
     along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
     volume at each (m3); failures, sentences of what could not be read."""
     name: str
@@ -52,11 +52,11 @@ class RunReadings:
 
 def surface_line(slurry, radius, inner):
     """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free
-    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis: what lifters carry is beyond.
+    surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis, without the slurry that lifters carry.
     RuntimeError if there is none.
 
-    The surface is the highest pixel of the pool in each column; columns whose highest pixel is the circle's say nothing
-    of it."""
+    The surface is the highest pixel of the pool in each column; columns whose highest pixel is on the circle are
+    left out."""
     centres_x, centres_y = slurry.centres()
     within = np.hypot(*np.meshgrid(centres_x, centres_y)) < inner
     pool = slurry_on_maps.pool(replace(slurry, share=np.where(within, slurry.share, 0.0)), np.zeros_like(slurry.share))
@@ -78,7 +78,7 @@ def charge_tilt(charge, radius, span):
     x, y = free_surface(charge, radius).points.T
     chosen = (x >= span[0]) & (x <= span[1])
     if chosen.sum() < 5:
-        raise RuntimeError(f"the charge's surface does not stand over x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
+        raise RuntimeError(f"the charge's surface does not cover x = {1e3 * span[0]:.0f} to {1e3 * span[1]:.0f} "
                            "mm")
     return float(-np.degrees(np.arctan(np.polyfit(x[chosen], y[chosen], 1)[0])))
 
@@ -105,7 +105,7 @@ def read_reynolds(case):
 
 
 def read_run(case):
-    """RunReadings of a MillCase with a flow; what cannot be read stands in `failures`."""
+    """RunReadings of a MillCase with a flow; what cannot be read is in `failures`."""
     name = f"{case.folder.resolve().parent.name}/{case.name}"
     found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
                         CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)

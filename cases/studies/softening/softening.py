@@ -87,9 +87,9 @@ def plot(runs, path):
         # Where balls are rare the difference is chance
         dense = (charge.solidity > DENSE) & (last.solidity > DENSE)
         panels = (("solidity", charge.solidity, inside, "YlOrBr", (0, 0.65)),
-                  (f"less that of {runs[-1].name}", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
+                  (f"minus that of {runs[-1].name}", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
                   ("speed, m/s", speed, charge.solidity > DENSE, "viridis", (0, 0.9)),
-                  (f"less that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense,
+                  (f"minus that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense,
                    "RdBu_r", (-0.05, 0.05)))
         for axis, (title, values, shown, colours, limits) in zip(axes[:, column], panels):
             image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(shown, values, np.nan), cmap=colours,
@@ -106,7 +106,7 @@ def plot(runs, path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true",
-                        help="0.2 s of the two softest: shows that it works, not what it says")
+                        help="0.2 s of the two softest: tests the study, without meaningful results")
     quick = parser.parse_args().quick
     chosen = list(settings(quick))
     runs = [make(*setting, quick) for setting in chosen]

@@ -25,7 +25,7 @@ def is_run(folder):
 
 
 def slices_there(runs=LAWS):
-    """The 12 cm slices of mill_drag_comparison that are whole: of the finer mesh, or else all coarse ones."""
+    """The 12 cm slices of mill_drag_comparison that are complete: of the finer mesh, or else all coarse ones."""
     whole = sorted(folder for folder in runs.glob("*")
                    if not folder.name.endswith(OTHERS) and summary_of_whole(folder))
     fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
@@ -33,8 +33,8 @@ def slices_there(runs=LAWS):
 
 
 def folders_there():
-    """The runs of mill_30cm, all on 33 layers or else all on 9, as those of one statement must be alike; the slices of
-    mill_drag_comparison, which share their balls; and mill_12cm."""
+    """The runs of mill_30cm, all on 33 layers or else all on 9, because one statement compares equal
+    layers; the slices of mill_drag_comparison, which share their balls; and mill_12cm."""
     layers = [[MILLS / "mill_30cm" / f"{name}{slurry}" / variant for slurry in ("", "_slurry_40")
                for variant in VARIANTS]
               for name in ("runs_33", "runs_9")]

@@ -8,7 +8,8 @@ sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
     w(r) = tau0/(2 mu) [(r0/r)^2 - 1 - 2 ln(r0/r)]        for r < r0, else 0
 
 (Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) Runs have both regularisations and softer plugs: the error must
-decrease with the regularisation, and every profile must be that of its own flow curve. Exit code 1 if a check fails."""
+decrease with the regularisation, and every profile must agree with its regularised flow curve. Exit code 1 if a check
+fails."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -94,7 +95,7 @@ class Flow:
 
     @property
     def edge(self):
-        """Where the yielded slurry's shear rate comes down to zero, m: it is a straight line in 1/r^2."""
+        """Where the yielded slurry's shear rate reaches zero, m: it is a straight line in 1/r^2."""
         r = (self.r[1:] + self.r[:-1]) / 2
         rate = -r * np.diff(self.u / self.r) / np.diff(self.r)
         # A tenth of the rate at the wall: well above what the regularised plug shears

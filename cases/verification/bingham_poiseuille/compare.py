@@ -5,8 +5,8 @@
 The plates are at y = -h and h, the force per volume is G, the yield stress tau0 and the plastic viscosity mu. The
 slurry moves as a plug of half width y0 = tau0/G with the speed G (h - y0)^2/(2 mu). Between plug and plates u = G ((h -
 y0)^2 - (|y| - y0)^2)/(2 mu) (Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). slurryFoam
-also runs softer plugs: the error must decrease with the regularisation, and every profile must be that of its own flow
-curve. Exit code 1 if a check fails."""
+also runs softer plugs: the error must decrease with the regularisation, and every profile must agree with its
+regularised flow curve. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -62,7 +62,7 @@ def regularised_profile(y, regularisation, stiffness):
 
 @dataclass
 class Flow:
-    """The computed profile u (m/s) at y (m), and what is compared with the closed form, as relative errors."""
+    """The computed profile u (m/s) at y (m), and its relative errors compared with the closed form."""
     solver: str
     regularisation: str
     stiffness: float  # of the plug, over the stiffest
@@ -76,7 +76,7 @@ class Flow:
 
     @property
     def model_error(self):
-        """Largest difference from the regularised slurry's own profile."""
+        """Largest difference from the profile of the regularised slurry."""
         return np.abs(self.u - regularised_profile(self.y, self.regularisation, self.stiffness)).max() / exact(0.0)
 
     @property
@@ -85,7 +85,7 @@ class Flow:
 
     @property
     def plug_half_width(self):
-        """Where the shear rate of the yielded slurry, a straight line, comes down to zero, m."""
+        """Where the shear rate of the yielded slurry, a straight line, reaches zero, m."""
         y = (self.y[1:] + self.y[:-1]) / 2
         rate = np.diff(self.u) / np.diff(self.y) * -np.sign(y)
         # A tenth of the rate at the wall: well above what the regularised plug shears

@@ -136,12 +136,12 @@ class SpinUp:
 
     @property
     def errors(self):
-        """Of every cell at every time, over the bed's speed at the wall."""
+        """Velocity error of every cell at every time, over the bed's speed at the wall."""
         return (self.speed - self.exact) / (FULL["omega"] * FULL["radius"])
 
     @property
     def rms_error(self):
-        """Of all cells at every time, by volume, over the bed's speed at the wall."""
+        """Rms of the velocity error at every time, weighted by volume, over the bed's speed at the wall."""
         return np.sqrt(self.errors**2 @ self.fluid / self.fluid.sum())
 
 
@@ -174,7 +174,7 @@ class Surface:
 
     @property
     def rise(self):
-        """From the axis to the wall, m."""
+        """Rise of the paraboloid from the axis to the wall, m."""
         return (HALF["omega"] * HALF["radius"]) ** 2 / (2 * GRAVITY)
 
     def mean(self, values):
@@ -182,14 +182,14 @@ class Surface:
 
     @property
     def curvature_error(self):
-        """At every time, of the factor of r^2 fitted to the heights, relative."""
+        """Relative error at every time of the factor of r^2 that is fitted to the heights."""
         spread = self.r2 - self.mean(self.r2)
         slope = self.mean(self.height * spread) / self.mean(spread**2)
         return slope / (HALF["omega"] ** 2 / (2 * GRAVITY)) - 1
 
     @property
     def rms_error(self):
-        """At every time, of the heights, over the rise."""
+        """Rms error of the heights at every time, over the rise."""
         return np.sqrt(self.mean((self.height - self.exact) ** 2)) / self.rise
 
     @property
@@ -201,7 +201,7 @@ class Surface:
 def surface(case):
     mesh = foam.read_mesh(case)
     centre, volume = mesh.centres_and_volumes()
-    # Columns stand on each other's projections: the bottom's faces
+    # The bottom's faces are the columns' projections
     bottom = mesh.patches["bottom"]
     faces = [mesh.points[mesh.faces[face]][:, :2] for face in range(bottom.start, bottom.start + bottom.size)]
     area, r2 = np.array([polygon(face) for face in faces]).T
@@ -224,7 +224,7 @@ def polygon(corners):
 
 
 def report(results, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     rows, notes = [], []
     for run, found in results.items():
         if run.half:

@@ -25,13 +25,13 @@ WIDTH = 2.25 * 0.0254  # of the column, m
 LENGTH, HEIGHT = 7, 2.5  # of the box, in widths
 SCALE = np.sqrt(2 * GRAVITY / WIDTH)  # T over t, 1/s
 END = 4.2  # of T
-# The gate took its time and dragged water up; from here on the shape of the curve is the flow's own
+# The opening gate delayed the flow and dragged water up; from here on the curve does not depend on the gate
 FREE_OF_GATE, LAST = 1.4, 5.01
 # The front's speed is compared over that range, its position with the best constant delay. The two sizes of column
 # measured by Martin & Moyce differ by up to 2 % in speed and 0.1 widths.
 SPEED_TOLERANCE, POSITION_TOLERANCE, LONGEST_DELAY = 0.05, 0.1, 0.4
 PROGRAMS = {"slurryFoam": "slurryFoam", "interFoam": "millInterFoam"}
-# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam uses
 CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 
@@ -103,14 +103,14 @@ def measure(solver, cells, case):
 
 
 def front_position(floor, size):
-    """Where the share in the cells on the floor, one after the other of this size, first falls below a half."""
+    """Place along the floor at which the share of water in its cells of this size first falls below a half."""
     dry = np.argmax(floor < 0.5)
     share = (floor[dry - 1] - 0.5) / (floor[dry - 1] - floor[dry])
     return (dry - 0.5 + share) * size
 
 
 def report(fronts, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     Z, T = compared()
     expected = speed(Z, T)
     lines = [f"{'':<24} {'speed dZ/dT':>11} {'error %':>8} {'delay in T':>10} {'rms dZ':>8} {'without delay':>13} "

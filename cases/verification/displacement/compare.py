@@ -126,7 +126,7 @@ class Displacement:
 
     @property
     def level(self):
-        """Of every column, m [time, column]: all layers below are full and all above are empty where it is one."""
+        """Level of every column, m [time, column]; exact where all layers below it are full and all above are empty."""
         return LAYER * self.share.sum(axis=1)
 
     @property
@@ -135,7 +135,7 @@ class Displacement:
 
     @property
     def error(self):
-        """Of the mean of the columns at every time, relative: small waves run across while the bed moves."""
+        """Relative error of the columns' mean at every time; single columns have small waves while the bed moves."""
         return np.abs(self.level.mean(axis=1) / self.expected - 1)
 
     @property
@@ -157,7 +157,7 @@ class Displacement:
 
     @property
     def beyond(self):
-        """How far the phase fraction leaves [0, 1]."""
+        """Largest distance of the phase fraction from [0, 1]."""
         return max(self.share.max() - 1, -self.share.min(), 0)
 
     @property

@@ -61,12 +61,12 @@ class Column:
 
     @property
     def time_constant(self):
-        """Of the exponential, s; Darcy's law only."""
+        """Time of the exponential, s; Darcy's law only."""
         return self.gradient(1.0, SLURRY, SLURRY_NU) * (self.top - self.bottom) / ((SLURRY - AIR) * GRAVITY)
 
     @property
     def head(self):
-        """At the start, m."""
+        """Head at the start, m."""
         return START - self.tailwater
 
     def in_bed(self, z):
@@ -87,7 +87,7 @@ class Column:
         return [-at_surface, (drive - drag - ends) / inertia]
 
     def levels(self, times):
-        """Of the surface, m, by quadrature."""
+        """Height of the surface, m, by quadrature."""
         solution = solve_ivp(self.rates, (0, times[-1]), [START, 0.0], method="LSODA", t_eval=times, rtol=1e-9,
                              atol=1e-12, max_step=self.end / 500)
         assert solution.success, solution.message
@@ -119,12 +119,12 @@ class Fall:
 
     @property
     def exponential(self):
-        """Where the surface is above the bed and more than HEAD_LEFT of the head is left."""
+        """Times at which the surface is above the bed and more than HEAD_LEFT of the head is left."""
         return (self.z > self.column.top) & (self.z - self.column.tailwater > HEAD_LEFT * self.column.head)
 
     @property
     def fitted_time(self):
-        """Of an exponential through the heads, s."""
+        """Time of an exponential fitted to the heads, s."""
         head = (self.z - self.column.tailwater)[self.exponential]
         return -1 / np.polyfit(self.time[self.exponential], np.log(head), 1)[0]
 
@@ -156,7 +156,7 @@ def run(column, case, template):
     write_parameters(
         case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR,
         law=column.law, solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
-        # p_rgh: slurry at the outlet, air at the top; both as if the surface rested at the tailwater's level
+        # p_rgh: slurry at the outlet, air at the top; both for a surface at rest at the tailwater's level
         outletPressure=SLURRY * GRAVITY * column.tailwater, topPressure=AIR * GRAVITY * column.tailwater,
         firstStep=column.largest_step / 10, largestStep=column.largest_step, endTime=column.end,
         writeInterval=column.end / 40)

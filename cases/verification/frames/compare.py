@@ -34,8 +34,8 @@ class Kind:
 
 @dataclass(frozen=True)
 class Extent:
-    """How long and how finely: quarters of a turn, those of them (the last ones) that are judged, largest time-step
-    over the cells' size (s/m)."""
+    """Duration and resolution: drums, quarters of a turn, number of the last ones, in which the flow has its shape and
+    is judged, largest time-step over the cells' size (s/m)."""
     kinds: tuple
     quarters: int
     late: int
@@ -47,8 +47,8 @@ WHOLE = Extent((Kind("pool", False, (0.004,)), Kind("pool with a bed", False, (0
 QUICK = Extent((Kind("pool", False, (0.006,)), Kind("full with a bed", True, (0.006, 0.004))), quarters=2, late=1,
                step=0.33)
 BED_SPEED = 0.5  # over the drum's
-# Largest difference of the surface's height, cells. About twice what was found of the velocities' in the slurry, rms over
-# their own: in a pool, and in the full drum for each m of the cells' size
+# Largest difference of the surface's height, cells. About twice what was found of the velocities' in the slurry, rms
+# over their own: in a pool, and in the full drum for each m of the cells' size
 HEIGHT = {"pool": 0.5, "pool with a bed": 1.0}
 VELOCITY, FULL_VELOCITY, LEAST_ORDER = {"pool": 0.27, "pool with a bed": 0.27}, 13.0, 1.4
 FRAMES = {"mesh turns": ("dynamicMotionSolverFvMesh", "movingWallVelocity"),
@@ -89,7 +89,7 @@ def perform(frame, kind, cell, extent, case, here):
     shutil.copytree(here / "template", case)
     if "bed" in kind.name:
         shutil.copytree(here / "bed", case, dirs_exist_ok=True)
-    # millMesh wants the case's dictionaries whole; the times follow once it has said how fast the drum turns
+    # millMesh needs complete dictionaries; the times follow from the drum's speed, which millMesh computes
     common = dict(meshMotion=motion, wallVelocity=wall, largestStep=extent.step * cell)
     write_parameters(case, **common, endTime=1, writeInterval=1, bedOmega=0)
     run_program(case, "millMesh", here / "drum.yaml", "--case", ".", "--set", f"resolution.cell_size={cell}")
@@ -147,7 +147,7 @@ def difference(turning, still, number, full):
 
 
 def report(drums, extent, out):
-    """Writes and prints the table; the number of lines that missed. drums: (turning, still) by kind and cell size."""
+    """Writes and prints the table; returns the number of values beyond their limit. drums: (turning, still) by kind and cell size."""
     lines = [f"{'drum':<16} {'cell mm':>7} {'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} "
              f"{'allowed':>7} {'share, mean |diff|':>18} {'u in slurry, rms %':>18} {'allowed %':>9}"]
     missed = 0

@@ -42,7 +42,7 @@ FLUID_SPEED = 2
 # Hill 2.7 and 6.6, Benyahia 4.7 and 6.6, Wen-Yu 1000. Switches in phi (0.2, 0.4) lie between the solidities.
 SOLIDITIES = (0.15, 0.5)
 REYNOLDS = (0.5, 5.0, 50.0, 500.0, 2000.0)
-# First cell of a bed and its length in cells. interFoam's pressure at a wall knows no drag: its beds end inside.
+# First cell of a bed and its length in cells. interFoam's pressure at a wall has no drag, so its beds end inside.
 PLACES = {
     "millInterFoam": ((8, 4), (8, 8), (8, 16)),
     "slurryFoam": ((8, 8), (0, 16), (0, CELLS)),
@@ -177,7 +177,7 @@ def measure(bed, case):
     """Drop between the end sections of the box, and the largest velocity that is left.
 
     With particleDrag the pressure oscillates within some four cells of a bed's sharp ends, by `overshoot` of the
-    drop; hence the sections at the box's ends."""
+    drop; therefore the sections are at the box's ends."""
     _, last = foam.times(case)[-1]
     cells = CELLS * bed.across**2
     # blockMesh numbers x fastest
@@ -217,7 +217,7 @@ def print_table(results, out):
 
 
 def place(bed, laws):
-    """Where a bed stands in the picture: laws side by side at each Reynolds number."""
+    """The place of a bed in the picture: laws side by side at each Reynolds number."""
     return bed.reynolds * 1.09 ** (laws.index(bed.law) - len(laws) / 2)
 
 

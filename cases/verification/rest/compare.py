@@ -28,7 +28,7 @@ matplotlib.use("Agg")
 STILL = 1e-14  # m/s, largest speed of the slurry alone
 CONSERVED = 3e-8  # relative change of the slurry's volume
 FLUID_STEPS, POOL_END = 50, 0.2
-# Twice what this mesh showed (air 1.0, slurry 0.041): nothing physical, a guard against getting worse
+# Twice what this mesh showed (air 1.0, slurry 0.041): a limit against changes for the worse, not a physical bound
 MOST_AIR, MOST_SLURRY = 2.0, 0.082  # m/s
 STILL_FLUID = dict(slurryShare=1, endTime=FLUID_STEPS * 1e-3, firstStep=1e-3, adjustTimeStep="no",
                    writeInterval=FLUID_STEPS * 1e-3)
@@ -81,7 +81,7 @@ def measure(case):
 
 
 def report(fluids, pool, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     lines = [f"{'':<44} {'found':>11} {'allowed':>9}"]
     missed = 0
 

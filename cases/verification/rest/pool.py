@@ -3,8 +3,8 @@
 """A pool with an exactly flat free surface stays at rest, on meshes that are not aligned with it.
 
 Runs the pool with several solvers on the O-grid of a mill's section and on the mill's own meshes, with and without
-surface tension, with and without a bed of balls at rest, with the mesh standing still and with the mesh turning inside
-walls that slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 if slurryFoam exceeds
+surface tension, with and without a bed of balls at rest, on a mesh at rest and on a mesh that turns inside walls that
+slip; and slurry alone in such a bed. Writes one table and two pictures. Exit code 1 if slurryFoam exceeds
 its limits."""
 import argparse
 import shutil
@@ -34,7 +34,7 @@ MESHES = {
     "slice": (MILL, -0.002, 0.06, 0.024),
     "drum": ("drum.yaml", -0.012, 0.06, 0.12),
 }
-# Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls pass a pool by.
+# Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls slide past a pool.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
 QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
 # Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as
@@ -134,7 +134,7 @@ def main():
     parser.add_argument("--meshes", nargs="+", choices=MESHES, default=list(MESHES))
     parser.add_argument("--solvers", nargs="+", choices=SOLVERS, default=list(SOLVERS))
     parser.add_argument("--keep", action="store_true",
-                        help="take complete runs of an earlier time, where nothing is newer")
+                        help="use earlier complete runs that are newer than their solver and inputs")
     parser.add_argument("--work", type=Path, default=Path(__file__).parent / "runs_pool", help="folder of the runs")
     parser.add_argument("--out", type=Path, default=Path(__file__).parent, help="folder of the table and pictures")
     parser.add_argument("--jobs", type=int, default=2)

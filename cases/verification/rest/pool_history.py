@@ -10,7 +10,7 @@ from millfoam.files import foam
 
 
 BED = 0.05  # solidity from which on slurry is between balls
-STILL = 1e-6  # m/s: what moves less is at rest, however its round-off develops
+STILL = 1e-6  # m/s: lower speeds are at rest, independent of their round-off
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Run:
 
     @property
     def setting(self):
-        """What runs of different solvers have in common."""
+        """Setting that runs of different solvers share."""
         return (f"{self.mesh}, {'turning' if self.turning else 'static'}, sigma {self.tension:g}"
                 f"{', bed' if self.bed else ''}{', full' if self.filled else ''}")
 
@@ -84,7 +84,7 @@ def measure(case):
     mesh = foam.read_mesh(case)
     _, volume = mesh.centres_and_volumes()
     stepped = largest_speeds(case)[:, 0]
-    # interFoam's slurry lies between the balls as if they were not
+    # Balls displace no slurry in interFoam
     displaced = (case / "constant" / "bedProperties").is_file()
     rows = []
     for time, folder in foam.times(case):
@@ -112,7 +112,7 @@ def write_history(history, case):
 
 
 def read_history(case):
-    """What write_history wrote, or None if that was another version's."""
+    """History that write_history wrote, or None if another version wrote it."""
     with open(case / "history.csv", newline="") as lines:
         rows = list(csv.reader(lines))
     known = rows[0] == [field.name for field in fields(History)]

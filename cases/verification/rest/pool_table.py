@@ -7,7 +7,7 @@ from dataclasses import dataclass
 AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
 REFERENCE, JUDGED = "interFoam", "slurryFoam"
 SHARE = 1 / 3  # of interFoam's rms speed on the same mesh
-GROWTH = 1.1  # late over early rms speed: a pool at rest stirs a little, without a trend
+GROWTH = 1.1  # late over early rms speed: a pool at rest oscillates a little, without a trend
 CONSERVED = 5e-12  # relative change of the slurry's volume
 BOUNDED = 2e-10  # excess of the slurry's share over [0, 1]
 
@@ -36,7 +36,7 @@ def named(run, found):
 
 
 def checks(run, history, reference, end):
-    """What slurryFoam must hold: list of (text, found, allowed)."""
+    """Limits for slurryFoam: list of (text, found, allowed)."""
     limits = LIMITS[run.mesh, run.turning]
     found = [
         ("time reached, s short of the end", end - history.time[-1], 1e-6),
@@ -51,7 +51,7 @@ def checks(run, history, reference, end):
     if run.bed:
         found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), limits.bed))
     if not run.turning:
-        # Turning walls are polygons, which stir waves: those are reported
+        # Turning walls are polygons, which cause waves: those are reported
         found.append(("slurry rms, late over early", history.growth, GROWTH))
     if reference is not None:
         found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1],
@@ -111,8 +111,8 @@ def judge(histories, end):
 
 
 def report(histories, end, out):
-    """Prints the tables, writes them to pool.txt and the figures to pool.csv in folder `out`; the number that
-    missed."""
+    """Prints the tables, writes them to pool.txt and the numbers to pool.csv in folder `out`; returns the
+    number of values beyond their limit."""
     judged, missed = judge(histories, end)
     text = "\n".join(table(histories, end) + [""] + judged)
     print(text)

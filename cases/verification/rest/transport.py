@@ -66,7 +66,7 @@ def main():
             missed += solver == "slurryFoam" and change > CONSERVED
         share = found["slurryFoam"] / found["interFoam"]
         missed += share > LARGEST_SHARE
-        lines.append(f"{mesh}: slurryFoam moves it by {share:.2f} of what interFoam does, allowed {LARGEST_SHARE}")
+        lines.append(f"{mesh}: slurryFoam moves it by {share:.2f} of interFoam's distance, allowed {LARGEST_SHARE}")
     text = "\n".join(lines)
     print(text)
     (here / "transport.txt").write_text(text + "\n")

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small standing waves in a box and in the round section of a mill, compared with linear theory.
 
-Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also with the round mesh turning inside
-its slip wall, and with a bed at rest that makes the waves creep back. Exit code 1 if a check fails."""
+Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also on the round mesh that turns
+inside its slip wall, and with a bed at rest in which the waves return slowly. Exit code 1 if a check fails."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -24,8 +24,7 @@ matplotlib.use("Agg")
 GRAVITY = 9.81
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
-# Box, m. The wave passes through more than two rows of cells: where in its row a level lies makes a difference, see
-# README.
+# Box, m. The wave passes through more than two rows of cells: the error depends on the level's place in its row.
 WIDTH, HEIGHT, DEPTH, CELLS = 0.2, 0.16, 0.0875, (30, 64)
 BOX_AMPLITUDE = 0.003
 # Round section, half full. The mesh is turned so that no line of its cells lies in the surface.
@@ -62,7 +61,7 @@ RUNS += [Run("box", "slurryFoam", bed=True), Run("round", "slurryFoam", bed=True
 STIFF = Run("box", "slurryFoam", stiff=True, periods=2)
 RUNS.append(STIFF)
 PROGRAMS = {"interFoam": "millInterFoam", "slurryFoam": "slurryFoam"}
-# interFoam's matrix cannot always be solved with the scheme that slurryFoam wants
+# interFoam's matrix cannot always be solved with the scheme that slurryFoam uses
 CONVECTION = {"interFoam": "linearUpwind grad(U)", "slurryFoam": "limitedLinearV 1"}
 
 
@@ -78,7 +77,7 @@ def theory(run):
     if run.bed:
         free = potential_flow.wave(*fluids, GRAVITY)
         fluids[0].drag = OVERDAMPING * free.omega
-        # Darcy's drag goes with the viscosity
+        # Darcy's drag is proportional to the viscosity
         fluids[1].drag = fluids[0].drag * AIR["airKinematicViscosity"] / SLURRY["slurryKinematicViscosity"]
     return potential_flow.wave(*fluids, GRAVITY)
 
@@ -179,7 +178,7 @@ class History:
 
     @property
     def bed_rate(self):
-        """With a bed: rate of decay, 1/s, once the fast mode is gone."""
+        """With a bed: rate of decay, 1/s, after the fast mode has decayed."""
         late = self.time > 10 / (self.wave.damping - self.wave.slow_rate)
         return -np.polyfit(self.time[late], np.log(np.abs(self.elevation[late])), 1)[0]
 
@@ -190,14 +189,14 @@ class History:
 
     @property
     def error(self):
-        """Of the frequency, or with a bed of the rate of decay, relative."""
+        """Relative error of the frequency, or with a bed of the rate of decay."""
         if self.run.bed:
             return self.bed_rate / self.wave.slow_rate - 1
         return self.fit[0] / self.frequency - 1
 
     @property
     def bed_deviation(self):
-        """With a bed: largest difference from theory's course, over the elevation at the start."""
+        """With a bed: largest difference from theory over time, over the elevation at the start."""
         return np.abs(self.elevation / self.elevation[0] - self.wave.from_rest(self.time)).max()
 
 
@@ -228,10 +227,9 @@ def perform(run, work, here):
 
 
 def report(histories, out):
-    """Writes and prints the table; the number of lines that missed."""
+    """Writes and prints the table; returns the number of values beyond their limit."""
     lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
-    # With the mesh turning interFoam's wave is given energy (see ../rest) and loses slurry: no yardstick for what damps
-    # it
+    # On the turning mesh interFoam's wave gains energy (see ../rest) and loses slurry, so its damping is no reference
     reference = {history.run.room: history.fit[1] for history in histories
                  if history.run.solver == "interFoam" and not history.run.turning}
     missed = 0

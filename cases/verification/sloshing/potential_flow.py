@@ -31,7 +31,7 @@ class Wave:
 
     @property
     def slow_rate(self):
-        """Of an overdamped wave, the smaller of the two rates at which it decays, 1/s."""
+        """The smaller of the two rates of decay of an overdamped wave, 1/s."""
         half = self.damping / 2
         return half - np.sqrt(half**2 - self.omega**2)
 
@@ -68,7 +68,7 @@ def half_circle_mode(radius, terms=16):
     energy = np.outer(n, n) / plus * np.pi * np.sinc(minus / 2)
     at_surface = np.sin(n * np.pi / 2)
     surface = 2 * np.outer(at_surface, at_surface) / (plus + 1)
-    # The even harmonics vanish on the surface, so surface is singular and has to stand on the left
+    # The even harmonics vanish on the surface, so surface is singular and must be on the left
     values, vectors = eigh(surface, energy)
     weights = at_surface * vectors[:, -1]
 

@@ -7,9 +7,8 @@ With superficial velocity U along x and voidage e(x), u = U/e and
     p(x) + rho u(x)^2/2 + integral of beta u/e dx = const,
 
 with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps of e show the order of convergence; a
-sharp edge has Bernoulli's jump of pressure. On aligned meshes, on wavy ones whose cells' columns stay plumb, and on
-slanted ones through whose columns the sharp edge runs; at rest and moving along the duct, past the bed. Exit code 1 if
-a run fails."""
+sharp edge has Bernoulli's jump of pressure. Meshes: aligned; wavy, with vertical columns of cells; and slanted, whose
+columns the sharp edge cuts. They are at rest or move along the duct, past the bed. Exit code 1 if a run fails."""
 import itertools
 import shutil
 import sys
@@ -230,7 +229,7 @@ def orders(flows, flow):
 
 
 def misses(flows):
-    """What missed, in words. The staircase that a sharp edge makes of slanted columns is shown, and holds nothing."""
+    """Missed limits, in words. A sharp edge is a staircase on the slanted mesh; its numbers have no limits."""
     for flow in flows:
         where = f"{flow.bed}, {flow.mesh}{MOVES[flow.moves]}, {flow.cells} cells"
         if flow.mesh == "slanted" and flow.bed == "edges":

@@ -10,6 +10,8 @@
 #include "solidsSource.H"
 #include "volFields.H"
 
+#include <cmath>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -80,6 +82,36 @@ static bool longer(const scalar a, const scalar b)
 }
 
 
+//- Keys of the voxels' size
+static constexpr const char* voxelKeys_ =
+    " (averages.voxel_size, averages.counts)";
+
+
+//- The keys to change for cells that are larger than voxels. Whether there are
+//  any
+static bool
+addLargeCells(Ostream& text, const extent& voxel, const extent& cell)
+{
+    const bool thick = longer(cell.along, voxel.along);
+    const bool wide = longer(cell.across, voxel.across);
+    if (thick)
+    {
+        text << " Layers that are thicker than the voxels pass over balls:"
+             << " take layers of at most " << voxel.along
+             << " m (resolution.layers) or voxels of at least " << cell.along
+             << " m" << voxelKeys_ << ".";
+    }
+    if (wide)
+    {
+        text << " Cells that are wider than the voxels pass over balls: take"
+             << " cells of at most " << voxel.across
+             << " m (resolution.cell_size, resolution.counts) or voxels of at"
+             << " least " << cell.across << " m" << voxelKeys_ << ".";
+    }
+    return thick || wide;
+}
+
+
 //- The keys to change for voxels, cells and balls of these sizes
 static void
 addKeys(Ostream& text, const extent& voxel, const extent& cell, const scalar d)
@@ -87,44 +119,29 @@ addKeys(Ostream& text, const extent& voxel, const extent& cell, const scalar d)
     const scalar balls =
         dense_ * sqr(voxel.across) * voxel.along / ballVolume(d);
     const scalar smallest = cbrt(fewBalls_ * ballVolume(d) / dense_);
-    const char* const voxelKeys = " (averages.voxel_size, averages.counts)";
 
     if (balls < fewBalls_)
     {
         text << " A voxel of a dense charge holds " << balls << " balls, and "
              << fewBalls_ << " make an average: take voxels of at least "
-             << max(smallest, max(cell.across, cell.along)) << " m" << voxelKeys
-             << ".";
+             << max(smallest, max(cell.across, cell.along)) << " m"
+             << voxelKeys_ << ".";
         return;
     }
-    if (longer(cell.along, voxel.along))
-    {
-        text << " Layers that are thicker than the voxels pass over balls:"
-             << " take layers of at most " << voxel.along
-             << " m (resolution.layers) or voxels of at least " << cell.along
-             << " m" << voxelKeys << ".";
-    }
-    if (longer(cell.across, voxel.across))
-    {
-        text << " Cells that are wider than the voxels pass over balls: take"
-             << " cells of at most " << voxel.across
-             << " m (resolution.cell_size, resolution.counts) or voxels of at"
-             << " least " << cell.across << " m" << voxelKeys << ".";
-    }
-    if (longer(cell.along, voxel.along) || longer(cell.across, voxel.across))
+    if (addLargeCells(text, voxel, cell))
     {
         return;
     }
     text << " Walls and the charge's surface cut coarse voxels: take ";
     if (longer(voxel.across, 1.2 * smallest))
     {
-        text << "smaller ones, down to " << smallest << " m" << voxelKeys
+        text << "smaller ones, down to " << smallest << " m" << voxelKeys_
              << ", with cells and layers no larger (resolution.cell_size,"
              << " resolution.layers).";
     }
     else
     {
-        text << "others" << voxelKeys << ", or more balls in a longer mill;"
+        text << "others" << voxelKeys_ << ", or more balls in a longer mill;"
              << " these hold about as few balls as make an average.";
     }
 }
@@ -148,7 +165,7 @@ Foam::string Foam::resolutionAdvice(
 
     OStringStream text;
     text.precision(digits_);
-    text << "There are " << label(source.volume() / ballVolume(d) + 0.5)
+    text << "There are " << label(std::lround(source.volume() / ballVolume(d)))
          << " balls of " << d << " m. The voxels are " << voxel.across
          << " m wide and " << voxel.along << " m long (z), the cells "
          << cell.across << " m and " << cell.along << " m in the mean.";

@@ -3,14 +3,14 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
 Description
-    Lets a program find the OpenFOAM that it was built with, or, where that is
-    not there, Debian's, in a shell without WM_PROJECT_DIR.
+    In a shell without WM_PROJECT_DIR, a program finds the OpenFOAM that it was
+    built with. If that does not exist, it finds Debian's.
 
     OpenFOAM's library looks for etc/controlDict of WM_PROJECT_DIR before main()
-    begins, and ends the program where there is none: not even --version could
-    be answered. What stands in .preinit_array comes before all libraries; it
-    starts the program again with that variable, unless it is set. Nothing of
-    libc but system calls is sure to work there, and no object of the program.
+    begins. If there is none, it ends the program, also with --version. Functions
+    in .preinit_array run before all libraries. The one here starts the program
+    again with that variable, unless it is set. Only system calls of libc are
+    sure to work there, and no object of the program.
 
 \*---------------------------------------------------------------------------*/
 

@@ -6,7 +6,7 @@ Application
     foamMeshToH5
 
 Description
-    Writes the mesh of a case to a mesh.h5, by which millAverage knows it.
+    Writes the mesh of a case to a mesh.h5, which millAverage reads.
 
     Any of OpenFOAM's formats is read: ASCII, binary, compressed. A decomposed
     mesh is put together from processor*, numbered as before it was decomposed,
@@ -21,7 +21,7 @@ Usage
       - \par -times all|RANGES
         For a mesh whose points move: those of all times, or of ranges such as
         0.1:0.5,0.8, that have polyMesh/points; flow time 0 is that of constant.
-        Without it the points of constant alone are written
+        Without it only the points of constant are written
 
       - \par -time0 T
         DEM time, s, at flow time 0, where constant/millProperties has no

@@ -115,7 +115,7 @@ void Foam::meshPart::checkSize(
     {
         FatalErrorInFunction << listIO(name, time_->constant()).objectPath()
                              << " has " << list.size() << " entries; expected "
-                             << expected << " for the mesh beside it"
+                             << expected << " for the mesh in the same folder"
                              << exit(FatalError);
     }
 }
@@ -198,7 +198,8 @@ void Foam::meshPart::checkTopology(const word& instance) const
             << " owner or neighbour of "
             << listIO("faces", instance).objectPath().path()
             << " differ from those of " << time_->constant()
-            << "; expected a mesh whose points alone move" << exit(FatalError);
+            << "; expected a mesh of which only the points move"
+            << exit(FatalError);
     }
 }
 

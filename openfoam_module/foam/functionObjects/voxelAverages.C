@@ -41,13 +41,33 @@ Foam::functionObjects::voxelAverages::place() const
         ((motion.linear() * from).colwise() + motion.translation() - to)
             .cwiseAbs()
             .maxCoeff();
-    // Round-off of the points against the size of the mesh
+    // Round-off of the points, relative to the size of the mesh
     const scalar size = to.cwiseAbs().maxCoeff();
     return off < 1e-10 * size ? std::optional(motion) : std::nullopt;
 }
 
 
-VoxelSums Foam::functionObjects::voxelAverages::sample()
+Eigen::Isometry3d Foam::functionObjects::voxelAverages::locateCells()
+{
+    if (cells_)
+    {
+        if (const std::optional<Eigen::Isometry3d> motion = place())
+        {
+            return *motion;
+        }
+    }
+    const MeshGeometry geometry(
+        averagingTopology(
+            mesh_.nPoints(), mesh_.nCells(), mesh_.faces(), mesh_.faceOwner(),
+            mesh_.faceNeighbour()),
+        averagingPoints(mesh_.points()));
+    cells_ = std::make_unique<CellPoints>(geometry, divisions_);
+    made_ = mesh_.points();
+    return Eigen::Isometry3d::Identity();
+}
+
+
+std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
 {
     const scalarField voidage(fields_.voidage());
     const scalarField& alpha = fields_.alpha().primitiveField();
@@ -64,28 +84,19 @@ VoxelSums Foam::functionObjects::voxelAverages::sample()
             values.end(), {slurry, voidage[celli], flux.x(), flux.y(), flux.z(),
                            slurry * p[celli], slurry * p_rgh[celli]});
     }
+    return values;
+}
 
+
+VoxelSums Foam::functionObjects::voxelAverages::sample()
+{
+    const std::vector<double> values(cellValues());
     VoxelSums sums(segments_.grid().size(), slurry_components);
     const auto reason = untrapped(
         [&]
         {
-            std::optional<Eigen::Isometry3d> motion;
-            if (cells_)
-            {
-                motion = place();
-            }
-            if (!motion)
-            {
-                const MeshGeometry geometry(
-                    averagingTopology(
-                        mesh_.nPoints(), mesh_.nCells(), mesh_.faces(),
-                        mesh_.faceOwner(), mesh_.faceNeighbour()),
-                    averagingPoints(mesh_.points()));
-                cells_ = std::make_unique<CellPoints>(geometry, divisions_);
-                made_ = mesh_.points();
-                motion = Eigen::Isometry3d::Identity();
-            }
-            cells_->deposit(segments_.grid(), *motion, values, sums);
+            const Eigen::Isometry3d motion(locateCells());
+            cells_->deposit(segments_.grid(), motion, values, sums);
         });
     if (reason)
     {
@@ -104,7 +115,7 @@ void Foam::functionObjects::voxelAverages::checkBox()
     if (!(inside > 0))
     {
         FatalErrorInFunction
-            << name() << ": nothing of the mesh, which reaches from "
+            << name() << ": no part of the mesh, which reaches from "
             << mesh_.bounds().min() << " to " << mesh_.bounds().max()
             << " m, lies in " << segments_.boxDescription().c_str()
             << "; expected a box (lower, upper) that covers the mesh, in m"

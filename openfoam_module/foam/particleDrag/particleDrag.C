@@ -75,7 +75,7 @@ Foam::fv::particleDrag::particleDrag(
     fieldNames_.setSize(1, coeffs_.lookupOrDefault<word>("U", "U"));
     applied_.setSize(1, false);
 
-    read(dict);
+    particleDrag::read(dict);
     bed_.requireSolids();
 
     Info << "    " << drag_->description().c_str() << ", "

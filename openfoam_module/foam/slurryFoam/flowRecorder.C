@@ -84,7 +84,7 @@ Foam::flowRecorder::flowRecorder(
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::flowRecorder::add(
-    millfoam::record::StepRow row, const FixedList<scalar, 3>& courant)
+    millfoam::record::StepRow row, const FixedList<scalar, 4>& courant)
 {
     row.courant = courant[0];
     row.surface_courant = courant[1];

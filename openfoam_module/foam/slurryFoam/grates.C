@@ -14,7 +14,7 @@ Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
     requireKnownEntries(
         dict, {"cellZone", "darcy", "forchheimer", "viscosity"});
     const word zone(dict.get<word>("cellZone"));
-    const layer result{
+    layer result{
         mesh_.cellZones().findZoneID(zone),
         dict.lookupOrDefault<scalar>("darcy", 0),
         dict.lookupOrDefault<scalar>("forchheimer", 0),

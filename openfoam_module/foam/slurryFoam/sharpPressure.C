@@ -78,7 +78,7 @@ void Foam::sharpPressure::divide(
         scalar nei = (1 - w) * (slurry + air + neiHeld[i]);
         if (mag(side[i]) > 0.5)
         {
-            // The slurry of the line lies on the wet side, on the other the air
+            // The slurry of the line is on the wet side, the air on the other
             own = ownWet ? slurry : air + w * ownHeld[i];
             nei = ownWet ? air + (1 - w) * neiHeld[i] : slurry;
             lineWeights[i] = ownWet ? line[i] : 1 - line[i];

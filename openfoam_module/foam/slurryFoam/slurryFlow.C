@@ -8,6 +8,8 @@
 #include "fvcReconstruct.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
+#include "laminarModel.H"
+#include "mathematicalConstants.H"
 #include "mixtureFluids.H"
 #include "geometricOneField.H"
 #include "MULES.H"
@@ -84,6 +86,14 @@ void Foam::slurryFlow::readBed()
                 << " inTime smooth, or voidageRate no" << exit(FatalIOError);
         }
 
+        if (!isA<laminarModel<incompressible::turbulenceModel>>(turbulence_()))
+        {
+            FatalErrorInFunction
+                << "turbulenceProperties has " << turbulence_->type()
+                << ", but no model is known for a flow between balls;"
+                << " expected simulationType laminar" << exit(FatalError);
+        }
+
         const dictionary& drag = bedDict_.subDict("drag");
         requireKnownEntries(drag, bedDrag::entries());
         drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
@@ -109,6 +119,25 @@ void Foam::slurryFlow::dropRate(const tmp<volScalarField::Internal>& before)
     {
         voidage_.oldTime() = voidage_;
     }
+}
+
+
+void Foam::slurryFlow::checkContinuity(
+    const tmp<volScalarField::Internal>& before)
+{
+    // Solids on the cells of a mesh that moves are not known in space
+    const bool known = before.valid() || !mesh_.moving();
+    if (bed_.empty() || !voidageRate_ || !known || !mesh_.time().writeTime())
+    {
+        continuity_.clear();
+        return;
+    }
+    const volScalarField::Internal& last =
+        before.valid() ? before() : voidage_.oldTime().internalField();
+    continuity_.reset(new solidsContinuity(bed_));
+    continuity_->update(
+        (last - voidage_.internalField()) / mesh_.time().deltaT(), alpha_, U_,
+        mesh_.solver(p_rgh_.name()));
 }
 
 
@@ -220,6 +249,7 @@ void Foam::slurryFlow::enter()
             dropRate(before);
         }
     }
+    checkContinuity(before);
     if (before.valid())
     {
         const dimensionedScalar deltaT(mesh_.time().deltaT());
@@ -258,25 +288,33 @@ void Foam::slurryFlow::transport()
 }
 
 
-Foam::FixedList<Foam::scalar, 3> Foam::slurryFlow::courantNumbers() const
+Foam::FixedList<Foam::scalar, 4> Foam::slurryFlow::courantNumbers() const
 {
     const scalar deltaT = mesh_.time().deltaTValue();
     const scalarField passed(
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
-    FixedList<scalar, 3> result(Zero);
+    const scalar capillary = 4 * constant::mathematical::pi *
+                             surfaceTension(mixture_).value() /
+                             (mixture_.rho1() + mixture_.rho2()).value();
+    scalar smallest = GREAT;
+
+    FixedList<scalar, 4> result(Zero);
     forAll(passed, celli)
     {
         result[0] = max(result[0], passed[celli]);
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result[1] = max(result[1], passed[celli]);
+            smallest = min(smallest, mesh_.V()[celli]);
         }
     }
     reduce(result[0], maxOp<scalar>());
     reduce(result[1], maxOp<scalar>());
     result[2] = voidageChange_;
+    reduce(smallest, minOp<scalar>());
+    result[3] = deltaT * sqrt(capillary / smallest);
     return result;
 }
 
@@ -303,6 +341,13 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     {
         drag_->report(bed_, alpha_, U_);
         drag_->addTo(row);
+    }
+    if (continuity_.valid())
+    {
+        Info << "bed: " << continuity_->description().c_str() << endl;
+        row.continuity_residual = continuity_->residual();
+        row.continuity_speed = continuity_->driven();
+        row.slip = continuity_->slip();
     }
     if (load_.valid() && mesh_.time().writeTime())
     {

@@ -60,8 +60,8 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragStiffness(
 
 Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::keptDetail() const
 {
-    // Against the mass in a cell that which flow and friction exchange in a
-    // step: what an implicit upwind equation of the detail would leave
+    // The mass that flow and friction exchange in a step, relative to the mass
+    // in a cell: an implicit upwind equation of the detail would leave as much
     const surfaceScalarField friction(
         fvc::interpolate(voidage_ * rho_ * turbulence_->nuEff()) *
         mesh_.magSf() * mesh_.nonOrthDeltaCoeffs());

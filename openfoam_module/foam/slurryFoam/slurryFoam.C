@@ -55,6 +55,16 @@ static const millfoam::record::ToolHelp help{
      "measure"}};
 
 
+//- End the function objects of a run without time-steps: a run that was killed
+//  at its end left this undone
+static void endFunctionObjects(const Time& time)
+{
+    functionObjectList objects(time);
+    objects.start();
+    objects.end();
+}
+
+
 int main(int argc, char* argv[])
 {
     if (millfoam::record::printed_help_or_version(argc, argv, help, std::cout))
@@ -77,7 +87,7 @@ int main(int argc, char* argv[])
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
     flowRecorder recorder(runTime, setup);
-    FixedList<scalar, 3> courant(flow.courantNumbers());
+    FixedList<scalar, 4> courant(flow.courantNumbers());
 
     Info << "Starting time loop\n" << endl;
 
@@ -108,10 +118,7 @@ int main(int argc, char* argv[])
 
     if (runTime.timeIndex() == runTime.startTimeIndex())
     {
-        // Nothing was left: what a run that was killed at its end left undone
-        functionObjectList objects(runTime);
-        objects.start();
-        objects.end();
+        endFunctionObjects(runTime);
     }
 
     flow.summary();

@@ -18,8 +18,7 @@ Foam::dictionary Foam::sweptFluid::controls(const word& pressure) const
     {
         return mesh_.solver(name);
     }
-    // What is left over stirs the fluid a little, and is in (1) of slurryFlow
-    // all the same
+    // The remainder stirs the fluid a little. It is in (1) of slurryFlow
     dictionary result(mesh_.solver(pressure));
     result.set("tolerance", 0.01);
     result.set("relTol", 0);

@@ -74,7 +74,7 @@ Foam::timeStep::limits(const dictionary& control)
 }
 
 
-void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
+void Foam::timeStep::adjust(const FixedList<scalar, 4>& courant)
 {
     Info << "Courant number " << courant[0] << ", at the surface " << courant[1]
          << ", change of voidage " << courant[2] << endl;
@@ -85,10 +85,10 @@ void Foam::timeStep::adjust(const FixedList<scalar, 3>& courant)
         return;
     }
 
-    const FixedList<word, 3> causes{
-        "flow", "flow at the surface", "change of voidage"};
-    const FixedList<scalar, 3> bounds{
-        asked->courant, asked->surface_courant, asked->voidage_change};
+    const FixedList<word, 4> causes{
+        "flow", "flow at the surface", "change of voidage", "surface tension"};
+    const FixedList<scalar, 4> bounds{
+        asked->courant, asked->surface_courant, asked->voidage_change, 0.5};
 
     scalar factor = 1.2;
     word cause("growth from a short step");

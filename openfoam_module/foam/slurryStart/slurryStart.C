@@ -11,12 +11,12 @@ Description
 
     - pool: all below a level, or as high as a volume of slurry reaches between
       the balls
-    - above: a volume of slurry as a layer that rests upon the highest balls
+    - above: a volume of slurry as a layer on top of the highest balls
     - feed: none; it comes with the feed
 
     A case in which a flow has begun, with times after the first, is refused.
 
-    The level is a height against gravity from the origin of the mesh; the
+    The level is a height above the origin of the mesh, opposite to gravity. The
     balls of constant/bedProperties, if there are any, take their room.
 
 Usage
@@ -35,10 +35,10 @@ Usage
 #include "caseKeeper.H"
 #include "Enum.H"
 #include "fvMesh.H"
+#include "heightCut.H"
 #include "knownEntries.H"
 #include "movingBed.H"
 #include "optionalDictionary.H"
-#include "planeCut.H"
 #include "readableLog.H"
 #include "surfaceFields.H"
 #include "Time.H"
@@ -66,114 +66,6 @@ const Enum<start> startNames({
     {start::above, "above"},
     {start::feed, "feed"},
 });
-
-
-//- Fluid below heights in the cells of a mesh
-class heightCut
-{
-    const fvMesh& mesh_;
-    const planeCut cut_;
-    const vector up_;
-    const scalarField fluid_;
-    scalarField lowest_;
-    scalarField highest_;
-
-    public:
-    heightCut(const fvMesh& mesh, const vector& up, const scalarField& voidage)
-    : mesh_(mesh),
-      cut_(mesh),
-      up_(up),
-      fluid_(voidage * mesh.V()),
-      lowest_(mesh.nCells(), GREAT),
-      highest_(mesh.nCells(), -GREAT)
-    {
-        forAll(lowest_, celli)
-        {
-            for (const label pointi : mesh.cellPoints()[celli])
-            {
-                const scalar height = up & mesh.points()[pointi];
-                lowest_[celli] = min(lowest_[celli], height);
-                highest_[celli] = max(highest_[celli], height);
-            }
-        }
-    }
-
-    //- Share of a cell below a level
-    scalar share(const label celli, const scalar level) const
-    {
-        if (level <= lowest_[celli])
-        {
-            return 0;
-        }
-        if (level >= highest_[celli])
-        {
-            return 1;
-        }
-        return cut_.wetVolume(celli, up_, level) /
-               cut_.wetVolume(celli, up_, highest_[celli] + 1);
-    }
-
-    //- Volume of fluid between two levels, m3
-    scalar volume(const scalar from, const scalar to) const
-    {
-        scalar sum = 0;
-        forAll(fluid_, celli)
-        {
-            sum += fluid_[celli] * (share(celli, to) - share(celli, from));
-        }
-        return returnReduce(sum, sumOp<scalar>());
-    }
-
-    scalar bottom() const
-    {
-        return gMin(lowest_);
-    }
-
-    scalar top() const
-    {
-        return gMax(highest_);
-    }
-
-    //- Top of the highest cell whose solidity is above a share, or the bottom
-    scalar topOfBed(const scalarField& solidity, const scalar bedShare) const
-    {
-        scalar top = -GREAT;
-        forAll(solidity, celli)
-        {
-            if (solidity[celli] > bedShare)
-            {
-                top = max(top, highest_[celli]);
-            }
-        }
-        return max(returnReduce(top, maxOp<scalar>()), bottom());
-    }
-
-    //- Level to which a volume of fluid reaches from a level upwards
-    scalar levelOf(
-        const scalar wanted, const scalar from, const dictionary& dict) const
-    {
-        const scalar room = volume(from, top());
-        if (!(wanted > 0 && wanted < room))
-        {
-            FatalIOErrorInFunction(dict)
-                << "volume is " << wanted << " m3; expected above 0 and below"
-                << " the " << room << " m3 of room between the heights " << from
-                << " and " << top() << " m" << exit(FatalIOError);
-        }
-        scalar low = from;
-        scalar high = top();
-        while (high - low > 1e-15 * (mag(low) + mag(high)))
-        {
-            const scalar middle = 0.5 * (low + high);
-            if (middle <= low || middle >= high)
-            {
-                break;
-            }
-            (volume(from, middle) < wanted ? low : high) = middle;
-        }
-        return 0.5 * (low + high);
-    }
-};
 
 
 //- The levels between which slurry starts
@@ -256,9 +148,50 @@ void refuseBegunFlow(const Time& time)
             << time.path() << ": a flow has begun, there are " << later.size()
             << " written times, from " << later.first() << " to "
             << later.last() << " s, whose slurry would be overwritten or no"
-            << " longer fit its start; expected the first time alone. Remove"
+            << " longer fit its start; expected only the first time. Remove"
             << " the times or run Allclean" << exit(FatalError);
     }
+}
+
+
+//- Upward unit vector, opposite to gravity
+vector upwards(const fvMesh& mesh)
+{
+    const uniformDimensionedVectorField g(IOobject(
+        "g", mesh.time().constant(), mesh, IOobject::MUST_READ,
+        IOobject::NO_WRITE));
+    if (!(mag(g.value()) > 0))
+    {
+        FatalErrorInFunction << "constant/g is " << g.value()
+                             << "; expected gravity, which says"
+                             << " where below is" << exit(FatalError);
+    }
+    return -g.value() / mag(g.value());
+}
+
+
+//- Set the share of slurry between two levels, with its patches, and write it
+void writeSlurry(
+    const word& phase, const heightCut& cut, const Pair<scalar>& range,
+    const fvMesh& mesh)
+{
+    const word time(mesh.time().timeName());
+    volScalarField alpha(
+        IOobject(
+            "alpha." + phase, time, mesh, IOobject::MUST_READ,
+            IOobject::AUTO_WRITE),
+        mesh);
+    forAll(alpha, celli)
+    {
+        alpha[celli] =
+            cut.share(celli, range.second()) - cut.share(celli, range.first());
+    }
+    // Open patches look the flux up, and there is no flow yet
+    const surfaceScalarField phi(
+        IOobject("phi", time, mesh), mesh,
+        dimensionedScalar(dimVolume / dimTime, Zero));
+    alpha.correctBoundaryConditions();
+    alpha.write();
 }
 
 } // End anonymous namespace
@@ -302,40 +235,14 @@ int main(int argc, char* argv[])
     const IOdictionary dict(IOobject(
         "slurryStartDict", runTime.system(), mesh, IOobject::MUST_READ,
         IOobject::NO_WRITE));
-    const uniformDimensionedVectorField g(IOobject(
-        "g", runTime.constant(), mesh, IOobject::MUST_READ,
-        IOobject::NO_WRITE));
-    if (!(mag(g.value()) > 0))
-    {
-        FatalIOErrorInFunction(dict)
-            << "constant/g is " << g.value() << "; expected gravity, which says"
-            << " where below is" << exit(FatalIOError);
-    }
     const IOdictionary bedDict(optionalDictionary("bedProperties", mesh));
     const movingBed bed(bedDict, mesh);
 
-    volScalarField alpha(
-        IOobject(
-            "alpha." + dict.lookupOrDefault<word>("phase", "slurry"),
-            runTime.timeName(), mesh, IOobject::MUST_READ,
-            IOobject::AUTO_WRITE),
-        mesh);
-
-    const heightCut cut(
-        mesh, -g.value() / mag(g.value()), bed.voidage().primitiveField());
+    const heightCut cut(mesh, upwards(mesh), bed.voidage().primitiveField());
     const Pair<scalar> range(
         levels(dict, cut, bed.solidity().primitiveField()));
-    forAll(alpha, celli)
-    {
-        alpha[celli] =
-            cut.share(celli, range.second()) - cut.share(celli, range.first());
-    }
-    // Conditions of open patches ask for the flow, of which there is none yet.
-    const surfaceScalarField phi(
-        IOobject("phi", runTime.timeName(), mesh), mesh,
-        dimensionedScalar(dimVolume / dimTime, Zero));
-    alpha.correctBoundaryConditions();
-    alpha.write();
+    writeSlurry(
+        dict.lookupOrDefault<word>("phase", "slurry"), cut, range, mesh);
 
     Info << "Slurry from " << range.first() << " m to " << range.second()
          << " m: " << cut.volume(range.first(), range.second()) << " m3"

@@ -134,7 +134,7 @@ void Foam::solidsBlock::add(
     forAll(centres, celli)
     {
         const scalar share =
-            wantsBoxes()
+            needsBoxes()
                 ? shape_->over(boundBox(
                       boxes[celli].min() - moved, boxes[celli].max() - moved))
                 : shape_->at(centres[celli] - moved);

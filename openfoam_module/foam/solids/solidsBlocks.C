@@ -11,12 +11,12 @@
 
 void Foam::solidsBlocks::setBoxes(const fvMesh& mesh, const bool moved)
 {
-    bool wanted = false;
+    bool needed = false;
     for (const solidsBlock& block : blocks_)
     {
-        wanted = wanted || block.wantsBoxes();
+        needed = needed || block.needsBoxes();
     }
-    if (!wanted || (boxes_.size() == mesh.nCells() && !moved))
+    if (!needed || (boxes_.size() == mesh.nCells() && !moved))
         return;
 
     boxes_.setSize(mesh.nCells());

@@ -128,7 +128,7 @@ void Foam::solidsCells::pick(
     sums.clear(labels_.size());
     forAll(labels_, celli)
     {
-        const label i = labels_[celli];
+        const auto i = static_cast<std::size_t>(labels_[celli]);
         const vector u(
             window.velocity[3 * i], window.velocity[3 * i + 1],
             window.velocity[3 * i + 2]);

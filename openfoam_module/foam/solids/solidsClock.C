@@ -40,7 +40,7 @@ void Foam::solidsClock::checkTime0() const
         FatalIOErrorInFunction(dict_)
             << "time0 is " << time0 << " s but " << file_
             << " begins at DEM time " << time0_ << " s: the mesh would be"
-            << " turned against the solids. Make the mesh with"
+            << " at another angle than the solids. Make the mesh with"
             << " millMesh --at-time " << time0_ << " or average from --start "
             << time0 << exit(FatalIOError);
     }
@@ -123,6 +123,7 @@ Foam::solidsClock::solidsClock(
     }
 
     std::vector<double> lengths;
+    lengths.reserve(windows_.size());
     for (const auto& window : windows_)
     {
         lengths.push_back(window.end - window.begin);

@@ -4,10 +4,10 @@
 \*---------------------------------------------------------------------------*/
 
 #include "planeCut.H"
+#include "cellColumn.H"
+#include "cutTriangles.H"
 
 #include <array>
-#include <utility>
-#include <vector>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -15,23 +15,6 @@ namespace Foam
 {
 namespace
 {
-
-//- Heights of a triangle's corners along a normal, lowest first
-using heights = std::array<scalar, 3>;
-
-heights sortedHeights(scalar a, scalar b, scalar c)
-{
-    if (a > b)
-    {
-        std::swap(a, b);
-    }
-    if (b > c)
-    {
-        std::swap(b, c);
-    }
-    return a > b ? heights{b, a, c} : heights{a, b, c};
-}
-
 
 //- Share of a triangle's area below height d
 scalar shareBelow(const heights& s, const scalar d)
@@ -72,150 +55,34 @@ scalar integralBelow(const heights& s, const scalar d)
 }
 
 
-//- Calls visit(a, b, c) for the triangles of a face, with its orientation
-template <class Visitor>
-void forTriangles(const fvMesh& mesh, const label facei, const Visitor& visit)
-{
-    const face& f = mesh.faces()[facei];
-    const pointField& points = mesh.points();
-    if (f.size() == 3)
-    {
-        visit(points[f[0]], points[f[1]], points[f[2]]);
-        return;
-    }
-    const point& centre = mesh.faceCentres()[facei];
-    forAll(f, i)
-    {
-        visit(centre, points[f[i]], points[f[f.fcIndex(i)]]);
-    }
-}
-
-
-//- Calls visit(a, b, c) for the triangles of a cell's faces, outward
-template <class Visitor>
-void forOutwardTriangles(
-    const fvMesh& mesh, const label celli, const Visitor& visit)
-{
-    for (const label facei : mesh.cells()[celli])
-    {
-        if (mesh.faceOwner()[facei] == celli)
-        {
-            forTriangles(mesh, facei, visit);
-        }
-        else
-        {
-            forTriangles(
-                mesh, facei,
-                [&visit](const point& a, const point& b, const point& c)
-                { visit(a, c, b); });
-        }
-    }
-}
-
-
-//- A cell's volume below a level along a normal. Levels count from its centre
-class cellColumn
-{
-    //- A triangle of its surface: three times the volume between it and the
-    //  centre, and how much of that a cut at the level 1 takes away
-    struct facet
-    {
-        heights s;
-        scalar cone;
-        scalar taken;
-        scalar overLower;
-        scalar overUpper;
-    };
-
-    std::vector<facet> facets_;
-    scalar low_ = GREAT;
-    scalar high_ = -GREAT;
-
-    static scalar inverse(const scalar product)
-    {
-        return product > VSMALL ? 1 / product : 0;
-    }
-
-
-    public:
-    cellColumn(const fvMesh& mesh, const label celli, const vector& n)
-    {
-        const point& origin = mesh.cellCentres()[celli];
-        facets_.reserve(4 * mesh.cells()[celli].size());
-        forOutwardTriangles(
-            mesh, celli,
-            [&](const point& a, const point& b, const point& c)
-            {
-                const vector ra(a - origin), rb(b - origin), rc(c - origin);
-                const heights s(sortedHeights(n & ra, n & rb, n & rc));
-                const vector area(0.5 * ((rb - ra) ^ (rc - ra)));
-                const scalar height = s[2] - s[0];
-                facets_.push_back(
-                    {s, ra & area, n & area, inverse(height * (s[1] - s[0])),
-                     inverse(height * (s[2] - s[1]))});
-                low_ = min(low_, s[0]);
-                high_ = max(high_, s[2]);
-            });
-    }
-
-    scalar low() const
-    {
-        return low_;
-    }
-
-    scalar high() const
-    {
-        return high_;
-    }
-
-    struct part
-    {
-        //- Volume below the level, m3
-        scalar volume;
-
-        //- Its rate of growth with the level: the area of the cut, m2
-        scalar area;
-    };
-
-    part below(const scalar level) const
-    {
-        scalar volume = 0;
-        scalar growth = 0;
-        for (const facet& t : facets_)
-        {
-            if (level <= t.s[0])
-            {
-                continue;
-            }
-            scalar share = 1;
-            scalar rate = 0;
-            if (level <= t.s[1])
-            {
-                const scalar up = level - t.s[0];
-                share = sqr(up) * t.overLower;
-                rate = 2 * up * t.overLower;
-            }
-            else if (level < t.s[2])
-            {
-                const scalar down = t.s[2] - level;
-                share = 1 - sqr(down) * t.overUpper;
-                rate = 2 * down * t.overUpper;
-            }
-            const scalar cone = t.cone - level * t.taken;
-            volume += share * cone;
-            growth += rate * cone - share * t.taken;
-        }
-        return {volume / 3, growth / 3};
-    }
-};
-
-
 //- Where the segment from a to b, at heights sa and sb, meets height d
 point crossing(
     const point& a, const point& b, const scalar sa, const scalar sb,
     const scalar d)
 {
     return a + (d - sa) / (sb - sa) * (b - a);
+}
+
+
+//- Where the plane n & x = level cuts two sides of a triangle with corners x.
+//  False where it misses the triangle
+bool crossSides(
+    const std::array<point, 3>& x, const vector& n, const scalar level,
+    std::array<point, 2>& ends)
+{
+    label found = 0;
+    for (label i = 0; i < 3; ++i)
+    {
+        const point& p = x[i];
+        const point& q = x[(i + 1) % 3];
+        const scalar sp = n & p;
+        const scalar sq = n & q;
+        if ((sp < level) != (sq < level) && found < 2)
+        {
+            ends[found++] = crossing(p, q, sp, sq, level);
+        }
+    }
+    return found == 2;
 }
 
 } // End anonymous namespace
@@ -296,19 +163,7 @@ Foam::planeCut::cut(const label celli, const vector& n, const scalar d) const
         {
             const std::array<point, 3> x{a - origin, b - origin, c - origin};
             std::array<point, 2> ends;
-            label found = 0;
-            for (label i = 0; i < 3; ++i)
-            {
-                const point& p = x[i];
-                const point& q = x[(i + 1) % 3];
-                const scalar sp = n & p;
-                const scalar sq = n & q;
-                if ((sp < level) != (sq < level) && found < 2)
-                {
-                    ends[found++] = crossing(p, q, sp, sq, level);
-                }
-            }
-            if (found < 2)
+            if (!crossSides(x, n, level, ends))
             {
                 return;
             }

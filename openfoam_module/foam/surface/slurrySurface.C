@@ -19,8 +19,8 @@ namespace Foam
 namespace
 {
 
-//- How much a normal is held to the one before where the neighbours leave it
-//  free, against the area of the surface there over V^(2/3)
+//- Weight of the normal before, which counts where the neighbours leave a
+//  normal free, relative to the area of the surface there over V^(2/3)
 constexpr scalar held = 1e-6;
 
 //- Slurry or air below this share makes a cell's level less trusted

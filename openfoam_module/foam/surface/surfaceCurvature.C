@@ -35,6 +35,32 @@ scalar traceOfQuotient(const tensor& b, const symmTensor& m)
         .trace();
 }
 
+//- Adds to the sums of cells what their neighbours on a coupled patch have
+void addCoupled(
+    const label patchi, const volScalarField& values,
+    const surfacePieces& pieces, scalarField& weights, scalarField& sums)
+{
+    const fvPatchScalarField& patch = values.boundaryField()[patchi];
+    if (!patch.coupled())
+    {
+        return;
+    }
+    const scalarField others(patch.patchNeighbourField());
+    const vectorField normals(
+        pieces.normal.boundaryField()[patchi].patchNeighbourField());
+    const scalarField areas(
+        pieces.area.boundaryField()[patchi].patchNeighbourField());
+    forAll(others, i)
+    {
+        const label celli = patch.patch().faceCells()[i];
+        const scalar weight =
+            max(pieces.normal[celli] & normals[i], scalar(0)) * areas[i];
+        weights[celli] += weight;
+        sums[celli] += weight * others[i];
+    }
+}
+
+
 } // End anonymous namespace
 } // End namespace Foam
 
@@ -67,6 +93,40 @@ Foam::tmp<Foam::volScalarField> Foam::cellCurvature(const surfacePieces& pieces)
     }
     curvature.correctBoundaryConditions();
     return tcurvature;
+}
+
+
+void Foam::smoothAlong(volScalarField& values, const surfacePieces& pieces)
+{
+    const fvMesh& mesh = values.mesh();
+    scalarField weights(pieces.area.primitiveField());
+    scalarField sums(weights * values.primitiveField());
+    const auto add = [&](const label to, const label from, const scalar cosine)
+    {
+        weights[to] += cosine * pieces.area[from];
+        sums[to] += cosine * pieces.area[from] * values[from];
+    };
+    forAll(mesh.neighbour(), facei)
+    {
+        const label own = mesh.owner()[facei];
+        const label nei = mesh.neighbour()[facei];
+        const scalar cosine =
+            max(pieces.normal[own] & pieces.normal[nei], scalar(0));
+        add(own, nei, cosine);
+        add(nei, own, cosine);
+    }
+    forAll(mesh.boundary(), patchi)
+    {
+        addCoupled(patchi, values, pieces, weights, sums);
+    }
+    forAll(values, celli)
+    {
+        if (pieces.isCut(celli))
+        {
+            values[celli] = sums[celli] / max(weights[celli], VSMALL);
+        }
+    }
+    values.correctBoundaryConditions();
 }
 
 

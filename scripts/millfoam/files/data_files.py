@@ -17,7 +17,7 @@ def read_text(path: Path | str) -> str:
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except UnicodeDecodeError as error:
-        raise DataError(f"{path}: no UTF-8 text (byte {error.start}); expected UTF-8") from None
+        raise DataError(f"{path}: not UTF-8 text (byte {error.start}); expected UTF-8") from None
     except OSError as error:
         raise DataError(f"{path}: {error.strerror or error}") from None
 
@@ -28,9 +28,9 @@ def read_json(path: Path | str, kind: str) -> dict[str, Any]:
         content = json.loads(read_text(path))
     except json.JSONDecodeError as error:
         where = f"{path}: line {error.lineno}, column {error.colno}"
-        raise DataError(f"{where}: no JSON: {error.msg}; is it cut short?") from None
+        raise DataError(f"{where}: not JSON: {error.msg}; is it cut short?") from None
     except RecursionError:
-        raise DataError(f"{path}: no JSON: too many brackets") from None
+        raise DataError(f"{path}: not JSON: too many brackets") from None
     found = content.get("format") if isinstance(content, dict) else None
     if found != f"millfoam-{kind}":
         raise DataError(f"{path}: format {found!r}; expected 'millfoam-{kind}'")
@@ -58,7 +58,7 @@ def number(content: Any, path: Path | str, *keys: str) -> float:
 
 def read_csv(path: Path | str) -> dict[str, np.ndarray]:
     """Columns of a CSV file, name -> values [rows]. A last line without a line end, from a killed program, is left
-    out. DataError names a line that is no row of numbers."""
+    out. DataError names a line that is not a row of numbers."""
     lines = read_text(path).split("\n")[:-1]
     if not lines:
         raise DataError(f"{path}: no complete line; expected the columns' names")

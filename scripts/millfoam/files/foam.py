@@ -13,9 +13,9 @@ class FoamError(RuntimeError):
 
 def times(case: Path | str) -> list[tuple[float, Path]]:
     """Time directories of a case, sorted: list of (time in s, Path). Those of `0.orig` kind are left out. FoamError
-    where the case is no folder."""
+    where the case is not a folder."""
     if not Path(case).is_dir():
-        raise FoamError(f"{case}: no folder; expected an OpenFOAM case")
+        raise FoamError(f"{case}: not a folder; expected an OpenFOAM case")
     found = []
     for entry in Path(case).iterdir():
         if entry.is_dir() and re.fullmatch(r"\d+(\.\d+)?(e-?\d+)?", entry.name):
@@ -30,7 +30,7 @@ def _body(path: Path | str) -> str:
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
-        raise FoamError(f"{path}: no UTF-8 text (byte {error.start})") from None
+        raise FoamError(f"{path}: not UTF-8 text (byte {error.start})") from None
     if re.search(r"format\s+binary", text[:2000]):
         raise FoamError(f"{path}: binary; expected writeFormat ascii")
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)

@@ -18,7 +18,7 @@ def read_measured(path: Path | str, like: SolidsMap) -> SolidsMap:
     empty where no velocity was measured; both columns are missing if none was measured at all. The columns have any
     order, other columns and blanks are allowed. Voxels may be missing: their solidity and velocity are NaN. ValueError
     names file, line, column and value of a missing column, a wrong number, a solidity outside 0 to 1, a place that is
-    no voxel's centre, and a voxel that is given twice."""
+    not a voxel's centre, and a voxel that is given twice."""
     solidity, velocity = np.full(like.solidity.shape, np.nan), np.full(like.velocity.shape, np.nan)
     # Spreadsheets put a mark before UTF-8
     with open(path, newline="", encoding="utf-8-sig") as file:
@@ -63,6 +63,6 @@ def _voxel(path: Path | str, line: int, column: str, value: float, edges: np.nda
     place = (value - edges[0]) / (edges[1] - edges[0]) - 0.5
     index = round(place)
     if abs(place - index) > 0.01 or not 0 <= index < len(edges) - 1:
-        raise ValueError(f"{path}, line {line}, column {column}: {value:g} m is no voxel's centre; expected "
+        raise ValueError(f"{path}, line {line}, column {column}: {value:g} m is not a voxel's centre; expected "
                          f"{len(edges) - 1} voxels between {edges[0]:g} and {edges[-1]:g} m, as the run's")
     return index

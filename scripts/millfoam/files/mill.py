@@ -14,7 +14,7 @@ SECTIONS = ("geometry", "speed", "charge")
 
 
 class NoMill(RuntimeError):
-    """A folder that is no mill's case; the message names the missing file."""
+    """A folder that is not a mill's case; the message names the missing file."""
 
 
 def fnv1a(content: bytes) -> str:
@@ -27,7 +27,7 @@ def fnv1a(content: bytes) -> str:
 
 
 def read_mill(folder: Path | str) -> "Mill":
-    """The Mill of a case's folder; NoMill if its mill.json is missing, no JSON, of another format or incomplete."""
+    """The Mill of a case's folder; NoMill if its mill.json is missing, not JSON, of another format or incomplete."""
     path = Path(folder) / "mill.json"
     if not path.is_file():
         raise NoMill(f"{folder}: no mill.json; expected the folder of a mill's case that was run: run Allrun, or "

@@ -26,7 +26,7 @@ class MillCase:
     """A mill's run in a folder; missing parts are None.
 
     begin: flow time at which the averages begin, s. None: the mill's own (flow.averages_start), or half of the time of
-    a flow that was cut short before. The averages of a dry run begin at the same time of its own, or when it is steady.
+    a flow that was cut short before. The averages of a dry run begin at the same DEM time, or when it is steady.
     unusable: why files cannot be used, in words."""
 
     def __init__(self, folder: Path | str, begin: float | None = None) -> None:
@@ -98,7 +98,7 @@ class MillCase:
         return self.outline_at(self.charge_span[1] if self.solids else 0)
 
     def outline_at(self, time: float) -> np.ndarray:
-        """The outline [n, 2] (m) at DEM time `time` (s): lifter 1 stands at +x at time 0."""
+        """The outline [n, 2] (m) at DEM time `time` (s): lifter 1 is at +x at time 0."""
         return lifter_outline(self.radius, *self.mill.lifters, self.omega * time)
 
     def json(self, path: Path, kind: str) -> dict[str, Any] | None:
@@ -132,7 +132,7 @@ class MillCase:
 
     @cached_property
     def averages(self) -> dict[str, Any] | None:
-        """solids.json beside solids.h5."""
+        """solids.json next to solids.h5."""
         return self.json(self.solids.with_suffix(".json"), "averages") if self.solids else None
 
     def _whole(self, path: Path, advice: str) -> bool:
@@ -145,7 +145,7 @@ class MillCase:
                     return True
                 reason = "it is not complete"
         except OSError:
-            reason = "it is cut short or no HDF5 file"
+            reason = "it is cut short or not an HDF5 file"
         self.unusable.append(f"{path}: not used, because {reason}; {advice}")
         return False
 

@@ -13,11 +13,11 @@ FAINT = 1e-6  # solidity up to which a mean over time has no velocity: only an e
 
 
 def open_hdf5(path: Path | str) -> h5py.File:
-    """An HDF5 file to read; RuntimeError names it if it is missing, cut short or no HDF5 file."""
+    """An HDF5 file to read; RuntimeError names it if it is missing, cut short or not an HDF5 file."""
     try:
         return h5py.File(path, "r")
     except OSError:
-        what = "cut short or no HDF5 file" if Path(path).is_file() else "no such file"
+        what = "cut short or not an HDF5 file" if Path(path).is_file() else "no such file"
         raise RuntimeError(f"{path}: {what}") from None
 
 

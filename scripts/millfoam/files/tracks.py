@@ -14,7 +14,7 @@ POSITION = ("x", "y", "z")
 
 @dataclass
 class Trajectory:
-    """Track of one tracer: time [n] (s), increasing; position [n, 3] (m). ValueError if these are no track."""
+    """Track of one tracer: time [n] (s), increasing; position [n, 3] (m). ValueError if these are not a track."""
     time: np.ndarray
     position: np.ndarray
 
@@ -32,7 +32,7 @@ class Trajectory:
 def read_trajectory(path: Path | str, time_unit: float = 1.0, length_unit: float = 1.0) -> Trajectory:
     """Trajectory from a text file of lines t, x, y, z, separated by commas or blanks. Empty lines, lines that begin
     with #, and one line of names at the top are skipped. Units: in s and m. RuntimeError names file, line and value of
-    a wrong number of columns, a word that is no finite number, or a time that does not increase; also for fewer than
+    a wrong number of columns, a word that is not a finite number, or a time that does not increase; also for fewer than
     two points."""
     rows: list[list[float]] = []
     with open(path) as file:
@@ -128,7 +128,7 @@ def _header(path: Path | str, data: bytes) -> tuple[list[str], np.ndarray, int]:
 
 
 def _leading_numbers(text: np.ndarray, starts: np.ndarray) -> np.ndarray:
-    """The whole numbers that begin at `starts` of a text [bytes]; each ends at the first character that is no digit."""
+    """The whole numbers that begin at `starts` of a text [bytes]; each ends before the first non-digit."""
     numbers = np.zeros(len(starts), dtype=np.int64)
     digits = np.ones(len(starts), dtype=bool)
     position = starts.copy()

@@ -93,7 +93,7 @@ class MillFlow:
 
     def on_grid(self, column_values: np.ndarray, time: float, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Column values [columns] at pixels x [nx], y [ny] (m, lab frame) at `time`: [ny, nx], NaN outside the mill."""
-        # Maps ask for several fields on the same pixels at the same times
+        # Maps need several fields on the same pixels at the same times
         key = (time, len(x), x[0], x[-1], len(y), y[0], y[-1])
         if key not in self._pixels:
             self._pixels[key] = self._columns_of(np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), time)

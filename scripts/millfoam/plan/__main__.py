@@ -3,7 +3,7 @@
 
     python3 -m millfoam.plan FOLDER -np N [--charge OTHER]
 
-FOLDER contains mill.json. Prints a table and writes FOLDER/plan.json. scripts/README.md, "What it will take", says what
+FOLDER contains mill.json. Prints a table and writes FOLDER/plan.json. scripts/README.md, "What it will cost", says what
 is measured here and what is calibrated on earlier runs."""
 import argparse
 import json

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Predictions of a mill's stages from trials on this machine, with constants calibrated on earlier runs
-(scripts/README.md, "What it will take")."""
+(scripts/README.md, "What it will cost")."""
 import math
 import tempfile
 from collections.abc import Sequence

@@ -150,8 +150,8 @@ def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
 
 
 def frame_figures(flow: MillFlow, frames: Iterable[tuple[float, Path]]) -> Iterator[Figure]:
-    """One figure for each of `frames` (time in s, folder) of the slurry, on the same page, to be saved one after the
-    other."""
+    """One figure for each of `frames` (time in s, folder) of the slurry, on the same page; save each one before
+    the next."""
     quads, columns = flow.end_wall()
 
     def draw(axis: Axes, frame: tuple[float, Path]) -> PolyCollection:
@@ -192,7 +192,7 @@ def redrawn_figures(things: Iterable[Thing], draw: Callable[[Axes, Thing], Scala
 
 
 def animate(flow: MillFlow, out: Path | str, most: int = 60) -> None:
-    """At most `most` of the frames, equally spaced, as an endless GIF."""
+    """Writes at most `most` of the frames, equally spaced, as an endless GIF."""
     frames = [flow.frames[k] for k in np.unique(np.linspace(0, len(flow.frames) - 1, most).astype(int))]
     pictures = []
     for figure in frame_figures(flow, frames):

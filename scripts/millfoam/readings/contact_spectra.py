@@ -5,7 +5,7 @@ Limits by the interval between the contacts' dumps: a contact is a collision if 
 before. Pairs that separate and touch again within an interval count once. A touch shorter than the interval is in a
 dump with the probability duration / interval. So a touch that is not in the next dump counts interval / duration times,
 with the duration of a Hertz contact of its energy. The energy is that at the dump: between the energy at first touch
-and, at the end of the touch, e^2 of it. Powers need no such weights: they are means over the dumps, in which every
+and, at the end of the touch, e^2 of it. Powers need no weights: they are means over the dumps, in which every
 contact appears in proportion to its duration."""
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

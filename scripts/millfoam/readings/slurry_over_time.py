@@ -37,7 +37,7 @@ class Way:
 
 
 def ring_depth(lifter_height: float) -> float:
-    """From the shell to the circle on which the slurry's toe and shoulder are read, m."""
+    """Distance from the shell to the circle on which the slurry's toe and shoulder are read, m."""
     return RING * lifter_height
 
 

@@ -39,7 +39,7 @@ class TracerMap(SolidsMap):
 def velocities(track: Trajectory, points: int = 3) -> np.ndarray:
     """Velocity [n, 3] (m/s) at a track's points: derivative of the polynomial through the 3 or 5 points nearest in
     order, the point in their middle but at the ends (Lagrange; Berrut & Trefethen, SIAM Review 46 (2004) 501, eqs 9.4,
-    9.5). Exact for polynomials of degree 2 or 4, whatever the times."""
+    9.5). Exact for polynomials of degree 2 or 4, at any times."""
     count = len(track.time)
     if points not in (3, 5) or count < points:
         raise ValueError(f"{points}-point differentiation of {count} points; expected 3 or 5, and as many points or "

@@ -21,7 +21,7 @@ def require_report_or_nothing(path: Path) -> None:
     with path.open("rb") as file:
         head = file.read(200).lower()
     if b"<!doctype html" not in head:
-        raise RuntimeError(f"-o {path}: this file exists and is no HTML; expected another name, like report.html")
+        raise RuntimeError(f"-o {path}: this file exists and is not HTML; expected another name, like report.html")
 
 
 def main() -> None:

@@ -47,7 +47,7 @@ class Readings:
 
     @staticmethod
     def attempt(read: Callable[[], Any]) -> Any:
-        """What read() gives, or the text of the error that it raises."""
+        """The result of read(), or the text of the error that it raises."""
         try:
             return read()
         except (RuntimeError, ValueError) as error:
@@ -58,7 +58,7 @@ class Readings:
         return np.atleast_1d(self.errors[name].error)[k] if isinstance(self.errors, dict) else np.nan
 
     def short_blocks(self, slurry: bool = True) -> str:
-        """In words, that errors of the charge (and of the slurry, if asked for) are lower bounds, because their
+        """In words, that errors of the charge (and, if requested, of the slurry) are lower bounds, because their
         blocks of time are shorter than a turn of the mill; otherwise empty."""
         case, lengths = self.case, {}
         if isinstance(self.errors, dict):
@@ -118,11 +118,11 @@ def humps_words(fit: axial.Humps, z: np.ndarray) -> str:
 
 
 def load_numbers(mill: Mill) -> Rows:
-    """Rows of the mill's load: as simulated, and as asked for if that is more."""
+    """Rows of the mill's load: as simulated, and as requested if that is more."""
     rows = [("load of balls", f"{100 * mill.load:.3g} %")]
     if mill.fines_share > 0:
         rows = [("load of balls, as simulated", f"{100 * mill.load:.3g} %"),
-                ("load of balls, as asked for", f"{100 * mill.load_asked:.3g} %"),
+                ("load of balls, as requested", f"{100 * mill.load_asked:.3g} %"),
                 (f"left out: balls of {1e3 * mill.largest_fines:.3g} mm and less",
                  f"{100 * mill.fines_share:.3g} % of the mass")]
     return rows

@@ -60,7 +60,8 @@ def averaging_volume(case: MillCase) -> Check:
     """Whether a voxel holds as many balls as the volumes from which the drag laws were derived."""
     name = "Averaging volumes hold enough balls"
     if case.averages is None:
-        return Check(name, "unknown", f"no summary beside {case.solids.name}", "Average the dumps again (millAverage).")
+        return Check(name, "unknown", f"no summary next to {case.solids.name}",
+                     "Average the dumps again (millAverage).")
     balls = entry(case.averages, case.solids, "balls_per_cell")
     fewest, most = entry(case.averages, case.solids, "balls_of_laws")
     found = f"{balls:.1f} balls in an occupied cell (the drag laws were derived from {fewest:g} to {most:g})"

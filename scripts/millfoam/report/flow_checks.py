@@ -9,6 +9,7 @@ from .verdict import Check, judged
 CONSERVED = 1e-6  # of the hold-up that may be missing
 CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
+CONTINUITY = 15.0  # % of the slip, of the flow that the balls' averages drive by not being continuous
 LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
 STEPS = 0.01  # of the time-steps that may go beyond 1.5 times a limit
 # Columns of steps.csv, their limits in flow.json and what they are
@@ -107,6 +108,20 @@ def drag_range(case: MillCase) -> Check:
                   f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges, flow.law).",
                   doubtful=50,
                   meaning="beyond the range the drag is extrapolated; another law shows how much that matters")
+
+
+def continuity(case: MillCase) -> Check:
+    """Whether the balls' averaged solidity and velocity agree, so that they drive no flow of their own."""
+    name = "The balls' averages are continuous"
+    speed, slip = column(case, "continuity_speed_m_per_s"), column(case, "slip_m_per_s")
+    if speed is None or slip is None:
+        return Check(name, "unknown", "steps.csv has no residual of the solids' continuity", NO_STEPS)
+    share = 100 * np.nanmean(speed) / np.nanmean(slip)
+    return judged(name, share, CONTINUITY, f"what is missing drives the slurry at {share:.1f} % of its slip (limit "
+                  f"{CONTINUITY:g} %)", "Take shorter windows (averages.window), or voxels nearer to the flow's cells.",
+                  doubtful=40,
+                  meaning="averages on voxels and windows do not conserve the balls at every time; the slurry makes "
+                          "room for balls that are not there")
 
 
 def one_way(case: MillCase) -> Check:

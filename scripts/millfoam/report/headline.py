@@ -23,7 +23,7 @@ def first_lines(case: MillCase, checks: Sequence[Check]) -> list[str]:
         lines.append("Stages of different mills are mixed in this case: see “All stages belong to this mill” below.")
     if case.mill.fines_share > 0:
         lines.append(f"The charge is simulated {fines_words(case.mill)}: its load is {100 * case.mill.load:.3g} %, "
-                     f"the mill asks for {100 * case.mill.load_asked:.3g} %.")
+                     f"mill.yaml requests {100 * case.mill.load_asked:.3g} %.")
     return lines + [lasting_words(check) for check in checks if check.lasting]
 
 

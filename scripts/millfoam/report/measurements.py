@@ -27,7 +27,7 @@ def measured_section(case: MillCase, path: Path) -> Section:
         raise RuntimeError(f"{case.folder}: no solids.h5 to compare {path} with")
     try:
         measured = read_measured(path, case.charge)
-    except ValueError as error:  # also of a file that is no text
+    except ValueError as error:  # also of a binary file
         words = str(error)
         raise RuntimeError(words if words.startswith(str(path)) else f"{path}: {words}") from None
     return "measured", "Comparison with the measurement", cards(case, measured, f"Measured: {path.name}", "measurement")
@@ -82,7 +82,7 @@ def extent(ends: np.ndarray) -> str:
 
 
 def charge_voxels(case: MillCase) -> tuple[list[np.ndarray], np.ndarray | None, bool, float]:
-    """Of solids.h5: edges x, y, z (m) of its voxels, their share within the mill [nz, ny, nx] in the mean over time,
+    """Voxels of solids.h5: their edges x, y, z (m), their share within the mill [nz, ny, nx] in the mean over time,
     whether they repeat along z, and the balls' volume by the ledger (m3)."""
     with h5py.File(case.solids) as file:
         grid = file["grid"]

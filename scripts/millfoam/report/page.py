@@ -66,7 +66,7 @@ def picture(figure: Figure, caption: str, *, title: str | None = None) -> str:
 
 def table(head: Sequence[str] | None, rows: Iterable[Sequence[Any]], *, title: str | None = None,
           note: str | None = None, wide: bool = False) -> str:
-    """A card with a table; cells that are numbers (int, float or (value, format)) stand to the right."""
+    """A card with a table; cells that are numbers (int, float or (value, format)) are aligned right."""
     def cell(value: Any) -> str:
         if isinstance(value, tuple):
             return f'<td class="number">{text(format(*value))}</td>'

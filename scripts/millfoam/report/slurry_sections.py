@@ -155,7 +155,7 @@ def models_section(case: MillCase, readings: Readings) -> list[str]:
         if not isinstance(found, str):
             model, rmsd = found
             why = (f"the fit leaves more than {100 * models.POOR:.0f} % of the radius" if rmsd > models.POOR else
-                   "the fit asks for a negative friction")
+                   "the fit needs a negative friction")
             poor = "" if models.describes(model, rmsd) else f" The model does not describe this surface: {why}."
             cards.append(page.picture(
                 figures.surfaces([("simulation", readings.charge.surface.points),

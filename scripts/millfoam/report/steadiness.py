@@ -17,7 +17,7 @@ def batches_of(span: float, turn: float) -> tuple[float, int]:
 
     One half begins with the span, the other ends with it. If two turns or more fit, each half is as many whole turns
     as fit, and the rest of the span, in the middle, belongs to neither: what repeats with every turn of the mill, as
-    lifters do, is no drift. A batch is one or more whole turns if a half has BATCHES of them, otherwise a half, a
+    lifters do, is not a drift. A batch is one or more whole turns if a half has BATCHES of them, otherwise a half, a
     third, … of a turn."""
     turns = int(span / 2 / turn + 0.005)  # times are rounded
     if turns < 1:

@@ -89,33 +89,62 @@ TEST(TimeSpline, SharesAreZeroOrAboveAndHaveTheSumOne) {
   }
 }
 
-TEST(TimeSpline, StaysWithinTheBounds) {
-  const auto lengths = random_numbers(6, 0.5, 2);
+TEST(TimeSpline, StaysWithinTheBoundsAndKeepsTheMeanOverAllWindows) {
   auto means = random_numbers(7, -0.3, 0.64);
   for (double& each : means) each = std::max(each, 0.0);
-  const TimeSpline spline(lengths, false);
-  const auto coefficients = spline.coefficients(means, 0.65);
-  const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end());
-  EXPECT_GE(*lowest, 0);
-  EXPECT_LE(*highest, 0.65);
-  // Without the bounds they would be left, and away from them the means are kept
-  int kept = 0;
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    const bool bounded = coefficients[k] == 0 || coefficients[k] == 0.65;
-    if (!bounded) {
-      EXPECT_NEAR(mean(spline, coefficients, k), means[k], 1e-15) << k;
+  for (const bool repeats : {false, true}) {
+    const TimeSpline spline(std::vector<double>(means.size(), 0.5), repeats);
+    const auto coefficients = spline.coefficients(means, 0.65);
+    const auto [lowest, highest] = std::minmax_element(coefficients.begin(), coefficients.end());
+    EXPECT_GE(*lowest, 0);
+    EXPECT_LE(*highest, 0.65 * (1 + 1e-15));
+    double difference = 0;
+    double largest = 0;
+    int kept = 0;
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      const double error = mean(spline, coefficients, k) - means[k];
+      difference += error;
+      largest = std::max(largest, std::abs(error));
+      kept += std::abs(error) < 1e-14;
     }
-    // At a bound the mean errs to the side of the bound's inside
-    if (coefficients[k] == 0) {
-      EXPECT_GE(mean(spline, coefficients, k), means[k] - 1e-15) << k;
-    }
-    if (coefficients[k] == 0.65) {
-      EXPECT_LE(mean(spline, coefficients, k), means[k] + 1e-15) << k;
-    }
-    kept += !bounded;
+    EXPECT_NEAR(difference, 0, 1e-12);
+    EXPECT_LT(largest, 0.64 / 3 + 1e-15);
+    EXPECT_GT(kept, 0);
+    EXPECT_LT(kept, 190);
   }
-  EXPECT_GT(kept, 50);
-  EXPECT_LT(kept, 150);
+}
+
+TEST(TimeSpline, KeepsTheMeanOverAllWindowsOfAnyLengths) {
+  const auto lengths = random_numbers(8, 0.5, 2);
+  auto means = random_numbers(9, -0.3, 0.6);
+  for (double& each : means) each = std::max(each, 0.0);
+  for (const bool repeats : {false, true}) {
+    const TimeSpline spline(lengths, repeats);
+    const auto coefficients = spline.coefficients(means, 0.9);
+    double difference = 0;
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      EXPECT_GE(coefficients[k], 0) << k;
+      if (means[k] == 0) {
+        EXPECT_EQ(coefficients[k], 0) << k;
+      }
+      difference += lengths[k] * (mean(spline, coefficients, k) - means[k]);
+    }
+    EXPECT_NEAR(difference, 0, 1e-12);
+  }
+}
+
+TEST(TimeSpline, FewBoundsLeaveTheOtherMeans) {
+  // One empty window among full ones: the means away from it are kept
+  std::vector<double> means(41, 0.3);
+  means[20] = 0;
+  const TimeSpline spline(std::vector<double>(41, 0.1), false);
+  const auto coefficients = spline.coefficients(means, 0.9);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const double error = mean(spline, coefficients, k) - means[k];
+    if (k < 15 || k > 25) {
+      EXPECT_NEAR(error, 0, 1e-4) << k;
+    }
+  }
 }
 
 TEST(TimeSpline, KeepsAMeanAboveTheLargest) {

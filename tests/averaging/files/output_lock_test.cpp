@@ -28,7 +28,7 @@ TEST(Output, MayReplaceASolidsFileAndNothingElse) {
   folder.write("empty", "");
   for (const char* name : {"mesh.h5", "mill.yaml", "empty"}) {
     const auto replace = [&] { require_solids_or_nothing(folder / name); };
-    expect_named(message_of<SolidsFileError>(replace), {name, "exists and is no millfoam-solids file"});
+    expect_named(message_of<SolidsFileError>(replace), {name, "exists and is not a millfoam-solids file"});
   }
 }
 

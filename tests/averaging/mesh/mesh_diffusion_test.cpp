@@ -59,8 +59,8 @@ TEST(MeshDiffusion, SpreadsAPointToTheVarianceOfItsKernel) {
     square += totals[c] * offset.cwiseAbs2();
   }
   EXPECT_LT(mean.norm(), 1e-12);
-  // Implicit Euler's clouds decay as exp(-4 r/b): 8 widths away some 1e-13 is left to be turned back by the
-  // wall.
+  // Implicit Euler's clouds decay as exp(-4 r/b): 8 widths away some 1e-13 is left, which is turned back by
+  // the wall.
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(square[axis], width * width / 2, 1e-7 * width * width);
   }

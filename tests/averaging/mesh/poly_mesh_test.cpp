@@ -40,7 +40,7 @@ TEST(PolyMesh, AFaceOfTwoPointsIsRefused) {
 TEST(PolyMesh, APointThatIsNotThereIsRefused) {
   MeshTopology topology = two_cells();
   topology.face_points[5] = 12;
-  expect_named(topology_refusal(topology), {"face 1", "point 12", "12 less one"});
+  expect_named(topology_refusal(topology), {"face 1", "point 12", "expected 0 to 11"});
   topology.face_points[5] = -1;
   expect_named(topology_refusal(topology), {"face 1", "point -1"});
 }

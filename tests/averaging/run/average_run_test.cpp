@@ -255,11 +255,11 @@ TEST_F(AverageRun, LeavesTheSummaryThatReportsOfTheFileGive) {
 TEST_F(AverageRun, OverwritesNoFileOfAnotherKind) {
   const std::filesystem::path mill = folder.write("mill.yaml", "speed: 1\n");
   request.windows[0].output = mill;
-  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.yaml", "is no millfoam-solids file"});
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.yaml", "is not a millfoam-solids file"});
   EXPECT_EQ(bytes(mill), "speed: 1\n");
   request.windows[0].output = folder / "mill.h5";
   folder.write("mill.json", "{}");
-  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.json", "is no millfoam-averages file"});
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"mill.json", "is not a millfoam-averages file"});
   EXPECT_EQ(bytes(folder / "mill.json"), "{}");
   for (const char* left : {"mill.h5", "mill.h5.journal", "mill.h5.lock", "mill.yaml.lock"}) {
     EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;

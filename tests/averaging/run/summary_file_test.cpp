@@ -133,7 +133,7 @@ TEST_F(Summary, ReplacesItsOwnKindOnly) {
   for (const char* text : {R"({"format": "millfoam-mill"})", "[1]", "{}", "diameter: 1", ""}) {
     folder.write("solids.json", text);
     expect_named(message_of<SolidsFileError>([&] { require_summary_or_nothing(file); }),
-                 {"solids.json", "exists and is no millfoam-averages file"});
+                 {"solids.json", "exists and is not a millfoam-averages file"});
   }
 }
 

@@ -107,10 +107,10 @@ TEST(FlowStart, volumes_are_those_of_the_whole_mill) {
 }
 
 TEST(FlowStart, is_refused_when_given_twice_or_too_large) {
-  EXPECT_NE(
-      refusal_of(bare_mill, {"slurry.level=-0.1", "flow.start.fill=1"}).find("either it or slurry.level"),
-      std::string::npos);
-  EXPECT_NE(refusal_of(bare_mill, {"flow.start={level: 0, fill: 1}"}).find("either it or level"),
+  EXPECT_NE(refusal_of(bare_mill, {"slurry.level=-0.1", "flow.start.fill=1"})
+                .find("either this key or slurry.level"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"flow.start={level: 0, fill: 1}"}).find("either this key or level"),
             std::string::npos);
   EXPECT_NE(refusal_of(bare_mill, {"flow.start.volume=0.025"}).find("the mill has room for"),
             std::string::npos);
@@ -133,7 +133,8 @@ TEST(Flow, change_of_the_voidage_limits_steps_of_slurryFoam_only) {
   EXPECT_EQ(refusal_of(text, {"flow.solver=interFoam"}), "accepted");
   for (const auto& refused : {refusal_of(bare_mill + "flow: {max_voidage_change: 0.2, solver: interFoam}\n"),
                               refusal_of(text, {"flow.solver=interFoam", "flow.max_voidage_change=0.3"})})
-    EXPECT_NE(refused.find("expected it with flow.solver slurryFoam only"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("expected this key with flow.solver slurryFoam only"), std::string::npos)
+        << refused;
 }
 
 TEST(Flow, intervals_of_a_run_are_a_millionth_of_it_or_more) {
@@ -146,7 +147,7 @@ TEST(Flow, intervals_of_a_run_are_a_millionth_of_it_or_more) {
 }
 
 TEST(Flow, feed_needs_an_inlet) {
-  EXPECT_NE(refusal_of(bare_mill, {"flow.feed=1e-5"}).find("expected it with geometry.inlet only"),
+  EXPECT_NE(refusal_of(bare_mill, {"flow.feed=1e-5"}).find("expected this key with geometry.inlet only"),
             std::string::npos);
 }
 
@@ -252,16 +253,16 @@ TEST(Set, of_two_alternatives_is_refused) {
   refused(example_mill, {"charge.fill=0.3", "charge.classes[0].mass=0.1"},
           "'charge.fill' = 0.3: expected either classes, or fill and diameter");
   refused(example_mill, {"charge.fill=0.3", "charge.reference_length=0.1"},
-          "'charge.reference_length' = 0.1: expected it beside classes only");
+          "'charge.reference_length' = 0.1: expected this key with classes only");
   refused(example_mill, {"speed.angular_velocity=2", "speed.fraction_of_critical=0.5"},
           "either angular_velocity alone");
   refused(example_mill, {"speed.angular_velocity=2", "speed.sense=clockwise"},
           "either angular_velocity alone");
   refused(bare_mill, {"flow.duration=2", "flow.turns=1"}, "either duration or turns");
-  refused(bare_mill, {"flow.start.level=0", "flow.start.volume=0.001"}, "either it or level");
-  refused(bare_mill, {"flow.start.fill=1", "slurry.level=0"}, "either it or slurry.level");
+  refused(bare_mill, {"flow.start.level=0", "flow.start.volume=0.001"}, "either this key or level");
+  refused(bare_mill, {"flow.start.fill=1", "slurry.level=0"}, "either this key or slurry.level");
   refused(example_mill, {"dem.youngs_modulus=1e7", "dem.largest_overlap=0.05"},
-          "either it or youngs_modulus");
+          "either this key or youngs_modulus");
   refused(example_mill, {"resolution.cell_size=0.003", "resolution.counts={gap: 11}"},
           "either cell_size or counts");
 }
@@ -324,7 +325,7 @@ TEST(Variants, are_refused_by_line_and_name) {
 
 TEST(Encoding, is_named_when_it_is_not_utf8) {
   EXPECT_NE(refusal_of("title: M\xFChle\n" + bare_mill)
-                .find("mill.yaml:1: byte 0xFC is no UTF-8, as in a text in Latin-1"),
+                .find("mill.yaml:1: byte 0xFC is not UTF-8, as in a text in Latin-1"),
             std::string::npos);
   EXPECT_NE(refusal_of(std::string("\xFF\xFEt\0i\0", 6)).find("is in UTF-16"), std::string::npos);
   EXPECT_NE(refusal_of(std::string("t\0i\0", 4)).find("is in UTF-16"), std::string::npos);

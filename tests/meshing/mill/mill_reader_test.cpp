@@ -227,9 +227,10 @@ TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
     EXPECT_NE(refusal(with(text, from, to)).find(message), std::string::npos)
         << refusal(with(text, from, to));
   };
-  refused("ends: plain", "ends: periodic", "'geometry.inlet' = {…}: expected it with 'ends: plain' only");
+  refused("ends: plain", "ends: periodic",
+          "'geometry.inlet' = {…}: expected this key with 'ends: plain' only");
   refused(grates_lines, "",
-          "mill.yaml:10: key 'geometry.pulp_lifters' = {…}: expected it with the key grates only");
+          "mill.yaml:10: key 'geometry.pulp_lifters' = {…}: expected this key with the key grates only");
   refused("radius: 0.02}\nspeed", "radius: 0.06}\nspeed",
           "'geometry.inlet.radius' = 0.06: expected a length (or the key area) above 0 and below the radius "
           "inside "
@@ -359,7 +360,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ReadMill, refuses_a_repeated_key) {
   EXPECT_EQ(refusal("    width: 0.006", "    width: 0.006\n    height: 0.007"),
-            "mill.yaml:10: key 'geometry.lifters.height' is given twice: expected it once");
+            "mill.yaml:10: key 'geometry.lifters.height' is given twice: expected once");
 }
 
 TEST(ReadMill, says_why_a_file_is_no_description) {

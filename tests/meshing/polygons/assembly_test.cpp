@@ -25,7 +25,7 @@ VolumeMesh mill(const TestMill& mill) {
 
 using Corners = std::vector<std::array<double, 3>>;
 
-/// Faces and cells by the coordinates of their points, whatever the numbering.
+/// Faces and cells by the coordinates of their points, independent of the numbering.
 struct Content {
   std::map<Corners, std::string> patch_of;  ///< of each face; empty between two cells
   std::set<std::set<Corners>> cells;
@@ -158,7 +158,7 @@ TEST(Assemble, gives_a_mill_with_pulp_lifters_back_with_both_sides_of_their_wall
   }
 }
 
-/// Two cubes beside each other, each with all its faces.
+/// Two cubes next to each other, each with all its faces.
 PolygonSet two_whole_cubes() {
   PolygonSet set = cube();
   add_cube(set, {1, 0, 0}, 1);
@@ -234,9 +234,9 @@ TEST(Assemble, warns_of_a_cell_that_a_missing_face_made_of_two) {
   const Assembly found = assemble(set);
   EXPECT_EQ(found.mesh.cells, mesh.cells - 1);
   ASSERT_EQ(found.warnings.size(), 1u);
-  EXPECT_NE(
-      found.warnings[0].find(" has 10 faces, nearly all others have 6: is one between two cells missing?"),
-      std::string::npos)
+  EXPECT_NE(found.warnings[0].find(
+                " has 10 faces, and nearly all others have 6: is one between two cells missing?"),
+            std::string::npos)
       << found.warnings[0];
 }
 
@@ -250,7 +250,7 @@ TEST(Assemble, warns_of_two_cells_with_several_faces_between_them) {
   EXPECT_EQ(
       assemble(set).warnings,
       std::vector<std::string>{"hand.obj:40: the face around (1 1.5 0.5) lies between the same two cells as "
-                               "hand.obj:30, one of 2 such faces: is one between others missing?"});
+                               "hand.obj:30, one of 2 such faces: is a face between them missing?"});
 }
 
 TEST(Assemble, gives_a_mill_with_warped_faces_back) {
@@ -409,10 +409,10 @@ TEST(AssembleRefuses, a_hole_with_the_edges_around_it) {
 TEST(AssembleRefuses, a_face_that_hangs_free) {
   PolygonSet set = cube();
   add_polygon(set, {{0, 0, 1}, {0, 1, 1}, {0, 1, 2}, {0, 0, 2}});
-  expect_refusal(set, "hand.obj:70: a dangling face, or one beside it is missing: the edge from");
+  expect_refusal(set, "hand.obj:70: a dangling face, or a neighbouring face is missing: the edge from");
   PolygonSet alone = cube();
   add_polygon(alone, {{0.2, 0.2, 0.5}, {0.4, 0.2, 0.5}, {0.2, 0.4, 0.5}});
-  expect_refusal(alone, "hand.obj:70: a dangling face, or one beside it is missing: the edge from");
+  expect_refusal(alone, "hand.obj:70: a dangling face, or a neighbouring face is missing: the edge from");
 }
 
 TEST(AssembleRefuses, a_face_with_one_cell_on_both_sides) {
@@ -470,8 +470,8 @@ TEST(AssembleRefuses, bodies_that_touch_in_an_edge_only) {
   PolygonSet set = cube();
   add_cube(set, {1, 1, 0}, 1);
   expect_refusal(set,
-                 "a non-manifold edge from (1 1 0) to (1 1 1): about it the outside comes more than once, "
-                 "for 4 faces meet there");
+                 "a non-manifold edge from (1 1 0) to (1 1 1): around it the outside appears more than once, "
+                 "because 4 faces meet there");
 }
 
 TEST(AssembleRefuses, faces_that_cross) {
@@ -545,7 +545,7 @@ TEST(AssembleRefuses, an_internal_face_at_the_boundary) {
   };
   const auto wall = std::find_if(set.polygons.begin(), set.polygons.end(), at_axis);
   set.polygons.erase(wall);
-  expect_refusal(set, "of the group 'internal' has a cell on one side only: a face beside it is missing");
+  expect_refusal(set, "of the group 'internal' has a cell on one side only: a neighbouring face is missing");
 }
 
 TEST(AssembleRefuses, a_name_that_cannot_name_a_patch) {

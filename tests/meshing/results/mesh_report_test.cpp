@@ -51,13 +51,13 @@ TEST(MeshReport, says_which_value_is_too_large) {
 
 TEST(MeshReport, holds_the_areas_of_the_openings_against_those_asked_for) {
   expect_lines(report_of(mill_with_pulp_lifters(), 0.005),
-               {"inlet                    128.68 cm^2 (asked for 128.7, relative error",
-                "grates                   221.17 cm^2 (asked for 221.17, relative error",
-                "outlet                   128.68 cm^2 (asked for 128.68, relative error"});
+               {"inlet                    128.68 cm^2 (requested 128.7, relative error",
+                "grates                   221.17 cm^2 (requested 221.17, relative error",
+                "outlet                   128.68 cm^2 (requested 128.68, relative error"});
   Geometry plain = mill_with_grates();
   plain.inlet.reset();
   plain.grates.reset();
-  EXPECT_EQ(report_of(plain, 0.005).find("asked for"), std::string::npos);
+  EXPECT_EQ(report_of(plain, 0.005).find("requested"), std::string::npos);
 }
 
 TEST(MeshReport, names_the_averages_to_use_where_the_smallest_cell_is_smaller_than_the_largest_ball) {

@@ -213,7 +213,7 @@ TEST(Examine, lets_a_body_inside_another_face_into_itself) {
   const CadReport report = examined(triangles);
   EXPECT_TRUE(report.usable());
   expect_in(report.repairs, "1 of 2 bodies faced into the mill's interior and was turned");
-  expect_in(report.warnings, "2 bodies that do not hang together: 12 triangles with ");
+  expect_in(report.warnings, "2 bodies that are not connected: 12 triangles with ");
   expect_in(report.warnings, ", inside another");
   EXPECT_NEAR(report.volume, 0.004 - 8e-6, 1e-15);
   EXPECT_NEAR(require_watertight(report.surface), 0.004 - 8e-6, 1e-15);
@@ -278,7 +278,7 @@ TEST(Examine, refuses_a_surface_with_one_side) {
     strip.push_back({at(i, -1), at(i + 1, -1), at(i + 1, 1)});
     strip.push_back({at(i, -1), at(i + 1, 1), at(i, 1)});
   }
-  expect_in(examined(strip).problems, "has one side only");
+  expect_in(examined(strip).problems, "is one-sided");
 }
 
 TEST(Examine, asks_for_the_unit_and_the_frame) {
