@@ -14,8 +14,8 @@ BOUNDED = 2e-10  # excess of the slurry's share over [0, 1]
 
 @dataclass(frozen=True)
 class Limits:
-    """Speeds of slurry, m/s, about twice what was found with any surface tension and bed, after 0.2 s or 1 s. Where the
-    mesh rests they are those that the pressure's tolerance leaves, where it turns those of the polygon's corners."""
+    """Speeds of slurry, m/s, about twice what was found with any surface tension and bed, after 0.2 s or 1 s. On a mesh
+    at rest they come from the surface tension, on a turning mesh from the polygon's corners."""
     rms: float  # of a pool at the end
     bed: float  # of a pool between balls, largest over time and place
     alone: float  # of slurry alone, largest over time and place
