@@ -31,9 +31,9 @@ LAST = 0.34  # m from the bed's origin: where the disc's centre is at the end
 CELLS = (128, 256)  # along the duct
 # On CELLS[0]: error of the place over the radius, along and across the duct, and share of the slurry on the wrong side,
 # about twice what was found. On finer meshes by the least order.
-LIMITS = {"aligned": (0.005, 0.001, 0.04), "wavy": (0.01, 0.05, 0.04)}
+LIMITS = {"aligned": (0.005, 1e-4, 0.04), "wavy": (0.01, 0.05, 0.04)}
 LEAST_ORDER = 0.4
-BOUNDED, CONSERVED = 1e-9, 1e-10  # the share beyond [0, 1]; change of the slurry's volume, relative
+BOUNDED, CONSERVED = 1e-11, 1e-11  # the share beyond [0, 1]; change of the slurry's volume, relative
 RECORDS = 12  # the disc's centre is in the dense bed at half of them
 SAMPLES = 24  # across a cell, of the closed form
 # Speeds of bed and mesh, m/s
