@@ -33,6 +33,7 @@ HALF = dict(radius=0.05, height=0.078, layers=52, level=0.0375, omega=10.0, drag
 FALL, FALL_STEPS = (0.03, 0.13), 100
 RECORDS = 20
 SPIN_TOLERANCE, SHAPE_TOLERANCE = 5e-3, 0.01
+CONSERVED = 1e-12  # change of the slurry's volume, relative
 
 
 @dataclass(frozen=True)
@@ -233,7 +234,7 @@ def report(results, out):
                  100 * SHAPE_TOLERANCE),
                 (f"{run.name}, settled: heights, rms over the rise, %", 100 * found.rms_error[-1],
                  100 * SHAPE_TOLERANCE),
-                (f"{run.name}: change of the slurry's volume", found.volume_change, 1e-8),
+                (f"{run.name}: change of the slurry's volume", found.volume_change, CONSERVED),
             ]
             notes.append(
                 f"{run.name}: the surface rises by {1e3 * found.rise:.2f} mm from axis to wall; its factor still moved "
