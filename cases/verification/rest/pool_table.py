@@ -8,8 +8,10 @@ AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
 REFERENCE, JUDGED = "interFoam", "slurryFoam"
 SHARE = 1 / 3  # of interFoam's rms speed on the same mesh
 GROWTH = 1.1  # late over early rms speed: a pool at rest oscillates a little, without a trend
-CONSERVED = 5e-12  # relative change of the slurry's volume
-BOUNDED = 2e-10  # excess of the slurry's share over [0, 1]
+CONSERVED = 5e-13  # relative change of the slurry's volume
+# Excess of the slurry's share over [0, 1], 1/s: twice that of the mill's first cell. The pressure's reference is there;
+# it collects what the pressure's tolerance leaves of continuity in all cells.
+BOUNDED = 2.5e-9
 
 
 @dataclass(frozen=True)
@@ -22,8 +24,9 @@ class Limits:
 
 
 LIMITS = {
-    ("ogrid", False): Limits(1.2e-8, 6e-9, 1e-15),
-    ("mill", False): Limits(2e-7, 4e-7, 1e-15),
+    # Since the curvature is smoothed along the surface (version abc937a) the bed's is 2e-8 and grows in time
+    ("ogrid", False): Limits(6e-9, 5e-8, 1e-15),
+    ("mill", False): Limits(5e-8, 3e-7, 1e-15),
     ("slice", False): Limits(1e-9, 6e-9, 1e-15),
     ("ogrid", True): Limits(2e-3, 0.016, 6e-4),
     ("drum", True): Limits(1.2e-3, 0.02, 2e-4),
@@ -41,7 +44,7 @@ def checks(run, history, reference, end):
     found = [
         ("time reached, s short of the end", end - history.time[-1], 1e-6),
         ("slurry volume, relative change", history.volume_change, CONSERVED),
-        ("slurry share outside [0, 1]", history.excess.max(), BOUNDED),
+        ("slurry share outside [0, 1]", history.excess.max(), BOUNDED * end),
     ]
     if run.filled:
         # Turning, what the faces sweep is found to a hundredth
