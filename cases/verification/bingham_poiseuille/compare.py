@@ -33,6 +33,8 @@ VISCOSITY_RATIO, M = 100.0, 1.0
 REGULARISATIONS = ("biviscosity", "Papanastasiou")
 # Softer plugs, as shares of the viscosity ratio and of m
 SOFTER = (0.1, 0.3)
+# The viscosity ratio of the mills' cases, 1000, on a finer mesh: the viscosity's jump at the plug's edge is larger
+MILL, MILL_CELLS = 10, 240
 PROGRAMS = {"slurryFoam": "slurryFoam", "interFoam": "millInterFoam"}
 TOLERANCE = {"slurryFoam": 0.01, "interFoam": 0.02}
 # Steady to this change of the largest speed over the last tenth of the run
@@ -99,7 +101,7 @@ class Flow:
         if not (self.drift <= STEADY and self.model_error <= TOLERANCE[self.solver]):
             return True
         errors = (self.profile_error, self.plug_speed_error, self.plug_width_error)
-        return self.stiffness == 1 and not all(abs(error) <= TOLERANCE[self.solver] for error in errors)
+        return self.stiffness >= 1 and not all(abs(error) <= TOLERANCE[self.solver] for error in errors)
 
 
 def run(solver, regularisation, stiffness, case, template):
@@ -107,8 +109,9 @@ def run(solver, regularisation, stiffness, case, template):
     write_parameters(
         case, solver=PROGRAMS[solver], correctors=3 if solver == "interFoam" else 1, density=DENSITY,
         yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
-        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP, cells=CELLS,
-        step=STEP[solver], endTime=END, writeInterval=round(END / STEP[solver] / 10))
+        viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP,
+        cells=MILL_CELLS if stiffness == MILL else CELLS, step=STEP[solver], endTime=END,
+        writeInterval=round(END / STEP[solver] / 10))
     run_program(case, "blockMesh")
     run_program(case, PROGRAMS[solver])
     *_, before, last = (path for _, path in foam.times(case))
@@ -143,8 +146,8 @@ def print_table(flows, out):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
     lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
-                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; softer plugs are compared with their own curve "
-                 "alone")
+                 f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; {MILL:g}: the mills' ratio, {MILL_CELLS} cells; "
+                 "softer plugs are compared with their own curve alone")
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
@@ -153,13 +156,14 @@ def plot(flows, out):
     figure, (profile, error) = plt.subplots(1, 2, figsize=(11, 5), constrained_layout=True)
     y = np.linspace(-HALF_GAP, HALF_GAP, 401)
     profile.plot(exact(y), 1e3 * y, "k-", label="closed form")
-    markers = iter("ox^s")
+    markers = iter("ox+^s")
     for flow in flows:
         if flow.stiffness < 1:
             error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, lw=0.8,
                        label=f"{flow.solver}, {flow.regularisation}, stiffness {flow.stiffness:g}")
             continue
         marker, label = next(markers), f"{flow.solver}, {flow.regularisation}"
+        label += f", stiffness {flow.stiffness:g}" if flow.stiffness > 1 else ""
         profile.plot(flow.u, 1e3 * flow.y, marker, ms=4, mfc="none", label=label)
         error.plot(100 * (flow.u - exact(flow.y)) / exact(0.0), 1e3 * flow.y, marker + "-", ms=4, mfc="none",
                    label=label)
@@ -179,6 +183,7 @@ def main():
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
     wanted = [("slurryFoam", name, 1) for name in REGULARISATIONS]
+    wanted.append(("slurryFoam", "biviscosity", MILL))
     if not options.quick:
         wanted += [("interFoam", name, 1) for name in REGULARISATIONS]
         wanted += [("slurryFoam", name, stiffness) for name in REGULARISATIONS for stiffness in SOFTER]

@@ -2,15 +2,35 @@
 """The table of the pools at rest, and slurryFoam's limits."""
 import csv
 import math
+from dataclasses import dataclass
 
 AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
 REFERENCE, JUDGED = "interFoam", "slurryFoam"
 SHARE = 1 / 3  # of interFoam's rms speed on the same mesh
 GROWTH = 1.1  # late over early rms speed: a pool at rest oscillates a little, without a trend
-CONSERVED = 1e-8  # relative change of the slurry's volume
-IN_BED = 1e-3  # m/s: slurry between balls at rest, largest over time and place
-ALONE = 1e-9  # m/s: slurry alone, largest over time and place
-BOUNDED = 1e-6  # excess of the slurry's share over [0, 1]
+CONSERVED = 5e-13  # relative change of the slurry's volume
+# Excess of the slurry's share over [0, 1], 1/s: twice that of the mill's first cell. The pressure's reference is there;
+# it collects what the pressure's tolerance leaves of continuity in all cells.
+BOUNDED = 2.5e-9
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Speeds of slurry, m/s, about twice what was found with any surface tension and bed, after 0.2 s or 1 s. On a mesh
+    at rest they come from the surface tension, on a turning mesh from the polygon's corners."""
+    rms: float  # of a pool at the end
+    bed: float  # of a pool between balls, largest over time and place
+    alone: float  # of slurry alone, largest over time and place
+
+
+LIMITS = {
+    # Since the curvature is smoothed along the surface (version abc937a) the bed's is 2e-8 and grows in time
+    ("ogrid", False): Limits(6e-9, 5e-8, 1e-15),
+    ("mill", False): Limits(5e-8, 3e-7, 1e-15),
+    ("slice", False): Limits(1e-9, 6e-9, 1e-15),
+    ("ogrid", True): Limits(2e-3, 0.016, 6e-4),
+    ("drum", True): Limits(1.2e-3, 0.02, 2e-4),
+}
 AIM_SLURRY, AIM_AIR = 1e-3, 0.3  # m/s: aimed at, reported, not failed
 
 
@@ -20,20 +40,22 @@ def named(run, found):
 
 def checks(run, history, reference, end):
     """Limits for slurryFoam: list of (text, found, allowed)."""
+    limits = LIMITS[run.mesh, run.turning]
     found = [
         ("time reached, s short of the end", end - history.time[-1], 1e-6),
         ("slurry volume, relative change", history.volume_change, CONSERVED),
-        ("slurry share outside [0, 1]", history.excess.max(), BOUNDED),
+        ("slurry share outside [0, 1]", history.excess.max(), BOUNDED * end),
     ]
     if run.filled:
         # Turning, what the faces sweep is found to a hundredth
-        found.append(("largest speed of slurry alone, m/s", history.slurry.max(), IN_BED if run.turning else ALONE))
+        found.append(("largest speed of slurry alone, m/s", history.slurry.max(), limits.alone))
         return named(run, found)
+    found.append(("slurry rms at the end, m/s", history.slurry_rms[-1], limits.rms))
+    if run.bed:
+        found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), limits.bed))
     if not run.turning:
         # Turning walls are polygons, which cause waves: those are reported
         found.append(("slurry rms, late over early", history.growth, GROWTH))
-        if run.bed:
-            found.append(("largest speed of slurry between the balls, m/s", history.bed.max(), IN_BED))
     if reference is not None:
         found.append((f"slurry rms at the end over {REFERENCE}'s", history.slurry_rms[-1] / reference.slurry_rms[-1],
                       SHARE))
