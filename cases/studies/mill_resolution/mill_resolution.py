@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with other cells, layers, time-steps, windows and voxels, and without surface
-tension: observed order and error bar of the slurry's height, toe, shoulder, power and pool, the
+"""The 12 cm mill's slice with other cells, layers, time-steps, windows and voxels, without surface tension and with
+another drag of mixed cells: observed order and error bar of the slurry's height, toe, shoulder, power and pool, the
 entrained air, and whether the layers part. The last table is one to cite.
 
 Runs are kept with those of mill_drag_comparison, with the same dry run (millstudies.mill_runs). A complete run is not
@@ -35,7 +35,8 @@ STEPS = (0.5, 1.0)
 WINDOWS = (0.025, 0.05, 0.1)
 VOXELS = (0.132 / 18, 0.132 / 12, 0.132 / 8)
 # Other models: changes of the mill, and the cell sizes with which they are run
-VARIANTS = {"no tension": (("slurry.surface_tension=0",), (0.003, CELL))}
+VARIANTS = {"no tension": (("slurry.surface_tension=0",), (0.003, CELL)),
+            "permeability": (("flow.mixed_drag=permeability",), (0.00225, 0.003, CELL))}
 CITED = ("height", "x", "toe", "shoulder", "power", "pool")
 CHANCE = 3.0  # errors over time between two values; what is closer may be chance
 
