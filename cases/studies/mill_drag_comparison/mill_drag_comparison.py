@@ -20,7 +20,7 @@ from millfoam.files.written_times import MillFlow
 from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
 from millstudies.mill_runs import FINE, MILL, Setting, make_runs
-from millstudies.steady_flows import NUMBERS, read_turns, title_of
+from millstudies.steady_flows import NUMBERS, read_all, title_of
 
 matplotlib.use("Agg")
 
@@ -62,7 +62,8 @@ def row_of_differences(name, readings, reference):
     """A row of the second table: number -> a run's difference from the reference over the root of the sum of both
     errors' squares."""
     apart = {number: readings.mean(number) - reference.mean(number) for number in NUMBERS}
-    return {"run": name, **{number: mean.value / mean.error for number, mean in apart.items()}}
+    with np.errstate(invalid="ignore", divide="ignore"):  # angles of a ring may be the same in every turn
+        return {"run": name, **{number: float(np.divide(mean.value, mean.error)) for number, mean in apart.items()}}
 
 
 def write_csv(path, rows):
@@ -172,10 +173,10 @@ def main():
     parser.add_argument("--fine", action="store_true", help="four times the cells: 3 mm and four layers")
     mesh, prefix = (FINE, "fine_") if parser.parse_args().fine else ((), "")
     cases, failures = make_runs(settings(mesh, prefix), HERE / "runs")
-    if not cases:
+    readings = {name.removeprefix(prefix): one for name, one in read_all(cases, failures).items()}
+    if not readings:
         sys.exit("mill_drag_comparison.py: no run succeeded")
-    readings = {name.removeprefix(prefix): read_turns(case) for name, case in cases.items()}
-    last = next(reversed(cases.values()))
+    last = cases[prefix + next(reversed(readings))]
     title = f"{MILL.parent.name}, slice, {title_of(last)}"
     rows = write_tables(readings, failures, title)
     plot(rows, readings, MillFlow(last), title)

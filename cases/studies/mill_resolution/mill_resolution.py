@@ -18,7 +18,7 @@ import numpy as np
 
 from millstudies.convergence import judge
 from millstudies.mill_runs import MILL, SLICES, Setting, make_runs, time_step_limits
-from millstudies.steady_flows import NUMBERS, read_layers, read_turns, title_of
+from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of
 
 matplotlib.use("Agg")
 
@@ -283,11 +283,12 @@ def main():
     parser.add_argument("--fine", action="store_true", help="also cells of 1.5 mm, which take hours")
     settings, families, variants = study(parser.parse_args().fine)
     cases, failures = make_runs(settings.values(), RUNS)
-    if BASE not in cases:
+    readings = read_all(cases, failures)
+    if BASE not in readings:
         sys.exit(f"mill_resolution.py: {failures[0]}")
-    readings = {name: read_turns(case) for name, case in cases.items()}
     layered = next(family for family in families if family.name == "layers")
-    layers = {round(LENGTH / size): read_layers(cases[name]) for size, name in layered.runs.items() if name in cases}
+    layers = {round(LENGTH / size): read_layers(cases[name]) for size, name in layered.runs.items()
+              if name in readings}
     found = judgements(families, readings)
     title = f"{MILL.parent.name}, slice, around {title_of(cases[BASE])}"
     write_tables(families, variants, readings, layers, found, failures, title)

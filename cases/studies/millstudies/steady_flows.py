@@ -176,6 +176,18 @@ def read_turns(folder):
                         len(case.flow.column_centres))
 
 
+def read_all(cases, failures):
+    """name -> TurnReadings of cases (name -> folder). A case that cannot be read is added to the messages
+    `failures`."""
+    readings = {}
+    for name, folder in cases.items():
+        try:
+            readings[name] = read_turns(folder)
+        except RuntimeError as error:
+            failures.append(f"{name}: {error}")
+    return readings
+
+
 @dataclass
 class Layers:
     """Heights of the slurry's centre in the slices of axialProfiles, one for each layer of cells.
