@@ -258,18 +258,17 @@ class Study(unittest.TestCase):
         summary.write_text(json.dumps({"format": "millfoam-flow", "mill": {}, "complete": whole}))
         return folder
 
-    def test_whole_slices_of_the_mills_mesh_with_their_own_drag_are_taken_or_else_coarse_ones(self):
+    def test_whole_slices_with_their_own_drag_are_taken_of_the_finer_mesh_or_else_of_the_mills_own(self):
         self.assertEqual(self.study.slices_there(self.folder / "none"), [])
-        coarse = self.make("coarse_Beetstra")
-        self.make("coarse_no_drag")
-        self.assertEqual(self.study.slices_there(self.folder), [coarse])
-        fine = [self.make("Beetstra"), self.make("ErgunWenYu")]
-        for name in ("no_drag", "whole_run"):
+        own = [self.make("Beetstra"), self.make("ErgunWenYu")]
+        for name in ("no_drag", "whole_run", "cells_3mm", "no_tension_3mm", "fine_no_drag"):
             self.make(name)
-        self.make("Hill", whole=False)
+        self.make("fine_Hill", whole=False)
         cut_short = self.make("Tang") / "postProcessing" / "flow" / "0" / "flow.json"
         cut_short.write_text(cut_short.read_text()[:30])
-        self.assertEqual(self.study.slices_there(self.folder), fine)
+        self.assertEqual(self.study.slices_there(self.folder), own)
+        fine = self.make("fine_Beetstra")
+        self.assertEqual(self.study.slices_there(self.folder), [fine])
 
     def case_of(self, law, multiplier):
         """A case whose mill has a law with a factor on its drag."""

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole run: place of
-the slurry, its power, and the particle Reynolds numbers in the bed.
+"""The 12 cm mill's slice with every drag law, without drag, and with balls averaged over the whole record: place of
+the slurry, its power, and the particle Reynolds numbers in the bed; and which laws differ from the mill's own by more
+than the errors over time.
 
-Runs are kept in the folder runs/ (millstudies.mill_runs): a complete run is not repeated. Exit code 1 if one
-failed; the table and the figure then show the others."""
+Runs are kept in the folder runs/ (millstudies.mill_runs): a complete run is not repeated. Exit code 1 if one failed;
+the tables and the figure then show the others."""
 import argparse
 import csv
 import subprocess
@@ -15,12 +16,11 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.files.flow_record import read_flow_record
 from millfoam.files.written_times import MillFlow
 from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
-from millfoam.readings.slurry_in_cells import read_shape
-from millstudies.mill_runs import COARSE, MILL, Setting, make_runs
+from millstudies.mill_runs import FINE, MILL, Setting, make_runs
+from millstudies.steady_flows import NUMBERS, read_all, title_of
 
 matplotlib.use("Agg")
 
@@ -28,9 +28,7 @@ HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law
 NO_DRAG, WHOLE_RUN = "no_drag", "whole_run"
 PERCENTS = (5, 50, 95)
-# Column of the table: (number of Shape, unit, factor to it)
-COLUMNS = {"centre x, mm": ("centre_x", 1e3), "centre y, mm": ("centre_y", 1e3), "toe, deg": ("toe", 1),
-           "shoulder, deg": ("shoulder", 1), "torque, mN m": ("torque", 1e3), "power, W/m": ("power", 1)}
+LIMIT = 3.0  # errors by which a run differs from the reference
 
 
 def laws():
@@ -46,48 +44,73 @@ def settings(mesh, prefix):
                **{law: (f"flow.law={law}",) for law in laws() if law != REFERENCE}}
     found = [Setting(prefix + name, flow=(*mesh, *change)) for name, change in changes.items()]
     # One window, from averages.start to the end of the dry run
-    return [*found[:2], Setting(prefix + WHOLE_RUN, averages=("averages.window=0.6",), flow=mesh), *found[2:]]
+    return [*found[:2], Setting(prefix + WHOLE_RUN, averages=("averages.window=1",), flow=mesh), *found[2:]]
 
 
-def late(flow):
-    """Flow time from which on is averaged: the second half, s."""
-    return flow.frames[-1][0] / 2
-
-
-def cost(case):
-    """Time that a run's flow took, s."""
-    return read_flow_record(case).last["wall_s"]
-
-
-def row_of(name, shape, case):
-    """A row of the table: column -> number."""
+def row_of(name, readings):
+    """A row of the table: column -> number or text."""
     row = {"run": name}
-    for column, (number, factor) in COLUMNS.items():
-        mean, spread = shape.numbers[number]
-        row[column], row[column + " ±"] = factor * mean, factor * spread
-    for percent, value in zip(PERCENTS, shape.reynolds_percentiles(PERCENTS)):
+    for number, (unit, _) in NUMBERS.items():
+        mean = readings.mean(number)
+        row[f"{number}, {unit}"], row[f"{number}, {unit} ±"] = mean.value, mean.error
+    for percent, value in zip(PERCENTS, readings.reynolds_percentiles(PERCENTS)):
         row[f"Re {percent} %"] = value
-    return {**row, "steps": shape.steps, "time, s": cost(case)}
+    return {**row, "steady": readings.steady, "steps": readings.steps, "time, s": readings.time}
 
 
-def write_tables(rows, failures, title):
-    with open(HERE / "mill_drag_comparison.csv", "w", newline="") as file:
+def row_of_differences(name, readings, reference):
+    """A row of the second table: number -> a run's difference from the reference over the root of the sum of both
+    errors' squares."""
+    apart = {number: readings.mean(number) - reference.mean(number) for number in NUMBERS}
+    with np.errstate(invalid="ignore", divide="ignore"):  # angles of a ring may be the same in every turn
+        return {"run": name, **{number: float(np.divide(mean.value, mean.error)) for number, mean in apart.items()}}
+
+
+def write_csv(path, rows):
+    with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, rows[0])
         table.writeheader()
         table.writerows({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()}
                         for row in rows)
-    lines = [title, f"{'run':<13}" + "".join(f"{column:>16}" for column in COLUMNS)
-             + "".join(f"{f'Re {percent} %':>8}" for percent in PERCENTS) + f"{'steps':>7}{'time, s':>9}"]
+
+
+def run_lines(rows):
+    columns = [f"{number}, {unit}" for number, (unit, _) in NUMBERS.items()]
+    yield (f"{'run':<14}" + "".join(f"{column:>16}" for column in columns)
+           + "".join(f"{f'Re {percent} %':>8}" for percent in PERCENTS) + f"{'steady':>8}{'steps':>8}{'time, s':>9}")
     for row in rows:
-        cells = (f"{row[column]:.1f} ± {row[column + ' ±']:.1f}" for column in COLUMNS)
-        lines.append(f"{row['run']:<13}" + "".join(f"{cell:>16}" for cell in cells)
-                     + "".join(f"{row[f'Re {percent} %']:8.0f}" for percent in PERCENTS)
-                     + f"{row['steps']:7d}{row['time, s']:9.0f}")
-    lines.append("±: half of the difference between the means over the two halves of the time averaged over. Angles "
-                 "from straight down, the rising side positive.")
+        cells = (f"{row[column]:.2f} ± {row[column + ' ±']:.2f}" for column in columns)
+        yield (f"{row['run']:<14}" + "".join(f"{cell:>16}" for cell in cells)
+               + "".join(f"{row[f'Re {percent} %']:8.0f}" for percent in PERCENTS)
+               + f"{row['steady']:>8}{row['steps']:8d}{row['time, s']:9.0f}")
+    yield ("±: standard error of the mean over time, from the means of whole turns. Angles from straight down, the "
+           "rising side positive.")
+
+
+def difference_lines(rows):
+    yield f"Difference from {REFERENCE} over the combined error over time; *: {LIMIT:g} errors or more"
+    yield f"{'run':<14}" + "".join(f"{number:>11}" for number in NUMBERS)
+    for row in rows:
+        cells = (f"{row[number]:+.1f}{'*' if abs(row[number]) >= LIMIT else ' '}" for number in NUMBERS)
+        yield f"{row['run']:<14}" + "".join(f"{cell:>11}" for cell in cells)
+
+
+def write_tables(readings, failures, title):
+    """Both tables on the screen, as text and as csv; returns the rows of the first."""
+    rows = [row_of(name, one) for name, one in readings.items()]
+    lines = [title, *run_lines(rows)]
+    lines += [f"NOT STEADY: {name}: {one.drift}" for name, one in readings.items() if one.drift]
+    write_csv(HERE / "mill_drag_comparison.csv", rows)
+    if REFERENCE in readings:
+        apart = [row_of_differences(name, one, readings[REFERENCE])
+                 for name, one in readings.items() if name != REFERENCE]
+        lines += ["", *difference_lines(apart)]
+        if apart:
+            write_csv(HERE / "mill_drag_differences.csv", apart)
     lines += [f"FAILED: {failure}" for failure in failures]
     print("\n".join(lines))
     (HERE / "mill_drag_comparison.txt").write_text("\n".join(lines) + "\n")
+    return rows
 
 
 def colours(names):
@@ -97,33 +120,33 @@ def colours(names):
     return {REFERENCE: "black", NO_DRAG: "0.6", WHOLE_RUN: "tab:red", **dict(zip(others, shades))}
 
 
-def draw_surfaces(axis, shapes, flow, colour):
+def draw_surfaces(axis, readings, flow, colour):
     """The slurry's surface of every run: where it is half of the fluid, averaged over axis and time."""
-    for name, shape in shapes.items():
-        pixels = len(shape.share)
+    for name, one in readings.items():
+        pixels = len(one.share)
         at = 1e3 * flow.radius * ((np.arange(pixels) + 0.5) / pixels * 2 - 1)
-        axis.contour(at, at, shape.share, [LEVEL], colors=[colour[name]],
+        axis.contour(at, at, one.share, [LEVEL], colors=[colour[name]],
                      linewidths=2.2 if name in (REFERENCE, NO_DRAG, WHOLE_RUN) else 1)
     draw_mill(axis, flow, flow.frames[-1][0])
     axis.set_title("slurry's surface (half of the fluid is slurry)")
 
 
-def draw_numbers(axis, rows, columns, colour, title):
-    """One or two columns of the table against the runs, with their bars."""
-    for column, marker in zip(columns, ("o", "^")):
-        for number, row in enumerate(rows):
-            axis.errorbar(row[column], number, xerr=row[column + " ±"], fmt=marker, color=colour[row["run"]], capsize=3)
-    axis.set_yticks(range(len(rows)), [row["run"] for row in rows])
+def draw_numbers(axis, rows, column, colour, title):
+    """A column of the table against the runs, with their errors."""
+    for number, row in enumerate(rows):
+        axis.errorbar(row[column], number, xerr=row[column + " ±"], fmt="o", color=colour[row["run"]], capsize=3)
+    names = [row["run"] + ("" if row["steady"] == "yes" else " (not steady)") for row in rows]
+    axis.set_yticks(range(len(rows)), names)
     axis.invert_yaxis()
     axis.grid(alpha=0.25, axis="x")
     axis.set_title(title)
 
 
-def draw_reynolds(axis, shapes, colour):
+def draw_reynolds(axis, readings, colour):
     """Histograms of the Reynolds number, by the volume of slurry in the bed."""
     edges = np.logspace(0, 3.5, 43)
-    for name, shape in shapes.items():
-        share, _ = np.histogram(shape.reynolds, edges, weights=shape.weights / shape.weights.sum())
+    for name, one in readings.items():
+        share, _ = np.histogram(one.reynolds, edges, weights=one.weights / one.weights.sum())
         axis.stairs(100 * share, edges, color=colour[name], lw=2 if name in (REFERENCE, NO_DRAG, WHOLE_RUN) else 0.9,
                     label=name)
     axis.set(xscale="log", xlabel="particle Reynolds number, –", ylabel="slurry in the bed, %")
@@ -131,15 +154,15 @@ def draw_reynolds(axis, shapes, colour):
     axis.legend(fontsize=8, loc="upper left")
 
 
-def plot(rows, shapes, flow, title):
-    colour = colours(list(shapes))
+def plot(rows, readings, flow, title):
+    colour = colours(list(readings))
     figure, axes = plt.subplots(2, 3, figsize=(17, 10.5), constrained_layout=True)
-    draw_surfaces(axes[0, 0], shapes, flow, colour)
-    draw_numbers(axes[0, 1], rows, ["centre y, mm"], colour, "height of the slurry's centre of mass, mm from the axis")
-    draw_numbers(axes[0, 2], rows, ["power, W/m"], colour, "power that the slurry takes, W per m of mill")
-    draw_reynolds(axes[1, 0], shapes, colour)
-    draw_numbers(axes[1, 1], rows, ["toe, deg"], colour, "toe, degrees from straight down")
-    draw_numbers(axes[1, 2], rows, ["shoulder, deg"], colour, "shoulder, degrees from straight down")
+    draw_surfaces(axes[0, 0], readings, flow, colour)
+    draw_numbers(axes[0, 1], rows, "height, mm", colour, "height of the slurry's centre of mass, mm from the axis")
+    draw_numbers(axes[0, 2], rows, "power, W/m", colour, "power that the slurry takes, W per m of mill")
+    draw_reynolds(axes[1, 0], readings, colour)
+    draw_numbers(axes[1, 1], rows, "toe, deg", colour, "toe, degrees from straight down")
+    draw_numbers(axes[1, 2], rows, "shoulder, deg", colour, "shoulder, degrees from straight down")
     figure.suptitle(title)
     figure.savefig(HERE / "mill_drag_comparison.png", dpi=90)
     plt.close(figure)
@@ -147,20 +170,16 @@ def plot(rows, shapes, flow, title):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--coarse", action="store_true", help="a quarter of the cells: 4.5 mm and two layers")
-    mesh, prefix = (COARSE, "coarse_") if parser.parse_args().coarse else ((), "")
+    parser.add_argument("--fine", action="store_true", help="four times the cells: 3 mm and four layers")
+    mesh, prefix = (FINE, "fine_") if parser.parse_args().fine else ((), "")
     cases, failures = make_runs(settings(mesh, prefix), HERE / "runs")
-    if not cases:
+    readings = {name.removeprefix(prefix): one for name, one in read_all(cases, failures).items()}
+    if not readings:
         sys.exit("mill_drag_comparison.py: no run succeeded")
-    shapes = {}
-    for name, case in cases.items():
-        flow = MillFlow(case)
-        shapes[name.removeprefix(prefix)] = read_shape(flow, late(flow))
-    rows = [row_of(name, shape, cases[prefix + name]) for name, shape in shapes.items()]
-    title = (f"{MILL.parent.name}, slice, {flow.mesh.cells} cells; averages over flow time {late(flow):g} to "
-             f"{flow.frames[-1][0]:g} s")
-    write_tables(rows, failures, title)
-    plot(rows, shapes, flow, title)
+    last = cases[prefix + next(reversed(readings))]
+    title = f"{MILL.parent.name}, slice, {title_of(last)}"
+    rows = write_tables(readings, failures, title)
+    plot(rows, readings, MillFlow(last), title)
     print(HERE / "mill_drag_comparison.png")
     return 1 if failures else 0
 

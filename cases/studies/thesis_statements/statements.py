@@ -16,7 +16,7 @@ from millstudies.statements import read, verdicts
 HERE = Path(__file__).parent.resolve()
 MILLS = HERE.parents[1] / "mills"
 LAWS = HERE.parent / "mill_drag_comparison" / "runs" / "flows"
-OTHERS = ("no_drag", "whole_run")  # of the mills' laws, but not with their drag or windows
+FINE = "fine_"  # before a law's name: on the finer mesh
 VARIANTS = ("fluid_only_60", "fluid_only_75", "coupled_75_Beetstra", "coupled_75_ErgunWenYu")
 
 
@@ -25,11 +25,11 @@ def is_run(folder):
 
 
 def slices_there(runs=LAWS):
-    """The 12 cm slices of mill_drag_comparison that are complete: of the finer mesh, or else all coarse ones."""
-    whole = sorted(folder for folder in runs.glob("*")
-                   if not folder.name.endswith(OTHERS) and summary_of_whole(folder))
-    fine = [folder for folder in whole if not folder.name.startswith("coarse_")]
-    return fine or whole
+    """The 12 cm slices of mill_drag_comparison that are complete, with the laws' own drag and the mill's own windows:
+    of the finer mesh, or else all of the mill's own. Only these have names without an underscore, but for FINE."""
+    whole = [folder for folder in sorted(runs.glob("*"))
+             if "_" not in folder.name.removeprefix(FINE) and summary_of_whole(folder)]
+    return [folder for folder in whole if folder.name.startswith(FINE)] or whole
 
 
 def folders_there():
