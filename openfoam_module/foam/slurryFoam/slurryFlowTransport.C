@@ -54,7 +54,7 @@ void Foam::slurryFlow::carrySlurry(const vectorField& relative)
             oneField(), zeroField());
         if (step + 1 < steps)
         {
-            surface_.follow();
+            surface_.findNormals();
         }
         else
         {

@@ -49,26 +49,22 @@ void Foam::slurrySurface::place(const label celli, const scalar precision)
 }
 
 
-void Foam::slurrySurface::guessNormals(const scalar precision, const bool keep)
+void Foam::slurrySurface::guessNormals(const scalar precision)
 {
     const volVectorField gradient(fvc::grad(alpha_));
     const scalarField& volume = mesh_.V();
 
     forAll(volume, celli)
     {
+        pieces_.remove(celli);
         if (alpha_[celli] <= trace || alpha_[celli] >= 1 - trace)
         {
-            pieces_.remove(celli);
             continue;
         }
-        if (!(keep && pieces_.isCut(celli)))
-        {
-            pieces_.remove(celli);
-            const vector outward(-cbrt(volume[celli]) * gradient[celli]);
-            pieces_.normal[celli] =
-                mag(outward) > 1e-6 ? outward / mag(outward)
+        const vector outward(-cbrt(volume[celli]) * gradient[celli]);
+        pieces_.normal[celli] = mag(outward) > 1e-6
+                                    ? outward / mag(outward)
                                     : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
-        }
         place(celli, precision);
     }
     pieces_.correctBoundaryConditions();
@@ -236,27 +232,27 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::slurrySurface::reconstruct()
+void Foam::slurrySurface::findNormals()
 {
     // The planes before the last ones only show where their neighbours are
-    guessNormals(fits_ > 0 ? rough : 0, false);
+    guessNormals(rough);
     for (label i = 1; i <= fits_; ++i)
     {
         fitNormals();
-        placeAll(i < fits_ ? rough : 0);
+        if (i < fits_)
+        {
+            placeAll(rough);
+        }
     }
-    findLevels();
-    curvature_.clear();
 }
 
 
-void Foam::slurrySurface::follow()
+void Foam::slurrySurface::reconstruct()
 {
-    guessNormals(rough, true);
-    if (fits_ > 0)
-    {
-        fitNormals();
-    }
+    findNormals();
+    placeAll(0);
+    findLevels();
+    curvature_.clear();
 }
 
 
