@@ -174,7 +174,7 @@ void read_own_bounds(Section& in, Flow& flow) {
     }
     return;
   }
-  flow.max_air_courant = in.number("max_air_courant", courant_number(), 3);
+  flow.max_air_courant = in.number("max_air_courant", courant_number(), 2);
   flow.max_voidage_change = in.number(
       "max_voidage_change",
       {"a share of a cell's voidage above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }}, 0.1);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the benchmarks of averaging and meshing and writes what they say as a table (results/benchmarks.md) and a plot
-(results/location.png) in the folder above the benchmark programs. Figures are medians over repetitions.
+"""Runs the benchmarks of averaging, meshing and the flow and writes what they say as a table (results/benchmarks.md)
+and a plot (results/location.png) in the folder above the benchmark programs. Figures are medians over repetitions; the
+flow runs once.
 
-    run_benchmarks.py [PART...]     parts: overlap mesh assembly dumps location cores memory; all unless given
+    run_benchmarks.py [PART...]     parts: overlap mesh assembly dumps location cores memory flow; all unless given
 """
 import json
 import os
@@ -18,6 +19,8 @@ from pathlib import Path
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
+
+from flow_benchmark import flow_lines
 
 matplotlib.use("Agg")
 
@@ -183,7 +186,11 @@ def dumps(results):
     return google_table(run_google("dump_benchmark", results), "bytes/s")
 
 
-PARTS = {part.__name__: part for part in (overlap, mesh, assembly, dumps, location, cores, memory)}
+def flow(results):
+    return flow_lines()
+
+
+PARTS = {part.__name__: part for part in (overlap, mesh, assembly, dumps, location, cores, memory, flow)}
 
 
 def main(names):
