@@ -8,6 +8,7 @@
 #include "zeroFields.H"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -15,6 +16,14 @@ namespace Foam
 {
 namespace
 {
+
+//- Area of a piece, over the cell's volume^(2/3), from which on its neighbours
+//  count it whole
+constexpr scalar smallShare = 0.03;
+
+//- Sum of the squared cosines of the ways to the neighbours with a direction,
+//  from which on the direction counts whole
+constexpr scalar fewWays = 0.05;
 
 //- trace(b m^-1), with m singular along directions without neighbours
 scalar traceOfQuotient(const tensor& b, const symmTensor& m)
@@ -28,7 +37,10 @@ scalar traceOfQuotient(const tensor& b, const symmTensor& m)
     Eigen::Vector3d inverse = solver.eigenvalues();
     for (int i = 0; i < 3; ++i)
     {
-        inverse[i] = inverse[i] > 0.05 ? 1 / inverse[i] : 0;
+        // Directions in which hardly any neighbour lies tell nothing
+        const double part = std::clamp(inverse[i] / fewWays, 0.0, 1.0);
+        inverse[i] =
+            part > 0 ? part * part * (3 - 2 * part) / inverse[i] : 0.0;
     }
     const Eigen::Matrix3d& vectors = solver.eigenvectors();
     return (right * vectors * inverse.asDiagonal() * vectors.transpose())
@@ -75,10 +87,15 @@ Foam::tmp<Foam::volScalarField> Foam::cellCurvature(const surfacePieces& pieces)
     const auto add =
         [&](const label celli, const surfacePieces::neighbour& other)
     {
-        const scalar square = max(magSqr(other.way), VSMALL);
-        ways[celli] += sqr(other.way) / square;
-        turns[celli] +=
-            (other.normal - pieces.normal[celli]) * other.way / square;
+        // Small pieces by their area: one that appears or goes changes nothing
+        // at once
+        const scalar small = smallShare * cbrt(sqr(mesh.V()[celli]));
+        const vector& n = pieces.normal[celli];
+        const vector along(other.way - n * (n & other.way));
+        const scalar weight = min(other.area / small, scalar(1)) /
+                              max(magSqr(other.way), VSMALL);
+        ways[celli] += weight * sqr(along);
+        turns[celli] += weight * (other.normal - n) * along;
     };
     pieces.forNeighbours(add);
     pieces.forImages(add);
