@@ -239,9 +239,8 @@ def write_steps(folder, start, times, law="Beetstra", **summary):
     write_json(place / "flow.json", "flow", ("charge", "averages", "flow"), **content)
     one = np.ones(len(times))
     known = one if law else np.nan * one
-    rows = np.column_stack([times, np.diff(times, prepend=start), 0.2 * one, 0.1 * one, 0.3 * one, 0.01 * one, 8e-4 * one,
-                            -1e-3 * known,
-                            0.1 * known])
+    rows = np.column_stack([times, np.diff(times, prepend=start), 0.2 * one, 0.1 * one, 0.3 * one, 0.01 * one,
+                            8e-4 * one, -1e-3 * known, 0.1 * known])
     np.savetxt(place / "steps.csv", rows, "%.9g", ",", header=",".join(STEPS), comments="")
 
 

@@ -39,8 +39,7 @@ scalar traceOfQuotient(const tensor& b, const symmTensor& m)
     {
         // Directions in which hardly any neighbour lies tell nothing
         const double part = std::clamp(inverse[i] / fewWays, 0.0, 1.0);
-        inverse[i] =
-            part > 0 ? part * part * (3 - 2 * part) / inverse[i] : 0.0;
+        inverse[i] = part > 0 ? part * part * (3 - 2 * part) / inverse[i] : 0.0;
     }
     const Eigen::Matrix3d& vectors = solver.eigenvectors();
     return (right * vectors * inverse.asDiagonal() * vectors.transpose())
@@ -92,8 +91,8 @@ Foam::tmp<Foam::volScalarField> Foam::cellCurvature(const surfacePieces& pieces)
         const scalar small = smallShare * cbrt(sqr(mesh.V()[celli]));
         const vector& n = pieces.normal[celli];
         const vector along(other.way - n * (n & other.way));
-        const scalar weight = min(other.area / small, scalar(1)) /
-                              max(magSqr(other.way), VSMALL);
+        const scalar weight =
+            min(other.area / small, scalar(1)) / max(magSqr(other.way), VSMALL);
         ways[celli] += weight * sqr(along);
         turns[celli] += weight * (other.normal - n) * along;
     };
