@@ -25,8 +25,8 @@ static point crossing(
 
 Foam::cellColumn::cellColumn(
     const fvMesh& mesh, const label celli, const vector& n)
-: facets_(),
-  n_(n),
+: n_(n),
+  facets_(),
   low_(GREAT),
   high_(-GREAT)
 {
@@ -109,9 +109,9 @@ Foam::cellColumn::section Foam::cellColumn::cut(const scalar level) const
         const vector v(
             crossing(t.x[from], t.x[to], t.s[from], t.s[to], level) - foot);
         const scalar sense = ((n_ ^ t.area) & (v - u)) > 0 ? 0.5 : -0.5;
-        const scalar part = sense * (n_ & (u ^ v));
-        area += part;
-        moment += part * (u + v) / 3;
+        const scalar side = sense * (n_ & (u ^ v));
+        area += side;
+        moment += side * (u + v) / 3;
     }
     if (area <= VSMALL)
     {
