@@ -67,9 +67,9 @@ TEST_F(Flow, LeavesARowForEachStepThatCanBeReadAtOnce) {
   step.beyond_law = 0.125;
   record.add(step);
   ASSERT_EQ(lines().size(), 2U);
-  EXPECT_THAT(lines()[0], ::testing::StartsWith(
-                              "time_s,deltaT_s,courant,courant_surface,courant_air,voidage_change,"
-                              "pressure_iterations"));
+  EXPECT_THAT(lines()[0],
+              ::testing::StartsWith("time_s,deltaT_s,courant,courant_surface,courant_air,voidage_change,"
+                                    "pressure_iterations"));
   EXPECT_THAT(lines()[1], ::testing::StartsWith("0.001,0.001,0.25,0,2.5,0,0,0,1e-05,0,-1e-12,"));
   EXPECT_THAT(lines()[1], ::testing::HasSubstr(",nan,0.125,nan,"));
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
