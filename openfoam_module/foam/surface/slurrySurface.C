@@ -30,7 +30,7 @@ constexpr scalar held = 1e-2;
 constexpr scalar traceShare = 0.02;
 
 //- Error of the smaller share of a cell that a rough plane may have
-constexpr scalar rough = 1e-3;
+constexpr scalar rough = 1e-12;
 
 } // End anonymous namespace
 } // End namespace Foam
@@ -102,7 +102,9 @@ void Foam::slurrySurface::fitNormals()
                 m += sqr(e);
             }
         }
-        const vector n(inv(m) & normal()[celli]);
+        // Twice: large neighbours leave nothing of the guess then
+        const symmTensor inverse(inv(m));
+        const vector n(inverse & (inverse & normal()[celli]));
         pieces_.normal[celli] = n / mag(n);
     }
 }
