@@ -31,7 +31,7 @@ Foam::cellColumn::cellColumn(
   high_(-GREAT)
 {
     const point& origin = mesh.cellCentres()[celli];
-    facets_.reserve(4 * mesh.cells()[celli].size());
+    facets_.reserve(static_cast<std::size_t>(4 * mesh.cells()[celli].size()));
     forOutwardTriangles(
         mesh, celli,
         [&](const point& a, const point& b, const point& c)
