@@ -5,7 +5,7 @@
 
 #include "poreSuction.H"
 #include "knownEntries.H"
-#include "surfaceInterpolate.H"
+#include "linear.H"
 #include "unitConversion.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //

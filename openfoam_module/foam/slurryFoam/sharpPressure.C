@@ -242,7 +242,7 @@ Foam::sharpPressure::sharpPressure(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::sharpPressure::setSuction(tmp<surfaceScalarField> suction)
+void Foam::sharpPressure::setSuction(const tmp<surfaceScalarField>& suction)
 {
     suction_ = suction;
 }
