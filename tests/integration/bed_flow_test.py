@@ -13,6 +13,15 @@ from slurry_case import SLURRY, SOLUTION, SlurryTest
 SLIP = "type slip;"
 
 
+def with_tension_alone(case, sigma):
+    """Gives a case this surface tension (N/m), no gravity, and sides without friction."""
+    properties = case.path / "constant/transportProperties"
+    properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {sigma};"))
+    case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+    for side in ("front", "back"):
+        case.at_patch(side, U=SLIP)
+
+
 class Channel(SlurryTest):
     """A flat channel full of slurry between plates, along x; a uniform bed fills it."""
 
@@ -83,11 +92,7 @@ class Drop(SlurryTest):
         case = self.slurry_case(
             upper=tuple(edge * np.array(cells)), cells=cells, level=lambda x: 0 * x,
             bingham="yieldStress 0; plasticViscosity 0.05; regularisation biviscosity; viscosityRatio 1;")
-        properties = case.path / "constant/transportProperties"
-        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
-        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
-        for side in ("front", "back"):
-            case.at_patch(side, U=SLIP)
+        with_tension_alone(case, self.sigma)
         centre = edge * (np.array(cells) / 2 + [0.3, 0.2, 0.1])
         alpha = case.path / "0/alpha.slurry"
         values = " ".join(map(repr, self.share(cells, centre).tolist()))
@@ -132,11 +137,7 @@ class Meniscus(SlurryTest):
             upper=tuple(edge * np.array(self.cells)), cells=self.cells,
             level=lambda x: 20.3 * edge + tilt * (x - self.gap / 2),
             bingham="yieldStress 0; plasticViscosity 0.1; regularisation biviscosity; viscosityRatio 1;")
-        properties = case.path / "constant/transportProperties"
-        properties.write_text(properties.read_text().replace("sigma 0;", f"sigma {self.sigma};"))
-        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
-        for side in ("front", "back"):
-            case.at_patch(side, U=SLIP)
+        with_tension_alone(case, self.sigma)
         for side in ("left", "right"):
             case.at_patch(side, alpha=plates)
         case.adjusted(self.end, self.end / 60, delta_t=1e-5, courant=0.5)

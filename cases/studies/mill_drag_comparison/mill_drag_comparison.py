@@ -20,7 +20,7 @@ from millfoam.files.written_times import MillFlow
 from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
 from millstudies.mill_runs import FINE, MILL, Setting, make_runs
-from millstudies.steady_flows import NUMBERS, read_all, title_of
+from millstudies.steady_flows import NUMBERS, read_all, title_of, write_csv
 
 matplotlib.use("Agg")
 
@@ -64,14 +64,6 @@ def row_of_differences(name, readings, reference):
     apart = {number: readings.mean(number) - reference.mean(number) for number in NUMBERS}
     with np.errstate(invalid="ignore", divide="ignore"):  # angles of a ring may be the same in every turn
         return {"run": name, **{number: float(np.divide(mean.value, mean.error)) for number, mean in apart.items()}}
-
-
-def write_csv(path, rows):
-    with open(path, "w", newline="") as file:
-        table = csv.DictWriter(file, rows[0])
-        table.writeheader()
-        table.writerows({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()}
-                        for row in rows)
 
 
 def run_lines(rows):

@@ -7,7 +7,6 @@ entrained air, and whether the layers part. The last table is one to cite.
 Runs are kept with those of mill_drag_comparison, with the same dry run (millstudies.mill_runs). A complete run is not
 repeated. Exit code 1 if one failed; then there is no result for its series."""
 import argparse
-import csv
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,7 +17,7 @@ import numpy as np
 
 from millstudies.convergence import judge
 from millstudies.mill_runs import MILL, SLICES, Setting, make_runs, time_step_limits
-from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of
+from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of, write_csv
 
 matplotlib.use("Agg")
 
@@ -201,14 +200,6 @@ def cited_lines(rows):
         yield (f"{row['number']:<10}{row['unit']:<6}{row['value']:>9.2f}"
                + "".join(f"{text:>10}" for text in texts))
     yield f"( ): no two values of this family differ by {CHANCE:g} errors over time; the bar may be chance alone."
-
-
-def write_csv(path, rows):
-    with open(path, "w", newline="") as file:
-        table = csv.DictWriter(file, rows[0])
-        table.writeheader()
-        table.writerows({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()}
-                        for row in rows)
 
 
 def csv_rows(families, readings):

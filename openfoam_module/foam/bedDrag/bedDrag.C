@@ -72,6 +72,8 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
 } // End namespace Foam
 
 
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
 const Foam::Enum<Foam::bedDrag::mixture> Foam::bedDrag::mixtureNames_({
     {mixture::weights, "weights"},
     {mixture::permeability, "permeability"},

@@ -15,10 +15,6 @@ namespace Foam
 namespace
 {
 
-//- Error of a share that counts as none
-constexpr scalar roundOff = 4e-15;
-
-
 //- Share of a triangle's area below height d
 scalar shareBelow(const heights& s, const scalar d)
 {
@@ -58,9 +54,7 @@ scalar integralBelow(const heights& s, const scalar d)
 }
 
 //- Level, from the cell's centre, that leaves a share below it; guess: a level
-scalar levelOf(
-    const cellColumn& column, const scalar share, const scalar guess,
-    const scalar tolerance)
+scalar levelOf(const cellColumn& column, const scalar share, const scalar guess)
 {
     const scalar whole = column.below(column.high()).volume;
     scalar low = column.low();
@@ -78,7 +72,7 @@ scalar levelOf(
     {
         const cellColumn::part part(column.below(level));
         const scalar error = part.volume / whole - share;
-        if (mag(error) < tolerance)
+        if (mag(error) < 4e-15)
         {
             return level;
         }
@@ -122,17 +116,16 @@ Foam::scalar Foam::planeCut::offset(
 {
     const cellColumn column(mesh_, celli, n);
     const scalar base = n & mesh_.cellCentres()[celli];
-    return base + levelOf(column, alpha, guess - base, roundOff);
+    return base + levelOf(column, alpha, guess - base);
 }
 
 
 Foam::planeCut::placement Foam::planeCut::place(
-    const label celli, const vector& n, const scalar alpha, const scalar guess,
-    const scalar tolerance) const
+    const label celli, const vector& n, const scalar alpha,
+    const scalar guess) const
 {
     const cellColumn column(mesh_, celli, n);
-    const scalar level =
-        levelOf(column, alpha, guess, max(tolerance, roundOff));
+    const scalar level = levelOf(column, alpha, guess);
     return {level, column.cut(level)};
 }
 

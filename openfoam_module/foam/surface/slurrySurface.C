@@ -29,29 +29,24 @@ constexpr scalar held = 1e-2;
 //- Slurry or air below this share makes a cell's level less trusted
 constexpr scalar traceShare = 0.02;
 
-//- Error of the smaller share of a cell that a rough plane may have
-constexpr scalar rough = 1e-12;
-
 } // End anonymous namespace
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::slurrySurface::place(const label celli, const scalar precision)
+void Foam::slurrySurface::place(const label celli)
 {
     const vector& n = normal()[celli];
-    const scalar alpha = alpha_[celli];
-    const planeCut::placement placed(cut_.place(
-        celli, n, alpha, n & pieces_.centre[celli],
-        precision * min(alpha, 1 - alpha)));
+    const planeCut::placement placed(
+        cut_.place(celli, n, alpha_[celli], n & pieces_.centre[celli]));
     offset_[celli] = placed.level + (n & mesh_.cellCentres()[celli]);
     pieces_.centre[celli] = placed.cut.centre;
     pieces_.area[celli] = placed.cut.area;
 }
 
 
-void Foam::slurrySurface::guessNormals(const scalar precision)
+void Foam::slurrySurface::guessNormals()
 {
     const volVectorField gradient(fvc::grad(alpha_));
     const scalarField& volume = mesh_.V();
@@ -67,7 +62,7 @@ void Foam::slurrySurface::guessNormals(const scalar precision)
         pieces_.normal[celli] = mag(outward) > 1e-6
                                     ? outward / mag(outward)
                                     : (mag(up_) > 0 ? up_ : vector(1, 0, 0));
-        place(celli, precision);
+        place(celli);
     }
     pieces_.correctBoundaryConditions();
 }
@@ -110,13 +105,13 @@ void Foam::slurrySurface::fitNormals()
 }
 
 
-void Foam::slurrySurface::placeAll(const scalar precision)
+void Foam::slurrySurface::placeAll()
 {
     forAll(normal(), celli)
     {
         if (pieces_.isCut(celli))
         {
-            place(celli, precision);
+            place(celli);
         }
     }
     pieces_.correctBoundaryConditions();
@@ -238,15 +233,14 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
 
 void Foam::slurrySurface::findNormals()
 {
-    // The planes before the last ones only show where their neighbours are
-    guessNormals(rough);
-    for (label i = 1; i <= fits_; ++i)
+    guessNormals();
+    for (label i = 0; i < fits_; ++i)
     {
-        fitNormals();
-        if (i < fits_)
+        if (i > 0)
         {
-            placeAll(rough);
+            placeAll();
         }
+        fitNormals();
     }
 }
 
@@ -254,7 +248,7 @@ void Foam::slurrySurface::findNormals()
 void Foam::slurrySurface::reconstruct()
 {
     findNormals();
-    placeAll(0);
+    placeAll();
     findLevels();
     curvature_.clear();
 }

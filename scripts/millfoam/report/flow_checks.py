@@ -46,6 +46,7 @@ def courant(case: MillCase) -> Check:
     steps = case.record.steps
     if steps is None or len(steps["time_s"]) == 0:
         return Check(name, "unknown", "the flow has no steps.csv", NO_STEPS)
+    # Flows of 0.2.0 and before have no column of the air, and no limit of it
     found = np.column_stack([steps.get(key, 0 * steps["time_s"]) for key, _, _ in LIMITS])
     limits = step_limits(case)
     if not np.isfinite(limits).any():
