@@ -174,18 +174,18 @@ void read_own_bounds(Section& in, Flow& flow) {
     }
     return;
   }
-  flow.max_air_courant = in.number("max_air_courant", courant_number(), 2);
+  flow.max_air_courant = in.number("max_air_courant", courant_number(), 2.5);
   flow.max_voidage_change = in.number(
       "max_voidage_change",
       {"a share of a cell's voidage above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }}, 0.1);
 }
 
 void read_steps(Section& in, const Mill& mill, Flow& flow) {
-  flow.max_courant = in.number("max_courant", courant_number(), 1);
-  // The planes of slurryFoam's surface may pass a whole cell in a step; interFoam's surface is smeared by
-  // that
-  flow.max_surface_courant =
-      in.number("max_surface_courant", courant_number(), flow.solver == "slurryFoam" ? 1 : 0.5);
+  // slurryFoam carries the slurry in parts of a step where its surface passes more than a cell; interFoam's
+  // surface is smeared by that
+  const bool in_parts = flow.solver == "slurryFoam";
+  flow.max_courant = in.number("max_courant", courant_number(), in_parts ? 1.25 : 1);
+  flow.max_surface_courant = in.number("max_surface_courant", courant_number(), in_parts ? 1.25 : 0.5);
   read_own_bounds(in, flow);
   flow.largest_correction = in.number(
       "largest_correction",

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads OpenFOAM cases written in ASCII: fields, meshes, times."""
+"""Reads OpenFOAM cases: times, fields and points as text or binary, the other lists of a mesh as text."""
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
+
+COMPONENTS = {b"scalar": 1, b"vector": 3, b"symmTensor": 6, b"tensor": 9}
 
 
 class FoamError(RuntimeError):
@@ -23,17 +26,37 @@ def times(case: Path | str) -> list[tuple[float, Path]]:
     return sorted(found)
 
 
-def _body(path: Path | str) -> str:
-    path = Path(path)
-    if not path.is_file():
+def _read(path: Path | str) -> bytes:
+    if not Path(path).is_file():
         raise FoamError(f"{path}: no such file")
+    return Path(path).read_bytes()
+
+
+def _is_binary(content: bytes) -> bool:
+    return re.search(rb"format\s+binary", content[:2000]) is not None
+
+
+def _body(path: Path | str) -> str:
+    content = _read(path)
+    if _is_binary(content):
+        raise FoamError(f"{path}: binary; expected format ascii")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = content.decode("utf-8")
     except UnicodeDecodeError as error:
         raise FoamError(f"{path}: not UTF-8 text (byte {error.start})") from None
-    if re.search(r"format\s+binary", text[:2000]):
-        raise FoamError(f"{path}: binary; expected writeFormat ascii")
     return re.sub(r"//[^\n]*|/\*.*?\*/", "", text, flags=re.S)
+
+
+def _binary_numbers(path: Path | str, content: bytes, head: re.Match, each: int) -> np.ndarray:
+    """The numbers of a binary list of `each` numbers an entry; `head` has matched its count and opening bracket."""
+    if b"LSB" not in content[:2000] or b"scalar=64" not in content[:2000]:
+        raise FoamError(f"{path}: binary of another machine; expected arch LSB and scalar=64")
+    count = int(head.group("count"))
+    end = head.end() + 8 * each * count
+    if content[end:end + 1] != b")":
+        raise FoamError(f"{path}: {(len(content) - head.end()) // 8} numbers for {count} entries of {each}; "
+                        "the file is cut short")
+    return np.frombuffer(content[head.end():end], "<f8")
 
 
 def _numbers(text: str, path: Path | str) -> np.ndarray:
@@ -43,27 +66,40 @@ def _numbers(text: str, path: Path | str) -> np.ndarray:
         raise FoamError(f"{path}: {error}") from None
 
 
-def read_field(path: Path | str, cells: int | None = None) -> np.ndarray:
-    """Internal field of a vol*Field: array [cells] or [cells, components].
-
-    A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
-    text = _body(path)
+def _text_field(path: Path | str, text: str, cells: int | None) -> np.ndarray:
     uniform = re.search(r"internalField\s+uniform\s+([^;]+);", text)
     if uniform:
         value = _numbers(uniform.group(1), path)
         if cells is None:
             raise FoamError(f"{path}: uniform; the number of cells is needed")
-        field = np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
+        return np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
+    head = re.search(r"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(", text)
+    if not head:
+        raise FoamError(f"{path}: no internalField was found")
+    count = int(head.group(2))
+    end = text.find(";", head.end())
+    values = _numbers(text[head.end():end], path)
+    if end < 0 or count == 0 or len(values) == 0 or len(values) % count:
+        raise FoamError(f"{path}: {len(values)} numbers for {count} cells; the file is cut short")
+    return values if len(values) == count else values.reshape(count, -1)
+
+
+def read_field(path: Path | str, cells: int | None = None) -> np.ndarray:
+    """Internal field of a vol*Field: array [cells] or [cells, components].
+
+    A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
+    content = _read(path)
+    if not _is_binary(content):
+        field = _text_field(path, _body(path), cells)
+    elif head := re.search(rb"internalField\s+nonuniform\s+List<(?P<type>\w+)>\s*(?P<count>\d+)\s*\(", content):
+        if head.group("type") not in COMPONENTS:
+            raise FoamError(f"{path}: binary list of {head.group('type').decode()}; expected one of "
+                            f"{', '.join(map(bytes.decode, COMPONENTS))}")
+        each = COMPONENTS[head.group("type")]
+        field = _binary_numbers(path, content, head, each)
+        field = field if each == 1 else field.reshape(-1, each)
     else:
-        head = re.search(r"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(", text)
-        if not head:
-            raise FoamError(f"{path}: no internalField was found")
-        count = int(head.group(2))
-        end = text.find(";", head.end())
-        values = _numbers(text[head.end():end], path)
-        if end < 0 or count == 0 or len(values) == 0 or len(values) % count:
-            raise FoamError(f"{path}: {len(values)} numbers for {count} cells; the file is cut short")
-        field = values if len(values) == count else values.reshape(count, -1)
+        field = _text_field(path, content.decode("latin-1"), cells)
     if not np.all(np.isfinite(field)):
         raise FoamError(f"{path}: a value is not finite")
     return field
@@ -139,13 +175,23 @@ def read_mesh(case: Path | str, time: Path | str | None = None) -> Mesh:
     """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
     folder = Path(case) / "constant" / "polyMesh"
     moved = Path(time) / "polyMesh" / "points" if time else None
-    points = _numbers_of(moved if moved and moved.is_file() else folder / "points", 3).reshape(-1, 3)
+    points = _points(moved if moved and moved.is_file() else folder / "points")
     count, text = _list(folder / "faces")
     faces = [np.array(found.split(), dtype=int) for found in re.findall(r"\d+\(([\d\s]*)\)", text)]
     if len(faces) != count:
         raise FoamError(f"{folder / 'faces'}: {len(faces)} faces for a count of {count}")
     owner, neighbour = (_numbers_of(folder / name).astype(int) for name in ("owner", "neighbour"))
     return Mesh(points, faces, owner, neighbour, read_patches(folder / "boundary"))
+
+
+def _points(path: Path) -> np.ndarray:
+    content = _read(path)
+    if not _is_binary(content):
+        return _numbers_of(path, 3).reshape(-1, 3)
+    head = re.search(rb"\}[^(]*?(?P<count>\d+)\s*\(", content)
+    if not head:
+        raise FoamError(f"{path}: no list was found, or it is cut short")
+    return _binary_numbers(path, content, head, 3).reshape(-1, 3)
 
 
 def _numbers_of(path: Path | str, each: int = 1) -> np.ndarray:

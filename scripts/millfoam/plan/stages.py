@@ -14,10 +14,10 @@ from .trial import Cost, FlowTrial, MeshTrial, try_charge, try_flow, try_mesh
 
 
 # Calibrated on runs of a 0.6 m, a 12 cm and a 30 cm mill
-CELL_COURANT, SURFACE_COURANT = 0.55, 1.0  # limit of the Courant number -> time-step over cell size / speed of the fall
+AIR_COURANT, SLURRY_COURANT = 0.55, 1.05  # limit of the Courant number -> time-step over cell size / speed of the fall
 STEP_WITH_BALLS, STEP_WITHOUT = 2.0, 1.35  # mean step of a flow over a step at its start without balls
-CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 465, 307  # of a written time with 17 digits
-FACE_BYTES = 91
+CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 190, 110  # of a written time
+FACE_BYTES = 32
 RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
 PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
 VOXEL_BYTES, SOLIDS_VOXEL_BYTES = 42, 120  # of one window of slurry.h5, of solids.h5
@@ -54,13 +54,15 @@ def flow_number(mill: Mill, *keys: str) -> float:
 def typical_time_step(mill: Mill, cell: float) -> float:
     """Time-step in s of a flow through cells of that size (m, across the mill) during most of its time.
 
-    Three limits: the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
-    (omega R)^2), reaches the limits of the two Courant numbers. A flow is below the smallest for part of the time, so
-    the limits are joined smoothly."""
+    The limits are the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
+    (omega R)^2), and the air above it reach their Courant numbers. A flow is below the smallest for part of the time,
+    so the limits are joined smoothly. slurryFoam limits slurry and air apart, other solvers limit all cells alike."""
     speed = math.hypot(math.sqrt(4 * mill.derived("gravity_m_s2") * mill.radius), mill.omega * mill.radius)
+    apart = mill.flow("solver") == "slurryFoam"
+    slurry = min(flow_number(mill, key) for key in ("max_courant", "max_surface_courant"))
     limits = (flow_number(mill, "max_time_step_s"),
-              CELL_COURANT * flow_number(mill, "max_courant") * cell / speed,
-              SURFACE_COURANT * flow_number(mill, "max_surface_courant") * cell / speed)
+              SLURRY_COURANT * slurry * cell / speed,
+              AIR_COURANT * flow_number(mill, "max_air_courant" if apart else "max_courant") * cell / speed)
     smallest = min(limits)
     return smallest * sum((limit / smallest) ** -8 for limit in limits) ** (-1 / 8)
 

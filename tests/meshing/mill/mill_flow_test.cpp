@@ -129,8 +129,10 @@ TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
 TEST(Flow, change_of_the_voidage_and_air_limit_steps_of_slurryFoam_only) {
   const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
   EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);
-  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_air_courant, 2);
-  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_surface_courant, 1);
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_air_courant, 2.5);
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_courant, 1.25);
+  EXPECT_DOUBLE_EQ(mill_of(text).flow.max_surface_courant, 1.25);
+  EXPECT_DOUBLE_EQ(mill_of(text, {"flow.solver=interFoam"}).flow.max_courant, 1);
   EXPECT_DOUBLE_EQ(mill_of(text, {"flow.solver=interFoam"}).flow.max_surface_courant, 0.5);
   // The solver of one call leaves the file's key out
   EXPECT_EQ(refusal_of(text, {"flow.solver=interFoam"}), "accepted");
