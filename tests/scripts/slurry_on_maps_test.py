@@ -8,7 +8,7 @@ import numpy as np
 
 from millfoam.files.slurry_file import SlurryMap
 from millfoam.files.solids_file import ANTICLOCKWISE
-from millfoam.readings.slurry_on_maps import axial_flow, pixel_angles, pool, slurry_ends
+from millfoam.readings.slurry_on_maps import axial_flow, entrained_air, pixel_angles, pool, slurry_ends
 
 RADIUS, WALL, PIXELS = 0.15, 0.01, 150
 
@@ -27,6 +27,19 @@ def tilted(degrees):
     """Share of slurry at rest below a level 0.05 m under the axis, turned clockwise."""
     sine, cosine = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
     return lambda x, y: np.where(x * sine + y * cosine < -0.05, 1.0, 0.0)
+
+
+class EntrainedAir(unittest.TestCase):
+    def test_is_weighted_by_the_pores_of_the_wet_charge(self):
+        # Rising side: solidity 0.5, a tenth of air; falling side: solidity 0.25, four tenths of air; the rest is dry
+        slurry = slurry_map(lambda x, y: np.where(y > 0, 0.3, np.where(x > 0, 0.6, 0.9)))
+        x, y = np.meshgrid(*slurry.centres())
+        solidity = np.where(x > 0, 0.25, 0.5)
+        self.assertAlmostEqual(entrained_air(slurry, solidity), (0.1 * 0.5 + 0.4 * 0.75) / (0.5 + 0.75), places=12)
+
+    def test_slurry_clear_of_the_charge_has_none(self):
+        slurry = slurry_map(lambda x, y: 0 * x + 0.9)
+        self.assertTrue(np.isnan(entrained_air(slurry, np.full(slurry.share.shape, 0.1))))
 
 
 class Ends(unittest.TestCase):

@@ -12,6 +12,7 @@ from scipy.ndimage import label, map_coordinates
 from ..files.slurry_file import SlurryMap
 from .means import weighted_percentile
 from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
+from .slurry_in_cells import BED as PACKED
 
 BED = 0.1  # solidity above which a pixel belongs to the charge
 RANGE = (5, 95)  # per cent of the slurry that bound an axial velocity's range
@@ -65,6 +66,14 @@ def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
     columns = np.flatnonzero(where.any(axis=0))
     tops = slurry.y[len(slurry.y) - 1 - np.argmax(where[::-1, columns], axis=0)]
     return Pool(where, float(volumes.max() * slurry.pixel()), float(np.median(tops)), float(tops.std()))
+
+
+def entrained_air(slurry: SlurryMap, solidity: np.ndarray) -> float:
+    """Share of air in the fluid of the wet charge: of the pixels of a SlurryMap with a share of slurry above 0.5 and a
+    `solidity` [ny, nx] above 0.2. NaN if there are none. Pockets of all sizes count; a part of them is the mesh's."""
+    share = np.nan_to_num(slurry.share)
+    wet = (share > LEVEL) & (np.nan_to_num(solidity) > PACKED)
+    return float(1 - np.average(share[wet], weights=1 - solidity[wet])) if wet.any() else np.nan
 
 
 @dataclass
