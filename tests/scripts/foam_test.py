@@ -63,6 +63,7 @@ class Fields(unittest.TestCase):
         whole = binary_field(VECTORS)
         self.assertIn("U: 6 numbers for 3 entries of 3; the file is cut short",
                       self.refusal(whole[:whole.index(b"(") + 1 + 50]))
+        self.assertIn("no internalField was found, or it is cut short", self.refusal(whole[:whole.index(b"List")]))
         self.assertIn("cut short", self.refusal(binary_field(VECTORS, before_end=b"12345678")))
         self.assertIn("expected arch LSB and scalar=64", self.refusal(binary_field(VECTORS, scalar=32)))
         self.assertIn("binary list of sphericalTensor; expected one of scalar, vector",
@@ -83,6 +84,11 @@ class Fields(unittest.TestCase):
         (moved / "polyMesh" / "points").write_bytes(
             HEAD.format(form="binary", scalar=64, kind="vectorField", name="points").encode() + b"\n4\n("
             + points.tobytes() + b")\n")
+        with self.assertRaisesRegex(foam.FoamError, "faces: binary; expected format ascii"):
+            faces = mesh / "faces"
+            faces.write_text(faces.read_text().replace("ascii", "binary"))
+            foam.read_mesh(self.path.parent, moved)
+        faces.write_text(faces.read_text().replace("binary", "ascii"))
         turned = foam.read_mesh(self.path.parent, moved)
         np.testing.assert_array_equal(turned.points, points)
         self.assertAlmostEqual(turned.centres_and_volumes()[1][0], 8 / 6)

@@ -144,17 +144,17 @@ class Flow(Verdicts):
         return checks.courant(case(steps={"time_s": np.arange(len(steps)), **columns}, limits=limits or LIMITS))
 
     def test_steps_beyond_their_limits(self):
-        good, bad = (0.5, 0.4, 3, 0.1), ((0.76, 0.4, 3, 0.1), (0.5, 0.61, 3, 0.1), (0.5, 0.4, 4.6, 0.1),
-                                         (0.5, 0.4, 3, 0.16), (0.5, np.nan, 3, 0.1))
+        good, bad = (0.5, 0.4, 3, 0.1), ((1.01, 0.4, 3, 0.1), (0.5, 0.81, 3, 0.1), (0.5, 0.4, 6.1, 0.1),
+                                         (0.5, 0.4, 3, 0.21), (0.5, np.nan, 3, 0.1))
         for one in bad:
             for count, state in ((1, "holds"), (3, "look"), (10, "fails")):
                 self.check(self.courant([good] * (101 - count) + [one] * count), state)
-        self.check(self.courant([(0.74, 0.59, 4.4, 0.149)] * 100), "holds")
+        self.check(self.courant([(0.99, 0.79, 5.9, 0.199)] * 100), "holds")
 
     def test_steps_are_judged_by_the_limits_that_are_known(self):
         found = self.courant([(0.55, 0.4, 2, 0.1)] * 100,
                              {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxAirCo": 3, "maxVoidageChange": None}).found
-        self.assertEqual(found, "0.0 % of the steps are beyond 1.5 times their limits (limit 1 %); 95 % of the steps "
+        self.assertEqual(found, "0.0 % of the steps are beyond 2 times their limits (limit 1 %); 95 % of the steps "
                                 "are below: Courant number 0.55 (limit 0.5), at the surface 0.4 (limit 0.4), in air 2 "
                                 "(limit 3), change of voidage 0.1")
 

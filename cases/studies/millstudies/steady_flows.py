@@ -239,7 +239,8 @@ def read_layers(folder):
 
 
 def write_csv(path, rows):
-    """Writes rows, column -> value, as a table with the columns of the first."""
+    """Writes rows, a list of dicts column -> value that all have the first one's columns, as csv; floats with six
+    digits."""
     with open(path, "w", newline="") as file:
         table = csv.DictWriter(file, rows[0])
         table.writeheader()

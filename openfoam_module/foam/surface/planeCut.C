@@ -15,6 +15,10 @@ namespace Foam
 namespace
 {
 
+//- Error of a share that counts as none
+constexpr scalar roundOff = 4e-15;
+
+
 //- Share of a triangle's area below height d
 scalar shareBelow(const heights& s, const scalar d)
 {
@@ -72,7 +76,7 @@ scalar levelOf(const cellColumn& column, const scalar share, const scalar guess)
     {
         const cellColumn::part part(column.below(level));
         const scalar error = part.volume / whole - share;
-        if (mag(error) < 4e-15)
+        if (mag(error) < roundOff)
         {
             return level;
         }

@@ -32,8 +32,13 @@ def _read(path: Path | str) -> bytes:
     return Path(path).read_bytes()
 
 
+def _head(content: bytes) -> bytes:
+    """The entries of a file's FoamFile."""
+    return content.partition(b"}")[0]
+
+
 def _is_binary(content: bytes) -> bool:
-    return re.search(rb"format\s+binary", content[:2000]) is not None
+    return re.search(rb"format\s+binary", _head(content)) is not None
 
 
 def _body(path: Path | str) -> str:
@@ -48,8 +53,9 @@ def _body(path: Path | str) -> str:
 
 
 def _binary_numbers(path: Path | str, content: bytes, head: re.Match, each: int) -> np.ndarray:
-    """The numbers of a binary list of `each` numbers an entry; `head` has matched its count and opening bracket."""
-    if b"LSB" not in content[:2000] or b"scalar=64" not in content[:2000]:
+    """The numbers of a binary list of `each` numbers an entry, [count * each]; `head` has matched its count and opening
+    bracket."""
+    if b"LSB" not in _head(content) or b"scalar=64" not in _head(content):
         raise FoamError(f"{path}: binary of another machine; expected arch LSB and scalar=64")
     count = int(head.group("count"))
     end = head.end() + 8 * each * count
@@ -75,7 +81,7 @@ def _text_field(path: Path | str, text: str, cells: int | None) -> np.ndarray:
         return np.tile(value, (cells, 1)) if len(value) > 1 else np.full(cells, value[0])
     head = re.search(r"internalField\s+nonuniform\s+List<(\w+)>\s*(\d+)\s*\(", text)
     if not head:
-        raise FoamError(f"{path}: no internalField was found")
+        raise FoamError(f"{path}: no internalField was found, or it is cut short")
     count = int(head.group(2))
     end = text.find(";", head.end())
     values = _numbers(text[head.end():end], path)
@@ -87,7 +93,8 @@ def _text_field(path: Path | str, text: str, cells: int | None) -> np.ndarray:
 def read_field(path: Path | str, cells: int | None = None) -> np.ndarray:
     """Internal field of a vol*Field: array [cells] or [cells, components].
 
-    A uniform field is spread over `cells`, which must then be given. Values that are not finite are an error."""
+    The file is text, or binary of 64-bit little-endian numbers. A uniform field is spread over `cells`, which must then
+    be given. FoamError if the file is missing, cut short or of another kind, or if a value is not finite."""
     content = _read(path)
     if not _is_binary(content):
         field = _text_field(path, _body(path), cells)

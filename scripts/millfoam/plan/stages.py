@@ -56,7 +56,8 @@ def typical_time_step(mill: Mill, cell: float) -> float:
 
     The limits are the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
     (omega R)^2), and the air above it reach their Courant numbers. A flow is below the smallest for part of the time,
-    so the limits are joined smoothly. slurryFoam limits slurry and air apart, other solvers limit all cells alike."""
+    so the limits are joined smoothly. slurryFoam has one limit for air and two for slurry, of which the smaller counts.
+    Other solvers have one for all cells."""
     speed = math.hypot(math.sqrt(4 * mill.derived("gravity_m_s2") * mill.radius), mill.omega * mill.radius)
     apart = mill.flow("solver") == "slurryFoam"
     slurry = min(flow_number(mill, key) for key in ("max_courant", "max_surface_courant"))

@@ -16,8 +16,9 @@ from . import figures, maps, page
 from .case_readings import Readings
 from .words import millilitres, uncertain
 
-AIR_OF_MESH = ("Part of this air is the mesh's: in a 12 cm mill it fell from 22 to 17 % of the fluid when cells became "
-               "half as large. Finer cells show how much that is here (cases/studies/mill_resolution).")
+AIR = "air between the balls where slurry is ¹"
+AIR_OF_MESH = ("Part of this air is the mesh's: finer cells show how much (cases/studies/mill_resolution has an "
+               "example).")
 
 
 def slurry_section(case: MillCase, readings: Readings) -> list[str]:
@@ -43,9 +44,11 @@ def slurry_section(case: MillCase, readings: Readings) -> list[str]:
                                   "one-way coupling does not hold.", title="Force on the balls"))
     note = (f"Angles are counted from straight down, positive where the shell rises, on the circle {RING:g} lifter "
             f"heights ({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of "
-            f"{len(readings.blocks)} blocks of time.{readings.short_blocks()}"
-            + (f" ¹ {AIR_OF_MESH}" if case.has_balls else ""))
-    return cards + [page.table(None, slurry_rows(case, readings), title="Readings of the maps", note=note)]
+            f"{len(readings.blocks)} blocks of time.{readings.short_blocks()}")
+    rows = slurry_rows(case, readings)
+    if any(name == AIR for name, _ in rows):
+        note += f" ¹ {AIR_OF_MESH}"
+    return cards + [page.table(None, rows, title="Readings of the maps", note=note)]
 
 
 def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
@@ -66,7 +69,7 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
                  else "none"))
     air = slurry_on_maps.entrained_air(slurry, solidity)
     if np.isfinite(air):
-        rows.append(("air between the balls where slurry is ¹", f"{100 * air:.0f} % of the fluid"))
+        rows.append((AIR, f"{100 * air:.0f} % of the fluid"))
     if case.is_slice:
         return rows
     if not isinstance(way, Way):
