@@ -181,8 +181,8 @@ void read_own_bounds(Section& in, Flow& flow) {
 }
 
 void read_steps(Section& in, const Mill& mill, Flow& flow) {
-  // slurryFoam carries the slurry in parts of a step where a cell gives away more fluid than it has; interFoam's
-  // surface is smeared by that
+  // slurryFoam carries the slurry in parts of a step where a cell gives away more fluid than it has;
+  // interFoam's surface is smeared by that
   const bool in_parts = flow.solver == "slurryFoam";
   flow.max_courant = in.number("max_courant", courant_number(), in_parts ? 1.25 : 1);
   flow.max_surface_courant = in.number("max_surface_courant", courant_number(), in_parts ? 1.25 : 0.5);
