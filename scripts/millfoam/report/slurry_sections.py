@@ -17,8 +17,7 @@ from .case_readings import Readings
 from .words import millilitres, uncertain
 
 AIR = "air between the balls where slurry is ¹"
-AIR_OF_MESH = ("Part of this air is the mesh's: finer cells show how much (cases/studies/mill_resolution has an "
-               "example).")
+AIR_OF_MESH = "Part of this air is the mesh's: a flow on finer cells shows how much."
 
 
 def slurry_section(case: MillCase, readings: Readings) -> list[str]:
