@@ -23,8 +23,8 @@ FEED, HALF, END, WINDOW = 65.3e-6, 0.01, 0.02, 0.008  # m3/s, s
 # Short steps: the pool at the start reaches the outlet's lip, and splashes over it in long ones
 CHANGES = ("flow.max_time_step=0.001",
            "resolution={counts: {gap: 2, lifter: 1, height: 1, ring: 10}, layers: 9}",
-           "geometry.pulp_lifters.layers=2", "flow.balls=no", f"flow.feed={FEED}", f"flow.duration={END}", f"flow.write_interval={HALF}",
-           f"flow.averages={{start: 0, window: {WINDOW}}}")
+           "geometry.pulp_lifters.layers=2", "flow.balls=no", f"flow.feed={FEED}", f"flow.duration={END}",
+           f"flow.write_interval={HALF}", f"flow.averages={{start: 0, window: {WINDOW}}}")
 SPEED = -2.5  # of the balance in a box, rad/s
 OBJECTS = f"""
 functions
