@@ -107,16 +107,19 @@ def seen(means):
 
 def judgements(families, readings):
     """(family's name, number's name) -> (Convergence of the base's own number, whether its values differ by more than
-    chance), of families that are complete."""
+    chance), of families that are complete, by their steady flows: others have no mean."""
     found = {}
     for family in families:
         if any(name not in readings for name in family.runs.values()):
             continue
+        steady = {size: name for size, name in family.runs.items() if not readings[name].drift}
+        if len(steady) < 2 or family.base not in steady:
+            continue
         sizes = measured_sizes(family, readings)
         for number in NUMBERS:
-            means = [readings[name].mean(number) for name in family.runs.values()]
+            means = [readings[name].mean(number) for name in steady.values()]
             if np.isfinite([mean.value for mean in means]).all():
-                result = judge(list(sizes.values()), [mean.value for mean in means], sizes[family.base])
+                result = judge([sizes[size] for size in steady], [mean.value for mean in means], sizes[family.base])
                 found[family.name, number] = result, seen(means)
     return found
 
