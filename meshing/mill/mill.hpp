@@ -168,6 +168,13 @@ struct FlowAverages {
   double interval = 0;  ///< between samples, s
 };
 
+/// Whether the balls feel the slurry.
+struct Coupling {
+  bool iterated = false;  ///< balls and slurry are computed in turn until neither changes
+  int passes = 0;         ///< of balls and slurry, at most, the dry one included
+  double relaxation = 0;  ///< share of the latest flow's forces in those that the balls feel next
+};
+
 /// How the slurry's flow is done.
 struct Flow {
   std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
@@ -189,6 +196,7 @@ struct Flow {
   /// Largest relative change of a cell's voidage in a step.
   double max_voidage_change = 0;
   double largest_correction = 0;  ///< of the balls' volume on the mesh, a share of it
+  Coupling coupling;              ///< with the balls
   double max_time_step = 0;       ///< s
   double write_interval = 0;      ///< between written fields, s
   int slices = 0;                 ///< along the axis, of profiles
@@ -202,7 +210,7 @@ struct MillFingerprints {
   std::string walls;     ///< geometry and the mesh's cross-section
   std::string charge;    ///< walls, speed, charge, materials, and dem but for its duration
   std::string averages;  ///< charge, duration of the dry run, averages
-  std::string flow;      ///< everything but the title
+  std::string flow;      ///< everything but the title and how often balls and flow are computed in turn
 };
 
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.

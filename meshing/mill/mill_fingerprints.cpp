@@ -56,6 +56,8 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of = keys;
   of["materials"] = materials;
   of.erase("title");
+  // How often balls and flow are computed in turn changes none of these flows
+  for (const char* key : {"coupling", "passes", "relaxation"}) of["flow"].erase(key);
   result.flow = fingerprint(of.dump());
   return result;
 }

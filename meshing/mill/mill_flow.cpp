@@ -22,6 +22,9 @@ constexpr double usual_voxel = 2.5;
 constexpr double usual_voxels_of_radius = 4;
 constexpr double windows_per_turn = 20;
 constexpr double usual_flow_turns = 3;
+/// Of balls and slurry in turn: the 12 cm mill's slice has settled after four.
+constexpr int usual_passes = 6;
+constexpr double usual_relaxation = 0.7;
 constexpr double share_averaged = 2.0 / 3;
 constexpr double fields_per_turn = 24;
 constexpr double samples_per_window = 10;
@@ -160,6 +163,18 @@ void read_drag(const Section& in, Flow& flow) {
   flow.mixed_drag = in.choice("mixed_drag", {"weights", "permeability"}, "weights");
 }
 
+Coupling read_coupling(Section& in, const Flow& flow) {
+  Coupling coupling;
+  coupling.iterated = in.choice("coupling", {"one_way", "iterated"}, "one_way") == "iterated";
+  if (coupling.iterated && flow.solver != "slurryFoam")
+    in.refuse("coupling", "one_way: only slurryFoam writes what the balls feel");
+  if (coupling.iterated && !flow.balls) in.refuse("coupling", "one_way where flow.balls is no");
+  coupling.passes = in.integer("passes", whole_number("passes", 2, 50), usual_passes);
+  coupling.relaxation = in.number(
+      "relaxation", {"a share above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }}, usual_relaxation);
+  return coupling;
+}
+
 Rule courant_number() {
   return {"a Courant number above 0 and up to 10", [](double v) { return v > 0 && v <= 10; }};
 }
@@ -269,6 +284,9 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
                                               "polydispersity",
                                               "mixed_drag",
                                               "out_of_range",
+                                              "coupling",
+                                              "passes",
+                                              "relaxation",
                                               "start",
                                               "feed",
                                               "max_courant",
@@ -286,6 +304,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.balls = in.boolean("balls", true);
   read_drag(in, flow);
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
+  flow.coupling = read_coupling(in, flow);
   flow.start = read_start(in, slurry, mill);
   check_room(in, flow, mill);
   const double feed = in.number(

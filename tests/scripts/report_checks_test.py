@@ -12,8 +12,9 @@ import numpy as np
 
 from millfoam.files.flow_record import FlowRecord
 from millfoam.files.mill_case import MillCase
+from millfoam.readings.batches import batches_of, error_over_turns
 from millfoam.report import checks
-from millfoam.report.steadiness import batches_of, error_over_turns, halves
+from millfoam.report.steadiness import halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow
 

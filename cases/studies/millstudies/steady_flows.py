@@ -12,11 +12,12 @@ from scipy.stats import f as f_distribution
 
 from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import SlurryMap
+from millfoam.readings.batches import batch_means
 from millfoam.readings.means import Mean, angle_mean, block_mean, weighted_percentile
 from millfoam.readings.shell_angles import LEVEL, toe_and_shoulder
 from millfoam.readings.slurry_in_cells import BED, count_steps, ratio, read_frame, reynolds, ring, samples, section
 from millfoam.readings.slurry_on_maps import pool
-from millfoam.report.steadiness import batch_means, flow_steadiness
+from millfoam.report.steadiness import flow_steadiness
 
 PIXELS = 60  # across the mill
 ROUNDED = 0.005  # of a turn: times are rounded

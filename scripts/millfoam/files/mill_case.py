@@ -223,6 +223,15 @@ class MillCase:
         timestep = read_timestep(self.contacts / "dumps")
         return [step * timestep for step in contact_steps(self.contacts)]
 
+    @cached_property
+    def coupled(self) -> Path | None:
+        """The folder with coupling.json, if this case is one of the passes of balls and slurry that it compares."""
+        for place, name in ((self.folder, "."), (self.folder.resolve().parent, self.name)):
+            content = self.json(place / "coupling.json", "coupling")
+            if content and name in content.get("folders", ()):
+                return place
+        return None
+
     # The flow
 
     @cached_property

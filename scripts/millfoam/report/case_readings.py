@@ -10,9 +10,9 @@ from ..files.mill_case import MillCase
 from ..files.slurry_file import SlurryMap
 from ..readings import axial, charge
 from ..readings.axial import humps_at_ends
+from ..readings.batches import error_over_turns
 from ..readings.means import Reading, time_mean
 from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_blocks, slurry_way
-from .steadiness import error_over_turns
 from .words import millilitres, uncertain
 
 Rows = list[tuple[str, str]]  # of a table: name and text

@@ -13,6 +13,7 @@ from ..plots import charge_plots, mill_plots
 from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
+from .coupling_section import coupling_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
 from .words import quantity, span_of_time
@@ -197,6 +198,7 @@ def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section),
+            ("coupling", "Balls and slurry in turn", coupling_section),
             ("contacts", "Contacts", contact_section), ("slurry", "Slurry", slurry_section),
             ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
             ("models", "Models", models_section), ("ledger", "Ledger and mesh", ledger_section),

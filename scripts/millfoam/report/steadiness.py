@@ -3,49 +3,12 @@
 import numpy as np
 
 from ..files.mill_case import MillCase
+from ..readings.batches import batch_means, batches_of
 from .verdict import Check, judged
 from .words import decimals
 
 DRIFT = 3.0  # standard errors between the two halves of the averages
-BATCHES = 5  # at least, of each half; the error is computed from them
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
-
-
-def batches_of(span: float, turn: float) -> tuple[float, int]:
-    """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and their number in a
-    half.
-
-    One half begins with the span, the other ends with it. If two turns or more fit, each half is as many whole turns
-    as fit, and the rest of the span, in the middle, belongs to neither: what repeats with every turn of the mill, as
-    lifters do, is not a drift. A batch is one or more whole turns if a half has BATCHES of them, otherwise a half, a
-    third, … of a turn."""
-    turns = int(span / 2 / turn + 0.005)  # times are rounded
-    if turns < 1:
-        return span / 2 / BATCHES, BATCHES
-    if turns < BATCHES:
-        per_turn = -(-BATCHES // turns)
-        return turn / per_turn, turns * per_turn
-    whole = turns // BATCHES
-    return whole * turn, turns // whole
-
-
-def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: float, count: int) -> np.ndarray:
-    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN for a batch without a value."""
-    places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
-    # The last time closes the last batch
-    places[np.isclose(times, begin + count * length)] = count - 1
-    within = (places >= 0) & (places < count)
-    with np.errstate(invalid="ignore"):
-        return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
-
-
-def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
-    """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
-    turn takes `turn` s; NaN if fewer than two fit."""
-    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
-    if turns < 2:
-        return np.nan
-    return float(batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns))
 
 
 def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:

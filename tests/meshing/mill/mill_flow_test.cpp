@@ -126,6 +126,23 @@ TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
   EXPECT_DOUBLE_EQ(mill_of(bare_mill, {"flow.duration=0.5"}).flow.averages.start, 0.25);
 }
 
+TEST(Flow, coupling_is_one_way_unless_it_is_asked_for) {
+  EXPECT_FALSE(mill_of(bare_mill).flow.coupling.iterated);
+  const Coupling coupling = mill_of(bare_mill + "flow: {coupling: iterated, passes: 3}\n").flow.coupling;
+  EXPECT_TRUE(coupling.iterated);
+  EXPECT_EQ(coupling.passes, 3);
+  EXPECT_DOUBLE_EQ(coupling.relaxation, 0.7);
+}
+
+TEST(Flow, only_balls_in_slurryFoam_can_be_coupled_both_ways) {
+  const std::string text = bare_mill + "flow: {coupling: iterated}\n";
+  EXPECT_NE(refusal_of(text, {"flow.solver=interFoam"}).find("'flow.coupling' = iterated: expected one_way"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.balls=no"}).find("'flow.coupling' = iterated: expected one_way"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.relaxation=0"}).find("a share above 0 and up to 1"), std::string::npos);
+}
+
 TEST(Flow, change_of_the_voidage_and_air_limit_steps_of_slurryFoam_only) {
   const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
   EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);

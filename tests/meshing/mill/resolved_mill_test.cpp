@@ -64,6 +64,8 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   };
   EXPECT_EQ(changed("title=another").flow, mill.flow);
   EXPECT_EQ(changed("flow.law=Hill").averages, mill.averages);
+  EXPECT_EQ(changed("flow.coupling=iterated").flow, mill.flow);
+  EXPECT_EQ(changed("flow.passes=3").flow, mill.flow);
   EXPECT_NE(changed("flow.law=Hill").flow, mill.flow);
   EXPECT_EQ(changed("resolution.layers=4").walls, mill.walls);
   EXPECT_NE(changed("resolution.cell_size=0.004").walls, mill.walls);

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Coupling of balls and slurry by passes.
+
+    python3 -m millfoam.coupling forces PASS BEFORE   writes PASS/forces.h5, what the balls of PASS will feel: the
+                                                      forces of the flow in BEFORE, relaxed by those that moved its
+                                                      balls
+    python3 -m millfoam.coupling judge CASE N         compares N passes of CASE (CASE itself, CASE/pass_2, …): writes
+                                                      coupling.csv, coupling.json and coupling.png"""
+import argparse
+import sys
+from pathlib import Path
+
+import matplotlib
+
+from ..files.mill import read_mill
+from . import ball_forces, passes, table
+
+
+def make_forces(folder: Path, before: Path) -> None:
+    """Writes FOLDER/forces.h5 from the flow in `before`. RuntimeError if that flow has no forces."""
+    share = read_mill(before).flow("relaxation")
+    slurry = before / "slurry.h5"
+    forces = ball_forces.read_ball_forces(slurry)
+    # The dry pass had no forces; they are no estimate to be relaxed by
+    if (before / passes.FORCES).is_file():
+        forces = ball_forces.relaxed(forces, ball_forces.read_ball_forces(before / passes.FORCES), share)
+    else:
+        share = 1.0
+    ball_forces.write_ball_forces(folder / passes.FORCES, forces, slurry, {"relaxation": share})
+
+
+def judge(case: Path, count: int) -> None:
+    """Writes coupling.csv, coupling.json and coupling.png of the first `count` passes of a case, and prints the
+    table."""
+    mill = read_mill(case)
+    folders = [case, *(case / f"pass_{number}" for number in range(2, count + 1))]
+    found = [passes.read_pass(number, folder) for number, folder in enumerate(folders, start=1)]
+    changes = [passes.change(*pair) for pair in zip(found, found[1:])]
+    settled = passes.settled(changes)
+    table.write_csv(case / "coupling.csv", found, changes)
+    means = {key: [one.quantities[key] for one in found] for key in passes.QUANTITIES}
+    table.passes_figure([one.number for one in found], means).savefig(case / "coupling.png", dpi=140)
+    content = table.result(mill, found, changes, settled, int(mill.flow("passes") or 0))
+    table.write_json(case / "coupling.json", content)
+    print("\n".join(table.lines(found, changes)))
+    if settled:
+        print("settled: in the last two passes nothing changed by more than its statistical error")
+    elif changes:
+        print(f"not settled: most of all changed the {changes[-1].largest}")
+
+
+def main() -> None:
+    matplotlib.use("Agg")
+    parser = argparse.ArgumentParser(prog="millfoam.coupling", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    forces = commands.add_parser("forces", help="writes what the balls of the next pass feel")
+    forces.add_argument("folder", type=Path, metavar="PASS")
+    forces.add_argument("before", type=Path, metavar="BEFORE")
+    judged = commands.add_parser("judge", help="compares the passes of a case")
+    judged.add_argument("case", type=Path, metavar="CASE")
+    judged.add_argument("count", type=int, metavar="N")
+    options = parser.parse_args()
+    if options.command == "forces":
+        make_forces(options.folder, options.before)
+    else:
+        judge(options.case, options.count)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (RuntimeError, OSError, ValueError) as error:
+        sys.exit(f"millfoam.coupling: error: {error}")

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers of one pass of balls and slurry, and of the change from one pass to the next."""
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..files.mill_case import MillCase
+from ..files.solids_file import SolidsMap, mean_map
+from ..readings.batches import error_over_turns
+from ..readings.charge import charge_with_errors, circulation_centre
+from ..readings.compare import difference
+from ..readings.free_surface import WALL, toe_and_shoulder
+from ..readings.means import Mean, time_mean
+from . import ball_forces
+
+FORCES = "forces.h5"  # in a pass's folder: what its balls felt
+# Quantities that are compared from pass to pass: key -> name, unit, scale from SI
+QUANTITIES = {"toe": ("toe of the charge", "°", 1.0), "shoulder": ("shoulder of the charge", "°", 1.0),
+              "charge_x": ("centre of circulation, x", "mm", 1e3), "charge_y": ("centre of circulation, y", "mm", 1e3),
+              "charge_power": ("power of the charge", "W", 1.0), "slurry_x": ("centre of the slurry, x", "mm", 1e3),
+              "slurry_y": ("centre of the slurry, y", "mm", 1e3), "slurry_power": ("power for the slurry", "W", 1.0)}
+LIMIT = 2.0  # standard errors that a quantity may change by in a pass that has settled
+NOISE = 1.5  # times the noise of two maps that their solidity may differ by
+
+
+@dataclass
+class Pass:
+    """A pass: number, from 1 on (the dry one); folder; its quantities, key of QUANTITIES -> Mean in SI units or
+    degrees, NaN where it has no such reading; map of the charge and the noise of a difference of two such maps (as
+    compare.Difference.solidity); force of the fluid on the balls over their weight; disagreement of the forces that
+    moved the balls and those that the flow then gave to them, None for the dry pass."""
+    number: int
+    folder: Path
+    quantities: dict[str, Mean]
+    charge: SolidsMap
+    noise: float
+    load: float
+    disagreement: float | None
+
+
+@dataclass
+class Change:
+    """From one pass to the next: difference of the charges' solidity (compare.Difference), over NOISE times its noise;
+    key of QUANTITIES -> difference, and over LIMIT standard errors."""
+    solidity: float
+    solidity_over_limit: float
+    quantities: dict[str, Mean]
+    over_limit: dict[str, float]
+
+    @property
+    def within(self) -> bool:
+        """Whether nothing changed by more than its statistical error. What is not known counts as a change."""
+        return self.solidity_over_limit <= 1 and all(one <= 1 for one in self.over_limit.values())
+
+    @property
+    def largest(self) -> str:
+        """Name of what changed most over its limit."""
+        shares = {**{QUANTITIES[key][0]: one for key, one in self.over_limit.items()},
+                  "solidity of the charge": self.solidity_over_limit}
+        return max(shares, key=lambda name: np.inf if np.isnan(shares[name]) else shares[name])
+
+
+def read_pass(number: int, folder: Path) -> Pass:
+    """Pass of a folder in which dry run, averages and flow are complete. RuntimeError if one of them is not."""
+    case = MillCase(folder)
+    if case.charge is None or case.flow is None or case.results is None:
+        missing = [name for name, part in (("the dry run's results", case.results), ("solids.h5", case.solids),
+                                           ("the flow", case.flow)) if part is None]
+        raise RuntimeError(f"{folder}: pass {number} lacks {', '.join(missing)}; run it to its end")
+    load = case.load
+    return Pass(number, folder, {**charge_quantities(case, case.charge), **slurry_quantities(case)}, case.charge,
+                map_noise(case.charge_windows), load[0] if load else np.nan, forces_apart(folder))
+
+
+def charge_quantities(case: MillCase, charge: SolidsMap) -> dict[str, Mean]:
+    """Readings of the charge of a MillCase; charge: its map."""
+    windows = case.charge_windows
+    errors = charge_with_errors(windows, case.radius) if len(windows) >= 4 else None
+
+    def error(name: str, k: int) -> float:
+        return float(np.atleast_1d(errors[name].error)[k]) if errors else np.nan
+    toe, shoulder = toe_and_shoulder(charge, case.radius, WALL)
+    centre = circulation_centre(charge, case.radius)
+    return {"toe": Mean(toe, error("ends", 0)), "shoulder": Mean(shoulder, error("ends", 1)),
+            "charge_x": Mean(centre[0], error("centre", 0)), "charge_y": Mean(centre[1], error("centre", 1)),
+            "charge_power": Mean(case.result("power_W"), case.result("power_error_W"))}
+
+
+def slurry_quantities(case: MillCase) -> dict[str, Mean]:
+    """Centre and power of the slurry of a MillCase, with errors over whole turns; NaN without slurryBalance."""
+    columns = case.balance
+    names = {"slurry_x": "x", "slurry_y": "y", "slurry_power": "power"}
+    if columns is None:
+        return {key: Mean(np.nan, np.nan) for key in names}
+    return {key: Mean(time_mean(columns["Time"], columns[name], case.begin),
+                      error_over_turns(columns["Time"], columns[name], case.begin, case.turn))
+            for key, name in names.items()}
+
+
+def map_noise(windows: Sequence[SolidsMap]) -> float:
+    """Expected difference (compare.Difference.solidity) of two maps of the same charge over as much time as these
+    successive SolidsMap; NaN for fewer than four. Found from the maps of every other window: each has half of the
+    time, so that their difference is the square root of 2 larger."""
+    if len(windows) < 4:
+        return np.nan
+    return difference(mean_map(windows[::2]), mean_map(windows[1::2])).solidity / np.sqrt(2)
+
+
+def forces_apart(folder: Path) -> float | None:
+    """ball_forces.disagreement of the forces that moved the balls of a pass and those that its flow gave to them; None
+    if nothing moved them."""
+    if not (folder / FORCES).is_file():
+        return None
+    applied, felt = (ball_forces.read_ball_forces(folder / name) for name in (FORCES, "slurry.h5"))
+    velocity = ball_forces.sampled_velocity(folder / "solids.h5", ball_forces.voxel_centres(folder / "slurry.h5"))
+    return ball_forces.disagreement(applied, felt, velocity)
+
+
+def change(before: Pass, after: Pass) -> Change:
+    """Change from one Pass to the next."""
+    apart = difference(after.charge, before.charge).solidity
+    noise = float(np.hypot(before.noise, after.noise) / np.sqrt(2))
+    quantities = {key: after.quantities[key] - before.quantities[key] for key in QUANTITIES}
+    over = {key: abs(one.value) / (LIMIT * one.error) if one.error > 0 else np.nan for key, one in quantities.items()}
+    return Change(apart, apart / (NOISE * noise), quantities, over)
+
+
+def settled(changes: Sequence[Change]) -> bool:
+    """Whether nothing changed in the last two of the passes' changes."""
+    return len(changes) >= 2 and all(one.within for one in changes[-2:])

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Table, file of results and picture of the passes of a coupled mill."""
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..files.mill import Mill
+from ..readings.means import Mean
+from .passes import LIMIT, NOISE, QUANTITIES, Change, Pass
+
+COLUMNS = {"toe": "toe_deg", "shoulder": "shoulder_deg", "charge_x": "charge_x_m", "charge_y": "charge_y_m",
+           "charge_power": "charge_power_W", "slurry_x": "slurry_x_m", "slurry_y": "slurry_y_m",
+           "slurry_power": "slurry_power_W"}
+
+
+def known(value: float | None) -> float | None:
+    """A number for JSON: null if it is not known."""
+    return None if value is None or not np.isfinite(value) else float(value)
+
+
+def write_csv(path: Path, passes: Sequence[Pass], changes: Sequence[Change]) -> None:
+    """A row per pass: coupling.csv (FORMATS.md)."""
+    names = [name for column in COLUMNS.values() for name in (column, error_column(column))]
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["pass", *names, "solidity_change", "solidity_change_over_limit", "force_over_weight",
+                         "force_disagreement"])
+        for index, one in enumerate(passes):
+            step = changes[index - 1] if index else None
+            numbers = [number for key in COLUMNS for number in (one.quantities[key].value, one.quantities[key].error)]
+            writer.writerow([one.number, *(f"{number:.8g}" for number in (
+                *numbers, step.solidity if step else np.nan, step.solidity_over_limit if step else np.nan, one.load,
+                np.nan if one.disagreement is None else one.disagreement))])
+
+
+def error_column(column: str) -> str:
+    """Name of the column with the standard error of another: toe_error_deg of toe_deg."""
+    name, _, unit = column.rpartition("_")
+    return f"{name}_error_{unit}"
+
+
+def result(mill: Mill, passes: Sequence[Pass], changes: Sequence[Change], settled: bool, most: int) -> dict[str, Any]:
+    """Content of coupling.json (FORMATS.md)."""
+    return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
+            "passes": len(passes), "most_passes": most, "settled": settled,
+            "limit_standard_errors": LIMIT, "limit_noise": NOISE,
+            "force_over_weight": known(passes[-1].load), "force_disagreement": known(passes[-1].disagreement),
+            "largest_change": changes[-1].largest if changes else None,
+            "folders": [one.folder.name if one.number > 1 else "." for one in passes]}
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    part = path.with_name(path.name + ".part")
+    part.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+    part.replace(path)
+
+
+def lines(passes: Sequence[Pass], changes: Sequence[Change]) -> list[str]:
+    """The passes as text, a line for each quantity."""
+    found = ["pass".ljust(28) + "".join(f"{one.number:>18d}" for one in passes)]
+    for key, (name, unit, scale) in QUANTITIES.items():
+        cells = [f"{scale * one.quantities[key].value:.4g} ± {scale * one.quantities[key].error:.2g}" for one in passes]
+        found.append(f"{name}, {unit}".ljust(28) + "".join(cell.rjust(18) for cell in cells))
+    apart = ["–", *(f"{one.solidity:.3f} ({one.solidity_over_limit:.2g})" for one in changes)]
+    found.append("solidity's change (÷ limit)".ljust(28) + "".join(cell.rjust(18) for cell in apart))
+    found.append("force over weight".ljust(28) + "".join(f"{one.load:18.3f}" for one in passes))
+    found.append("forces disagree by".ljust(28) + "".join(
+        ("–" if one.disagreement is None else f"{one.disagreement:.1%}").rjust(18) for one in passes))
+    return found
+
+
+def passes_figure(numbers: Sequence[int], quantities: Mapping[str, Sequence[Mean]]) -> Figure:
+    """Figure of all quantities (key of QUANTITIES -> Mean of each pass) over the passes' numbers, with their standard
+    errors."""
+    figure, axes = plt.subplots(2, 4, figsize=(10, 4.4), layout="constrained", sharex=True)
+    for axis, (key, (name, unit, scale)) in zip(axes.flat, QUANTITIES.items()):
+        means = quantities[key]
+        errors = np.nan_to_num([scale * one.error for one in means])  # no bar where it is not known
+        axis.errorbar(numbers, [scale * one.value for one in means], yerr=errors,
+                      marker="o", markersize=4, linewidth=1, capsize=3, color="#0072B2")
+        axis.set_title(f"{name}, {unit}", fontsize=9)
+        axis.set_xticks(numbers)
+        axis.margins(x=0.15)
+    for axis in axes[-1]:
+        axis.set_xlabel("pass")
+    return figure

@@ -1,0 +1,206 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Passes of balls and slurry in turn: forces for the next pass, changes and their limits, the report of a coupled
+mill."""
+import json
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from millfoam.coupling import passes
+from millfoam.coupling.__main__ import judge, make_forces
+from millfoam.coupling.ball_forces import (FIELDS, BallForces, disagreement, read_ball_forces, relaxed, total_force)
+from millfoam.readings.means import Mean
+from millfoam.report.build import report_case
+from report_cases import LENGTH, RADIUS, change_json, write_flow
+
+SHAPE = (2, 8, 8)
+WEIGHT = 2700 * 9.81
+
+
+def uniform(up, exchange=1e4, fluid=0.1, solidity=0.5):
+    """Forces on balls of one solidity: upwards of pressure (N/m3), and of drag towards a fluid's velocity along x."""
+    pressure, drag = np.zeros((*SHAPE, 3)), np.zeros((*SHAPE, 3))
+    pressure[..., 1], drag[..., 0] = up, exchange * fluid
+    one = np.ones(SHAPE)
+    return BallForces(1e-6, one, solidity * one, pressure, drag, exchange * one, 1000 * one, 5e-3 * one)
+
+
+def add_forces(path, forces):
+    """Gives a slurry.h5 the forces on its balls; without one, writes it."""
+    with h5py.File(path, "w") as file:
+        file.attrs.update(format="millfoam-slurry", version=2, complete=1, time0=1.0, window=0.1)
+        file.create_group("grid").attrs.update(kind="box", lower=[-RADIUS, -RADIUS, 0], upper=[RADIUS, RADIUS, LENGTH],
+                                               shape=SHAPE[::-1], periodic=[0, 0, 0])
+        file.create_group("balls").attrs.update(law="Beetstra", polydispersity=0)
+        file["mean/insideFraction"] = forces.inside
+        for name in FIELDS:
+            file[f"mean/balls/{name}"] = getattr(forces, name)
+            file[f"mean/balls/{name}"].attrs["units"] = "SI"
+
+
+class Forces(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def test_total_is_that_of_all_balls(self):
+        at_rest = np.zeros((*SHAPE, 3))
+        force = total_force(uniform(9810), at_rest)
+        balls = 1e-6 * 0.5 * np.prod(SHAPE)
+        np.testing.assert_allclose(force, [balls * 1e3, balls * 9810, 0], rtol=1e-12)
+
+    def test_balls_that_move_with_the_fluid_feel_no_drag(self):
+        velocity = np.zeros((*SHAPE, 3))
+        velocity[..., 0] = 0.1
+        np.testing.assert_allclose(total_force(uniform(0), velocity), 0, atol=1e-12)
+
+    def test_relaxation_takes_a_share_of_the_latest(self):
+        mixed = relaxed(uniform(1000, 2e4), uniform(2000, 1e4), 0.7)
+        np.testing.assert_allclose(mixed.pressure_force[..., 1], 1300)
+        np.testing.assert_allclose(mixed.exchange, 1.7e4)
+
+    def test_forces_on_other_voxels_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "expected the same voxels"):
+            relaxed(uniform(1), replace(uniform(1), voxel=2e-6), 0.5)
+
+    def test_disagreement_is_over_the_forces_that_the_flow_gives(self):
+        at_rest = np.zeros((*SHAPE, 3))
+        self.assertAlmostEqual(disagreement(uniform(800, 0), uniform(1000, 0), at_rest), 0.2)
+        self.assertEqual(disagreement(uniform(800), uniform(800), at_rest), 0)
+
+    def test_the_first_forces_are_not_relaxed_and_the_next_are(self):
+        dry, second, third = (self.folder / name for name in ("dry", "pass_2", "pass_3"))
+        for place, up in ((dry, 1000), (second, 2000)):
+            write_flow(place)
+            change_json(place / "mill.json", "derived", "flow", to={"relaxation": 0.6})
+            add_forces(place / "slurry.h5", uniform(up))
+        third.mkdir()
+        make_forces(second, dry)
+        np.testing.assert_allclose(read_ball_forces(second / "forces.h5").pressure_force[..., 1], 1000)
+        make_forces(third, second)
+        np.testing.assert_allclose(read_ball_forces(third / "forces.h5").pressure_force[..., 1], 1600)
+        with h5py.File(third / "forces.h5") as file:
+            self.assertEqual(file.attrs["relaxation"], 0.6)
+            self.assertEqual(file["mean/balls/exchange"].attrs["units"], "SI")
+
+    def test_a_file_without_forces_is_refused(self):
+        path = self.folder / "slurry.h5"
+        add_forces(path, uniform(1))
+        with h5py.File(path, "a") as file:
+            del file["mean/balls"]
+        with self.assertRaisesRegex(RuntimeError, "no forces on the balls .* run the flow again"):
+            read_ball_forces(path)
+
+    def test_a_force_that_is_not_finite_is_refused_with_its_voxel(self):
+        forces = uniform(1)
+        forces.exchange[1, 2, 3] = np.nan
+        add_forces(self.folder / "slurry.h5", forces)
+        with self.assertRaisesRegex(RuntimeError, "exchange is not finite in the voxel z, y, x = 1, 2, 3"):
+            read_ball_forces(self.folder / "slurry.h5")
+
+
+def one_pass(number, toe, charge, error=1.0, noise=0.02):
+    quantities = {key: Mean(0.0, 1.0) for key in passes.QUANTITIES} | {"toe": Mean(toe, error)}
+    return passes.Pass(number, Path(f"pass_{number}"), quantities, charge, noise, 0.5, 0.05)
+
+
+class Settling(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.charge = passes.MillCase(write_flow(Path(folder.name) / "case")).charge
+
+    def changes(self, *toes, error=1.0):
+        found = [one_pass(number, toe, self.charge, error) for number, toe in enumerate(toes, start=1)]
+        return [passes.change(*pair) for pair in zip(found, found[1:])]
+
+    def test_takes_two_passes_without_a_change(self):
+        self.assertFalse(passes.settled(self.changes(-39, -51)))
+        self.assertFalse(passes.settled(self.changes(-39, -51, -50)))
+        self.assertTrue(passes.settled(self.changes(-39, -51, -50, -50)))
+
+    def test_a_change_of_more_than_two_errors_counts(self):
+        one = self.changes(0.0, 2 * np.sqrt(2) * 1.01)[0]
+        self.assertFalse(one.within)
+        self.assertEqual(one.largest, "toe of the charge")
+        self.assertTrue(self.changes(0.0, 2 * np.sqrt(2) * 0.99)[0].within)
+
+    def test_an_unknown_error_counts_as_a_change(self):
+        self.assertFalse(self.changes(0.0, 0.0, error=np.nan)[0].within)
+
+    def test_solidity_may_differ_by_its_noise(self):
+        first = one_pass(1, 0.0, self.charge)
+        moved = replace(self.charge, solidity=self.charge.solidity + 0.634 * 0.04)
+        apart = passes.change(first, one_pass(2, 0.0, moved))
+        self.assertAlmostEqual(apart.solidity, 0.04, places=3)
+        self.assertFalse(apart.within)
+        self.assertEqual(apart.largest, "solidity of the charge")
+
+    def test_noise_is_that_of_maps_over_the_whole_time(self):
+        with tempfile.TemporaryDirectory() as folder:
+            case = passes.MillCase(write_flow(Path(folder) / "case"))
+            windows = case.charge_windows
+            noise = passes.map_noise(windows)
+        # Each voxel of write_flow's windows has a factor of normal noise of 0.02; a map is the mean of its two layers
+        phi = np.nan_to_num(case.charge.solidity) * case.charge.inside
+        deviation = 0.02 / np.sqrt(2) * np.sqrt(2 / len(windows))
+        expected = np.sqrt(2 / np.pi) * deviation * phi.sum() / case.charge.inside.sum() / 0.634
+        self.assertAlmostEqual(noise / expected, 1, delta=0.1)
+
+
+class Judging(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.case = Path(folder.name) / "case"
+        for place in (cls.case, cls.case / "pass_2", cls.case / "pass_3"):
+            write_flow(place)
+            change_json(place / "mill.json", "derived", "flow", "passes", to=6)
+            change_json(place / "mill.json", "derived", "flow", "relaxation", to=0.7)
+        for place, up in ((cls.case / "pass_2", 9000), (cls.case / "pass_3", 10000)):
+            with h5py.File(place / "slurry.h5") as old:
+                kept = {name: old[name].attrs["shape"] for name in ("grid",)}
+            with h5py.File(place / "slurry.h5", "a") as file:
+                shape = tuple(int(n) for n in kept["grid"][::-1])
+                group = file.require_group("mean").require_group("balls")
+                force = np.zeros((*shape, 3))
+                force[..., 1] = up
+                one = np.ones(shape)
+                for name, values in (("pressure_force", force), ("drag_force", 0 * force), ("exchange", 0 * one),
+                                     ("fluid_density", 1000 * one), ("solidity", 0.5 * one),
+                                     ("diameter", 0.005 * one)):
+                    group[name] = values
+                file["mean"].require_dataset("insideFraction", shape, float)[...] = 1
+                file.require_group("balls").attrs["polydispersity"] = 0
+        make_forces(cls.case / "pass_3", cls.case / "pass_2")
+        judge(cls.case, 3)
+
+    def test_writes_a_row_per_pass(self):
+        lines = (self.case / "coupling.csv").read_text().splitlines()
+        self.assertEqual(len(lines), 4)
+        self.assertTrue(lines[0].startswith("pass,toe_deg,toe_error_deg,shoulder_deg"), lines[0])
+
+    def test_passes_and_their_forces_are_in_the_result(self):
+        content = json.loads((self.case / "coupling.json").read_text())
+        self.assertEqual((content["passes"], content["folders"]), (3, [".", "pass_2", "pass_3"]))
+        self.assertAlmostEqual(content["force_disagreement"], 0.1, places=6)
+        # The flows are shorter than two turns, so that errors of the slurry are not known
+        self.assertEqual((content["settled"], content["largest_change"]), (False, "centre of the slurry, x"))
+
+    def test_the_report_of_the_last_pass_shows_the_passes_and_their_verdicts(self):
+        page = report_case(self.case / "pass_3")
+        for words in ("Balls and slurry in turn", "Balls and slurry have settled", "feel the slurry’s force",
+                      "differ by 10.0"):
+            self.assertIn(words.replace("’", "&#x27;") if words not in page else words, page)
+        self.assertNotIn("The slurry would not move the balls", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
