@@ -33,9 +33,10 @@ def forces_agree(case: MillCase) -> Check:
     name = "The balls feel the slurry's force"
     apart = forces_apart(case.folder)
     if apart is None:
-        return Check(name, "fails", "this is the dry pass: nothing moved the balls", "Read the report of the last pass.")
-    return judged(name, apart, AGREE, f"the forces that moved the balls and those that the flow then gave to them differ "
-                  f"by {100 * apart:.1f} % (limit {100 * AGREE:g} %)",
+        return Check(name, "fails", "this is the dry pass: nothing moved the balls",
+                     "Read the report of the last pass.")
+    return judged(name, apart, AGREE, "the forces that moved the balls and those that the flow then gave to them "
+                  f"differ by {100 * apart:.1f} % (limit {100 * AGREE:g} %)",
                   "Take more passes (flow.passes), or longer ones (dem.duration, flow.turns).", doubtful=0.25)
 
 
@@ -55,8 +56,8 @@ def coupling_section(case: MillCase, _readings: Readings) -> list[str]:
         rows.append([name, *("–" if np.isnan(value) else format(value, form) for value in columns[key])])
     means = {key: [Mean(*pair) for pair in zip(columns[column], columns[error_column(column)])]
              for key, column in COLUMNS.items()}
-    note = ("Pass 1 is dry: nothing moves the balls but the mill. In each later pass they feel the force of the slurry of "
-            "the pass before. ± is the standard error over time.")
+    note = ("Pass 1 is dry: nothing moves the balls but the mill. In each later pass they feel the force of the slurry "
+            "of the pass before. ± is the standard error over time.")
     return [page.table(head, rows, title="Balls and slurry in turn", note=note, wide=True),
             page.picture(passes_figure([int(number) for number in columns["pass"]], means),
                          "Quantities over the passes, with standard errors over time.", title="Passes")]
