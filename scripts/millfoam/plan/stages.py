@@ -116,6 +116,16 @@ def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ra
                  "trial of the flow's first steps")
 
 
+def passes_stage(mill: Mill, stages: Sequence[Stage]) -> Stage | None:
+    """Stage of all passes after the dry one, if as many are made as the mill allows; None with one-way coupling. Each
+    repeats the Stages of the dry one, but for the balls' fall into the mill, which is short."""
+    if mill.flow("coupling", "one_way") == "one_way":
+        return None
+    one, more = total(stages), round(flow_number(mill, "passes")) - 1
+    return Stage(f"{more} more pass{'es' if more > 1 else ''}", more * one.time, more * one.disk, one.memory,
+                 "as the first; fewer if it settles")
+
+
 def pictures_stage(plan: FlowPlan) -> Stage:
     """Stage of the pictures and the report."""
     return Stage("pictures and report", PICTURES_TIME + FRAME_TIME * min(FRAMES, plan.written_times), PICTURES_DISK,
@@ -142,8 +152,10 @@ def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list
                   average_stage(mill, dry)]
     stages += [Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"),
                Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
-               flow_stage(mill, mesh, trial, plan, ranks), pictures_stage(plan)]
-    return stages, plan, mesh
+               flow_stage(mill, mesh, trial, plan, ranks)]
+    passes = passes_stage(mill, stages)
+    stages += [passes] if passes else []
+    return [*stages, pictures_stage(plan)], plan, mesh
 
 
 def total(stages: Sequence[Stage]) -> Stage:
