@@ -7,9 +7,9 @@ from pathlib import Path
 from import_graph import Modules, cycles, folders, includes, python_files, sources
 
 PACKAGE = "scripts/millfoam"
-FILES, READINGS, PLOTS, REPORT, PLAN = (f"{PACKAGE}/{part}"
-                                        for part in ("files", "readings", "plots", "report", "plan"))
-WHOLE_PACKAGE = {PACKAGE, FILES, READINGS, PLOTS, REPORT, PLAN}
+FILES, READINGS, PLOTS, COUPLING, REPORT, PLAN = (
+    f"{PACKAGE}/{part}" for part in ("files", "readings", "plots", "coupling", "report", "plan"))
+WHOLE_PACKAGE = {PACKAGE, FILES, READINGS, PLOTS, COUPLING, REPORT, PLAN}
 # Room (folder, the longest match counts) -> rooms that its sources may use besides itself.
 MAY_USE = {
     "meshing/files": set(),
@@ -27,7 +27,8 @@ MAY_USE = {
     FILES: set(),
     READINGS: {FILES},
     PLOTS: {FILES, READINGS},
-    REPORT: {FILES, READINGS, PLOTS},
+    COUPLING: {FILES, READINGS},
+    REPORT: {FILES, READINGS, PLOTS, COUPLING},
     PLAN: {FILES, PACKAGE},
     "cases/mills": WHOLE_PACKAGE,
     "cases/studies": WHOLE_PACKAGE,
