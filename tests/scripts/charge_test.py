@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from millfoam.files.solids_file import ANTICLOCKWISE, SolidsMap
-from millfoam.readings.charge import circulation_centre, read_charge, stream_function, tangential_profile
+from millfoam.readings.charge import (circulation_centre, read_charge, shell_following, stream_function,
+                                      tangential_profile)
 from millfoam.readings.free_surface import fit_logistic, free_surface, logistic, pieces_within, toe_and_shoulder
 
 RADIUS, WALL, PHI = 0.15, 0.008, 0.55
@@ -55,6 +56,25 @@ def noisy(charge, level):
     charge.velocity = charge.velocity + level * speed * random.standard_normal(charge.velocity.shape)
     charge.solidity = np.clip(charge.solidity + level * PHI * random.standard_normal(charge.solidity.shape), 0, 1)
     return charge
+
+
+class ShellFollowing(unittest.TestCase):
+    def test_is_the_share_of_the_shells_speed(self):
+        for share in (1.0, 0.3, 0.0):
+            charge = charge_map(below(lambda x: 0 * x), turning(5 * share, (0, 0)))
+            self.assertAlmostEqual(shell_following(charge, RADIUS, -5), share, places=2)
+
+    def test_of_a_flow_that_goes_round_within_the_charge_is_read_at_the_shell(self):
+        charge = charge_map(below(lambda x: 0 * x), lambda x, y: (
+            np.where(np.hypot(x, y) > 0.12, -1, 1) * -5 * y, np.where(np.hypot(x, y) > 0.12, -1, 1) * 5 * x))
+        self.assertAlmostEqual(shell_following(charge, RADIUS, -5), 1, places=2)
+
+    def test_is_refused_of_a_mill_at_rest_and_of_one_without_balls_at_the_shell(self):
+        with self.assertRaisesRegex(RuntimeError, "at rest"):
+            shell_following(charge_map(below(lambda x: 0 * x), turning(5, (0, 0))), RADIUS, 0)
+        ball = charge_map(lambda x, y: np.where(np.hypot(x, y) < 0.05, PHI, 0.0), turning(5, (0, 0)))
+        with self.assertRaisesRegex(RuntimeError, "no dense charge at the shell"):
+            shell_following(ball, RADIUS, -5)
 
 
 class Centre(unittest.TestCase):

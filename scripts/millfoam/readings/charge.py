@@ -159,6 +159,27 @@ def tangential_profile(charge: SolidsMap, radius: float, wall: float = WALL) -> 
     return TangentialProfile(angle, distance, velocity, coefficients, rmsd, shear)
 
 
+def shell_following(charge: SolidsMap, radius: float, omega: float) -> float:
+    """Mean speed of the balls at the shell along it, over the shell's own there: 1 for a charge that turns with the
+    shell, 0 for one that slides.
+
+    It is read in the densest charge (half of the largest solidity or more) in the voxels whose centre is within a
+    voxel's diagonal of the shell, weighted by the balls' volume. radius: of the mill, m; omega: its angular speed about
+    z, right-handed, rad/s. RuntimeError if the mill is at rest, or has no dense charge at its shell."""
+    if omega == 0:
+        raise RuntimeError("the mill is at rest: its charge cannot follow it")
+    x, y = charge.centres()
+    xx, yy = np.meshgrid(x, y)
+    distance = np.hypot(xx, yy)
+    solidity = np.nan_to_num(charge.solidity)
+    dense = (solidity >= solidity.max() / 2) & np.isfinite(charge.velocity[..., 0])
+    near = dense & (distance > radius - np.hypot(x[1] - x[0], y[1] - y[0])) & (distance < radius)
+    if not near.any():
+        raise RuntimeError("no dense charge at the shell")
+    along = (xx * charge.velocity[..., 1] - yy * charge.velocity[..., 0])[near] / distance[near]
+    return float(np.average(along / (omega * distance[near]), weights=charge.balls()[near]))
+
+
 @dataclass
 class Charge:
     """All readings of a map: centre (x, y) of circulation (m), toe and shoulder (degrees), free surface, profile."""

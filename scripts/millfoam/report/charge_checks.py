@@ -5,9 +5,11 @@ import numpy as np
 
 from ..files.data_files import entry
 from ..files.mill_case import MillCase
+from ..readings.charge import shell_following
 from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
+FOLLOWS, SLIDES = 0.8, 0.5  # speed of the balls at the shell over its own: a charge that follows it, one that slides
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
@@ -31,6 +33,19 @@ def charge_steadiness(case: MillCase) -> Check:
     begin = case.charge_span[0]
     return judged(name, since - begin, 0, f"{found}; averages from {begin:.2f} s",
                   "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=0.5)
+
+
+def follows_shell(case: MillCase) -> Check:
+    """Whether the charge turns with the shell, or slides on it."""
+    name = "The charge follows the shell"
+    try:
+        share = shell_following(case.charge, case.radius, case.omega)
+    except RuntimeError as error:
+        return Check(name, "unknown", str(error))
+    return judged(name, FOLLOWS / max(share, 1e-9), 1,
+                  f"balls at the shell have {100 * share:.0f} % of its speed (limit {100 * FOLLOWS:.0f} %)",
+                  "The charge slides on the shell. Check friction and, in a smooth drum, rolling friction of balls and "
+                  "wall (materials.ball_wall).", doubtful=FOLLOWS / SLIDES)
 
 
 def overlap(case: MillCase) -> Check:
