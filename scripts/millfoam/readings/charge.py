@@ -164,7 +164,7 @@ def shell_following(charge: SolidsMap, radius: float, omega: float) -> float:
     shell, 0 for one that slides.
 
     It is read in the densest charge (half of the largest solidity or more) in the voxels whose centre is within a
-    voxel's diagonal of the shell, weighted by the balls' volume. radius: of the mill, m; omega: its angular speed about
+    voxel's side of the shell, weighted by the balls' volume. radius: of the mill, m; omega: its angular speed about
     z, right-handed, rad/s. RuntimeError if the mill is at rest, or has no dense charge at its shell."""
     if omega == 0:
         raise RuntimeError("the mill is at rest: its charge cannot follow it")
@@ -173,7 +173,7 @@ def shell_following(charge: SolidsMap, radius: float, omega: float) -> float:
     distance = np.hypot(xx, yy)
     solidity = np.nan_to_num(charge.solidity)
     dense = (solidity >= solidity.max() / 2) & np.isfinite(charge.velocity[..., 0])
-    near = dense & (distance > radius - np.hypot(x[1] - x[0], y[1] - y[0])) & (distance < radius)
+    near = dense & (distance > radius - max(x[1] - x[0], y[1] - y[0])) & (distance < radius)
     if not near.any():
         raise RuntimeError("no dense charge at the shell")
     along = (xx * charge.velocity[..., 1] - yy * charge.velocity[..., 0])[near] / distance[near]
