@@ -7,9 +7,10 @@
 
 #include <cstdint>
 #include <fstream>
-#include <iterator>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
@@ -23,6 +24,19 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int longest_wait = 100;  // tenths of a second
+
+/// FNV-1a of 64 bits.
+std::uint64_t hash_bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint64_t sum = 14695981039346656037U;
+  std::vector<char> bytes(1 << 16);
+  do {
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    for (std::streamsize i = 0; i < in.gcount(); ++i)
+      sum = (sum ^ static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)])) * 1099511628211U;
+  } while (in);
+  return sum;
+}
 
 }  // namespace
 
@@ -82,7 +96,7 @@ FolderLock::~FolderLock() {
 
 void remove_results(const CaseFolder& folder) {
   for (const auto& file :
-       {folder.run_file(), folder.results(), folder.energy(), folder.overlaps(), folder.charge()})
+       {folder.run_file(), folder.results(), folder.energy(), folder.fluid(), folder.overlaps(), folder.charge()})
     fs::remove(file);
 }
 
@@ -90,6 +104,7 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   fs::create_directories(folder.dem());
   fs::create_directories(folder.dumps());
   remove_results(folder);
+  fs::remove(folder.fluid_order());
   for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
   for (const char* kind : segment_kinds)
     for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);
@@ -100,15 +115,16 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   return old.size();
 }
 
+std::string file_hash(const fs::path& file) {
+  std::ostringstream digits;
+  digits << std::hex << std::setw(16) << std::setfill('0') << hash_bytes(file);
+  return digits.str();
+}
+
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts) {
   std::ostringstream lines;
-  for (const auto& part : parts) {
-    std::ifstream in(folder.walls() / (part + ".stl"), std::ios::binary);
-    std::uint64_t sum = 14695981039346656037U;
-    for (std::istreambuf_iterator<char> byte(in), end; byte != end; ++byte)
-      sum = (sum ^ static_cast<unsigned char>(*byte)) * 1099511628211U;
-    lines << "# wall " << part << ".stl " << std::hex << sum << '\n';
-  }
+  for (const auto& part : parts)
+    lines << "# wall " << part << ".stl " << std::hex << hash_bytes(folder.walls() / (part + ".stl")) << '\n';
   return lines.str();
 }
 
@@ -117,9 +133,15 @@ void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const D
   run["timestep_s"] = plan.step.value;
   run["interval"] = plan.step.steps_per_record;
   run["angular_velocity_rad_s"] = mill.angular_velocity;
+  run["begin_s"] = plan.begin_time();
   run["duration_s"] = plan.duration();
   run["charge_mass_kg"] = plan.charge.mass();
   run["fines_mass_kg"] = plan.charge.fines_mass();
+  run["fluid"] = {{"kind", name_of(plan.fluid.kind)}};
+  if (plan.fluid.kind == FluidKind::slurry) {
+    run["fluid"]["file_id"] = plan.fluid.file_id;
+    run["fluid"]["time"] = name_of(plan.fluid.time);
+  }
   write_json(folder.run_file(), run);
 }
 

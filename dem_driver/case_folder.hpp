@@ -30,6 +30,8 @@ struct CaseFolder {
   std::filesystem::path log() const { return dem() / "log.liggghts"; }
   /// Input of LIGGGHTS for a run from a restart file.
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
+  /// What millLiggghts needs for a fluid besides the deck; only with one.
+  std::filesystem::path fluid_order() const { return dem() / "fluid.json"; }
   /// Time-step, steps and charge before the run.
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   /// Held by FolderLock.
@@ -40,6 +42,8 @@ struct CaseFolder {
   std::filesystem::path results() const { return dumps() / "results.json"; }
   /// Torque, power, energies and largest overlap, a row for each record.
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
+  /// What the fluid did to the balls, a row for each record; only with one.
+  std::filesystem::path fluid() const { return dumps() / "fluid.csv"; }
   /// Histograms of the overlaps.
   std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }
   /// Books of the charge, a row for each size class.
@@ -80,12 +84,15 @@ void remove_results(const CaseFolder& folder);
 /// earlier run, so that two runs never mix. Nothing else is removed. Returns the number of dumps removed.
 std::size_t prepare_folders(const CaseFolder& folder);
 
+/// FNV-1a hash (64 bits) of a file's bytes, 16 hexadecimal digits.
+std::string file_hash(const std::filesystem::path& file);
+
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
 
-/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, duration and mass of the charge. The
-/// file appears whole or not at all.
+/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, begin, duration, mass of the charge and fluid.
+/// The file appears whole or not at all.
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

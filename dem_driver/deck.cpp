@@ -201,9 +201,17 @@ void write_insertion(std::ostream& out, const meshing::Mill& mill, const AtomTyp
       << "unfix insert" << id << "\nunfix size" << id << "\nunfix ball" << id << '\n';
 }
 
+/// What the fluid does is computed by millLiggghts, which finds the settings next to the deck.
+void write_fluid(std::ostream& out, const DemPlan& plan, const char* fix) {
+  if (plan.fluid.kind == FluidKind::none) return;
+  out << "# " << in_words(plan.fluid) << ": needs millLiggghts and fluid.json\n"
+      << "fix " << fix << " all external pf/callback 1 1\n";
+}
+
 void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, const AtomTypes& types) {
   Primes primes(mill.dem.seed);
   out << "variable balls equal atoms\n";
+  if (plan.fluid.acts_at_rest()) write_fluid(out, plan, fluid_at_rest_fix);
   int number = 0;
   const auto& rounds = plan.charge.rounds;
   for (std::size_t i = 0; i < rounds.size(); ++i) {
@@ -259,6 +267,7 @@ void write_contacts(std::ostream& out, const DemPlan& plan) {
 void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                    const std::vector<std::string>& parts, long start) {
   out << "print \"" << turning_mark << "\"\n";
+  write_fluid(out, plan, fluid_fix);
   if (mill.angular_velocity != 0) {
     const double period = 2 * pi / std::abs(mill.angular_velocity);
     for (const auto& part : parts)
@@ -273,7 +282,7 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"
       << "variable now equal step\n";
   write_contacts(out, plan);
-  out << "run " << plan.turning_steps << " upto every " << plan.restart_steps
+  out << "run " << plan.end_step() << " upto every " << plan.restart_steps
       << " \"write_restart restart.part\" \"shell mv restart.part restart.${now}\" \"print '" << restart_mark
       << " ${now}'\"\n"
       << "print \"" << finished_mark << "\"\n";
@@ -303,6 +312,7 @@ RankGrid split_ranks(int ranks, double length, double largest_diameter) {
 
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks) {
+  if (plan.continues()) return write_resume_deck(out, mill, plan, parts, ranks, plan.begin);
   const AtomTypes types(plan);
   out.precision(std::numeric_limits<double>::digits10);
   out << "# Written by millDem\n";
@@ -312,6 +322,7 @@ void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
   write_walls(out, parts, types);
   write_thermo(out, plan);
   write_charge(out, mill, plan, types);
+  if (plan.fluid.acts_at_rest()) out << "unfix " << fluid_at_rest_fix << '\n';
   // No insertion is left, so LIGGGHTS lets the clock be set back: step 0 is the start of rotation.
   out << "\nreset_timestep 0\n";
   write_turning(out, mill, plan, parts, 0);

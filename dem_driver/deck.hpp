@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem_driver/charge_plan.hpp"
+#include "dem_driver/fluid_settings.hpp"
 #include "dem_driver/time_step.hpp"
 #include "meshing/mill/mill.hpp"
 
@@ -21,15 +22,21 @@ struct DemPlan {
   ChargePlan charge;         ///< made by plan_charge
   long round_steps = 0;      ///< settling after each round but the last
   long settle_steps = 0;     ///< settling after the last round, mill at rest
-  long turning_steps = 0;    ///< from DEM time 0 on, a whole number of records
-  long dumps = 0;            ///< of the turning mill, with the one at step 0
+  long begin = 0;            ///< step of the turning mill at which this run begins; 0: from a settled charge
+  long turning_steps = 0;    ///< from `begin` on, a whole number of records
+  long dumps = 0;            ///< of the turning mill, with the one at step `begin`
   long thermo_steps = 0;     ///< between two lines of LIGGGHTS' log
   long contact_steps = 0;    ///< between two dumps of the contacts; 0: they are not dumped
-  long contact_dumps = 0;    ///< of the turning mill, with the one at step 0
+  long contact_dumps = 0;    ///< of the turning mill, with the one at step `begin`, if it has one
   long restart_steps = 0;    ///< between two restart files of the turning mill, a whole number of records
-  long insertions() const;   ///< single insertions of all rounds; each takes one step
-  long total_steps() const;  ///< of insertions, settling and turning mill together
-  double duration() const;   ///< s of turning mill
+  FluidSettings fluid;       ///< that pushes the balls
+  bool continues() const { return begin > 0; }              ///< from the last state of another run
+  long end_step() const { return begin + turning_steps; }   ///< last step of the turning mill
+  long insertions() const;    ///< single insertions of all rounds; each takes one step
+  long resting_steps() const; ///< of insertions and settling together; 0 of a run that continues another
+  long total_steps() const;   ///< of insertions, settling and turning mill together
+  double begin_time() const;  ///< DEM time at `begin`, s
+  double duration() const;    ///< s of turning mill, from `begin` on
 };
 
 /// Most steps of the turning mill, and most of the settling one; a run of more is refused, because it would
@@ -44,6 +51,10 @@ inline constexpr double most_dumps = 1e6;
 /// steps. Throws KeyError as `choose_time_step` and `plan_charge` do, for an interval of the contacts
 /// below the time-step, and for more than `most_steps` or `most_dumps`.
 DemPlan plan_dem(const meshing::Mill& mill);
+
+/// Lets a plan begin with a step of the turning mill, with all balls in it, instead of with an insertion: its
+/// dumps and its time continue from there, over the plan's duration.
+void continue_from(long step, DemPlan& plan);
 
 /// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is not a whole
 /// number from 1 on.
@@ -74,16 +85,26 @@ inline constexpr char restart_mark[] = "millFoam restart";
 /// Begins the last line of a deck that came to its end.
 inline constexpr char finished_mark[] = "millFoam finished";
 
+/// Name of the deck's fix through which the fluid pushes the balls of the turning mill, and of that for balls
+/// that are inserted and settle. Only millLiggghts gives them forces.
+inline constexpr char fluid_fix[] = "fluid";
+/// See `fluid_fix`.
+inline constexpr char fluid_at_rest_fix[] = "fluidAtRest";
+
 /// Number of bins of the overlaps' histograms, of equal width from 0 on.
 inline constexpr int overlap_bins = 1000;
 /// Upper end of these histograms over the largest ball's diameter.
 inline constexpr double overlap_range = 0.2;
 
+/// Number of dumps of the contacts from the run's begin to a step.
+long contact_dumps_until(const DemPlan& plan, long step);
+
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
 /// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes into its own folder, from step 0 on,
 /// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with
 /// contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first
-/// atom types, one for each modulus, the wall is the last.
+/// atom types, one for each modulus, the wall is the last. Of a plan that continues another run, it is the
+/// deck that resumes from the restart file of `plan.begin`.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 

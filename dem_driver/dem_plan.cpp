@@ -15,13 +15,21 @@ constexpr double longest_time_step = 1;  // s, above that of any ball
 constexpr long restarts = 50;            // of a run, unless it is short
 constexpr long fewest_records_per_restart = 10;
 
-/// About a fiftieth of all records, so that the run is a whole number of such parts wherever it can be: the
-/// histograms of the overlaps are written one for each part.
-long records_per_restart(long records) {
+/// About a fiftieth of all records, so that the run, and what was before its begin, are whole numbers of such parts
+/// wherever they can be: the histograms of the overlaps are written one for each part.
+long records_per_restart(long before, long records) {
   const long wished = std::min(records, std::max(fewest_records_per_restart, records / restarts));
   for (long part = wished; part <= std::min(records, 4 * wished); ++part)
-    if (records % part == 0) return part;
+    if (records % part == 0 && before % part == 0) return part;
   return wished;
+}
+
+/// What follows from begin and number of steps.
+void plan_output(DemPlan& plan) {
+  const long record = plan.step.steps_per_record;
+  plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
+  plan.restart_steps = records_per_restart(plan.begin / record, plan.turning_steps / record) * record;
+  plan.contact_dumps = contact_dumps_until(plan, plan.end_step());
 }
 
 /// Before any such number is made a whole one: it may be larger than a `long` holds.
@@ -63,9 +71,17 @@ long DemPlan::insertions() const {
   return sum;
 }
 
+long DemPlan::resting_steps() const {
+  if (continues()) return 0;
+  return insertions() + static_cast<long>(charge.rounds.size() - 1) * round_steps + settle_steps;
+}
+
 long DemPlan::total_steps() const {
-  return insertions() + static_cast<long>(charge.rounds.size() - 1) * round_steps + settle_steps +
-         turning_steps;
+  return resting_steps() + turning_steps;
+}
+
+double DemPlan::begin_time() const {
+  return static_cast<double>(begin) * step.value;
 }
 
 double DemPlan::duration() const {
@@ -84,11 +100,20 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   const long records = std::max(1L, whole(mill.dem.duration / mill.dem.record_interval));
   plan.dumps = records + 1;
   plan.turning_steps = records * plan.step.steps_per_record;
-  plan.thermo_steps = std::max(1L, plan.total_steps() / 200);
-  plan.restart_steps = records_per_restart(records) * plan.step.steps_per_record;
   plan.contact_steps = steps_between_contacts(mill, plan.step.value);
-  if (plan.contact_steps > 0) plan.contact_dumps = plan.turning_steps / plan.contact_steps + 1;
+  plan.fluid = fluid_of(mill);
+  plan_output(plan);
   return plan;
+}
+
+void continue_from(long step, DemPlan& plan) {
+  plan.begin = step;
+  plan_output(plan);
+}
+
+long contact_dumps_until(const DemPlan& plan, long step) {
+  if (plan.contact_steps == 0) return 0;
+  return step / plan.contact_steps - (plan.begin + plan.contact_steps - 1) / plan.contact_steps + 1;
 }
 
 }  // namespace millfoam::dem_driver

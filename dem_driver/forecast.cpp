@@ -125,6 +125,7 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
   trial.dem.largest_overlap = 0;
   trial.dem.soften_below = 0;
+  trial.dem.pool_level.reset();
 
   const DemPlan whole = plan_dem(trial);
   const double largest = whole.charge.classes.front().diameter;

@@ -55,7 +55,7 @@ bool is_row(const std::vector<std::string>& words, std::size_t columns) {
 }  // namespace
 
 LiggghtsLog::LiggghtsLog(const DemPlan& plan, bool resumed)
-    : plan_(plan), expected_balls_(resumed ? plan.charge.balls() : 0) {}
+    : plan_(plan), expected_balls_(resumed || plan.continues() ? plan.charge.balls() : 0) {}
 
 void LiggghtsLog::read(const std::string& line) {
   if (line.empty()) return;
@@ -73,7 +73,7 @@ void LiggghtsLog::read(const std::string& line) {
     read_insertion(line);
   } else if (starts_with(line, turning_mark)) {
     turning_ = true;
-    last_step_ = 0;
+    last_step_ = plan_.begin;
   } else if (starts_with(line, restart_mark)) {
     restart_step_ = std::atol(line.c_str() + std::string(restart_mark).size());
     dumped_until_ = restart_step_;
@@ -98,7 +98,7 @@ void LiggghtsLog::read_thermo(const std::vector<std::string>& words) {
                      ": shorten dem.rayleigh_fraction");
   last_step_ = step;
   if (turning_) dumped_until_ = step;  // LIGGGHTS prints a line after the dumps of its step
-  steps_done_ = turning_ ? plan_.total_steps() - plan_.turning_steps + step : step;
+  steps_done_ = turning_ ? plan_.resting_steps() + step - plan_.begin : step;
 }
 
 void LiggghtsLog::check_balls(long step, long balls) const {

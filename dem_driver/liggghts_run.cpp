@@ -28,9 +28,23 @@ std::string require(const std::string& program, const std::string& package) {
   return path->string();
 }
 
+/// millLiggghts, which is in the folder of this program, or what MILLFOAM_LIGGGHTS names, a path or a name on PATH.
+std::string liggghts_program() {
+  const char* other = std::getenv("MILLFOAM_LIGGGHTS");
+  if (other != nullptr && *other != '\0') {
+    if (std::filesystem::path(other).has_parent_path()) return std::filesystem::absolute(other).string();
+    return require(other, "liggghts");
+  }
+  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "millLiggghts";
+  if (!std::filesystem::exists(program))
+    throw RunError(program.string() + ": no such program, expected it next to millDem: build or install millFoam "
+                                      "with the library of LIGGGHTS (Debian: package libliggghts-dev)");
+  return program.string();
+}
+
 /// setpriv has the program end when millDem does, however that is killed.
 std::vector<std::string> command(const std::filesystem::path& deck, int ranks) {
-  const std::string liggghts = require("liggghts", "liggghts");
+  const std::string liggghts = liggghts_program();
   std::vector<std::string> words{require("setpriv", "util-linux"), "--pdeathsig", "TERM"};
   if (ranks > 1) words.insert(words.end(), {require("mpirun", "openmpi-bin"), "-np", std::to_string(ranks)});
   words.insert(words.end(), {liggghts, "-in", deck.filename().string(), "-log", "none"});
@@ -49,7 +63,7 @@ std::vector<std::string> environment() {
 
 std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
   if (!log.turning()) return "inserting and settling";
-  const long step = log.steps_done() - (plan.total_steps() - plan.turning_steps);
+  const long step = plan.begin + log.steps_done() - plan.resting_steps();
   std::ostringstream text;
   text << "mill turning, t = " << std::fixed << std::setprecision(3)
        << static_cast<double>(step) * plan.step.value << " s";
@@ -112,7 +126,7 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   std::ofstream file(folder.log(), resumed_at ? std::ios::app : std::ios::trunc);
   if (!file) throw RunError(folder.log().string() + ": cannot be written");
   LiggghtsLog log(plan, resumed_at.has_value());
-  OutputCheck check(folder, plan, resumed_at.value_or(0));
+  OutputCheck check(folder, plan, resumed_at.value_or(plan.begin));
   const auto start = std::chrono::steady_clock::now();
   try {
     ChildProcess child(words, folder.dem(), environment());
@@ -131,9 +145,9 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
   if (static_cast<long>(result.dumps) != plan.dumps)
     throw RunError(folder.dumps().string() + ": " + std::to_string(result.dumps) + " dumps, expected " +
                    std::to_string(plan.dumps));
-  const std::string complaint = contacts_complaint(folder, plan, plan.turning_steps);
+  const std::string complaint = contacts_complaint(folder, plan, plan.end_step());
   if (!complaint.empty()) throw RunError(complaint);
-  check.dumps_until(plan.turning_steps);
+  check.dumps_until(plan.end_step());
   return result;
 }
 

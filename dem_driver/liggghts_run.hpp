@@ -27,16 +27,16 @@ struct ProgressOutput {
   bool terminal = false;  ///< whether `out` is one, so that a line can be written over
 };
 
-/// Throws RunError that names the program and its package when one of those that a run needs is not on PATH:
-/// `liggghts`, `setpriv` and, for more than one rank, `mpirun`.
+/// Throws RunError that names the program and its package when one of those that a run needs is missing:
+/// `millLiggghts` in the folder of this program, `setpriv` and, for more than one rank, `mpirun` on PATH. The
+/// variable MILLFOAM_LIGGGHTS may name another program in the place of millLiggghts, which takes its options.
 void require_programs(int ranks);
 
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
 /// `in.resume` when the run resumes from step `resumed_at`. Its output is appended to DIR/dem/log.liggghts.
 /// Shows progress, and stops at the first sign of a useless run. Every dump and restart file is checked when
-/// it is written (OutputCheck), and the last complete restart file is kept. Throws RunError when `liggghts`
-/// (or `mpirun`) is not on PATH, when
-/// mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number than asked,
+/// it is written (OutputCheck), and the last complete restart file is kept. Throws RunError as require_programs
+/// does, when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number than asked,
 /// or when the number of dumps is not the plan's; the message has the log's name and last lines, or mpirun's
 /// first ones.
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,

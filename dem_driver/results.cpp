@@ -36,10 +36,42 @@ std::vector<double> column(const std::vector<HistoryRow>& history, Value value) 
   return values;
 }
 
-double resting_speed(const CaseFolder& folder, double mass) {
+double resting_speed(const CaseFolder& folder, const DemPlan& plan) {
+  const double mass = plan.charge.mass();
   for (const auto& line : read_segments(folder, "energy"))
-    if (step_of(line) == 0) return std::sqrt(2 * line.values.at(1) / mass);
+    if (step_of(line) == plan.begin) return std::sqrt(2 * line.values.at(1) / mass);
   return 0;
+}
+
+/// Means of what the fluid did, over the steady part of the run.
+Json fluid_of(const DemPlan& plan, const Results& results) {
+  if (plan.fluid.kind == FluidKind::none) return nullptr;
+  FluidRow mean;
+  double rows = 0;
+  for (std::size_t i = 0; i < results.fluid.size(); ++i) {
+    const FluidRow& row = results.fluid[i];
+    if (results.time[i] < results.steady_from()) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      mean.pressure[k] += row.pressure[k];
+      mean.drag[k] += row.drag[k];
+    }
+    mean.power += row.power;
+    mean.without_field += row.without_field;
+    ++rows;
+  }
+  Json fluid = {{"kind", name_of(plan.fluid.kind)}};
+  Vector force{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    mean.pressure[k] /= rows;
+    mean.drag[k] /= rows;
+    force[k] = mean.pressure[k] + mean.drag[k];
+  }
+  fluid["force_N"] = force;
+  fluid["pressure_force_N"] = mean.pressure;
+  fluid["drag_force_N"] = mean.drag;
+  fluid["power_W"] = mean.power / rows;
+  fluid["balls_without_field"] = mean.without_field / rows;
+  return fluid;
 }
 
 Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& results) {
@@ -50,6 +82,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
   json.update({{"lost_balls", results.balls - results.run.balls},
                {"steps", plan.total_steps()},
                {"timestep_s", plan.step.value},
+               {"begin_s", plan.begin_time()},
                {"duration_s", plan.duration()},
                {"dumps", plan.dumps},
                {"modulus_Pa", plan.step.stiffness.modulus},
@@ -66,8 +99,23 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"allowed_overlap", allowed_overlap_ratio},
                {"wall_overlap_largest_m", results.wall_overlaps.largest},
                {"wall_overlap_99_m", results.wall_overlaps.percentile(0.99)},
-               {"resting_speed_m_s", results.resting_speed}});
+               {"resting_speed_m_s", results.resting_speed},
+               {"fluid", fluid_of(plan, results)}});
   return json;
+}
+
+void write_fluid(std::ostream& out, const Results& results) {
+  out << "time_s,force_x_N,force_y_N,force_z_N,pressure_x_N,pressure_y_N,pressure_z_N,drag_x_N,drag_y_N,drag_z_N,"
+         "power_W,balls_without_field\n"
+      << std::setprecision(8);
+  for (std::size_t i = 0; i < results.fluid.size(); ++i) {
+    const FluidRow& row = results.fluid[i];
+    out << results.time[i];
+    for (std::size_t k = 0; k < 3; ++k) out << ',' << row.pressure[k] + row.drag[k];
+    for (const Vector& part : {row.pressure, row.drag})
+      for (const double component : part) out << ',' << component;
+    out << ',' << row.power << ',' << row.without_field << '\n';
+  }
 }
 
 }  // namespace
@@ -137,11 +185,15 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   Results results;
   results.run = run;
   results.balls = plan.charge.balls();
-  results.resting_speed = resting_speed(folder, plan.charge.mass());
+  results.resting_speed = resting_speed(folder, plan);
   results.history = read_history(folder);
   if (static_cast<long>(results.history.size()) + 1 != plan.dumps)
     throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
                    " records of torque and energy, expected " + std::to_string(plan.dumps - 1));
+  results.fluid = read_fluid_ledger(folder);
+  if (plan.fluid.kind != FluidKind::none && results.fluid.size() != results.history.size())
+    throw RunError(folder.dem().string() + ": " + std::to_string(results.fluid.size()) +
+                   " records of the fluid, expected " + std::to_string(results.history.size()));
   results.time = column(results.history, [&](const HistoryRow& row) {
     return static_cast<double>(row.step) * plan.step.value;
   });
@@ -170,6 +222,8 @@ void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, co
           << row.potential << ',' << row.overlap << '\n';
     }
   });
+  if (plan.fluid.kind != FluidKind::none)
+    replace_file(folder.fluid(), [&](std::ostream& out) { write_fluid(out, results); });
   replace_file(folder.overlaps(), [&](std::ostream& out) {
     out << "overlap_m,ball_contacts,wall_contacts\n" << std::setprecision(8);
     for (std::size_t bin = 0; bin < overlap_bins; ++bin)
@@ -196,7 +250,8 @@ void print_results(std::ostream& out, const DemPlan& plan, const Results& result
       << " lost, " << plan.total_steps() << " steps of " << plan.step.value * 1e6 << " us in "
       << results.run.wall_time << " s (" << particle_steps / results.run.wall_time / 1e6
       << " million particle-steps per second)\n"
-      << std::setprecision(3) << "charge at DEM time 0: rms speed " << results.resting_speed << " m/s\n"
+      << std::setprecision(3) << "charge at DEM time " << plan.begin_time() << ": rms speed "
+      << results.resting_speed << " m/s\n"
       << "power " << results.power_steadiness.mean << " +- " << results.power_steadiness.standard_error
       << " W, kinetic energy " << results.kinetic_steadiness.mean << " J, potential energy "
       << results.potential_steadiness.mean << " J\n";

@@ -7,6 +7,7 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/deck.hpp"
+#include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/steady_state.hpp"
 #include "meshing/mill/mill.hpp"
@@ -47,8 +48,9 @@ OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kin
 struct Results {
   RunResult run;                    ///< what LIGGGHTS did
   long balls = 0;                   ///< put into the mill; `run.balls` are left at the end
-  double resting_speed = 0;         ///< m/s, root mean square by mass of the charge at DEM time 0
-  std::vector<HistoryRow> history;  ///< one row for each record after DEM time 0
+  double resting_speed = 0;         ///< m/s, root mean square by mass of the charge at the run's begin
+  std::vector<HistoryRow> history;  ///< one row for each record after the run's begin
+  std::vector<FluidRow> fluid;      ///< one row for each of them, with a fluid
   std::vector<double> time;         ///< s, of each row
   std::vector<double> power;        ///< that the drive gives to the charge, W, of each row
   Steadiness power_steadiness;      ///< of `power`, W
@@ -62,12 +64,12 @@ struct Results {
 };
 
 /// Reads what LIGGGHTS has written and judges it. Throws as read_history and read_overlaps do, and RunError
-/// when LIGGGHTS has not written a record of torque and energy for every dump.
+/// when LIGGGHTS has not written a record of torque and energy for every dump, or none of the fluid.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv` and `dumps/charge.csv`. Layout:
-/// FORMATS.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv`, `dumps/charge.csv` and, with a fluid,
+/// `dumps/fluid.csv`. Layout: FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

@@ -79,7 +79,7 @@ std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::str
 
 std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step) {
   if (plan.contact_steps == 0) return {};
-  const long expected = step / plan.contact_steps + 1;
+  const long expected = contact_dumps_until(plan, step);
   for (const std::string kind : contact_kinds) {
     const auto files = find_contacts(folder, kind);
     const auto found =

@@ -16,7 +16,7 @@ struct NumberedFile {
 };
 
 /// What a run writes in segments: every resumed run begins its own files.
-inline constexpr const char* segment_kinds[] = {"torque", "energy", "ballOverlaps", "wallOverlaps"};
+inline constexpr const char* segment_kinds[] = {"torque", "energy", "fluid", "ballOverlaps", "wallOverlaps"};
 
 /// Every `dem/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind);
@@ -27,7 +27,7 @@ inline constexpr const char* contact_kinds[] = {"pairs", "walls", "balls"};
 /// Every `contacts/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::string& kind);
 
-/// What is wrong with the contacts of steps up to `step`: "folder: 3 pairs up to step 50, expected 6"; empty
+/// What is wrong with the contacts of the run's steps up to `step`: "folder: 3 pairs up to step 50, expected 6"; empty
 /// when all contacts of the plan are there.
 std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step);
 

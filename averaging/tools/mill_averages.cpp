@@ -53,15 +53,18 @@ void take_grid(const meshing::Mill& mill, Options& options) {
   options.template_points = mill.averages.template_points;
 }
 
-/// Start, window and end: whole windows up to the end of the dry run.
-void take_windows(const meshing::Mill& mill, const fs::path& dumps, double duration, Options& options) {
+/// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at its
+/// end, and averages.start counts from there.
+void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run, Options& options) {
   const double window = mill.averages.window;
-  const double start = mill.averages.start ? *mill.averages.start : steady_start(dumps / "results.json");
-  const double count = std::floor((duration - start) / window * (1 + 1e-9));
+  const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
+  const double start = mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
+  const double left = begin + duration - start;
+  const double count = std::floor(left / window * (1 + 1e-9));
   if (count < 1)
     throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
-                                exact(duration) + " s has only " + exact(duration - start) + " s from " +
-                                exact(start) + " s on: raise dem.duration, or lower averages.window");
+                                exact(duration) + " s has only " + exact(left) + " s from " + exact(start) +
+                                " s on: raise dem.duration, or lower averages.window");
   options.windows = {exact(window)};
   options.start = start;
   options.end = start + count * window;
@@ -79,7 +82,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     const nlohmann::json run = read_object(dumps / "run.json");
     require_charge_of(run, dumps / "run.json", of.charge);
     options.dumps = (dumps / "dump.*.txt").string();
-    if (!own_windows) take_windows(mill, dumps, run.value("duration_s", mill.dem.duration), options);
+    if (!own_windows) take_windows(mill, dumps, run, options);
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }

@@ -16,8 +16,10 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/charge_plan.hpp"
+#include "dem_driver/continued_run.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/disk_room.hpp"
+#include "dem_driver/fluid_check.hpp"
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/mill_key.hpp"
@@ -44,6 +46,9 @@ struct Options {
   bool deck_only = false;
   bool resume = false;
   bool or_anew = false;
+  std::string fluid;       ///< slurry.h5; empty: none
+  std::string fluid_time = "mean";
+  std::string continued;   ///< folder of the case from whose last state the run continues; empty: none
   std::string plan_file;
 };
 
@@ -69,13 +74,13 @@ constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is 
 
 /// Throws std::runtime_error when the run in the folder cannot be resumed at that step.
 void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
-  if (step > plan.turning_steps) {
+  if (step > plan.end_step()) {
     const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
     throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
-                               "at least the " + seconds(step) + " s that the run in " +
+                               "at least the " + seconds(step - plan.begin) + " s that the run in " +
                                    folder.root.string() + " has reached" + otherwise);
   }
-  const long expected = step / plan.step.steps_per_record + 1;
+  const long expected = (step - plan.begin) / plan.step.steps_per_record + 1;
   const long found = dem_driver::count_dumps_until(folder, step);
   if (found != expected)
     throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
@@ -88,16 +93,21 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
 /// The step at which a run of this same deck resumes; nothing when there is no run to resume.
 std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
                               const std::string& deck) {
-  const auto restarts = dem_driver::find_restarts(folder);
+  auto restarts = dem_driver::find_restarts(folder);
+  // That of the run's begin is another run's
+  while (!restarts.empty() && restarts.front().step <= plan.begin) restarts.erase(restarts.begin());
   if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
   if (identity(read_text(folder.deck())) != identity(deck))
     throw std::runtime_error(folder.deck().string() +
-                             ": the existing run has another mill.yaml or other walls" + otherwise);
+                             ": the existing run has another mill.yaml, other walls, another fluid or another "
+                             "begin" +
+                             otherwise);
   const auto step = dem_driver::last_good_restart(folder, plan);
   if (!step || *step != restarts.back().step)
     std::cout << restarts.back().file.string()
               << ": this file, or a dump before it, is not complete and is not used\n";
-  if (step) require_resumable(folder, plan, *step);
+  if (!step || *step <= plan.begin) return std::nullopt;
+  require_resumable(folder, plan, *step);
   return step;
 }
 
@@ -127,20 +137,41 @@ std::optional<long> first_step(const Options& options, const dem_driver::CaseFol
   }
 }
 
+/// The file for millLiggghts, or none of an earlier run.
+void write_fluid(const dem_driver::CaseFolder& folder, const meshing::Mill& mill,
+                 const dem_driver::DemPlan& plan) {
+  if (plan.fluid.kind == dem_driver::FluidKind::none)
+    fs::remove(folder.fluid_order());
+  else
+    dem_driver::write_fluid_order(folder.fluid_order(), mill,
+                                  {plan.fluid, plan.step.value, plan.step.steps_per_record});
+}
+
 void run(const Options& options, const meshing::MillDescription& description) {
   const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
-  const auto plan = dem_driver::plan_dem(mill);
+  auto plan = dem_driver::plan_dem(mill);
   dem_driver::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
+  if (!options.fluid.empty())
+    plan.fluid = dem_driver::require_fluid_of(options.fluid,
+                                              options.fluid_time == "windows" ? dem_driver::FluidTime::windows
+                                                                              : dem_driver::FluidTime::mean,
+                                              mill, plan);
+  std::optional<dem_driver::LastState> state;
+  if (!options.continued.empty()) {
+    state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
+    dem_driver::continue_from(state->step, plan);
+  }
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
+  if (state) deck << "# begins with the restart file " << state->id << '\n';
 
   fs::create_directories(folder.dem());
   const dem_driver::FolderLock lock(folder);
   const auto step = first_step(options, folder, plan, deck.str());
-  if (step && *step == plan.turning_steps && fs::exists(folder.run_file())) {
+  if (step && *step == plan.end_step() && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
     return;
   }
@@ -149,11 +180,19 @@ void run(const Options& options, const meshing::MillDescription& description) {
     dem_driver::require_programs(options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(0));
     prepare(folder, step);
+    if (state && !step) dem_driver::take_restart(*state, folder);
   }
+  write_fluid(folder, mill, plan);
   replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
   std::cout << "deck: " << folder.deck().string() << std::endl;
+  if (plan.fluid.kind != dem_driver::FluidKind::none)
+    std::cout << "fluid: " << dem_driver::in_words(plan.fluid) << '\n';
+  if (state)
+    std::cout << "continues from step " << plan.begin << ", t = " << plan.begin_time() << " s of "
+              << state->restart.string() << '\n';
+  std::cout << std::flush;
   if (options.deck_only) return;
   if (step) {
     replace_file(folder.resume_deck(), [&](std::ostream& out) {
@@ -232,6 +271,12 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   auto* resume = app.add_flag("--resume", options.resume, "resume an interrupted run; keep a complete one");
   app.add_flag("--or-anew", options.or_anew, "start a run that cannot be resumed from the beginning")
       ->needs(resume);
+  auto* fluid = app.add_option("--fluid", options.fluid, "slurry.h5 of a flow that pushes the balls");
+  app.add_option("--fluid-time", options.fluid_time, "of that flow: its mean over the run, or its time windows")
+      ->check(CLI::IsMember({"mean", "windows"}))
+      ->needs(fluid);
+  app.add_option("--continue", options.continued,
+                 "begin with the last state of the complete run in this case folder, and turn for dem.duration more");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -106,6 +106,8 @@ struct Dem {
   double record_interval = 0;    ///< s between dumps
   double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
   int seed = 0;                  ///< of the random insertion
+  /// m, height y of the surface of a pool at rest in which the balls float up; nothing: no pool.
+  std::optional<double> pool_level;
 };
 
 /// Bingham slurry under air.

@@ -22,6 +22,16 @@ Json contact_numbers(const Contact& contact) {
           {"rolling_friction", contact.rolling_friction}};
 }
 
+/// The keys of `dem`; without a pool as before there was one, with it also its density.
+Json dem_numbers(const Json& keys, const Mill& mill) {
+  Json dem = keys.at("dem");
+  if (mill.dem.pool_level)
+    dem["fluid_density"] = mill.slurry.density;
+  else
+    dem.erase("fluid");
+  return dem;
+}
+
 }  // namespace
 
 std::string fingerprint(const std::string& bytes) {
@@ -48,12 +58,14 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   result.walls = fingerprint(of.dump());
   for (const char* section : {"speed", "charge", "dem"}) of[section] = keys.at(section);
   of["materials"] = materials;
+  of["dem"] = dem_numbers(keys, mill);
   of["dem"].erase("duration");
   result.charge = fingerprint(of.dump());
-  of["dem"] = keys.at("dem");
+  of["dem"] = dem_numbers(keys, mill);
   of["averages"] = keys.at("averages");
   result.averages = fingerprint(of.dump());
   of = keys;
+  of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;
   of.erase("title");
   // How often balls and flow are computed in turn changes none of these flows

@@ -125,6 +125,21 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   return dem;
 }
 
+/// The level of `fluid: buoyancy`: unless given, that at which the flow begins.
+std::optional<double> read_pool_level(Section& in, const Mill& mill) {
+  if (in.choice("fluid", {"none", "buoyancy"}, "none") == "none") {
+    if (in.has("fluid_level") && (in.is_set("fluid_level") || !in.is_set("fluid")))
+      in.refuse("fluid_level", "this key with dem.fluid buoyancy only");
+    in.drop("fluid_level");
+    return std::nullopt;
+  }
+  const double radius = mill.geometry.radius();
+  const Rule level = {"a height in m within the radius, " + shown(radius) + " m, of the axis",
+                      [=](double v) { return std::abs(v) <= radius; }};
+  if (mill.flow.start.level) return in.number("fluid_level", level, *mill.flow.start.level);
+  return in.number("fluid_level", level);
+}
+
 /// Honey has 10 Pa s, fresh concrete a yield stress of 1e3 Pa, liquid iron a surface tension of 1.9 N/m.
 Slurry read_slurry(const Section& in) {
   return {in.number("density", density()),
@@ -192,9 +207,9 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
-  Section dem =
-      in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
-                                  "settle_time", "duration", "record_interval", "contact_interval", "seed"});
+  Section dem = in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below",
+                                            "rayleigh_fraction", "settle_time", "duration", "record_interval",
+                                            "contact_interval", "seed", "fluid", "fluid_level"});
   mill.dem = read_dem(dem, mill.geometry, mill.turn());
   Section slurry =
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
@@ -204,6 +219,7 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   read_layers(geometry, resolution, mill);
   mill.averages = read_averages(in, mill);
   mill.flow = read_flow(in, slurry, mill);
+  mill.dem.pool_level = read_pool_level(dem, mill);
   return mill;
 }
 

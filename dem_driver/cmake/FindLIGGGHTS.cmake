@@ -1,0 +1,27 @@
+# Finds the library of LIGGGHTS 3.8 as Debian installs it (package libliggghts-dev), which has no CMake or pkg-config
+# file. Its headers include each other by their bare names, and MPI's: they are included as "liggghts/library.h". The
+# MPI must be the one that the library was built with; Debian's is the default MPI, Open MPI.
+#
+#   LIGGGHTS_INCLUDE_DIR    the folder that has the folder liggghts/
+#   LIGGGHTS_LIBRARY        the library
+#   LIGGGHTS::LIGGGHTS      both, with MPI
+
+find_path(LIGGGHTS_INCLUDE_DIR liggghts/library.h)
+find_library(LIGGGHTS_LIBRARY liggghts)
+find_package(MPI COMPONENTS C)
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(
+  LIGGGHTS
+  REQUIRED_VARS LIGGGHTS_LIBRARY LIGGGHTS_INCLUDE_DIR MPI_C_FOUND
+  REASON_FAILURE_MESSAGE "install Debian's package libliggghts-dev, or run scripts/setup")
+
+if(LIGGGHTS_FOUND AND NOT TARGET LIGGGHTS::LIGGGHTS)
+  add_library(LIGGGHTS::LIGGGHTS UNKNOWN IMPORTED)
+  set_target_properties(LIGGGHTS::LIGGGHTS PROPERTIES IMPORTED_LOCATION "${LIGGGHTS_LIBRARY}")
+  target_include_directories(LIGGGHTS::LIGGGHTS SYSTEM INTERFACE "${LIGGGHTS_INCLUDE_DIR}")
+  # MPI's own C++ interface, which is gone from the standard, would need another library.
+  target_compile_definitions(LIGGGHTS::LIGGGHTS INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(LIGGGHTS::LIGGGHTS INTERFACE MPI::MPI_C)
+endif()
+mark_as_advanced(LIGGGHTS_INCLUDE_DIR LIGGGHTS_LIBRARY)

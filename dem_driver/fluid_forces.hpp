@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "averaging/files/slurry_reader.hpp"
+#include "dem_driver/fluid_settings.hpp"
+
+namespace millfoam::dem_driver {
+
+/// Three components along x, y, z.
+using Vector = std::array<double, 3>;
+
+/// A ball as the fluid sees it.
+struct BallInFluid {
+  Vector position = {};  ///< of its centre, lab frame, m
+  Vector velocity = {};  ///< m/s
+  double diameter = 0;   ///< m
+  double volume() const;  ///< m^3
+};
+
+/// What the fluid does to a ball.
+struct FluidForce {
+  Vector pressure = {};  ///< of the pressure, buoyancy with it, N
+  Vector drag = {};      ///< N
+  bool known = true;     ///< false: there is no field where the ball is, and both forces are 0
+};
+
+/// The force of a fluid on balls.
+class FluidForces {
+ public:
+  virtual ~FluidForces() = default;
+  /// Takes the fields of this DEM time, s, for all calls of `on` that follow.
+  virtual void set_time(double time) = 0;
+  /// The force on a ball.
+  virtual FluidForce on(const BallInFluid& ball) const = 0;
+};
+
+/// Buoyancy in a pool at rest: the weight of the fluid in the place of the part of the sphere below the
+/// pool's surface, upwards.
+class PoolForces : public FluidForces {
+ public:
+  /// @param level  height y of the surface, m
+  /// @param density  of the fluid, kg/m^3
+  PoolForces(double level, double density) : level_(level), density_(density) {}
+  void set_time(double) override {}
+  FluidForce on(const BallInFluid& ball) const override;
+
+ private:
+  double level_;
+  double density_;
+};
+
+/// Share of a sphere's volume that lies below a level: a cap of height t has t^2 (3 R - t)/(4 R^3).
+/// @param height  of its centre above the level, in units of length of `radius`
+double share_below(double height, double radius);
+
+/// The forces of a flow, from slurry.h5: F = V (pressure_force + drag_force - K v). Fields are trilinear
+/// between the centres of voxels, over those that have fluid; periodic where the grid is. A ball without such
+/// a voxel among the eight around it feels none. With polydispersity, drag_force and K of a ball of diameter
+/// d are e/y + phi + 0.064 e y times those of the file, y = d/d32, phi the solidity, e = 1 - phi
+/// (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
+///
+/// Memory: the mean, or two windows, which are read when their time comes.
+class VoxelForces : public FluidForces {
+ public:
+  /// Throws averaging::SlurryFileError where the file cannot be read.
+  VoxelForces(const std::filesystem::path& file, FluidTime time);
+  void set_time(double time) override;
+  FluidForce on(const BallInFluid& ball) const override;
+
+ private:
+  /// A voxel's values, in the order in which they are interpolated.
+  struct Voxel {
+    bool fluid = false;
+    Vector pressure = {}, drag = {};
+    double exchange = 0, solidity = 0, diameter = 0;
+    void add(double weight, const Voxel& other);
+  };
+  using Field = std::vector<Voxel>;
+  /// The voxels around a point along an axis; -1: beyond the box.
+  struct Neighbours {
+    std::array<int, 2> voxel;
+    std::array<double, 2> weight;
+  };
+
+  Field read(std::size_t window) const;
+  Neighbours around(double coordinate, int axis) const;
+  Voxel interpolate(const Field& field, const std::array<Neighbours, 3>& around) const;
+
+  averaging::SlurryReader reader_;
+  FluidTime time_;
+  Field early_, late_;         ///< the mean, or the windows before and after the time
+  std::size_t window_ = std::numeric_limits<std::size_t>::max();  ///< of early_
+  double blend_ = 0;           ///< share of late_
+};
+
+/// What acts on the balls of a run with a fluid. Throws as VoxelForces.
+std::unique_ptr<FluidForces> make_fluid_forces(const FluidSettings& fluid);
+
+/// The factor e/y + phi + 0.064 e y of a ball of diameter y d32 in a mixture of sizes of solidity phi.
+double mixture_factor(double y, double solidity);
+
+}  // namespace millfoam::dem_driver

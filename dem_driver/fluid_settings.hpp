@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "meshing/mill/mill.hpp"
+
+namespace millfoam::dem_driver {
+
+/// What pushes the balls of a run besides their contacts and their weight.
+enum class FluidKind {
+  none,      ///< a dry run
+  buoyancy,  ///< a pool at rest, PoolForces
+  slurry     ///< a flow's slurry.h5, VoxelForces
+};
+
+/// Which times of a flow act on the balls.
+enum class FluidTime {
+  mean,    ///< the mean over the flow's run, always
+  windows  ///< its time windows: linear between their middles, held before the first and after the last
+};
+
+/// The fluid of a run.
+struct FluidSettings {
+  FluidKind kind = FluidKind::none;
+  double level = 0;                  ///< of the pool, m
+  double density = 0;                ///< of the pool, kg/m^3
+  std::filesystem::path file = {};   ///< slurry.h5
+  std::string file_id = {};          ///< hash of the file's bytes (FNV-1a, 16 hexadecimal digits)
+  FluidTime time = FluidTime::mean;  ///< of slurry.h5
+  /// Whether it acts on balls that are inserted and settle, too: a pool does, a flow only on a turning mill.
+  bool acts_at_rest() const { return kind == FluidKind::buoyancy; }
+};
+
+/// "none", "buoyancy" or "slurry".
+std::string name_of(FluidKind kind);
+/// "mean" or "windows".
+std::string name_of(FluidTime time);
+
+/// The pool of `dem.fluid: buoyancy`, or none.
+FluidSettings fluid_of(const meshing::Mill& mill);
+
+/// The fluid in words, for the deck and for people: "buoyancy in a pool of 1239 kg/m3 up to y = -0.002 m".
+std::string in_words(const FluidSettings& fluid);
+
+/// What millLiggghts needs besides the deck.
+struct FluidOrder {
+  FluidSettings fluid;   ///< not FluidKind::none; `file` as it is found from the order's folder
+  double timestep = 0;   ///< s
+  long record_steps = 0;  ///< between two lines of the ledger
+};
+
+/// Writes `dem/fluid.json` (FORMATS.md), which appears whole or not at all; the path of slurry.h5 in it is
+/// relative to its folder. Throws std::runtime_error naming the file.
+void write_fluid_order(const std::filesystem::path& file, const meshing::Mill& mill, const FluidOrder& order);
+
+/// Reads it back. Throws std::runtime_error naming the file, and the key that is missing or wrong.
+FluidOrder read_fluid_order(const std::filesystem::path& file);
+
+}  // namespace millfoam::dem_driver

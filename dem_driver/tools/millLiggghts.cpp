@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the options of
+// the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has a fluid. See
+// dem_driver/README.md.
+#include <liggghts/atom.h>
+#include <liggghts/fix_external.h>
+#include <liggghts/input.h>
+#include <liggghts/lammps.h>
+#include <liggghts/modify.h>
+#include <liggghts/update.h>
+#include <mpi.h>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "dem_driver/deck.hpp"
+#include "dem_driver/fluid_ledger.hpp"
+#include "dem_driver/fluid_settings.hpp"
+
+namespace {
+
+using namespace millfoam::dem_driver;
+using LAMMPS_NS::LAMMPS;
+
+bool begins(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0;
+}
+
+/// The fluid's forces as a `fix external` of the deck gets them in every step, on every rank of its own balls.
+class FluidFix {
+ public:
+  /// Of the fix `name`, which the deck has just made.
+  /// @param ledger  begin of the ledger's name; empty: none is kept
+  FluidFix(LAMMPS& liggghts, const std::string& name, const FluidOrder& order, const std::string& ledger)
+      : liggghts_(liggghts),
+        forces_(make_fluid_forces(order.fluid)),
+        timestep_(order.timestep),
+        record_(order.record_steps),
+        last_(liggghts.update->ntimestep) {
+    MPI_Comm_rank(liggghts.world, &rank_);
+    if (!ledger.empty() && rank_ == 0) ledger_.emplace(ledger + '.' + std::to_string(last_) + ".txt");
+    keeps_ledger_ = !ledger.empty();
+    auto* fix = static_cast<LAMMPS_NS::FixExternal*>(liggghts.modify->fix[liggghts.modify->find_fix(name.c_str())]);
+    fix->set_callback(
+        [](void* self, LAMMPS_NS::bigint step, int balls, int*, double** position, double** force) {
+          static_cast<FluidFix*>(self)->act(static_cast<long>(step), balls, position, force);
+        },
+        this);
+  }
+  FluidFix(const FluidFix&) = delete;
+  FluidFix& operator=(const FluidFix&) = delete;
+
+ private:
+  void act(long step, int balls, double** position, double** force) {
+    const LAMMPS_NS::Atom& atom = *liggghts_.atom;
+    forces_->set_time(static_cast<double>(step) * timestep_);
+    // LIGGGHTS computes the forces of a step once more where a run is divided
+    const bool counts = keeps_ledger_ && step > last_;
+    for (int i = 0; i < balls; ++i) {
+      const double* x = position[i];
+      const double* v = atom.v[i];
+      const BallInFluid ball{{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * atom.radius[i]};
+      const FluidForce felt = forces_->on(ball);
+      for (std::size_t k = 0; k < 3; ++k) force[i][k] = felt.pressure[k] + felt.drag[k];
+      if (counts) sums_.add(ball, felt);
+    }
+    if (counts) end_step(step);
+  }
+
+  void end_step(long step) {
+    last_ = step;
+    ++steps_;
+    if (step % record_ != 0) return;
+    FluidSums all;
+    MPI_Reduce(sums_.values.data(), all.values.data(), static_cast<int>(all.values.size()), MPI_DOUBLE, MPI_SUM, 0,
+               liggghts_.world);
+    if (ledger_) ledger_->write(step, all, steps_);
+    sums_ = {};
+    steps_ = 0;
+  }
+
+  LAMMPS& liggghts_;
+  std::unique_ptr<FluidForces> forces_;
+  double timestep_;
+  long record_;
+  long last_;  ///< step that the ledger has, or at which it begins
+  int rank_ = 0;
+  bool keeps_ledger_ = false;
+  std::optional<FluidLedgerFile> ledger_;  ///< of the first rank
+  FluidSums sums_;
+  long steps_ = 0;  ///< in the sums
+};
+
+/// The text of the deck, on every rank.
+std::string read_deck(const std::string& file, int rank) {
+  std::string text;
+  if (rank == 0) {
+    std::ifstream in(file);
+    if (!in) throw std::runtime_error(file + ": cannot be read, expected a deck of LIGGGHTS");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  auto length = static_cast<unsigned long>(text.size());
+  MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, MPI_COMM_WORLD);
+  text.resize(length);
+  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, MPI_COMM_WORLD);
+  return text;
+}
+
+std::string deck_name(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::string(argv[i]) == "-in") return argv[i + 1];
+  throw std::runtime_error("expected -in DECK");
+}
+
+/// Feeds the deck to LIGGGHTS line by line, and gives its fluid's fixes their forces as soon as they are there.
+void run(int argc, char** argv, int rank) {
+  std::istringstream deck(read_deck(deck_name(argc, argv), rank));
+  LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
+  std::unique_ptr<FluidFix> fluid;
+  for (std::string line; std::getline(deck, line);) {
+    liggghts.input->one(line.c_str());
+    for (const char* name : {fluid_at_rest_fix, fluid_fix})
+      if (begins(line, std::string("fix ") + name + ' '))
+        fluid = std::make_unique<FluidFix>(liggghts, name, read_fluid_order("fluid.json"),
+                                           name == fluid_fix ? "fluid" : "");
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  try {
+    run(argc, argv, rank);
+  } catch (const std::exception& error) {
+    std::printf("ERROR: %s\n", error.what());
+    std::fflush(stdout);
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  }
+  MPI_Finalize();
+}
