@@ -25,33 +25,59 @@ constexpr const char* segment_format = "millfoam-slurry-segment";
 /// which is rounded.
 constexpr double gap = 1e-3;
 
+/// What a field's sums are divided by.
+enum class Over { volume, slurry, balls };
+
 /// A field of slurry.h5: the place of its sums in a voxel's, and what they are divided by.
 struct Field {
   const char* name;
   const char* units;
   bool vector;
   std::size_t first;  ///< of the voxel's components
-  bool by_slurry;     ///< divided by the slurry's sum, not by the volume
+  Over over;
 };
 
-constexpr std::array<Field, 5> fields{{{"slurry", "1", false, 0, false},
-                                       {"voidage", "1", false, 1, false},
-                                       {"velocity", "m/s", true, 2, true},
-                                       {"pressure", "Pa", false, 5, true},
-                                       {"p_rgh", "Pa", false, 6, true}}};
+constexpr std::array<Field, 5> slurry_fields{{{"slurry", "1", false, 0, Over::volume},
+                                              {"voidage", "1", false, 1, Over::volume},
+                                              {"velocity", "m/s", true, 2, Over::slurry},
+                                              {"pressure", "Pa", false, 5, Over::slurry},
+                                              {"p_rgh", "Pa", false, 6, Over::slurry}}};
+
+/// The first of the components of what balls feel: its weight w.
+constexpr std::size_t weight = slurry_components;
+
+constexpr std::array<Field, 6> ball_fields{{{"balls/solidity", "1", false, weight + 1, Over::volume},
+                                            {"balls/pressure_force", "N/m3", true, weight + 2, Over::balls},
+                                            {"balls/exchange", "kg/(m3 s)", false, weight + 5, Over::balls},
+                                            {"balls/drag_force", "N/m3", true, weight + 6, Over::balls},
+                                            {"balls/fluid_density", "kg/m3", false, weight + 9, Over::balls},
+                                            {"balls/diameter", "m", false, weight + 10, Over::balls}}};
+
+/// The fields of a file with or without what balls feel.
+std::vector<Field> fields_of(bool balls) {
+  std::vector<Field> result(slurry_fields.begin(), slurry_fields.end());
+  if (balls) result.insert(result.end(), ball_fields.begin(), ball_fields.end());
+  return result;
+}
+
+/// What a voxel's sums of a field are divided by, or 0 where its mean has no meaning.
+double divisor(const Field& field, double volume, const double* components) {
+  if (field.over == Over::balls) return components[weight];
+  // The velocity of less slurry than this has no meaning
+  if (field.over == Over::slurry) return components[0] > 1e-9 * volume ? components[0] : 0;
+  return volume;
+}
 
 /// A field's means over the voxels; 0 where there is nothing to divide by.
 std::vector<double> means(const SlurrySegment& sums, const Field& field) {
   const std::size_t width = field.vector ? 3 : 1;
   std::vector<double> result(sums.volume.size() * width, 0.0);
   for (std::size_t voxel = 0; voxel < sums.volume.size(); ++voxel) {
-    const double* components = &sums.components[voxel * slurry_components];
-    // The velocity of less slurry than this has no meaning
-    const bool enough = components[0] > 1e-9 * sums.volume[voxel];
-    const double divisor = field.by_slurry && enough ? components[0] : sums.volume[voxel];
-    if (!(divisor > 0) || (field.by_slurry && !enough)) continue;
+    const double* components = &sums.components[voxel * sums.width];
+    const double by = divisor(field, sums.volume[voxel], components);
+    if (!(by > 0)) continue;
     for (std::size_t k = 0; k < width; ++k) {
-      result[voxel * width + k] = components[field.first + k] / divisor;
+      result[voxel * width + k] = components[field.first + k] / by;
     }
   }
   return result;
@@ -72,11 +98,25 @@ std::vector<hsize_t> row_dimensions(const BoxGrid& grid, bool vector) {
   return row;
 }
 
+/// Makes the group of what balls feel, for the fields in it.
+void create_balls(hid_t parent, const BallsHeader& balls) {
+  const hdf5::Handle group = hdf5::create_group(parent, "balls");
+  hdf5::write_attribute(group.get(), "law", balls.law);
+  hdf5::write_attribute(group.get(), "polydispersity", balls.polydispersity ? 1 : 0);
+  hdf5::write_attribute(group.get(), "slurry_density", balls.slurry_density);
+  hdf5::write_attribute(group.get(), "air_density", balls.air_density);
+  hdf5::write_attribute(group.get(), "gravity",
+                        std::vector<double>(balls.gravity.begin(), balls.gravity.end()));
+}
+
 /// An open slurry.h5 that grows by windows.
 class Rows {
  public:
   Rows(const std::filesystem::path& part, const BoxGrid& grid, const SlurryHeader& header)
-      : grid_(grid), file_(hdf5::create_file(part)) {
+      : grid_(grid),
+        balls_(header.balls),
+        shown_(fields_of(header.balls.has_value())),
+        file_(hdf5::create_file(part)) {
     const hid_t root = file_.get();
     hdf5::write_attribute(root, "format", std::string(slurry_format));
     hdf5::write_attribute(root, "version", slurry_version);
@@ -88,7 +128,8 @@ class Rows {
     const hdf5::Handle grid_group = hdf5::create_group(root, "grid");
     hdf5::write_grid(grid_group.get(), grid);
     inside_.push_back(create(grid_group.get(), "insideFraction", false, "1"));
-    for (const Field& field : fields) fields_.push_back(create(root, field.name, field.vector, field.units));
+    if (balls_) create_balls(root, *balls_);
+    for (const Field& field : shown_) fields_.push_back(create(root, field.name, field.vector, field.units));
     const hdf5::Handle windows = hdf5::create_group(root, "window");
     for (const char* name : {"begin", "end"}) {
       times_.push_back(hdf5::create_rows(windows.get(), name, {}, H5T_NATIVE_DOUBLE, "s"));
@@ -103,8 +144,8 @@ class Rows {
   }
 
   void append(const SlurrySegment& sums, double time0, bool starts_late, bool ends_short) {
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-      hdf5::append_row(fields_[f], means(sums, fields[f]).data());
+    for (std::size_t f = 0; f < shown_.size(); ++f) {
+      hdf5::append_row(fields_[f], means(sums, shown_[f]).data());
     }
     hdf5::append_row(inside_[0], inside_fraction(sums, grid_).data());
     const double begin = time0 + sums.begin, end = time0 + sums.end;
@@ -114,8 +155,7 @@ class Rows {
     hdf5::append_row(times_[3], starts_late ? 1LL : 0LL);
     hdf5::append_row(times_[4], ends_short ? 1LL : 0LL);
     double deposited = 0;
-    for (std::size_t i = 0; i < sums.components.size(); i += slurry_components)
-      deposited += sums.components[i];
+    for (std::size_t i = 0; i < sums.components.size(); i += sums.width) deposited += sums.components[i];
     const std::array<double, 3> volumes{sums.slurry / sums.duration, deposited / sums.duration,
                                         (sums.slurry - deposited) / sums.duration};
     for (std::size_t k = 0; k < volumes.size(); ++k) hdf5::append_row(ledger_[k], &volumes[k]);
@@ -126,7 +166,8 @@ class Rows {
     const hdf5::Handle group = hdf5::create_group(file_.get(), "mean");
     hdf5::write_attribute(group.get(), "begin", time0 + sums.begin);
     hdf5::write_attribute(group.get(), "end", time0 + sums.end);
-    for (const Field& field : fields) {
+    if (balls_) create_balls(group.get(), *balls_);
+    for (const Field& field : shown_) {
       hdf5::write_array(group.get(), field.name, means(sums, field), row_dimensions(grid_, field.vector),
                         field.units);
     }
@@ -143,6 +184,7 @@ class Rows {
   }
 
   const std::vector<double>& begins() const { return begins_; }  ///< of the windows, DEM time, s
+  const std::vector<Field>& shown() const { return shown_; }     ///< the fields
 
  private:
   hdf5::Handle create(hid_t parent, const char* name, bool vector, const char* units) const {
@@ -150,6 +192,8 @@ class Rows {
   }
 
   const BoxGrid& grid_;
+  std::optional<BallsHeader> balls_;
+  std::vector<Field> shown_;
   hdf5::Handle file_;
   std::vector<hdf5::Handle> fields_, inside_, times_, ledger_;
   std::vector<double> begins_;
@@ -159,10 +203,10 @@ class Rows {
 class Assembly {
  public:
   Assembly(Rows& rows, const BoxGrid& grid, const SlurryHeader& header)
-      : rows_(rows), grid_(grid), header_(header), mean_(grid.size()), window_(grid.size()) {}
+      : rows_(rows), grid_(grid), header_(header), mean_(empty()), window_(empty()) {}
 
   void take(const std::filesystem::path& path) {
-    const SlurrySegment segment = read_segment(path, grid_);
+    const SlurrySegment segment = read_segment(path, grid_, header_.balls.has_value());
     const long long number = window_of(segment, header_.window, path.string());
     if (segment.begin < last_end_ - gap * header_.window) {
       throw SlurryFileError(path.string() + ": begins at " + std::to_string(segment.begin) +
@@ -187,9 +231,11 @@ class Assembly {
     const bool hole = window_.duration < (1 - gap) * (window_.end - window_.begin);
     rows_.append(window_, header_.time0, window_.begin > begin + margin,
                  hole || window_.end < begin + header_.window - margin);
-    window_ = SlurrySegment(grid_.size());
+    window_ = empty();
     filled_ = false;
   }
+
+  SlurrySegment empty() const { return SlurrySegment(grid_.size(), header_.balls.has_value()); }
 
   Rows& rows_;
   const BoxGrid& grid_;
@@ -206,6 +252,17 @@ void check_same(const BoxGrid& found, const BoxGrid& expected) {
     return;
   }
   throw hdf5::Error("was written for another grid; keep it elsewhere or remove it");
+}
+
+/// The components in a segment's file, checked to be those of a flow with or without balls.
+std::vector<double> read_components(hid_t root, bool balls) {
+  const std::size_t expected = SlurrySegment(0, balls).width;
+  if (hdf5::dimensions(root, "components").back() != expected) {
+    throw hdf5::Error(std::string("was written by a flow ") + (balls ? "without" : "with") +
+                      " balls, expected one " + (balls ? "with" : "without") +
+                      " them; keep it elsewhere or remove it");
+  }
+  return hdf5::read_row(root, "components", 0);
 }
 
 }  // namespace
@@ -256,28 +313,30 @@ void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const
     const hsize_t n = segment.volume.size();
     hdf5::append_row(hdf5::create_rows(root, "volume", {n}, H5T_NATIVE_DOUBLE, "m3 s"),
                      segment.volume.data());
-    hdf5::append_row(hdf5::create_rows(root, "components", {n, slurry_components}, H5T_NATIVE_DOUBLE, "SI"),
+    hdf5::append_row(hdf5::create_rows(root, "components", {n, segment.width}, H5T_NATIVE_DOUBLE, "SI"),
                      segment.components.data());
     file.close("close the file");
     hdf5::rename_file(part, path);
   });
 }
 
-SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid) {
+SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid, bool balls) {
   return hdf5::naming_file<SlurryFileError>(path, [&] {
     const hdf5::Handle file = hdf5::open_file(path);
     const hid_t root = file.get();
-    hdf5::check_format(root, segment_format, slurry_version, "run the flow again");
+    hdf5::check_format(
+        root, segment_format, slurry_version,
+        "remove the folder of the segments and the flow's times, and run the flow from its start");
     const hdf5::Handle group = hdf5::open_group(root, "grid");
     check_same(std::get<BoxGrid>(hdf5::read_grid(group.get())), grid);
-    SlurrySegment segment;
+    SlurrySegment segment(0, balls);
     segment.begin = hdf5::read_double_attribute(root, "begin", 1)[0];
     segment.end = hdf5::read_double_attribute(root, "end", 1)[0];
     segment.samples = hdf5::read_int_attribute(root, "samples", 1)[0];
     segment.slurry = hdf5::read_double_attribute(root, "slurry", 1)[0];
     segment.duration = hdf5::read_double_attribute(root, "duration", 1)[0];
     segment.volume = hdf5::read_row(root, "volume", 0);
-    segment.components = hdf5::read_row(root, "components", 0);
+    segment.components = read_components(root, balls);
     return segment;
   });
 }
@@ -287,18 +346,19 @@ void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, con
   if (segments.empty()) throw SlurryFileError(path.string() + ": nothing was averaged");
   const std::filesystem::path part = path.string() + ".part";
   std::vector<double> begins;
+  std::vector<XdmfField> shown;
   hdf5::naming_file<SlurryFileError>(part, [&] {
     Rows rows(part, grid, header);
     Assembly assembly(rows, grid, header);
     for (const std::filesystem::path& segment : segments) assembly.take(segment);
     assembly.finish();
     begins = rows.begins();
+    for (const Field& field : rows.shown()) {
+      shown.push_back({std::filesystem::path(field.name).filename(), field.name, field.vector});
+    }
     rows.finish();
     hdf5::rename_file(part, path);
   });
-  std::vector<XdmfField> shown;
-  shown.reserve(fields.size() + 1);
-  for (const Field& field : fields) shown.push_back({field.name, field.name, field.vector});
   shown.push_back({"insideFraction", "grid/insideFraction", false});
   try {
     write_xdmf(path, "slurry", grid, begins, shown);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,7 +18,7 @@
 namespace millfoam::averaging {
 
 /// The version of the layout that is written.
-inline constexpr int slurry_version = 1;
+inline constexpr int slurry_version = 2;
 
 /// A slurry file or a segment that cannot be read or written; the message names the file and the reason.
 class SlurryFileError : public std::runtime_error {
@@ -28,6 +30,15 @@ class SlurryFileError : public std::runtime_error {
 /// epsilon alpha p_rgh.
 inline constexpr std::size_t slurry_components = 7;
 
+/// Added to the solidity phi in the weight w = phi + this of what a ball feels, so that voxels without balls
+/// have values, too.
+inline constexpr double few_balls = 1e-6;
+
+/// What follows these in a flow with balls, per volume of the cells: w, phi, and, times w, the pressure's
+/// force on balls -grad p (3), the exchange coefficient over the balls' volume K, K u (3), the fluid's
+/// density, and the balls' Sauter diameter.
+inline constexpr std::size_t ball_components = 11;
+
 /// A stretch of a flow, in sums over time and volume.
 struct SlurrySegment {
   double begin = 0;                ///< flow time, s
@@ -36,14 +47,17 @@ struct SlurrySegment {
   double duration = 0;             ///< that the samples represent, s
   double slurry = 0;               ///< integral over time of the slurry's volume in the cells, m^3 s
   std::vector<double> volume;      ///< [n] of the cells' parts in each voxel, m^3 s
-  std::vector<double> components;  ///< [n][slurry_components], see there, times m^3 s
+  std::size_t width = 0;           ///< number of components: slurry_components, or that and ball_components
+  std::vector<double> components;  ///< [n][width], see there, times m^3 s
 
-  /// An empty one of n voxels.
-  explicit SlurrySegment(std::size_t voxels = 0)
-      : volume(voxels, 0.0), components(voxels * slurry_components, 0.0) {}
+  /// An empty one of n voxels, with or without what balls feel.
+  explicit SlurrySegment(std::size_t voxels = 0, bool balls = false)
+      : volume(voxels, 0.0),
+        width(slurry_components + (balls ? ball_components : 0)),
+        components(voxels * width, 0.0) {}
 
   /// Adds fields that were sampled once, for so many seconds.
-  /// @param sample  with slurry_components components
+  /// @param sample  with `width` components
   /// @param slurry_volume  in all cells, m^3
   /// @param seconds  of flow time that the sample represents
   void add(const VoxelSums& sample, double slurry_volume, double seconds);
@@ -55,20 +69,31 @@ struct SlurrySegment {
 /// Writes a segment; a run that is killed leaves nothing that looks whole. Throws SlurryFileError.
 void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const SlurrySegment& segment);
 
-/// Reads it back. Throws SlurryFileError, also when it was written for another grid.
-SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid);
+/// Reads it back. Throws SlurryFileError, also when it was written for another grid, by a version with
+/// another layout, or has what balls feel and `balls` is false, or the other way round.
+SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid, bool balls = false);
 
 /// Number of the window [k w, (k+1) w) in which a segment lies; `name` is the segment's, for the message.
 /// Throws SlurryFileError when it lies in two.
 long long window_of(const SlurrySegment& segment, double window, const std::string& name);
 
+/// What the force on balls was computed with.
+struct BallsHeader {
+  std::string law = {};             ///< of the drag
+  bool polydispersity = false;      ///< whether the flow's drag had the factor of a mixture of sizes
+  double slurry_density = 0;        ///< kg/m^3
+  double air_density = 0;           ///< kg/m^3
+  std::array<double, 3> gravity{};  ///< m/s^2
+};
+
 /// What holds for a whole slurry file.
 struct SlurryHeader {
-  double time0 = 0;            ///< DEM time at flow time 0, s
-  double window = 0;           ///< length of the windows, s
-  double start = 0;            ///< flow time from which the mean over the run is taken, s
-  std::string program = {};    ///< that writes the file, with its version
-  std::string mill_flow = {};  ///< fingerprint of the mill; empty: not known
+  double time0 = 0;                       ///< DEM time at flow time 0, s
+  double window = 0;                      ///< length of the windows, s
+  double start = 0;                       ///< flow time from which the mean over the run is taken, s
+  std::string program = {};               ///< that writes the file, with its version
+  std::string mill_flow = {};             ///< fingerprint of the mill; empty: not known
+  std::optional<BallsHeader> balls = {};  ///< of a flow with balls, whose segments have what they feel
 };
 
 /// Joins a flow's segments, in order of time: means over windows [k w, (k+1) w) of flow time, and over all

@@ -107,6 +107,65 @@ TEST(bedDrag, refusesALawThatNobodyPublished)
     EXPECT_NE(error.find("Beetstra"), std::string::npos) << error;
 }
 
+TEST(bedDrag, aBallFeelsTheTablesCoefficientOverItsVolume)
+{
+    using namespace millfoam::drag;
+    const Law& law = find_law("Beetstra");
+    const Fluid slurry{1239, 0.0014}, air{1.2, 1.8e-5};
+    // Balls on the left, few in the middle, none on the right
+    smallCase box({{3, 1, 1}, {3, 1, 1}});
+    const movingBed bed(
+        entriesOf("blocks {"
+                  " a { box (0 -9 -9) (1 9 9); solidity 0.5; diameter 0.005;"
+                  " velocity (0.2 0 0); }"
+                  " b { box (1 -9 -9) (2 9 9); solidity 1e-4; diameter 0.008;"
+                  " velocity (0.2 0 0); } }"),
+        box.mesh());
+    const scalar whole = (0.5 + 1e-4) / (0.5 / 0.005 + 1e-4 / 0.008);
+    const scalarField d(bed.diameterOfBalls());
+    EXPECT_NEAR(d[0], 0.005, 1e-15);
+    EXPECT_NEAR(d[1], 0.008, 1e-15);
+    EXPECT_NEAR(d[2], whole, 1e-15);
+
+    for (const char* entries :
+         {"law Beetstra; multiplier 3;",
+          "law Beetstra; multiplier 3; polydispersity yes;"})
+    {
+        const bedDrag drag(entriesOf(string(entries) + fluids));
+        const auto found = [&](const scalar alpha)
+        {
+            return scalarField(drag.ballExchange(
+                bed, box.field<scalar>("alpha.slurry", dimless, alpha),
+                box.field<vector>("U", dimVelocity, vector(-0.3, 0, 0))));
+        };
+        const auto expected = [&](const scalar phi, const scalar slip,
+                                  const scalar size, const Fluid& fluid)
+        { return 3 * exchange_coefficient(law, phi, slip, size, fluid) / phi; };
+        const scalarField wet(found(1)), dry(found(0)), half(found(0.5));
+        EXPECT_NEAR(wet[0] / expected(0.5, 0.5, 0.005, slurry), 1, 1e-12);
+        EXPECT_NEAR(dry[0] / expected(0.5, 0.5, 0.005, air), 1, 1e-12);
+        EXPECT_NEAR(half[0] / (wet[0] + dry[0]), 0.5, 1e-12);
+        EXPECT_NEAR(wet[1] / expected(1e-3, 0.5, 0.008, slurry), 1, 1e-12);
+        // A ball at rest
+        EXPECT_NEAR(wet[2] / expected(1e-3, 0.3, whole, slurry), 1, 1e-12);
+    }
+}
+
+TEST(bedDrag, withoutAnyBallsTheyFeelNothing)
+{
+    smallCase box({{2, 2, 2}});
+    const movingBed bed(
+        entriesOf("block { box (5 5 5) (6 6 6); solidity 0.5; diameter 0.005;"
+                  " velocity (0 0 0); } ledgerCorrection no;"),
+        box.mesh());
+    const bedDrag drag(entriesOf("law Hill;" + fluids));
+    const scalarField found(drag.ballExchange(
+        bed, box.field<scalar>("alpha.slurry", dimless, 1),
+        box.field<vector>("U", dimVelocity, vector(1, 0, 0))));
+    EXPECT_EQ(max(mag(found)), 0);
+    EXPECT_EQ(max(mag(bed.diameterOfBalls())), 0);
+}
+
 TEST(movingBed, aBlockKeepsItsVolumeWhereverItMoves)
 {
     smallCase box({{16, 8, 4}, {1, 0.5, 0.25}}, 0.013);
@@ -178,25 +237,25 @@ TEST(ballLoad, aBallInRestingSlurryFeelsItsBuoyancy)
     smallCase box({{2, 2, 2}});
     const movingBed bed(entriesOf(uniformBlock), box.mesh());
     ballLoad load(entriesOf("ballDensity 2700;"), bed, gravity);
-    const volScalarField rho(box.field<scalar>("rho", dimDensity, 1239));
-    const volVectorField still(
-        box.field<vector>("a", dimAcceleration, vector::zero));
-    const volScalarField none(
-        box.field<scalar>("beta", dimDensity / dimTime, 0));
+    const scalar slurry = 1239;
+    // At rest -grad p is -rho g
+    const vectorField atRest(box.mesh().nCells(), -slurry * gravity);
     load.update(
-        none.internalField(),
-        box.field<vector>("U", dimVelocity, vector(0.2, 0, 0)), still, rho);
-    EXPECT_NEAR(load.mean(), 1239.0 / 2700, 1e-12);
-    EXPECT_NEAR(load.high(), 1239.0 / 2700, 1e-12);
+        atRest, box.field<scalar>("beta", dimDensity / dimTime, 0),
+        box.field<vector>("U", dimVelocity, vector(0.2, 0, 0)));
+    EXPECT_NEAR(load.mean(), slurry / 2700, 1e-12);
+    EXPECT_NEAR(load.high(), slurry / 2700, 1e-12);
 
-    // In fluid that falls freely there is the drag alone
-    const scalar beta = 500;
+    // In fluid that falls freely there is the drag alone, with its share of the
+    // pressure's slope
+    const scalar beta = 500, slip = 0.1;
     load.update(
-        box.field<scalar>("beta", dimDensity / dimTime, beta).internalField(),
-        box.field<vector>("U", dimVelocity, vector(0.3, 0, 0)),
-        box.field<vector>("a", dimAcceleration, gravity), rho);
+        vectorField(
+            box.mesh().nCells(), vector(beta * slip / (1 - solidity), 0, 0)),
+        box.field<scalar>("beta", dimDensity / dimTime, beta),
+        box.field<vector>("U", dimVelocity, vector(0.2 + slip, 0, 0)));
     EXPECT_NEAR(
-        load.mean(), beta * 0.1 / (1 - solidity) / (solidity * 2700 * 9.81),
+        load.mean(), beta * slip / (1 - solidity) / (solidity * 2700 * 9.81),
         1e-12);
 }
 

@@ -9,14 +9,18 @@ Description
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 
+#include "averaging/files/slurry_file.hpp"
 #include "axialProfiles.H"
+#include "fluidOnBalls.H"
 #include "singlePhaseTransportModel.H"
 #include "slurryBalance.H"
 #include "smallCase.H"
 #include "surfaceFields.H"
 #include "turbulentTransportModel.H"
+#include "voxelAverages.H"
 #include "weightedSpread.H"
 
 using namespace Foam;
@@ -246,6 +250,73 @@ TEST(axialProfiles, cellsCountInTheSlicesThatTheyReachOver)
         {
             EXPECT_NEAR(found[i], values[i], 1e-12) << name << ' ' << i;
         }
+    }
+}
+
+TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
+{
+    flowCase box;
+    box.set(box.U, [](const point& x) { return vector(x.y(), -x.x(), 0.5); });
+    // Steep fields on voxels that cut the cells
+    const vectorField& C = box.mesh().C();
+    const scalarField& V = box.mesh().V();
+    label computed = 0;
+    const scalarField solidity(0.6 * C.component(vector::X));
+    const vectorField pressure(1e4 * C);
+    const scalarField exchange(1e3 + 1e5 * C.component(vector::Y));
+    const fluidOnBalls onBalls(
+        box.mesh(), {"Hill", true, density, 1.2, gravity},
+        [&]
+        {
+            ++computed;
+            return ballForces{
+                solidity, pressure, exchange, scalarField(C.size(), 0.005)};
+        });
+    functionObjects::voxelAverages averages(
+        "voxels", box.time(),
+        entriesOf("lower (0 0 0); upper (1 1 0.5); shape (5 5 1); window 1;"
+                  " interval 0.5;"));
+    for (label step = 0; step < 4; ++step)
+    {
+        ++box.time();
+        averages.execute();
+    }
+    averages.end();
+    // Each second time-step of 0.25 s has a sample
+    EXPECT_EQ(computed, 2);
+
+    using namespace millfoam::averaging;
+    SlurrySegment sums(25, true);
+    const BoxGrid grid({0, 0, 0}, {1, 1, depth}, {5, 5, 1});
+    for (const auto& entry : std::filesystem::directory_iterator(
+             box.folder() / "postProcessing" / "voxels" / "segments"))
+    {
+        sums.add(read_segment(entry.path(), grid, true));
+    }
+    // Of what balls feel, a component's sum over the voxels
+    const auto total = [&](const std::size_t component)
+    {
+        scalar result = 0;
+        for (std::size_t i = slurry_components + component;
+             i < sums.components.size(); i += sums.width)
+        {
+            result += sums.components[i];
+        }
+        return result;
+    };
+    const scalarField weight((solidity + few_balls) * V);
+    EXPECT_NEAR(total(0) / sum(weight), 1, 1e-12);
+    EXPECT_NEAR(total(1) / sum(solidity * V), 1, 1e-12);
+    EXPECT_NEAR(total(5) / sum(weight * exchange), 1, 1e-12);
+    EXPECT_NEAR(total(9) / (density * sum(weight)), 1, 1e-12);
+    EXPECT_NEAR(total(10) / (0.005 * sum(weight)), 1, 1e-12);
+    for (label axis = 0; axis < 3; ++axis)
+    {
+        const scalarField push(pressure.component(axis));
+        const scalarField velocity(box.U.primitiveField().component(axis));
+        EXPECT_NEAR(total(2 + axis) / sum(weight * push), 1, 1e-12);
+        EXPECT_NEAR(
+            total(6 + axis) / sum(weight * exchange * velocity), 1, 1e-12);
     }
 }
 

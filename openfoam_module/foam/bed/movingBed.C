@@ -197,6 +197,29 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::movingBed::voidageBefore()
 }
 
 
+Foam::tmp<Foam::scalarField> Foam::movingBed::diameterOfBalls() const
+{
+    auto tresult = tmp<scalarField>::New(diameter_.primitiveField());
+    scalarField& result = tresult.ref();
+    const scalarField volume(solidity_.primitiveField() * mesh_.V());
+    scalar surface = 0;
+    forAll(result, celli)
+    {
+        surface += volume[celli] > 0 ? volume[celli] / result[celli] : 0;
+    }
+    reduce(surface, sumOp<scalar>());
+    const scalar whole = surface > 0 ? gSum(volume) / surface : 0;
+    forAll(result, celli)
+    {
+        if (!(volume[celli] > 0))
+        {
+            result[celli] = whole;
+        }
+    }
+    return tresult;
+}
+
+
 Foam::wordList Foam::movingBed::entries()
 {
     return {"solids",          "interpolation",

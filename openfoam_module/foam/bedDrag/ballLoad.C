@@ -40,8 +40,8 @@ Foam::ballLoad::ballLoad(
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 void Foam::ballLoad::update(
-    const volScalarField::Internal& exchange, const volVectorField& U,
-    const volVectorField& acceleration, const volScalarField& rho)
+    const vectorField& pressureForce, const volScalarField::Internal& exchange,
+    const volVectorField& U)
 {
     forAll(ratio_, celli)
     {
@@ -50,9 +50,8 @@ void Foam::ballLoad::update(
         if (phi > 0)
         {
             const vector force(
-                phi * rho[celli] * (acceleration[celli] - g_) +
-                exchange[celli] * (U[celli] - bed_.velocity()[celli]) /
-                    (1 - phi));
+                phi * pressureForce[celli] +
+                exchange[celli] * (U[celli] - bed_.velocity()[celli]));
             ratio_[celli] = mag(force) / (phi * density_ * mag(g_));
         }
     }

@@ -14,6 +14,10 @@
 namespace Foam
 {
 
+//- Solidity below which a ball feels what it would at this one
+static constexpr scalar smallSolidity_ = 1e-3;
+
+
 //- Density and viscosity of a phase from its dictionary
 static millfoam::drag::Fluid readFluid(const dictionary& dict)
 {
@@ -175,6 +179,25 @@ Foam::tmp<Foam::volScalarField::Internal> Foam::bedDrag::exchange(
                 phi, d, bed.diameter43()[celli]);
         }
         result[celli] = multiplier_ * beta;
+    }
+    return tresult;
+}
+
+
+Foam::tmp<Foam::scalarField> Foam::bedDrag::ballExchange(
+    const movingBed& bed, const volScalarField& alpha,
+    const volVectorField& U) const
+{
+    auto tresult = tmp<scalarField>::New(bed.diameterOfBalls());
+    scalarField& result = tresult.ref();
+    forAll(result, celli)
+    {
+        const scalar d = result[celli];
+        const scalar phi = max(bed.solidity()[celli], smallSolidity_);
+        const scalar v = mag(bed.velocity()[celli] - U[celli]);
+        const scalar share = max(scalar(0), min(alpha[celli], scalar(1)));
+        result[celli] =
+            d > 0 ? multiplier_ * exchangeAt(share, phi, v, d) / phi : 0;
     }
     return tresult;
 }

@@ -57,8 +57,26 @@ static BoxGrid readGrid(const dictionary& dict)
 }
 
 
-//- Times of windows and of the run
-static SlurryHeader readHeader(const dictionary& dict, const Time& time)
+//- What the force on balls is computed with
+static std::optional<BallsHeader> ballsHeader(const fluidOnBalls* balls)
+{
+    if (!balls)
+    {
+        return std::nullopt;
+    }
+    const ballsInFlow& flow = balls->flow();
+    return BallsHeader{
+        flow.law,
+        flow.polydispersity,
+        flow.slurryDensity,
+        flow.airDensity,
+        {flow.gravity.x(), flow.gravity.y(), flow.gravity.z()}};
+}
+
+
+//- Times of windows and of the run, and the balls
+static SlurryHeader
+readHeader(const dictionary& dict, const Time& time, const fluidOnBalls* balls)
 {
     const IOdictionary mill(optionalDictionary("millProperties", time, false));
     SlurryHeader header;
@@ -66,6 +84,7 @@ static SlurryHeader readHeader(const dictionary& dict, const Time& time)
     header.window = dict.get<scalar>("window");
     header.start = dict.lookupOrDefault<scalar>("start", 0);
     header.program = std::string("voxelAverages ") + millfoam::version();
+    header.balls = ballsHeader(balls);
     header.mill_flow = mill.lookupOrDefault<string>("flowFingerprint", "");
     if (!(header.window > 0))
     {
@@ -144,9 +163,11 @@ void Foam::averageSegments::check() const
     for (const std::filesystem::path& path : files())
     {
         stopWith(untrapped(
-            [&] {
+            [&]
+            {
                 window_of(
-                    read_segment(path, grid_), header_.window, path.string());
+                    read_segment(path, grid_, withBalls()), header_.window,
+                    path.string());
             }));
     }
 }
@@ -166,7 +187,7 @@ void Foam::averageSegments::close(const scalar end)
         stopWith(untrapped(
             [&] { write_segment((folder_ / name).c_str(), grid_, sums_); }));
     }
-    sums_ = SlurrySegment(grid_.size());
+    sums_ = SlurrySegment(grid_.size(), withBalls());
     sums_.begin = end;
 }
 
@@ -189,14 +210,15 @@ std::vector<std::filesystem::path> Foam::averageSegments::files() const
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::averageSegments::averageSegments(
-    const word& name, const Time& time, const dictionary& dict)
+    const word& name, const Time& time, const dictionary& dict,
+    const fluidOnBalls* balls)
 : time_(time),
   grid_(readGrid(dict)),
-  header_(readHeader(dict, time)),
+  header_(readHeader(dict, time, balls)),
   folder_(time.globalPath() / "postProcessing" / name / "segments"),
   file_(
       time.globalPath() / dict.lookupOrDefault<fileName>("file", "slurry.h5")),
-  sums_(grid_.size()),
+  sums_(grid_.size(), withBalls()),
   covered_(time.value())
 {
     sums_.begin = covered_;

@@ -8,6 +8,8 @@
 #include "averagingMesh.H"
 #include "untrapped.H"
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 using namespace millfoam::averaging;
@@ -74,24 +76,69 @@ std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
     const vectorField& U = fields_.U().primitiveField();
     const scalarField& p = fields_.p().primitiveField();
     const scalarField& p_rgh = fields_.p_rgh().primitiveField();
-    std::vector<double> values;
-    values.reserve(alpha.size() * slurry_components);
+    std::vector<double> values(alpha.size() * segments_.components());
+    auto* cell = values.data();
     forAll(alpha, celli)
     {
         const scalar slurry = voidage[celli] * alpha[celli];
         const vector flux(slurry * U[celli]);
-        values.insert(
-            values.end(), {slurry, voidage[celli], flux.x(), flux.y(), flux.z(),
-                           slurry * p[celli], slurry * p_rgh[celli]});
+        const std::array<double, slurry_components> own{
+            slurry,
+            voidage[celli],
+            flux.x(),
+            flux.y(),
+            flux.z(),
+            slurry * p[celli],
+            slurry * p_rgh[celli]};
+        std::copy(own.begin(), own.end(), cell);
+        cell += segments_.components();
+    }
+    if (balls_)
+    {
+        addBalls(values);
     }
     return values;
 }
 
 
-VoxelSums Foam::functionObjects::voxelAverages::sample()
+void Foam::functionObjects::voxelAverages::addBalls(
+    std::vector<double>& values) const
 {
-    const std::vector<double> values(cellValues());
-    VoxelSums sums(segments_.grid().size(), slurry_components);
+    const ballForces feel(balls_->present());
+    const ballsInFlow& flow = balls_->flow();
+    const scalarField& alpha = fields_.alpha().primitiveField();
+    const vectorField& U = fields_.U().primitiveField();
+    auto* cell = values.data() + slurry_components;
+    forAll(alpha, celli)
+    {
+        const scalar w = feel.solidity[celli] + few_balls;
+        const vector pressure(w * feel.pressure[celli]);
+        const scalar exchange = w * feel.exchange[celli];
+        const vector drag(exchange * U[celli]);
+        const scalar density = alpha[celli] * flow.slurryDensity +
+                               (1 - alpha[celli]) * flow.airDensity;
+        const std::array<double, ball_components> own{
+            w,
+            feel.solidity[celli],
+            pressure.x(),
+            pressure.y(),
+            pressure.z(),
+            exchange,
+            drag.x(),
+            drag.y(),
+            drag.z(),
+            w * density,
+            w * feel.diameter[celli]};
+        std::copy(own.begin(), own.end(), cell);
+        cell += segments_.components();
+    }
+}
+
+
+VoxelSums Foam::functionObjects::voxelAverages::deposit(
+    const std::vector<double>& values, const std::size_t components)
+{
+    VoxelSums sums(segments_.grid().size(), components);
     const auto reason = untrapped(
         [&]
         {
@@ -106,9 +153,16 @@ VoxelSums Foam::functionObjects::voxelAverages::sample()
 }
 
 
+VoxelSums Foam::functionObjects::voxelAverages::sample()
+{
+    return deposit(cellValues(), segments_.components());
+}
+
+
 void Foam::functionObjects::voxelAverages::checkBox()
 {
-    const VoxelSums sums(sample());
+    // The fields may not be known yet
+    const VoxelSums sums(deposit({}, 0));
     const scalar inside = returnReduce(
         std::accumulate(sums.volume.begin(), sums.volume.end(), scalar(0)),
         sumOp<scalar>());
@@ -149,7 +203,7 @@ void Foam::functionObjects::voxelAverages::sampleUpToNow()
     const VoxelSums sums(sample());
     const scalar slurry = sum(fields_.volumes()());
     scalar inside = 0;
-    for (std::size_t n = 0; n < sums.values.size(); n += slurry_components)
+    for (std::size_t n = 0; n < sums.values.size(); n += sums.components)
     {
         inside += sums.values[n];
     }
@@ -173,7 +227,8 @@ Foam::functionObjects::voxelAverages::voxelAverages(
     const word& name, const Time& runTime, const dictionary& dict)
 : fvMeshFunctionObject(name, runTime, dict),
   fields_(mesh_, dict),
-  segments_(name, runTime, dict),
+  balls_(mesh_.findObject<fluidOnBalls>(fluidOnBalls::typeName)),
+  segments_(name, runTime, dict, balls_),
   interval_(dict.lookupOrDefault<scalar>("interval", 0)),
   divisions_(dict.lookupOrDefault<label>("divisions", 1)),
   last_(runTime.value()),

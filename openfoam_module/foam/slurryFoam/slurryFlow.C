@@ -12,6 +12,7 @@
 #include "mixtureFluids.H"
 #include "staticFvMesh.H"
 #include "optionalDictionary.H"
+#include "zeroFields.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -93,6 +94,11 @@ void Foam::slurryFlow::readBed()
         requireKnownEntries(drag, bedDrag::entries());
         drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
         Info << "Drag: " << drag_->description().c_str() << nl;
+        onBalls_.reset(new fluidOnBalls(
+            mesh_,
+            {drag_->law(), drag_->polydispersity(), mixture_.rho1().value(),
+             mixture_.rho2().value(), g_.value()},
+            [this] { return forcesOnBalls(); }));
     }
     if (bedDict_.found("poreSuction"))
     {
@@ -192,6 +198,10 @@ Foam::slurryFlow::slurryFlow(
       fluidsOf(mixture_)),
   forces_(
       continued<volVectorField>("forceAcceleration", mesh, dimAcceleration)),
+  projectedInertia_(
+      IOobject("projectedInertia", mesh.time().timeName(), mesh),
+      pressure_.inertia().internalField()),
+  contractionFlux_(zeroFaces(mesh, "contractionFlux", dimVolume / dimTime)),
   fluxDetail_(
       continued<surfaceScalarField>("fluxDetail", mesh, dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),
@@ -209,6 +219,7 @@ Foam::slurryFlow::slurryFlow(
   misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0))
 {
+    contractionFlux_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();
     slurryFlux_.setOriented();
@@ -339,8 +350,7 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     if (load_.valid() && mesh_.time().writeTime())
     {
         load_->update(
-            drag_->exchange(bed_, alpha_, U_), U_, forces_,
-            pressure_.inertia());
+            pressureForce(), drag_->exchange(bed_, alpha_.oldTime(), U_), U_);
         Info << "bed: " << load_->description().c_str() << endl;
         row.force_mean = load_->mean();
         row.force_95 = load_->high();

@@ -28,7 +28,8 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 
 
 Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce(
-    const volVectorField& U, volVectorField& solids) const
+    const volScalarField& alpha, const volVectorField& U,
+    volVectorField& solids) const
 {
     auto tforce = tmp<volScalarField>::New(
         IOobject("dragForce", mesh_.time().timeName(), mesh_), mesh_,
@@ -37,11 +38,11 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce(
     if (drag_.valid())
     {
         tforce.ref().ref() =
-            drag_->exchange(bed_, alpha_, U) / voidage_.internalField();
+            drag_->exchange(bed_, alpha, U) / voidage_.internalField();
         tforce.ref().correctBoundaryConditions();
     }
     solids = bed_.velocity();
-    grates_.add(tforce.ref(), solids, alpha_, U);
+    grates_.add(tforce.ref(), solids, alpha, U);
     return tforce;
 }
 
@@ -51,10 +52,37 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragStiffness(
 {
     const scalar share = 0.01;
     volVectorField same(solids);
-    const volScalarField faster(dragForce(U_ + share * (U_ - solids), same));
+    const volScalarField faster(
+        dragForce(alpha_, U_ + share * (U_ - solids), same));
     return force +
            max(faster - force, dimensionedScalar(force.dimensions(), Zero)) /
                share;
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::slurryFlow::pressureForce() const
+{
+    // The projection saw the slurry of the step's begin
+    volVectorField solids(bed_.velocity());
+    const volScalarField force(dragForce(alpha_.oldTime(), U_, solids));
+    // What the contraction does at the faces is no force but convection
+    const volVectorField contraction(
+        pressure_.reconstruct(contractionFlux_) /
+        (mesh_.time().deltaT() * voidage_));
+    return projectedInertia_.field() *
+               (forces_.primitiveField() - contraction.primitiveField() -
+                g_.value()) +
+           force.primitiveField() *
+               (U_.primitiveField() - solids.primitiveField());
+}
+
+
+Foam::ballForces Foam::slurryFlow::forcesOnBalls() const
+{
+    return {
+        bed_.solidity().primitiveField(), vectorField(pressureForce()),
+        scalarField(drag_->ballExchange(bed_, alpha_.oldTime(), U_)),
+        scalarField(bed_.diameterOfBalls())};
 }
 
 
@@ -89,15 +117,13 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
     const surfaceScalarField drag(
         deltaT * faceVoidage *
         pressure_.accelerationFlux(force * (solidsVelocity - U_)));
-    const surfaceScalarField contraction(contraction_.contractionFlux(
-        massMoved_ / deltaT, pressure_.faceDensity()));
     // Drops and films weigh what they hold: in p_rgh a dry cell weighs air
     const surfaceScalarField fall(
         deltaT * faceVoidage *
         fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
-    return (seen + contraction + fall + drag + r * before) / (1 + r);
+    return (seen + fall + drag + r * before) / (1 + r);
 }
 
 
@@ -188,12 +214,15 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     const surfaceScalarField seen(carriedFlux + keptDetail() * detailBefore_);
 
     volVectorField solidsVelocity(bed_.velocity());
-    const volScalarField force(dragForce(U_, solidsVelocity));
+    const volScalarField force(dragForce(alpha_, U_, solidsVelocity));
     const surfaceScalarField r(
         deltaT * pressure_.faceRate(dragStiffness(force, solidsVelocity)));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
-    surfaceScalarField free(
-        freeFlux(seen, force, solidsVelocity, r, faceVoidage));
+    contractionFlux_ = contraction_.contractionFlux(
+        massMoved_ / deltaT, pressure_.faceDensity());
+    projectedInertia_ = pressure_.inertia().internalField();
+    surfaceScalarField free(freeFlux(
+        seen + contractionFlux_, force, solidsVelocity, r, faceVoidage));
     const surfaceScalarField mobility(
         deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
     const surfaceScalarField::Boundary wallFlux(

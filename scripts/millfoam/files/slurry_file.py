@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry on voxels
-(layout: FORMATS.md)."""
-from collections.abc import Iterable, Sequence
+"""Slurry averaged over axis and time on the pixels of a map, and the reader of slurry.h5, a flow's slurry and what its
+balls feel on voxels (layout: FORMATS.md)."""
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 
 from .solids_file import CLOCKWISE, open_hdf5
+
+VERSIONS = (1, 2)  # of the layout: the first one has no /balls
+FEW_BALLS = 1e-6  # added to the solidity in the weights of what balls feel
 
 
 @dataclass
@@ -54,34 +59,108 @@ class VoxelMap(SlurryMap):
         return float(along), float(up)
 
 
+@dataclass
+class BallForces:
+    """What a ball feels on the voxels of a slurry.h5, mean over time: a ball of volume V and velocity v feels
+    V (pressure_force + drag_force - exchange v).
+
+    lower, upper [3]: corners of the box (m); inside [nz, ny, nx]: share of the voxel in the mesh; solidity, of that
+    share; pressure_force, drag_force [nz, ny, nx, 3] (N/m3); exchange (kg/(m3 s)), without the factor of a mixture of
+    sizes; fluid_density (kg/m3); diameter (m) [nz, ny, nx]; begin, end: DEM time (s); law: of the drag; polydispersity:
+    whether the flow's drag had that factor; slurry_density, air_density (kg/m3); gravity [3] (m/s2)."""
+    lower: np.ndarray
+    upper: np.ndarray
+    inside: np.ndarray
+    solidity: np.ndarray
+    pressure_force: np.ndarray
+    exchange: np.ndarray
+    drag_force: np.ndarray
+    fluid_density: np.ndarray
+    diameter: np.ndarray
+    begin: float
+    end: float
+    law: str
+    polydispersity: bool
+    slurry_density: float
+    air_density: float
+    gravity: np.ndarray
+
+    def volumes(self) -> np.ndarray:
+        """Volume of the balls that the flow saw in each voxel [nz, ny, nx], m3."""
+        return np.prod((self.upper - self.lower) / self.inside.shape[::-1]) * self.inside * self.solidity
+
+
+@contextmanager
+def _open_slurry(path: Path | str) -> Iterator[h5py.File]:
+    """A complete slurry.h5 of a known version; otherwise RuntimeError."""
+    with open_hdf5(path) as file:
+        if file.attrs.get("complete", 0) != 1:
+            raise RuntimeError(f"{path}: not complete; let the flow run to its end")
+        if file.attrs.get("version", 1) not in VERSIONS:
+            raise RuntimeError(f"{path}: version {file.attrs['version']}; expected one of {VERSIONS}: it is of a newer "
+                               "millFoam")
+        yield file
+
+
+def _means(path: Path | str, file: h5py.File, begin: float | None, end: float | None) -> tuple[
+        list[tuple[Any, Any]], Iterable[np.ndarray], np.ndarray, tuple[float, float]]:
+    """The means over time to take from an open slurry.h5, of the windows in [begin, end) of DEM time, or without times
+    of the whole run: (group, row) pairs, their insideFraction, lengths (s), and the first and last time (s).
+    RuntimeError if there are none."""
+    if begin is None and end is None:
+        if "mean" not in file:
+            raise RuntimeError(f"{path}: no mean over the run: the flow ended before its averages' start")
+        span = float(file["mean"].attrs["begin"]), float(file["mean"].attrs["end"])
+        return [(file["mean"], ())], [file["mean/insideFraction"][()]], np.ones(1), span
+    begins, ends = file["window/begin"][:], file["window/end"][:]
+    slack, last = 1e-6 * file.attrs["window"], np.inf if end is None else end
+    chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= last + slack))
+    if len(chosen) == 0:
+        raise RuntimeError(f"{path}: no window between {begin} and {end} s; the file has {begins[0]} to {ends[-1]} s")
+    return ([(file, window) for window in chosen], (file["grid/insideFraction"][window] for window in chosen),
+            (ends - begins)[chosen], (float(begins[chosen[0]]), float(ends[chosen[-1]])))
+
+
+def read_ball_forces(path: Path | str, begin: float | None = None, end: float | None = None) -> BallForces:
+    """BallForces of a slurry.h5: mean over the windows in [begin, end) of DEM time (s), or without times the file's own
+    mean over the run. RuntimeError if the file is not complete, has no window in these times, or was written by a flow
+    without balls or by millFoam before version 2 of the file."""
+    with _open_slurry(path) as file:
+        if "balls" not in file:
+            raise RuntimeError(f"{path}: no group /balls: it is of version {file.attrs.get('version', 1)}, of "
+                               f"{'a flow without balls' if file.attrs.get('version', 1) > 1 else 'an older millFoam'};"
+                               " run slurryFoam with constant/bedProperties")
+        means, inside_of, lengths, span = _means(path, file, begin, end)
+        names = ("pressure_force", "exchange", "drag_force", "fluid_density", "diameter")
+        sums: dict[str, Any] = dict.fromkeys(names, 0.0)
+        room = balls = weight = np.zeros(())
+        for (group, row), inside, seconds in zip(means, inside_of, lengths):
+            part, phi = seconds * inside, group["balls/solidity"][row]
+            room, balls, weight = room + part, balls + part * phi, weight + part * (phi + FEW_BALLS)
+            for name in names:
+                values = group[f"balls/{name}"][row]
+                sums[name] = sums[name] + (values.T * (part * (phi + FEW_BALLS)).T).T
+        filled = room > 0
+        fields = {name: np.divide(total.T, weight.T, where=filled.T, out=np.zeros_like(total.T)).T
+                  for name, total in sums.items()}
+        facts = file["balls"].attrs
+        law = facts["law"]
+        return BallForces(
+            np.asarray(file["grid"].attrs["lower"]), np.asarray(file["grid"].attrs["upper"]),
+            room / np.sum(lengths), np.divide(balls, room, where=filled, out=np.zeros_like(balls)), **fields,
+            begin=span[0], end=span[1], law=law.decode() if isinstance(law, bytes) else str(law),
+            polydispersity=bool(facts["polydispersity"]), slurry_density=float(facts["slurry_density"]),
+            air_density=float(facts["air_density"]), gravity=np.asarray(facts["gravity"]))
+
+
 def read_slurry_map(path: Path | str, begin: float | None = None, end: float | None = None, length: float = np.inf,
                     sense: float = CLOCKWISE) -> VoxelMap:
     """VoxelMap of a slurry.h5: mean over the axis (the layers of voxels with their middle before z = length, m), and
     over the windows in [begin, end) of DEM time. Without times, it is the file's own mean over the run. sense: the
     mill's. RuntimeError if the file is not complete or has no window in these times."""
-    with open_hdf5(path) as file:
-        if file.attrs.get("complete", 0) != 1:
-            raise RuntimeError(f"{path}: not complete; let the flow run to its end")
-        grid = file["grid"]
-        lower, upper, shape = (np.asarray(grid.attrs[name]) for name in ("lower", "upper", "shape"))
-        if begin is None and end is None:
-            if "mean" not in file:
-                raise RuntimeError(f"{path}: no mean over the run: the flow ended before its averages' start")
-            means: list[tuple[Any, Any]] = [(file["mean"], ())]
-            inside_of: Iterable[np.ndarray] = [file["mean/insideFraction"][()]]
-            lengths = np.ones(1)
-            span = float(file["mean"].attrs["begin"]), float(file["mean"].attrs["end"])
-        else:
-            begins, ends = file["window/begin"][:], file["window/end"][:]
-            slack, last = 1e-6 * file.attrs["window"], np.inf if end is None else end
-            chosen = np.flatnonzero((begins >= (begin or -np.inf) - slack) & (ends <= last + slack))
-            if len(chosen) == 0:
-                raise RuntimeError(f"{path}: no window between {begin} and {end} s; the file has {begins[0]} to "
-                                   f"{ends[-1]} s")
-            means = [(file, window) for window in chosen]
-            inside_of = (grid["insideFraction"][window] for window in chosen)
-            lengths = (ends - begins)[chosen]
-            span = float(begins[chosen[0]]), float(ends[chosen[-1]])
+    with _open_slurry(path) as file:
+        lower, upper, shape = (np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "shape"))
+        means, inside_of, lengths, span = _means(path, file, begin, end)
         z = lower[2] + (np.arange(shape[2]) + 0.5) * (upper[2] - lower[2]) / shape[2]
         edges = [np.linspace(lower[k], upper[k], int(shape[k]) + 1) for k in (0, 1)]
         return _over_axis(means, inside_of, lengths, z < length, edges, span, sense)

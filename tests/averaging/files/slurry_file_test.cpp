@@ -125,6 +125,70 @@ TEST_F(SlurryFile, WhatLiesBeyondTheBoxIsTold) {
   expect("ledger/outside", {0.05});
 }
 
+/// What balls feel in a sample of two voxels: the first has balls of this solidity, the second none.
+SlurrySegment stretch_with_balls(double begin, double end, double solidity, double exchange) {
+  VoxelSums sums(2, slurry_components + ball_components);
+  sums.volume = {1, 0.5};
+  const auto fill = [&](std::size_t voxel, double phi) {
+    const double w = phi + few_balls, volume = sums.volume[voxel];
+    const std::array<double, ball_components> own{
+        w, phi, w * 1, w * 2, w * 3, w * exchange, w * 4., w * exchange, w * exchange, w * 1239, w * 0.005};
+    for (std::size_t k = 0; k < ball_components; ++k) {
+      sums.values[voxel * sums.components + slurry_components + k] = volume * own[k];
+    }
+  };
+  fill(0, solidity);
+  fill(1, 0);
+  SlurrySegment segment(2, true);
+  segment.begin = begin;
+  segment.end = end;
+  segment.add(sums, 0, end - begin);
+  return segment;
+}
+
+TEST_F(SlurryFile, WhatBallsFeelIsWeightedByTheirVolumeAndKnownWithoutThem) {
+  // A third of the balls' volume over time has K = 100, the rest 400
+  SlurryHeader header{1.5, 1.0, 0.0};
+  header.balls = BallsHeader{"Hill", true, 1239, 1.2, {0, -9.81, 0}};
+  assemble_slurry(whole, two_voxels, header,
+                  {write("a.h5", stretch_with_balls(0, 0.5, 0.2 - few_balls, 100)),
+                   write("b.h5", stretch_with_balls(0.5, 1, 0.4 - few_balls, 400))});
+  for (const std::string group : {"", "mean/"}) {
+    expect(group + "balls/solidity", {0.3 - few_balls, 0});
+    expect(group + "balls/exchange", {300, 250});
+    expect(group + "balls/pressure_force", {1, 2, 3, 1, 2, 3});
+    expect(group + "balls/drag_force", {4, 300, 300, 4, 250, 250});
+    expect(group + "balls/fluid_density", {1239, 1239});
+    expect(group + "balls/diameter", {0.005, 0.005});
+  }
+  const hdf5::Handle file = hdf5::open_file(whole), balls = hdf5::open_group(file.get(), "balls");
+  EXPECT_EQ(hdf5::read_int_attribute(file.get(), "version", 1)[0], 2);
+  EXPECT_EQ(hdf5::read_text_attribute(balls.get(), "law"), "Hill");
+  EXPECT_EQ(hdf5::read_int_attribute(balls.get(), "polydispersity", 1)[0], 1);
+  EXPECT_EQ(hdf5::read_double_attribute(balls.get(), "slurry_density", 1)[0], 1239);
+  EXPECT_EQ(hdf5::read_double_attribute(balls.get(), "gravity", 3), (std::vector<double>{0, -9.81, 0}));
+}
+
+TEST_F(SlurryFile, AFlowWithoutBallsHasNoGroupOfThem) {
+  assemble_slurry(whole, two_voxels, {0, 1.0, 0}, {write("a.h5", stretch(0, 1, 0.2, 1))});
+  const hdf5::Handle file = hdf5::open_file(whole);
+  EXPECT_FALSE(hdf5::has(file.get(), "balls"));
+  EXPECT_FALSE(hdf5::has(file.get(), "mean/balls"));
+}
+
+TEST_F(SlurryFile, SegmentsWithAndWithoutBallsAreNotMixed) {
+  const auto with = write("a.h5", stretch_with_balls(0, 1, 0.2, 100));
+  const auto without = write("b.h5", stretch(0, 1, 0.2, 1));
+  EXPECT_NE(message_of<SlurryFileError>([&] {
+              read_segment(with, two_voxels);
+            }).find("by a flow with balls, expected one without"),
+            std::string::npos);
+  EXPECT_NE(message_of<SlurryFileError>([&] {
+              read_segment(without, two_voxels, true);
+            }).find("by a flow without balls, expected one with"),
+            std::string::npos);
+}
+
 TEST_F(SlurryFile, ParaViewFindsTheWindows) {
   assemble_slurry(whole, two_voxels, {2, 1.0, 0}, {write("a.h5", stretch(0, 1, 0.2, 1))});
   std::ifstream file(folder / "slurry.xdmf");
