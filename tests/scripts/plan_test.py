@@ -117,7 +117,7 @@ class Arithmetic(Folder):
         content, stages, _ = self.planned()
         self.assertEqual((content["flow_steps"], content["written_times"]), (1000, 100))
         self.assertAlmostEqual(stages["flow"]["time_s"], 1000 * STEP * 2.0)
-        self.assertEqual(stages["flow"]["disk_bytes"], 100 * (190 * CELLS + 32 * FACES) + 42 * 400 * (2 * 10 + 100))
+        self.assertEqual(stages["flow"]["disk_bytes"], 100 * (190 * CELLS + 32 * FACES) + 100 * 400 * (2 * 10 + 100))
 
     def test_courant_numbers_limit_the_time_step_by_the_speed_of_a_fall_through_the_mill(self):
         # Cells of 6.3 mm across the mill, a fall through 0.1 m: 1.4 m/s; 0.01 s between written times are whole steps

@@ -20,7 +20,8 @@ CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 190, 110  # of a written time
 FACE_BYTES = 32
 RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
 PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
-VOXEL_BYTES, SOLIDS_VOXEL_BYTES = 42, 120  # of one window of slurry.h5, of solids.h5
+VOXEL_BYTES_WITH_BALLS, VOXEL_BYTES_WITHOUT = 100, 42  # of one window of slurry.h5
+SOLIDS_VOXEL_BYTES = 120  # of one window of solids.h5
 PICTURES_TIME, FRAME_TIME, FRAMES = 8.0, 0.1, 60  # s; of a frame of the animations, which have 60 at most
 PICTURES_DISK, PYTHON_MEMORY = 6e6, 190e6
 AVERAGE_MEMORY = 21e6  # without the memory of one record of all balls
@@ -111,7 +112,9 @@ def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ra
     copies = 2 if ranks > 1 else 1  # in processor* and reconstructed
     fields = plan.written_times * copies * (cell_bytes * mesh.cells + FACE_BYTES * mesh.faces)
     voxels = math.prod(mill.flow("averages")["shape"])
-    averages = VOXEL_BYTES * voxels * (2 * plan.windows + plan.written_times)  # slurry.h5, and the parts it is made of
+    felt = balls and mill.flow("solver") == "slurryFoam"
+    voxel_bytes = VOXEL_BYTES_WITH_BALLS if felt else VOXEL_BYTES_WITHOUT
+    averages = voxel_bytes * voxels * (2 * plan.windows + plan.written_times)  # slurry.h5, and the parts it is made of
     return Stage("flow", plan.steps * step + plan.written_times * rebuilt, fields + averages, ranks * trial.memory,
                  "trial of the flow's first steps")
 
