@@ -13,31 +13,44 @@ import numpy as np
 
 from millfoam.coupling import passes
 from millfoam.coupling.__main__ import judge, make_forces
-from millfoam.coupling.ball_forces import (FIELDS, BallForces, disagreement, read_ball_forces, relaxed, total_force)
+from millfoam.coupling.ball_forces import FIELDS, disagreement, force_density, relaxed
+from millfoam.files.slurry_file import BallForces, read_ball_forces
+from millfoam.files.solids_file import VoxelCharge
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
 from report_cases import LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
-WEIGHT = 2700 * 9.81
+LOWER, UPPER = np.array([-RADIUS, -RADIUS, 0]), np.array([RADIUS, RADIUS, LENGTH])
 
 
-def uniform(up, exchange=1e4, fluid=0.1, solidity=0.5):
+def uniform(up, exchange=1e4, fluid=0.1, upper=UPPER, shape=SHAPE):
     """Forces on balls of one solidity: upwards of pressure (N/m3), and of drag towards a fluid's velocity along x."""
-    pressure, drag = np.zeros((*SHAPE, 3)), np.zeros((*SHAPE, 3))
+    pressure, drag, one = np.zeros((*shape, 3)), np.zeros((*shape, 3)), np.ones(shape)
     pressure[..., 1], drag[..., 0] = up, exchange * fluid
-    one = np.ones(SHAPE)
-    return BallForces(1e-6, one, solidity * one, pressure, drag, exchange * one, 1000 * one, 5e-3 * one)
+    return BallForces(LOWER, upper, one, 0.5 * one, pressure, exchange * one, drag, 1000 * one, 5e-3 * one, 1.0, 1.8,
+                      "Beetstra", False, 1500.0, 1.2, np.array([0, -9.81, 0]))
 
 
-def add_forces(path, forces):
-    """Gives a slurry.h5 the forces on its balls; without one, writes it."""
-    with h5py.File(path, "w") as file:
+def moving_along_x(speed):
+    """Balls of one velocity along x (m/s) everywhere."""
+    flux = np.zeros((*SHAPE, 3))
+    flux[..., 0] = 0.5 * speed
+    return VoxelCharge(LOWER, UPPER, np.zeros(3, bool), np.full(SHAPE, 0.5), flux)
+
+
+def add_forces(path, forces, mode="w"):
+    """Writes a slurry.h5 with these forces on its balls; with mode "a", adds them to an older one."""
+    with h5py.File(path, mode) as file:
         file.attrs.update(format="millfoam-slurry", version=2, complete=1, time0=1.0, window=0.1)
-        file.create_group("grid").attrs.update(kind="box", lower=[-RADIUS, -RADIUS, 0], upper=[RADIUS, RADIUS, LENGTH],
-                                               shape=SHAPE[::-1], periodic=[0, 0, 0])
-        file.create_group("balls").attrs.update(law="Beetstra", polydispersity=0)
-        file["mean/insideFraction"] = forces.inside
+        grid = file.require_group("grid")
+        grid.attrs.update(kind="box", lower=forces.lower, upper=forces.upper, shape=forces.inside.shape[::-1],
+                          periodic=[0, 0, 0])
+        file.require_group("balls").attrs.update(law="Beetstra", polydispersity=0, slurry_density=1500.0,
+                                                 air_density=1.2, gravity=forces.gravity)
+        mean = file.require_group("mean")
+        mean.attrs.update(begin=forces.begin, end=forces.end)
+        mean.require_dataset("insideFraction", forces.inside.shape, float)[...] = forces.inside
         for name in FIELDS:
             file[f"mean/balls/{name}"] = getattr(forces, name)
             file[f"mean/balls/{name}"].attrs["units"] = "SI"
@@ -49,16 +62,11 @@ class Forces(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def test_total_is_that_of_all_balls(self):
-        at_rest = np.zeros((*SHAPE, 3))
-        force = total_force(uniform(9810), at_rest)
-        balls = 1e-6 * 0.5 * np.prod(SHAPE)
-        np.testing.assert_allclose(force, [balls * 1e3, balls * 9810, 0], rtol=1e-12)
+    def test_balls_at_rest_feel_pressure_and_drag(self):
+        np.testing.assert_allclose(force_density(uniform(9810), moving_along_x(0))[1, 3, 4], [1e3, 9810, 0])
 
     def test_balls_that_move_with_the_fluid_feel_no_drag(self):
-        velocity = np.zeros((*SHAPE, 3))
-        velocity[..., 0] = 0.1
-        np.testing.assert_allclose(total_force(uniform(0), velocity), 0, atol=1e-12)
+        np.testing.assert_allclose(force_density(uniform(0), moving_along_x(0.1)), 0, atol=1e-9)
 
     def test_relaxation_takes_a_share_of_the_latest(self):
         mixed = relaxed(uniform(1000, 2e4), uniform(2000, 1e4), 0.7)
@@ -67,10 +75,10 @@ class Forces(unittest.TestCase):
 
     def test_forces_on_other_voxels_are_refused(self):
         with self.assertRaisesRegex(ValueError, "expected the same voxels"):
-            relaxed(uniform(1), replace(uniform(1), voxel=2e-6), 0.5)
+            relaxed(uniform(1), uniform(1, upper=1.1 * UPPER), 0.5)
 
     def test_disagreement_is_over_the_forces_that_the_flow_gives(self):
-        at_rest = np.zeros((*SHAPE, 3))
+        at_rest = moving_along_x(0)
         self.assertAlmostEqual(disagreement(uniform(800, 0), uniform(1000, 0), at_rest), 0.2)
         self.assertEqual(disagreement(uniform(800), uniform(800), at_rest), 0)
 
@@ -88,14 +96,6 @@ class Forces(unittest.TestCase):
         with h5py.File(third / "forces.h5") as file:
             self.assertEqual(file.attrs["relaxation"], 0.6)
             self.assertEqual(file["mean/balls/exchange"].attrs["units"], "SI")
-
-    def test_a_file_without_forces_is_refused(self):
-        path = self.folder / "slurry.h5"
-        add_forces(path, uniform(1))
-        with h5py.File(path, "a") as file:
-            del file["mean/balls"]
-        with self.assertRaisesRegex(RuntimeError, "no forces on the balls .* run the flow again"):
-            read_ball_forces(path)
 
     def test_a_force_that_is_not_finite_is_refused_with_its_voxel(self):
         forces = uniform(1)
@@ -165,20 +165,10 @@ class Judging(unittest.TestCase):
             change_json(place / "mill.json", "derived", "flow", "passes", to=6)
             change_json(place / "mill.json", "derived", "flow", "relaxation", to=0.7)
         for place, up in ((cls.case / "pass_2", 9000), (cls.case / "pass_3", 10000)):
-            with h5py.File(place / "slurry.h5") as old:
-                kept = {name: old[name].attrs["shape"] for name in ("grid",)}
-            with h5py.File(place / "slurry.h5", "a") as file:
-                shape = tuple(int(n) for n in kept["grid"][::-1])
-                group = file.require_group("mean").require_group("balls")
-                force = np.zeros((*shape, 3))
-                force[..., 1] = up
-                one = np.ones(shape)
-                for name, values in (("pressure_force", force), ("drag_force", 0 * force), ("exchange", 0 * one),
-                                     ("fluid_density", 1000 * one), ("solidity", 0.5 * one),
-                                     ("diameter", 0.005 * one)):
-                    group[name] = values
-                file["mean"].require_dataset("insideFraction", shape, float)[...] = 1
-                file.require_group("balls").attrs["polydispersity"] = 0
+            with h5py.File(place / "slurry.h5") as file:
+                shape = tuple(int(count) for count in file["grid"].attrs["shape"][::-1])
+                box = {name: file["grid"].attrs[name] for name in ("lower", "upper")}
+            add_forces(place / "slurry.h5", replace(uniform(up, 0, shape=shape), **box), "a")
         make_forces(cls.case / "pass_3", cls.case / "pass_2")
         judge(cls.case, 3)
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import matplotlib
 
 from ..files.mill import read_mill
+from ..files.slurry_file import read_ball_forces
 from . import ball_forces, passes, table
 
 
@@ -20,10 +21,10 @@ def make_forces(folder: Path, before: Path) -> None:
     """Writes FOLDER/forces.h5 from the flow in `before`. RuntimeError if that flow has no forces."""
     share = read_mill(before).flow("relaxation")
     slurry = before / "slurry.h5"
-    forces = ball_forces.read_ball_forces(slurry)
+    forces = read_ball_forces(slurry)
     # The dry pass had no forces; they are no estimate to be relaxed by
     if (before / passes.FORCES).is_file():
-        forces = ball_forces.relaxed(forces, ball_forces.read_ball_forces(before / passes.FORCES), share)
+        forces = ball_forces.relaxed(forces, read_ball_forces(before / passes.FORCES), share)
     else:
         share = 1.0
     ball_forces.write_ball_forces(folder / passes.FORCES, forces, slurry, {"relaxation": share})

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ..files.mill_case import MillCase
-from ..files.solids_file import SolidsMap, mean_map
+from ..files.slurry_file import read_ball_forces
+from ..files.solids_file import SolidsMap, mean_map, read_voxels
 from ..readings.batches import error_over_turns
 from ..readings.charge import charge_with_errors, circulation_centre
 from ..readings.compare import difference
@@ -113,9 +114,8 @@ def forces_apart(folder: Path) -> float | None:
     if nothing moved them."""
     if not (folder / FORCES).is_file():
         return None
-    applied, felt = (ball_forces.read_ball_forces(folder / name) for name in (FORCES, "slurry.h5"))
-    velocity = ball_forces.sampled_velocity(folder / "solids.h5", ball_forces.voxel_centres(folder / "slurry.h5"))
-    return ball_forces.disagreement(applied, felt, velocity)
+    applied, felt = (read_ball_forces(folder / name) for name in (FORCES, "slurry.h5"))
+    return ball_forces.disagreement(applied, felt, read_voxels(folder / "solids.h5"))
 
 
 def change(before: Pass, after: Pass) -> Change:

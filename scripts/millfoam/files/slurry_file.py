@@ -145,12 +145,21 @@ def read_ball_forces(path: Path | str, begin: float | None = None, end: float | 
                   for name, total in sums.items()}
         facts = file["balls"].attrs
         law = facts["law"]
+        _refuse_unknown(path, fields)
         return BallForces(
             np.asarray(file["grid"].attrs["lower"]), np.asarray(file["grid"].attrs["upper"]),
             room / np.sum(lengths), np.divide(balls, room, where=filled, out=np.zeros_like(balls)), **fields,
             begin=span[0], end=span[1], law=law.decode() if isinstance(law, bytes) else str(law),
             polydispersity=bool(facts["polydispersity"]), slurry_density=float(facts["slurry_density"]),
             air_density=float(facts["air_density"]), gravity=np.asarray(facts["gravity"]))
+
+
+def _refuse_unknown(path: Path | str, fields: dict[str, np.ndarray]) -> None:
+    for name, values in fields.items():
+        bad = np.argwhere(~np.isfinite(values))
+        if len(bad):
+            raise RuntimeError(f"{path}: balls/{name} is not finite in the voxel z, y, x = "
+                               f"{', '.join(map(str, bad[0][:3]))}; run the flow again")
 
 
 def read_slurry_map(path: Path | str, begin: float | None = None, end: float | None = None, length: float = np.inf,
