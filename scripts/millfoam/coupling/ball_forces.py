@@ -9,6 +9,7 @@ import numpy as np
 
 from ..files.slurry_file import BallForces
 from ..files.solids_file import VoxelCharge, open_hdf5
+from ..readings.fluid_on_balls import drag_density
 
 FIELDS = ("pressure_force", "exchange", "drag_force", "fluid_density", "solidity", "diameter")  # in /mean/balls
 
@@ -53,11 +54,7 @@ def _copy_attributes(source: Any, target: Any) -> None:
 
 def force_density(forces: BallForces, charge: VoxelCharge) -> np.ndarray:
     """Force on the balls of a VoxelCharge over their volume [nz, ny, nx, 3], N/m3."""
-    count = forces.inside.shape[::-1]
-    axes = [low + (high - low) * (np.arange(n) + 0.5) / n for low, high, n in zip(forces.lower, forces.upper, count)]
-    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
-    velocity = charge.velocity_at(np.stack([x, y, z], axis=-1))
-    return forces.pressure_force + forces.drag_force - forces.exchange[..., None] * velocity
+    return forces.pressure_force + drag_density(forces, charge)
 
 
 def disagreement(applied: BallForces, felt: BallForces, charge: VoxelCharge) -> float:

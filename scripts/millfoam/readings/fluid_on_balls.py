@@ -29,19 +29,22 @@ class FluidOnBalls:
         return float(np.linalg.norm(self.force)) / self.weight
 
 
+def drag_density(forces: BallForces, charge: VoxelCharge) -> np.ndarray:
+    """Drag on the balls of a VoxelCharge over their volume [nz, ny, nx, 3], N/m3."""
+    axes = [low + (high - low) * (np.arange(count) + 0.5) / count
+            for low, high, count in zip(forces.lower, forces.upper, forces.inside.shape[::-1])]
+    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
+    velocity = charge.velocity_at(np.stack([x, y, z], axis=-1))
+    return forces.drag_force - forces.exchange[..., None] * velocity
+
+
 def force_on_charge(forces: BallForces, charge: VoxelCharge, ball_density: float) -> FluidOnBalls:
     """FluidOnBalls of BallForces, with the velocities of a VoxelCharge and the balls' density (kg/m3). The exchange
     coefficient and the balls' velocity are means over time each: what they have in common over time is left out."""
-    count = np.array(forces.inside.shape[::-1])
-    axes = [low + (high - low) * (np.arange(n) + 0.5) / n
-            for low, high, n in zip(forces.lower, forces.upper, count)]
-    z, y, x = np.meshgrid(*axes[::-1], indexing="ij")
-    velocity = charge.velocity_at(np.stack([x, y, z], axis=-1))
     volumes = forces.volumes()[..., None]
-    drag = forces.drag_force - forces.exchange[..., None] * velocity
     volume = float(volumes.sum())
     pressure = (volumes * forces.pressure_force).sum(axis=(0, 1, 2))
-    return FluidOnBalls(pressure, (volumes * drag).sum(axis=(0, 1, 2)), volume,
+    return FluidOnBalls(pressure, (volumes * drag_density(forces, charge)).sum(axis=(0, 1, 2)), volume,
                         float(ball_density * np.linalg.norm(forces.gravity) * volume))
 
 
