@@ -39,7 +39,9 @@ BallFieldsHeader read_header(hid_t root) {
   header.law = hdf5::read_text_attribute(balls.get(), "law");
   header.polydispersity = hdf5::read_int_attribute(balls.get(), "polydispersity", 1)[0] != 0;
   header.slurry_density = hdf5::read_double_attribute(balls.get(), "slurry_density", 1)[0];
-  header.windows = static_cast<std::size_t>(hdf5::dimensions(root, "window/begin").at(0));
+  // forces.h5 of a coupled mill has the mean alone
+  if (hdf5::has(root, "window"))
+    header.windows = static_cast<std::size_t>(hdf5::dimensions(root, "window/begin").at(0));
   return header;
 }
 
@@ -79,6 +81,7 @@ struct SlurryReader::File {
 
   explicit File(const std::filesystem::path& place)
       : path(place), handle(hdf5::open_file(place)), grid(read_box(handle.get())), header(read_header(handle.get())) {
+    if (header.windows == 0) return;
     begin = hdf5::read_all(handle.get(), "window/begin");
     end = hdf5::read_all(handle.get(), "window/end");
   }
