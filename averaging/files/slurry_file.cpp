@@ -25,8 +25,9 @@ constexpr const char* segment_format = "millfoam-slurry-segment";
 /// which is rounded.
 constexpr double gap = 1e-3;
 
-/// What a field's sums are divided by.
-enum class Over { volume, slurry, balls };
+/// What a field's sums are divided by. To the drag on the balls as they moved is added what their mean motion
+/// took from it, so that the force on balls that move like them in the mean is that of the flow.
+enum class Over { volume, slurry, balls, balls_moving };
 
 /// A field of slurry.h5: the place of its sums in a voxel's, and what they are divided by.
 struct Field {
@@ -46,12 +47,16 @@ constexpr std::array<Field, 5> slurry_fields{{{"slurry", "1", false, 0, Over::vo
 /// The first of the components of what balls feel: its weight w.
 constexpr std::size_t weight = slurry_components;
 
-constexpr std::array<Field, 6> ball_fields{{{"balls/solidity", "1", false, weight + 1, Over::volume},
+/// Where the sums of the exchange coefficient and of the balls' velocity begin.
+constexpr std::size_t exchange = weight + 5, ball_velocity = weight + 9;
+
+constexpr std::array<Field, 7> ball_fields{{{"balls/solidity", "1", false, weight + 1, Over::volume},
                                             {"balls/pressure_force", "N/m3", true, weight + 2, Over::balls},
-                                            {"balls/exchange", "kg/(m3 s)", false, weight + 5, Over::balls},
-                                            {"balls/drag_force", "N/m3", true, weight + 6, Over::balls},
-                                            {"balls/fluid_density", "kg/m3", false, weight + 9, Over::balls},
-                                            {"balls/diameter", "m", false, weight + 10, Over::balls}}};
+                                            {"balls/exchange", "kg/(m3 s)", false, exchange, Over::balls},
+                                            {"balls/drag_force", "N/m3", true, weight + 6, Over::balls_moving},
+                                            {"balls/velocity", "m/s", true, ball_velocity, Over::balls},
+                                            {"balls/fluid_density", "kg/m3", false, weight + 12, Over::balls},
+                                            {"balls/diameter", "m", false, weight + 13, Over::balls}}};
 
 /// The fields of a file with or without what balls feel.
 std::vector<Field> fields_of(bool balls) {
@@ -62,7 +67,7 @@ std::vector<Field> fields_of(bool balls) {
 
 /// What a voxel's sums of a field are divided by, or 0 where its mean has no meaning.
 double divisor(const Field& field, double volume, const double* components) {
-  if (field.over == Over::balls) return components[weight];
+  if (field.over == Over::balls || field.over == Over::balls_moving) return components[weight];
   // The velocity of less slurry than this has no meaning
   if (field.over == Over::slurry) return components[0] > 1e-9 * volume ? components[0] : 0;
   return volume;
@@ -78,6 +83,8 @@ std::vector<double> means(const SlurrySegment& sums, const Field& field) {
     if (!(by > 0)) continue;
     for (std::size_t k = 0; k < width; ++k) {
       result[voxel * width + k] = components[field.first + k] / by;
+      if (field.over == Over::balls_moving)
+        result[voxel * width + k] += components[exchange] * components[ball_velocity + k] / (by * by);
     }
   }
   return result;

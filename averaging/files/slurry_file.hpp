@@ -35,9 +35,9 @@ inline constexpr std::size_t slurry_components = 7;
 inline constexpr double few_balls = 1e-6;
 
 /// What follows these in a flow with balls, per volume of the cells: w, phi, and, times w, the pressure's
-/// force on balls -grad p (3), the exchange coefficient over the balls' volume K, K u (3), the fluid's
-/// density, and the balls' Sauter diameter.
-inline constexpr std::size_t ball_components = 11;
+/// force on balls -grad p (3), the exchange coefficient over the balls' volume K, the drag K (u - u_s) (3),
+/// the balls' velocity u_s (3), the fluid's density, and the balls' Sauter diameter.
+inline constexpr std::size_t ball_components = 14;
 
 /// A stretch of a flow, in sums over time and volume.
 struct SlurrySegment {

@@ -93,7 +93,7 @@ class FluidOnBalls(SlurryTest):
                 self.assertEqual((found.law, found.polydispersity), ("Beetstra", bool(entries)))
                 np.testing.assert_array_equal(found.gravity, GRAVITY)
 
-                on_balls = fluid_on_balls(case.path / "slurry.h5", case.path / "solids.h5", 2700)
+                on_balls = fluid_on_balls(case.path / "slurry.h5", 2700)
                 # Far ends of the box, over the pressure in the voxels
                 with h5py.File(case.path / "slurry.h5") as file:
                     pressure = file["mean/pressure"][()]

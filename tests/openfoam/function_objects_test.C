@@ -264,13 +264,15 @@ TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
     const scalarField solidity(0.6 * C.component(vector::X));
     const vectorField pressure(1e4 * C);
     const scalarField exchange(1e3 + 1e5 * C.component(vector::Y));
+    const vectorField balls(2 * box.U.primitiveField());
     const fluidOnBalls onBalls(
         box.mesh(), {"Hill", true, density, 1.2, gravity},
         [&]
         {
             ++computed;
             return ballForces{
-                solidity, pressure, exchange, scalarField(C.size(), 0.005)};
+                solidity, pressure, exchange, balls,
+                scalarField(C.size(), 0.005)};
         });
     functionObjects::voxelAverages averages(
         "voxels", box.time(),
@@ -308,15 +310,17 @@ TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
     EXPECT_NEAR(total(0) / sum(weight), 1, 1e-12);
     EXPECT_NEAR(total(1) / sum(solidity * V), 1, 1e-12);
     EXPECT_NEAR(total(5) / sum(weight * exchange), 1, 1e-12);
-    EXPECT_NEAR(total(9) / (density * sum(weight)), 1, 1e-12);
-    EXPECT_NEAR(total(10) / (0.005 * sum(weight)), 1, 1e-12);
+    EXPECT_NEAR(total(12) / (density * sum(weight)), 1, 1e-12);
+    EXPECT_NEAR(total(13) / (0.005 * sum(weight)), 1, 1e-12);
     for (label axis = 0; axis < 3; ++axis)
     {
         const scalarField push(pressure.component(axis));
         const scalarField velocity(box.U.primitiveField().component(axis));
         EXPECT_NEAR(total(2 + axis) / sum(weight * push), 1, 1e-12);
+        // Balls twice as fast as the fluid
         EXPECT_NEAR(
-            total(6 + axis) / sum(weight * exchange * velocity), 1, 1e-12);
+            total(6 + axis) / sum(weight * exchange * velocity), -1, 1e-12);
+        EXPECT_NEAR(total(9 + axis) / sum(weight * velocity), 2, 1e-12);
     }
 }
 

@@ -114,7 +114,8 @@ void Foam::functionObjects::voxelAverages::addBalls(
         const scalar w = feel.solidity[celli] + few_balls;
         const vector pressure(w * feel.pressure[celli]);
         const scalar exchange = w * feel.exchange[celli];
-        const vector drag(exchange * U[celli]);
+        const vector drag(exchange * (U[celli] - feel.velocity[celli]));
+        const vector moved(w * feel.velocity[celli]);
         const scalar density = alpha[celli] * flow.slurryDensity +
                                (1 - alpha[celli]) * flow.airDensity;
         const std::array<double, ball_components> own{
@@ -127,6 +128,9 @@ void Foam::functionObjects::voxelAverages::addBalls(
             drag.x(),
             drag.y(),
             drag.z(),
+            moved.x(),
+            moved.y(),
+            moved.z(),
             w * density,
             w * feel.diameter[celli]};
         std::copy(own.begin(), own.end(), cell);

@@ -82,7 +82,7 @@ Foam::ballForces Foam::slurryFlow::forcesOnBalls() const
     return {
         bed_.solidity().primitiveField(), vectorField(pressureForce()),
         scalarField(drag_->ballExchange(bed_, alpha_.oldTime(), U_)),
-        scalarField(bed_.diameterOfBalls())};
+        bed_.velocity().primitiveField(), scalarField(bed_.diameterOfBalls())};
 }
 
 

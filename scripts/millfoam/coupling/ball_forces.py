@@ -8,15 +8,16 @@ import h5py
 import numpy as np
 
 from ..files.slurry_file import BallForces
-from ..files.solids_file import VoxelCharge, open_hdf5
-from ..readings.fluid_on_balls import drag_density
+from ..files.solids_file import open_hdf5
+from ..readings.fluid_on_balls import force_density
 
-FIELDS = ("pressure_force", "exchange", "drag_force", "fluid_density", "solidity", "diameter")  # in /mean/balls
+# In /mean/balls
+FIELDS = ("pressure_force", "exchange", "drag_force", "velocity", "fluid_density", "solidity", "diameter")
 
 
 def relaxed(latest: BallForces, before: BallForces, share: float) -> BallForces:
-    """BallForces with `share` of the latest ones and the rest of those before, voxel by voxel; solidity, density and
-    diameter are the latest. ValueError if their voxels differ."""
+    """BallForces with `share` of the latest ones and the rest of those before, voxel by voxel; what belongs
+    to the balls is the latest. ValueError if their voxels differ."""
     if latest.solidity.shape != before.solidity.shape or not (
             np.allclose(latest.lower, before.lower) and np.allclose(latest.upper, before.upper)):
         raise ValueError(f"forces on {before.solidity.shape} voxels up to {before.upper} m and on "
@@ -52,14 +53,9 @@ def _copy_attributes(source: Any, target: Any) -> None:
         target.attrs[name] = value
 
 
-def force_density(forces: BallForces, charge: VoxelCharge) -> np.ndarray:
-    """Force on the balls of a VoxelCharge over their volume [nz, ny, nx, 3], N/m3."""
-    return forces.pressure_force + drag_density(forces, charge)
-
-
-def disagreement(applied: BallForces, felt: BallForces, charge: VoxelCharge) -> float:
+def disagreement(applied: BallForces, felt: BallForces) -> float:
     """Difference of two forces on the same balls over the second: sum of balls |applied - felt| over that of |felt|.
-    The balls are those that the flow of `felt` saw, with the velocities of a VoxelCharge."""
-    volume, felt_density = felt.volumes(), force_density(felt, charge)
-    apart = np.linalg.norm(force_density(applied, charge) - felt_density, axis=-1)
-    return float((volume * apart).sum() / (volume * np.linalg.norm(felt_density, axis=-1)).sum())
+    The balls and their velocities are those that the flow of `felt` saw."""
+    volume, density = felt.volumes(), force_density(felt, felt.velocity)
+    apart = np.linalg.norm(force_density(applied, felt.velocity) - density, axis=-1)
+    return float((volume * apart).sum() / (volume * np.linalg.norm(density, axis=-1)).sum())

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..files.mill_case import MillCase
 from ..files.slurry_file import read_ball_forces
-from ..files.solids_file import SolidsMap, mean_map, read_voxels
+from ..files.solids_file import SolidsMap, mean_map
 from ..readings.batches import error_over_turns
 from ..readings.charge import charge_with_errors, circulation_centre
 from ..readings.compare import difference
@@ -21,7 +21,8 @@ FORCES = "forces.h5"  # in a pass's folder: what its balls felt
 QUANTITIES = {"toe": ("toe of the charge", "°", 1.0), "shoulder": ("shoulder of the charge", "°", 1.0),
               "charge_x": ("centre of circulation, x", "mm", 1e3), "charge_y": ("centre of circulation, y", "mm", 1e3),
               "charge_power": ("power of the charge", "W", 1.0), "slurry_x": ("centre of the slurry, x", "mm", 1e3),
-              "slurry_y": ("centre of the slurry, y", "mm", 1e3), "slurry_power": ("power for the slurry", "W", 1.0)}
+              "slurry_y": ("centre of the slurry, y", "mm", 1e3), "slurry_power": ("power for the slurry", "W", 1.0),
+              "drive_power": ("power of the drive", "W", 1.0)}
 LIMIT = 2.0  # standard errors that a quantity may change by in a pass that has settled
 NOISE = 1.5  # times the noise of two maps that their solidity may differ by
 
@@ -71,7 +72,9 @@ def read_pass(number: int, folder: Path) -> Pass:
                                            ("the flow", case.flow)) if part is None]
         raise RuntimeError(f"{folder}: pass {number} lacks {', '.join(missing)}; run it to its end")
     load = case.load
-    return Pass(number, folder, {**charge_quantities(case, case.charge), **slurry_quantities(case)}, case.charge,
+    quantities = {**charge_quantities(case, case.charge), **slurry_quantities(case)}
+    quantities["drive_power"] = drive_power(case, quantities)
+    return Pass(number, folder, quantities, case.charge,
                 map_noise(case.charge_windows), load[0] if load else np.nan, forces_apart(folder))
 
 
@@ -100,6 +103,22 @@ def slurry_quantities(case: MillCase) -> dict[str, Mean]:
             for key, name in names.items()}
 
 
+def drive_power(case: MillCase, quantities: dict[str, Mean]) -> Mean:
+    """Power that the drive gives to balls and slurry together, W; NaN without slurryBalance.
+
+    Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
+    that of the walls on the slurry. Balls that do not feel it give it power of their own, which is added."""
+    columns = case.balance
+    if columns is None:
+        return Mean(np.nan, np.nan)
+    given = columns["power"]
+    if (case.folder / FORCES).is_file():
+        given = np.sum([values for name, values in columns.items() if name.startswith("power_")], axis=0)
+    charge = quantities["charge_power"]
+    error = error_over_turns(columns["Time"], given, case.begin, case.turn)
+    return Mean(charge.value + time_mean(columns["Time"], given, case.begin), float(np.hypot(charge.error, error)))
+
+
 def map_noise(windows: Sequence[SolidsMap]) -> float:
     """Expected difference (compare.Difference.solidity) of two maps of the same charge over as much time as these
     successive SolidsMap; NaN for fewer than four. Found from the maps of every other window: each has half of the
@@ -115,7 +134,7 @@ def forces_apart(folder: Path) -> float | None:
     if not (folder / FORCES).is_file():
         return None
     applied, felt = (read_ball_forces(folder / name) for name in (FORCES, "slurry.h5"))
-    return ball_forces.disagreement(applied, felt, read_voxels(folder / "solids.h5"))
+    return ball_forces.disagreement(applied, felt)
 
 
 def change(before: Pass, after: Pass) -> Change:

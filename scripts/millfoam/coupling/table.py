@@ -16,7 +16,7 @@ from .passes import LIMIT, NOISE, QUANTITIES, Change, Pass
 
 COLUMNS = {"toe": "toe_deg", "shoulder": "shoulder_deg", "charge_x": "charge_x_m", "charge_y": "charge_y_m",
            "charge_power": "charge_power_W", "slurry_x": "slurry_x_m", "slurry_y": "slurry_y_m",
-           "slurry_power": "slurry_power_W"}
+           "slurry_power": "slurry_power_W", "drive_power": "drive_power_W"}
 
 
 def known(value: float | None) -> float | None:
@@ -78,7 +78,7 @@ def lines(passes: Sequence[Pass], changes: Sequence[Change]) -> list[str]:
 def passes_figure(numbers: Sequence[int], quantities: Mapping[str, Sequence[Mean]]) -> Figure:
     """Figure of all quantities (key of QUANTITIES -> Mean of each pass) over the passes' numbers, with their standard
     errors."""
-    figure, axes = plt.subplots(2, 4, figsize=(10, 4.4), layout="constrained", sharex=True)
+    figure, axes = plt.subplots(3, 3, figsize=(9, 6.4), layout="constrained", sharex=True)
     for axis, (key, (name, unit, scale)) in zip(axes.flat, QUANTITIES.items()):
         means = quantities[key]
         errors = np.nan_to_num([scale * one.error for one in means])  # no bar where it is not known

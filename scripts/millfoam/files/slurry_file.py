@@ -65,9 +65,10 @@ class BallForces:
     V (pressure_force + drag_force - exchange v).
 
     lower, upper [3]: corners of the box (m); inside [nz, ny, nx]: share of the voxel in the mesh; solidity, of that
-    share; pressure_force, drag_force [nz, ny, nx, 3] (N/m3); exchange (kg/(m3 s)), without the factor of a mixture of
-    sizes; fluid_density (kg/m3); diameter (m) [nz, ny, nx]; begin, end: DEM time (s); law: of the drag; polydispersity:
-    whether the flow's drag had that factor; slurry_density, air_density (kg/m3); gravity [3] (m/s2)."""
+    share; pressure_force, drag_force [nz, ny, nx, 3] (N/m3); velocity [nz, ny, nx, 3] of the balls that the flow saw
+    (m/s); exchange (kg/(m3 s)), without the factor of a mixture of sizes; fluid_density (kg/m3); diameter (m) [nz, ny,
+    nx]; begin, end: DEM time (s); law: of the drag; polydispersity: whether the flow's drag had that factor;
+    slurry_density, air_density (kg/m3); gravity [3] (m/s2)."""
     lower: np.ndarray
     upper: np.ndarray
     inside: np.ndarray
@@ -75,6 +76,7 @@ class BallForces:
     pressure_force: np.ndarray
     exchange: np.ndarray
     drag_force: np.ndarray
+    velocity: np.ndarray
     fluid_density: np.ndarray
     diameter: np.ndarray
     begin: float
@@ -131,7 +133,7 @@ def read_ball_forces(path: Path | str, begin: float | None = None, end: float | 
                                f"{'a flow without balls' if file.attrs.get('version', 1) > 1 else 'an older millFoam'};"
                                " run slurryFoam with constant/bedProperties")
         means, inside_of, lengths, span = _means(path, file, begin, end)
-        names = ("pressure_force", "exchange", "drag_force", "fluid_density", "diameter")
+        names = ("pressure_force", "exchange", "drag_force", "velocity", "fluid_density", "diameter")
         sums: dict[str, Any] = dict.fromkeys(names, 0.0)
         room = balls = weight = np.zeros(())
         for (group, row), inside, seconds in zip(means, inside_of, lengths):
@@ -139,10 +141,13 @@ def read_ball_forces(path: Path | str, begin: float | None = None, end: float | 
             room, balls, weight = room + part, balls + part * phi, weight + part * (phi + FEW_BALLS)
             for name in names:
                 values = group[f"balls/{name}"][row]
+                if name == "drag_force":  # on the balls as they moved
+                    values = values - group["balls/exchange"][row][..., None] * group["balls/velocity"][row]
                 sums[name] = sums[name] + (values.T * (part * (phi + FEW_BALLS)).T).T
         filled = room > 0
         fields = {name: np.divide(total.T, weight.T, where=filled.T, out=np.zeros_like(total.T)).T
                   for name, total in sums.items()}
+        fields["drag_force"] += fields["exchange"][..., None] * fields["velocity"]
         facts = file["balls"].attrs
         law = facts["law"]
         _refuse_unknown(path, fields)

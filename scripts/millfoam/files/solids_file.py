@@ -6,7 +6,6 @@ from pathlib import Path
 
 import h5py
 import numpy as np
-from scipy import ndimage
 
 # Sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
 CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0
@@ -72,28 +71,21 @@ def _map(edges: Sequence[np.ndarray], inside: np.ndarray, balls: np.ndarray, flu
     return SolidsMap(edges[0], edges[1], inside, solidity, velocity, float(begin), float(end), sense=sense)
 
 
-def _chosen(path: Path | str, file: h5py.File, begin: float, end: float) -> np.ndarray:
-    """Numbers of the windows of a solids.h5 that overlap [begin, end) of DEM time (s). RuntimeError if the file is not
-    complete or has no such window."""
-    if file.attrs.get("complete", 0) != 1:
-        raise RuntimeError(f"{path}: not complete; average the dumps again")
-    begins, ends = file["window/begin"][:], file["window/end"][:]
-    # Times that should agree may differ by rounding
-    tolerance = file.attrs["timestep"] / 2
-    chosen = np.flatnonzero((ends > begin + tolerance) & (begins < end - tolerance))
-    if len(chosen) == 0:
-        raise RuntimeError(f"{path}: no window between {begin} and {end} s; the file has {begins[0]} to {ends[-1]} s")
-    return chosen
-
-
 def read_windows(path: Path | str, begin: float = -np.inf, end: float = np.inf) -> list[SolidsMap]:
     """Mean over the axis of each window that overlaps [begin, end) of DEM time (s): a list of SolidsMap in order of
     time. Velocity is weighted by solidity. The sense is clockwise unless the file has another angular velocity.
     RuntimeError if the file is not complete or has no such window."""
     with open_hdf5(path) as file:
-        chosen = _chosen(path, file, begin, end)
+        if file.attrs.get("complete", 0) != 1:
+            raise RuntimeError(f"{path}: not complete; average the dumps again")
         lower, upper, shape = (np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "shape"))
         begins, ends = file["window/begin"][:], file["window/end"][:]
+        # Times that should agree may differ by rounding
+        tolerance = file.attrs["timestep"] / 2
+        chosen = np.flatnonzero((ends > begin + tolerance) & (begins < end - tolerance))
+        if len(chosen) == 0:
+            raise RuntimeError(f"{path}: no window between {begin} and {end} s; the file has {begins[0]} to "
+                               f"{ends[-1]} s")
         edges = [np.linspace(lower[axis], upper[axis], int(shape[axis]) + 1) for axis in (0, 1)]
         maps = []
         for window in chosen:
@@ -103,47 +95,6 @@ def read_windows(path: Path | str, begin: float = -np.inf, end: float = np.inf) 
             maps.append(_map(edges, room.mean(axis=0), (room * phi).mean(axis=0), flux, begins[window], ends[window], 0,
                              ANTICLOCKWISE if file.attrs.get("angular_velocity", 0) > 0 else CLOCKWISE))
     return maps
-
-
-@dataclass
-class VoxelCharge:
-    """Charge averaged over time on the voxels of a box: lower, upper [3]: its corners (m); periodic [3]; volumes [nz,
-    ny, nx], share of each whole voxel that balls fill; flux [nz, ny, nx, 3], that times the velocity (m/s)."""
-    lower: np.ndarray
-    upper: np.ndarray
-    periodic: np.ndarray
-    volumes: np.ndarray
-    flux: np.ndarray
-
-    def velocity_at(self, points: np.ndarray) -> np.ndarray:
-        """Velocity [..., 3] (m/s) of the balls at points [..., 3] (m): volumes and flux are linear between the voxels'
-        centres, and the velocity is their quotient; 0 where there are no balls."""
-        shape = np.array(self.volumes.shape[::-1])
-        steps = (points - self.lower) / (self.upper - self.lower) * shape - 0.5
-        at = np.moveaxis(np.where(self.periodic, steps % shape, np.clip(steps, 0, shape - 1)), -1, 0)[::-1]
-
-        def linear(values: np.ndarray) -> np.ndarray:
-            return np.asarray(ndimage.map_coordinates(values, at, order=1, mode="grid-wrap"))
-        balls = linear(self.volumes)
-        flux = np.stack([linear(self.flux[..., axis]) for axis in range(3)], axis=-1)
-        return np.divide(flux, balls[..., None], where=balls[..., None] > FAINT, out=np.zeros_like(flux))
-
-
-def read_voxels(path: Path | str, begin: float = -np.inf, end: float = np.inf) -> VoxelCharge:
-    """VoxelCharge of a solids.h5 on a box: mean of the windows that overlap [begin, end) of DEM time (s). RuntimeError
-    if the file is not complete, not on a box, or has no such window."""
-    if not has_voxels(path):
-        raise RuntimeError(f"{path}: not on the voxels of a box; average with millAverage --box")
-    with open_hdf5(path) as file:
-        chosen = _chosen(path, file, begin, end)
-        volumes = flux = np.zeros(())
-        for window in chosen:
-            phi = file["solidity"][window]
-            balls = phi * file["grid/insideFraction"][window] if "insideFraction" in file["grid"] else phi
-            volumes, flux = volumes + balls, flux + balls[..., None] * file["velocity"][window]
-        grid = {name: np.asarray(file["grid"].attrs[name]) for name in ("lower", "upper", "periodic")}
-        return VoxelCharge(grid["lower"], grid["upper"], grid["periodic"].astype(bool), volumes / len(chosen),
-                           flux / len(chosen))
 
 
 def mean_map(maps: Sequence[SolidsMap]) -> SolidsMap:

@@ -126,13 +126,14 @@ TEST_F(SlurryFile, WhatLiesBeyondTheBoxIsTold) {
 }
 
 /// What balls feel in a sample of two voxels: the first has balls of this solidity, the second none.
-SlurrySegment stretch_with_balls(double begin, double end, double solidity, double exchange) {
+SlurrySegment stretch_with_balls(double begin, double end, double solidity, double exchange, double speed) {
   VoxelSums sums(2, slurry_components + ball_components);
   sums.volume = {1, 0.5};
   const auto fill = [&](std::size_t voxel, double phi) {
     const double w = phi + few_balls, volume = sums.volume[voxel];
     const std::array<double, ball_components> own{
-        w, phi, w * 1, w * 2, w * 3, w * exchange, w * 4., w * exchange, w * exchange, w * 1239, w * 0.005};
+        w,       phi,          w * 1,     w * 2, w * 3,     w * exchange, w * 4.,
+        w * 10., w * exchange, w * speed, 0,     w * speed, w * 1239,     w * 0.005};
     for (std::size_t k = 0; k < ball_components; ++k) {
       sums.values[voxel * sums.components + slurry_components + k] = volume * own[k];
     }
@@ -147,17 +148,18 @@ SlurrySegment stretch_with_balls(double begin, double end, double solidity, doub
 }
 
 TEST_F(SlurryFile, WhatBallsFeelIsWeightedByTheirVolumeAndKnownWithoutThem) {
-  // A third of the balls' volume over time has K = 100, the rest 400
+  // A third of the balls' volume over time has K = 100 and the speed 3, the rest 400 and 6
   SlurryHeader header{1.5, 1.0, 0.0};
   header.balls = BallsHeader{"Hill", true, 1239, 1.2, {0, -9.81, 0}};
   assemble_slurry(whole, two_voxels, header,
-                  {write("a.h5", stretch_with_balls(0, 0.5, 0.2 - few_balls, 100)),
-                   write("b.h5", stretch_with_balls(0.5, 1, 0.4 - few_balls, 400))});
+                  {write("a.h5", stretch_with_balls(0, 0.5, 0.2 - few_balls, 100, 3)),
+                   write("b.h5", stretch_with_balls(0.5, 1, 0.4 - few_balls, 400, 6))});
   for (const std::string group : {"", "mean/"}) {
     expect(group + "balls/solidity", {0.3 - few_balls, 0});
     expect(group + "balls/exchange", {300, 250});
     expect(group + "balls/pressure_force", {1, 2, 3, 1, 2, 3});
-    expect(group + "balls/drag_force", {4, 300, 300, 4, 250, 250});
+    expect(group + "balls/velocity", {5, 0, 5, 4.5, 0, 4.5});
+    expect(group + "balls/drag_force", {4 + 300 * 5, 10, 300 + 300 * 5, 4 + 250 * 4.5, 10, 250 + 250 * 4.5});
     expect(group + "balls/fluid_density", {1239, 1239});
     expect(group + "balls/diameter", {0.005, 0.005});
   }
