@@ -54,6 +54,10 @@ void VoxelForces::Voxel::add(double weight, const Voxel& other) {
 }
 
 VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : reader_(file), time_(time) {
+  if (time == FluidTime::windows && reader_.header().windows == 0)
+    throw averaging::SlurryFileError(file.string() +
+                                     ": has no time windows, only a mean over the run; expected a flow's slurry.h5, "
+                                     "or --fluid-time mean");
   set_time(0);
 }
 

@@ -124,7 +124,9 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
                             {"timestep_s", plan.step.value},
                             {"interval", plan.step.steps_per_record},
                             {"angular_velocity_rad_s", -12.0},
+                            {"begin_s", 0.0},
                             {"duration_s", plan.duration()},
+                            {"fluid", {{"kind", "none"}}},
                             {"charge_mass_kg", plan.charge.mass()},
                             {"fines_mass_kg", mill.charge.classes.at(0).mass}}));
 }

@@ -17,13 +17,14 @@ using tests::small_mill;
 using tests::TemporaryFolder;
 using tests::Variable;
 
-/// A case with its own `liggghts`, before everything else on PATH.
+/// A case with a program of its own in the place of millLiggghts.
 class FailingRun : public ::testing::Test {
  protected:
   /// What run_liggghts complains about when LIGGGHTS does `script`.
   std::string complaint(const std::string& script, int ranks = 1) {
     tests::write_script(temporary_.path() / "liggghts", script);
     const Variable path("PATH", temporary_.path().string() + ":" + std::getenv("PATH"));
+    const Variable program("MILLFOAM_LIGGGHTS", (temporary_.path() / "liggghts").string());
     prepare_folders(folder_);
     std::ostringstream progress;
     return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), ranks, {progress, false}); });
@@ -138,14 +139,26 @@ TEST_F(FailingRun, OnManyRanksAFailureOfLiggghtsIsNotMpiruns) {
   EXPECT_EQ(complaint("exit 3", 2).find("LIGGGHTS stopped with exit code 7"), 0u);
 }
 
-TEST_F(FailingRun, WithoutLiggghtsOnPathThePackageIsNamed) {
+TEST_F(FailingRun, WithoutAProgramOfThatNameOnPathThePackageIsNamed) {
   prepare_folders(folder_);
   const Variable path("PATH", "/no/such/folder");
+  const Variable program("MILLFOAM_LIGGGHTS", "liggghts");
   std::ostringstream progress;
   const std::string message = message_of([&] {
     run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false});
   });
   EXPECT_NE(message.find("liggghts is not on PATH"), std::string::npos) << message;
+}
+
+TEST_F(FailingRun, WithoutMillLiggghtsNextToTheProgramItsPlaceIsNamed) {
+  prepare_folders(folder_);
+  const Variable program("MILLFOAM_LIGGGHTS", "");
+  std::ostringstream progress;
+  const std::string message = message_of([&] {
+    run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false});
+  });
+  EXPECT_NE(message.find("millLiggghts: no such program, expected it next to millDem"), std::string::npos)
+      << message;
 }
 
 }  // namespace

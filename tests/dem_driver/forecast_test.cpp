@@ -63,6 +63,7 @@ TEST(Forecast, ATrialThatFailsLeavesTheLogThatItNames) {
   for (const char* program : {"liggghts", "mpirun"})
     tests::write_script(temporary.path() / program, tests::refusal_of_open_mpi);
   const tests::Variable path("PATH", temporary.path().string() + ":" + std::getenv("PATH"));
+  const tests::Variable liggghts("MILLFOAM_LIGGGHTS", (temporary.path() / "liggghts").string());
   auto mill = small_mill();
   mill.resolution = {0.002, 2};
   const std::string message = tests::message_of([&] { measure_cost(mill, 64); });

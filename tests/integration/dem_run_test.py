@@ -116,7 +116,7 @@ class DemRun(unittest.TestCase):
                 except OSError:  # it has ended
                     continue
                 found = re.search(r"^VmHWM:\s+(\d+) kB", status, re.M)
-                if status.startswith("Name:\tliggghts") and found:
+                if re.match(r"Name:\t(millL|l)iggghts", status) and found:
                     peak = max(peak, 1024e-9 * float(found.group(1)))
             time.sleep(0.1)
         self.assertEqual(process.returncode, 0)
