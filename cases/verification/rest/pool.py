@@ -51,7 +51,8 @@ def matrix(meshes, solvers, quick):
         settings = [("ogrid", False, False), ("ogrid", False, True), ("ogrid", True, False), ("ogrid", True, True),
                     ("mill", False, False)]
         runs = [Run(mesh, solver, TENSION, turning, bed) for mesh, turning, bed in settings for solver in BEDS]
-        return runs + [Run(mesh, "slurryFoam", 0, mesh in OMEGA, bed=True, filled=True) for mesh in ("mill", "ogrid")]
+        runs += [Run(mesh, "slurryFoam", 0, mesh in OMEGA, bed=True, filled=True) for mesh in ("mill", "ogrid")]
+        return runs + [Run("slice", "slurryFoam", TENSION, turning=False)]
     runs = []
     for mesh in meshes:
         for turning in ((False,) if mesh not in OMEGA else (True,) if mesh == "drum" else (False, True)):

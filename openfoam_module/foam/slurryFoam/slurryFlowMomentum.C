@@ -117,10 +117,15 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
     const surfaceScalarField drag(
         deltaT * faceVoidage *
         pressure_.accelerationFlux(force * (solidsVelocity - U_)));
-    // Drops and films weigh what they hold: in p_rgh a dry cell weighs air
+    // Drops fall, and films go where their level is lower: p_rgh sees neither,
+    // as a dry cell weighs air in it
+    const volScalarField held(1 - mixture_.rho2() / rho_);
+    const surfaceFilms& films = surface_.films();
     const surfaceScalarField fall(
         deltaT * faceVoidage *
-        fvc::flux(surface_.loose() * (1 - mixture_.rho2() / rho_) * g_));
+        (fvc::flux(films.loose() * held * g_) -
+         mag(g_) * fvc::interpolate(held) * films.rise() *
+             mesh_.nonOrthDeltaCoeffs() * mesh_.magSf()));
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
     return (seen + fall + drag + r * before) / (1 + r);

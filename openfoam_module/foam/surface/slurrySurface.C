@@ -7,11 +7,8 @@
 #include "contactAngles.H"
 #include "fvcGrad.H"
 #include "knownEntries.H"
-#include "syncTools.H"
 #include "unitConversion.H"
 #include "zeroFields.H"
-
-#include <algorithm>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -124,6 +121,7 @@ void Foam::slurrySurface::findLevels()
     {
         levelNormal_[celli] = normal()[celli];
         levelOffset_[celli] = offset_[celli];
+        levelShare_[celli] = 0;
         const scalar cosine = normal()[celli] & up_;
         if (!pieces_.isCut(celli) || mag(cosine) <= surfaceCosine_)
         {
@@ -132,6 +130,7 @@ void Foam::slurrySurface::findLevels()
         const scalar share = min(
             (mag(cosine) - surfaceCosine_) / (levelCosine_ - surfaceCosine_),
             scalar(1));
+        levelShare_[celli] = cosine > 0 ? share : 0;
         const vector n(
             share * sign(cosine) * up_ + (1 - share) * normal()[celli]);
         levelNormal_[celli] = n / mag(n);
@@ -141,29 +140,6 @@ void Foam::slurrySurface::findLevels()
                 (mesh_.cellCentres()[celli] + pieces_.centre[celli]));
     }
     levelNormal_.correctBoundaryConditions();
-}
-
-
-void Foam::slurrySurface::findLoose()
-{
-    labelList pointWet(mesh_.nPoints(), Zero);
-    forAll(wet_, celli)
-    {
-        if (wet_[celli] > 0.5)
-        {
-            UIndirectList<label>(pointWet, mesh_.cellPoints()[celli]) = 1;
-        }
-    }
-    syncTools::syncPointList(mesh_, pointWet, maxEqOp<label>(), label(0));
-
-    forAll(loose_, celli)
-    {
-        const labelList& points = mesh_.cellPoints()[celli];
-        loose_[celli] = std::none_of(
-            points.begin(), points.end(),
-            [&pointWet](const label p) { return pointWet[p] > 0; });
-    }
-    loose_.correctBoundaryConditions();
 }
 
 
@@ -216,10 +192,11 @@ Foam::slurrySurface::slurrySurface(const volScalarField& alpha, const vector& g)
   offset_(mesh_.nCells(), Zero),
   levelNormal_(zeroCells<vector>(mesh_, "surface:levelNormal", dimless)),
   levelOffset_(mesh_.nCells(), Zero),
+  levelShare_(mesh_.nCells(), Zero),
   depth_(zeroCells<scalar>(mesh_, "surface:depth", dimLength)),
   trust_(zeroCells<scalar>(mesh_, "surface:trust", dimless)),
   wet_(zeroCells<scalar>(mesh_, "wet", dimless)),
-  loose_(zeroCells<scalar>(mesh_, "loose", dimless)),
+  films_(cut_, mesh_, up_),
   crossing_(zeroFaces(mesh_, "surface:crossing", dimless)),
   curvature_()
 {
@@ -277,7 +254,7 @@ void Foam::slurrySurface::locate()
     depth_.correctBoundaryConditions();
     trust_.correctBoundaryConditions();
     wet_.correctBoundaryConditions();
-    findLoose();
+    films_.update({wet_, levelNormal_, depth_, levelShare_});
     findCrossings();
 }
 
