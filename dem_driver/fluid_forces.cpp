@@ -55,9 +55,10 @@ void VoxelForces::Voxel::add(double weight, const Voxel& other) {
 
 VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : reader_(file), time_(time) {
   if (time == FluidTime::windows && reader_.header().windows == 0)
-    throw averaging::SlurryFileError(file.string() +
-                                     ": has no time windows, only a mean over the run; expected a flow's slurry.h5, "
-                                     "or --fluid-time mean");
+    throw averaging::SlurryFileError(
+        file.string() +
+        ": has no time windows, only a mean over the run; expected a flow's slurry.h5, "
+        "or --fluid-time mean");
   set_time(0);
 }
 
@@ -112,7 +113,8 @@ VoxelForces::Neighbours VoxelForces::around(double coordinate, int axis) const {
   return result;
 }
 
-VoxelForces::Voxel VoxelForces::interpolate(const Field& field, const std::array<Neighbours, 3>& around) const {
+VoxelForces::Voxel VoxelForces::interpolate(const Field& field,
+                                            const std::array<Neighbours, 3>& around) const {
   const averaging::BoxGrid& grid = reader_.grid();
   Voxel sum;
   double weights = 0;

@@ -50,13 +50,14 @@ constexpr std::size_t weight = slurry_components;
 /// Where the sums of the exchange coefficient and of the balls' velocity begin.
 constexpr std::size_t exchange = weight + 5, ball_velocity = weight + 9;
 
-constexpr std::array<Field, 7> ball_fields{{{"balls/solidity", "1", false, weight + 1, Over::volume},
-                                            {"balls/pressure_force", "N/m3", true, weight + 2, Over::balls},
-                                            {"balls/exchange", "kg/(m3 s)", false, exchange, Over::balls},
-                                            {"balls/drag_force", "N/m3", true, weight + 6, Over::balls_moving},
-                                            {"balls/velocity", "m/s", true, ball_velocity, Over::balls},
-                                            {"balls/fluid_density", "kg/m3", false, weight + 12, Over::balls},
-                                            {"balls/diameter", "m", false, weight + 13, Over::balls}}};
+constexpr std::array<Field, 7> ball_fields{
+    {{"balls/solidity", "1", false, weight + 1, Over::volume},
+     {"balls/pressure_force", "N/m3", true, weight + 2, Over::balls},
+     {"balls/exchange", "kg/(m3 s)", false, exchange, Over::balls},
+     {"balls/drag_force", "N/m3", true, weight + 6, Over::balls_moving},
+     {"balls/velocity", "m/s", true, ball_velocity, Over::balls},
+     {"balls/fluid_density", "kg/m3", false, weight + 12, Over::balls},
+     {"balls/diameter", "m", false, weight + 13, Over::balls}}};
 
 /// The fields of a file with or without what balls feel.
 std::vector<Field> fields_of(bool balls) {

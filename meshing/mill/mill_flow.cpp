@@ -170,8 +170,9 @@ Coupling read_coupling(Section& in, const Flow& flow) {
     in.refuse("coupling", "one_way: only slurryFoam writes what the balls feel");
   if (coupling.iterated && !flow.balls) in.refuse("coupling", "one_way where flow.balls is no");
   coupling.passes = in.integer("passes", whole_number("passes", 2, 50), usual_passes);
-  coupling.relaxation = in.number(
-      "relaxation", {"a share above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }}, usual_relaxation);
+  coupling.relaxation =
+      in.number("relaxation", {"a share above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
+                usual_relaxation);
   return coupling;
 }
 

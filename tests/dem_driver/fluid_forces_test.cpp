@@ -140,7 +140,8 @@ TEST_F(FluidForcesTest, RepeatAlongAPeriodicAxis) {
   };
   VoxelForces forces(write({layered}), FluidTime::mean);
   // Centres at 0.05 and 0.15 m; a ball may lie a little beyond the box
-  for (const auto& [z, expected] : {std::pair(0.05, 1.0), {0.15, 3.0}, {0.2, 2.0}, {0.0, 2.0}, {-0.025, 2.5}, {0.225, 1.5}}) {
+  for (const auto& [z, expected] :
+       {std::pair(0.05, 1.0), {0.15, 3.0}, {0.2, 2.0}, {0.0, 2.0}, {-0.025, 2.5}, {0.225, 1.5}}) {
     const BallInFluid ball{{0.2, 0.2, z}, {0, 0, 0}, 0.004};
     EXPECT_NEAR(forces.on(ball).pressure[0], expected * ball.volume(), 1e-12 * ball.volume()) << z;
   }
@@ -174,8 +175,13 @@ TEST_F(FluidForcesTest, OfWindowsAreLinearInTimeAndHeldAtTheirEnds) {
   VoxelForces forces(file, FluidTime::windows);
   const BallInFluid ball{{0.2, 0.2, 0.1}, {0, 0, 0}, 0.004};
   // Windows are about 10.5, 11.5 and 12.5 s; times may go back, too
-  for (const auto& [time, expected] :
-       {std::pair(0.0, 1.0), {10.5, 1.0}, {10.75, 1.25}, {11.5, 2.0}, {12.0, 4.0}, {20.0, 6.0}, {11.0, 1.5}}) {
+  for (const auto& [time, expected] : {std::pair(0.0, 1.0),
+                                       {10.5, 1.0},
+                                       {10.75, 1.25},
+                                       {11.5, 2.0},
+                                       {12.0, 4.0},
+                                       {20.0, 6.0},
+                                       {11.0, 1.5}}) {
     forces.set_time(time);
     EXPECT_NEAR(forces.on(ball).pressure[0], expected * ball.volume(), 1e-12 * ball.volume()) << time;
   }
