@@ -63,15 +63,16 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
 
 def lines(passes: Sequence[Pass], changes: Sequence[Change]) -> list[str]:
     """The passes as text, a line for each quantity."""
-    found = ["pass".ljust(28) + "".join(f"{one.number:>18d}" for one in passes)]
+    found = ["pass".ljust(28) + "".join(f"{one.number:>21d}" for one in passes)]
     for key, (name, unit, scale) in QUANTITIES.items():
-        cells = [f"{scale * one.quantities[key].value:.4g} ± {scale * one.quantities[key].error:.2g}" for one in passes]
-        found.append(f"{name}, {unit}".ljust(28) + "".join(cell.rjust(18) for cell in cells))
+        means = [one.quantities[key] for one in passes]
+        cells = [f"{scale * one.value:.4g} ± {scale * one.error:.2g}" for one in means]
+        found.append(f"{name}, {unit}".ljust(28) + "".join(cell.rjust(21) for cell in cells))
     apart = ["–", *(f"{one.solidity:.3f} ({one.solidity_over_limit:.2g})" for one in changes)]
-    found.append("solidity's change (÷ limit)".ljust(28) + "".join(cell.rjust(18) for cell in apart))
-    found.append("force over weight".ljust(28) + "".join(f"{one.load:18.3f}" for one in passes))
+    found.append("solidity's change (÷ limit)".ljust(28) + "".join(cell.rjust(21) for cell in apart))
+    found.append("force over weight".ljust(28) + "".join(f"{one.load:21.3f}" for one in passes))
     found.append("forces disagree by".ljust(28) + "".join(
-        ("–" if one.disagreement is None else f"{one.disagreement:.1%}").rjust(18) for one in passes))
+        ("–" if one.disagreement is None else f"{one.disagreement:.1%}").rjust(21) for one in passes))
     return found
 
 
