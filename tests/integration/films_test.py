@@ -21,7 +21,7 @@ class Film(SlurryTest):
         """Middles of the cells, m."""
         return (np.arange(self.cells) + 0.5) * self.edge
 
-    def film(self, level, end_time, gravity=(0, -9.81, 0)):
+    def film(self, level, end_time, gravity=(0, -9.81, 0), ranks=1):
         """The case, run in steps of 2 ms; level: height above the floor over x, m; gravity in m/s2."""
         case = self.slurry_case(upper=(self.length, 8 * self.edge, 0.01), cells=(self.cells, 8, 1), level=level,
                                 bingham=WATER)
@@ -29,7 +29,12 @@ class Film(SlurryTest):
         for side in ("left", "right", "bottom", "top", "front", "back"):
             case.at_patch(side, U="type slip;")
         case.control(end_time, 0.002, 10)
-        self.assert_runs(case, "slurryFoam")
+        case.decompose_into(2, 1, 1)
+        if ranks > 1:
+            self.assert_runs(case, "decomposePar")
+        self.assert_runs(case, "slurryFoam", ranks=ranks)
+        if ranks > 1:
+            self.assert_runs(case, "reconstructPar")
         self.assert_kept(case)
         return case
 
@@ -63,6 +68,13 @@ class Film(SlurryTest):
         case = self.film(lambda x: np.where(x < dam, depth, 0), end)
         passed = self.heights(case, end)[self.x > dam].sum() * self.edge
         self.assertAlmostEqual(passed / (8 / 27 * np.sqrt(9.81 * depth) * depth * end), 1, delta=0.1)
+
+    def test_flows_from_one_rank_to_the_other_as_within_one(self):
+        one, two = (self.film(lambda x: np.where(x < 0.06, 2e-3, 1e-3), 0.1, ranks=ranks) for ranks in (1, 2))
+        self.assertGreater(np.abs(one.field("U", 0.1)).max(), 0.01)
+        for name in ("U", "alpha.slurry"):
+            expected = one.field(name, 0.1)
+            np.testing.assert_allclose(two.field(name, 0.1), expected, rtol=0, atol=1e-7 * np.abs(expected).max())
 
 
 if __name__ == "__main__":

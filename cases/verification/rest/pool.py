@@ -46,7 +46,8 @@ BEDS = {"slurryFoam": "bedProperties", "interFoam": "fvOptions"}  # solver -> fi
 
 
 def matrix(meshes, solvers, quick):
-    """Every run, the O-grid's first. Quick: a few with surface tension for a short time, and slurry alone in a bed."""
+    """Every run, the O-grid's first. Quick: a few with surface tension for a short time, slurry alone in a bed, and the
+    slice, whose pool has a thin film at its edge."""
     if quick:
         settings = [("ogrid", False, False), ("ogrid", False, True), ("ogrid", True, False), ("ogrid", True, True),
                     ("mill", False, False)]

@@ -27,7 +27,7 @@ LIMITS = {
     # Since the curvature is smoothed along the surface (version abc937a) the bed's is 2e-8 and grows in time
     ("ogrid", False): Limits(6e-9, 5e-8, 1e-15),
     ("mill", False): Limits(5e-8, 3e-7, 1e-15),
-    ("slice", False): Limits(1e-9, 6e-9, 1e-15),
+    ("slice", False): Limits(3e-9, 8e-8, 1e-15),
     ("ogrid", True): Limits(2e-3, 0.016, 6e-4),
     ("drum", True): Limits(1.2e-3, 0.02, 2e-4),
 }

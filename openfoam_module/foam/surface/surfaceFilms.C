@@ -17,7 +17,8 @@ namespace Foam
 namespace
 {
 
-//- Cells on which a film may stand between it and the wall
+//- Rounds in which cells pass on what walls carry: between a film and its wall
+//  lie few cells, if any
 constexpr label sweeps = 3;
 
 } // End anonymous namespace
@@ -84,10 +85,12 @@ Foam::scalar Foam::surfaceFilms::carried(
         if (down > 0)
         {
             const scalar area = down * cut_.wetShare(facei, n, offset, offset);
-            const label inside = mesh_.nInternalFaces();
-            sum += area * (facei >= inside ? boundaryCarriers[facei - inside]
-                           : owned         ? carrier(mesh_.neighbour()[facei])
-                                           : carrier(mesh_.owner()[facei]));
+            const label outer = facei - mesh_.nInternalFaces();
+            const label other = outer >= 0 ? -1
+                                : owned    ? mesh_.neighbour()[facei]
+                                           : mesh_.owner()[facei];
+            sum +=
+                area * (outer >= 0 ? boundaryCarriers[outer] : carrier(other));
             whole += area;
         }
     }
