@@ -13,6 +13,7 @@ from millfoam.coupling.passes import QUANTITIES, Pass, change, read_pass
 from millfoam.files.data_files import read_json
 from millfoam.files.mill_case import MillCase
 from millfoam.plots.mill_plots import draw_outline
+from millfoam.readings.means import Mean
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 
 HERE = Path(__file__).parent.resolve()
@@ -35,7 +36,8 @@ def rows_of(mill, ways):
     for name, one in ways.items():
         row = {"mill": mill, "coupling": name}
         for key, (quantity, unit, scale) in QUANTITIES.items():
-            mean = one.quantities[key]
+            # A pool at rest takes no part in the motor's power that could be told
+            mean = one.quantities[key] if (key, name) != ("drive_power", "buoyancy") else Mean(np.nan, np.nan)
             row[f"{quantity}, {unit}"], row[f"{quantity}, {unit} ±"] = scale * mean.value, scale * mean.error
         row["solidity from one way"] = 0.0 if one is dry else change(dry, one).solidity
         row["its noise"] = np.hypot(dry.noise, one.noise) / np.sqrt(2)
@@ -49,7 +51,10 @@ def lines_of(rows):
         found = [row for row in rows if row["mill"] == mill]
         yield mill.ljust(32) + "".join(row["coupling"].rjust(18) for row in found)
         for name in (column for column in found[0] if f"{column} ±" in found[0]):
-            yield name.ljust(32) + "".join(f"{row[name]:.2f} ± {row[name + ' ±']:.2f}".rjust(18) for row in found)
+            digits = 4 if name.endswith(" W") else 2
+            cells = ("–" if np.isnan(row[name]) else f"{row[name]:.{digits}f} ± {row[name + ' ±']:.{digits}f}"
+                     for row in found)
+            yield name.ljust(32) + "".join(cell.rjust(18) for cell in cells)
         for name in ("solidity from one way", "its noise", "force over weight"):
             yield name.ljust(32) + "".join(f"{row[name]:18.3f}" for row in found)
         yield ""
