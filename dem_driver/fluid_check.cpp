@@ -43,10 +43,9 @@ void require_cover(const averaging::SlurryReader& reader, const meshing::Geometr
                           point(grid.upper()) + " m, expected " + (periodic ? "the period of " : "") +
                           "the mill, from " + point(lower) + " to " + point(upper) + " m");
   if (grid.periodic() != std::array<bool, 3>{false, false, periodic})
-    throw SlurryFileError(reader.path().string() + ": the voxels " + (periodic ? "do not repeat" : "repeat") +
-                          " along the axis as those of a " +
-                          (periodic ? "mill with ends" : "periodic slice") +
-                          " do, expected those of this mill");
+    throw SlurryFileError(reader.path().string() + ": the voxels are " +
+                          (periodic ? "not periodic along the axis, expected periodic ones, as the slice is"
+                                    : "periodic, expected voxels that are not, as the mill has ends"));
 }
 
 /// Throws where the drag stops the smallest ball within too few steps.
@@ -78,6 +77,13 @@ void require_slow_drag(const averaging::BallFields& fields, const averaging::Slu
                         " at most, and run the mill and the flow again");
 }
 
+void require_windows(const averaging::SlurryReader& reader) {
+  if (reader.header().windows > 0) return;
+  throw SlurryFileError(reader.path().string() +
+                        ": has no time windows, only a mean over the run; expected a flow's slurry.h5, or "
+                        "--fluid-time mean");
+}
+
 }  // namespace
 
 FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time, const meshing::Mill& mill,
@@ -85,11 +91,13 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   const averaging::SlurryReader reader(file);
   require_mill(reader, mill);
   require_cover(reader, mill.geometry);
-  if (time == FluidTime::mean)
+  if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader, mill, plan.step.value);
-  else
+  } else {
+    require_windows(reader);
     for (std::size_t window = 0; window < reader.header().windows; ++window)
       require_slow_drag(reader.window(window), reader, mill, plan.step.value);
+  }
   FluidSettings fluid;
   fluid.kind = FluidKind::slurry;
   fluid.file = std::filesystem::absolute(file);

@@ -22,7 +22,7 @@ struct BallFields {
   std::vector<double> inside;          ///< [n] share of the voxel in the flow's mesh; 0: no fluid there
   std::vector<double> pressure_force;  ///< [n][3] -grad p of the fluid, N/m^3
   std::vector<double> exchange;        ///< [n] K, kg/(m^3 s)
-  std::vector<double> drag_force;      ///< [n][3] K times the fluid's velocity, N/m^3
+  std::vector<double> drag_force;      ///< [n][3] mean of K (u - u_s), and K times the mean of u_s, N/m^3
   std::vector<double> solidity;        ///< [n] that the flow saw
   std::vector<double> diameter;        ///< [n] Sauter mean diameter that the drag law saw, m
 };

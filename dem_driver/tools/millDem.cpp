@@ -154,6 +154,9 @@ void run(const Options& options, const meshing::MillDescription& description) {
   auto plan = dem_driver::plan_dem(mill);
   dem_driver::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
+  if (!options.fluid.empty() && mill.dem.pool_level)
+    throw dem_driver::KeyError("dem.fluid", "buoyancy",
+                               "none with --fluid, which has the buoyancy of its flow");
   if (!options.fluid.empty())
     plan.fluid = dem_driver::require_fluid_of(
         options.fluid,
@@ -179,7 +182,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   dem_driver::print_plan(std::cout, mill, plan);
   if (!options.deck_only) {
     dem_driver::require_programs(options.ranks);
-    dem_driver::require_room(folder, plan, step.value_or(0));
+    dem_driver::require_room(folder, plan, step.value_or(plan.begin));
     prepare(folder, step);
     if (state && !step) dem_driver::take_restart(*state, folder);
   }

@@ -22,7 +22,6 @@ constexpr double usual_voxel = 2.5;
 constexpr double usual_voxels_of_radius = 4;
 constexpr double windows_per_turn = 20;
 constexpr double usual_flow_turns = 3;
-/// Of balls and slurry in turn: the 12 cm mill's slice has settled after four.
 constexpr int usual_passes = 6;
 constexpr double usual_relaxation = 0.7;
 constexpr double share_averaged = 2.0 / 3;

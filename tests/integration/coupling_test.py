@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balls and slurry in turn: two passes of a small mill by its stages, a change of their number, and what is refused."""
+"""Balls and slurry in turn: two passes of a small mill by its stages, changes of its keys, and what is refused."""
 import shutil
 import tempfile
 import unittest
@@ -85,6 +85,21 @@ class Passes(unittest.TestCase):
         output = run_mill(case, "mill.yaml", "flow.coupling=one_way")
         self.assertNotIn("Running flow", output)
         self.assertNotIn("Pass 2", output)
+        page = (case / "report.html").read_text()
+        self.assertNotIn("Balls and slurry have settled", page)
+        self.assertIn("The slurry would not move the balls", page)
+
+    def test_relaxation_changes_the_passes_after_the_second_and_a_law_changes_all_flows(self):
+        case = self.case.with_name(self.case.name + "-law")
+        shutil.copytree(self.case, case, symlinks=True)
+        self.addCleanup(shutil.rmtree, case)
+        output = run_mill(case, "mill.yaml", "flow.relaxation=0.5")
+        self.assertNotIn("Running charge", output)
+        self.assertNotIn("Running flow", output)
+        output = run_mill(case, "mill.yaml", "flow.law=Ergun")
+        self.assertEqual(output.count("Running flow"), 2)
+        self.assertEqual(output.count("Running forces"), 1)
+        self.assertEqual(output.count("Running charge"), 1)  # of pass 2; the dry one is kept
 
     def test_a_charge_of_another_case_is_refused(self):
         with self.assertRaisesRegex(RunError, "expected flow.coupling one_way, because coupled passes continue"):

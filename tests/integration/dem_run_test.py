@@ -260,7 +260,7 @@ class DemRun(unittest.TestCase):
         before = sorted(case.glob("*/*"))
         done = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True,
                               text=True, env={**os.environ, "PATH": "/no/such/folder"})
-        self.assertIn("liggghts is not on PATH", done.stderr)
+        self.assertIn("setpriv is not on PATH", done.stderr)
         self.assertEqual(sorted(case.glob("*/*")), before)
         shell = case / "walls" / "shell.stl"
         shell.write_bytes(shell.read_bytes()[:-200])

@@ -36,7 +36,7 @@ def rows_of(mill, ways):
     for name, one in ways.items():
         row = {"mill": mill, "coupling": name}
         for key, (quantity, unit, scale) in QUANTITIES.items():
-            # A pool at rest takes no part in the motor's power that could be told
+            # What moves a pool at rest is not known, so neither is the motor's power
             mean = one.quantities[key] if (key, name) != ("drive_power", "buoyancy") else Mean(np.nan, np.nan)
             row[f"{quantity}, {unit}"], row[f"{quantity}, {unit} ±"] = scale * mean.value, scale * mean.error
         row["solidity from one way"] = 0.0 if one is dry else change(dry, one).solidity

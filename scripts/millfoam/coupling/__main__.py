@@ -19,7 +19,7 @@ from . import ball_forces, passes, table
 
 def make_forces(folder: Path, before: Path) -> None:
     """Writes FOLDER/forces.h5 from the flow in `before`. RuntimeError if that flow has no forces."""
-    share = read_mill(before).flow("relaxation")
+    share = read_mill(folder).flow("relaxation")
     slurry = before / "slurry.h5"
     forces = read_ball_forces(slurry)
     # The dry pass had no forces; they are no estimate to be relaxed by
@@ -37,7 +37,7 @@ def judge(case: Path, count: int) -> None:
     folders = [case, *(case / f"pass_{number}" for number in range(2, count + 1))]
     found = [passes.read_pass(number, folder) for number, folder in enumerate(folders, start=1)]
     changes = [passes.change(*pair) for pair in zip(found, found[1:])]
-    settled = passes.settled(changes)
+    settled = passes.settled(changes, found[-1])
     table.write_csv(case / "coupling.csv", found, changes)
     means = {key: [one.quantities[key] for one in found] for key in passes.QUANTITIES}
     table.passes_figure([one.number for one in found], means).savefig(case / "coupling.png", dpi=140)

@@ -22,8 +22,12 @@ def relaxed(latest: BallForces, before: BallForces, share: float) -> BallForces:
             np.allclose(latest.lower, before.lower) and np.allclose(latest.upper, before.upper)):
         raise ValueError(f"forces on {before.solidity.shape} voxels up to {before.upper} m and on "
                          f"{latest.solidity.shape} up to {latest.upper} m; expected the same voxels")
-    mixed = {name: share * getattr(latest, name) + (1 - share) * getattr(before, name)
-             for name in ("pressure_force", "drag_force", "exchange")}
+    mixed = {}
+    for name in ("pressure_force", "drag_force", "exchange"):
+        now, then = getattr(latest, name), getattr(before, name)
+        # A voxel that the mesh did not reach has no forces to be mixed with
+        known = (before.inside > 0).reshape(before.inside.shape + (1,) * (now.ndim - before.inside.ndim))
+        mixed[name] = np.where(known, share * now + (1 - share) * then, now)
     return replace(latest, **mixed)
 
 

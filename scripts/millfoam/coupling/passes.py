@@ -23,8 +23,14 @@ QUANTITIES = {"toe": ("toe of the charge", "°", 1.0), "shoulder": ("shoulder of
               "charge_power": ("power of the charge", "W", 1.0), "slurry_x": ("centre of the slurry, x", "mm", 1e3),
               "slurry_y": ("centre of the slurry, y", "mm", 1e3), "slurry_power": ("power for the slurry", "W", 1.0),
               "drive_power": ("power of the drive", "W", 1.0)}
-LIMIT = 2.0  # standard errors that a quantity may change by in a pass that has settled
-NOISE = 1.5  # times the noise of two maps that their solidity may differ by
+# Standard errors that a quantity may change by in a pass that has settled: of ten comparisons, made twice, one would
+# exceed two errors by chance in most cases
+LIMIT = 3.0
+# Times the noise of two maps that their solidity may differ by: windows that follow each other share slow changes,
+# which the noise does not have
+NOISE = 1.5
+AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
+TURNS = 3  # of the averaged flow, at least: the error of fewer turns is not known
 
 
 @dataclass
@@ -93,8 +99,8 @@ def charge_quantities(case: MillCase, charge: SolidsMap) -> dict[str, Mean]:
 
 
 def slurry_quantities(case: MillCase) -> dict[str, Mean]:
-    """Centre and power of the slurry of a MillCase, with errors over whole turns; NaN without slurryBalance."""
-    columns = case.balance
+    """Centre and power of the slurry of a MillCase, with errors over whole turns; NaN for fewer than TURNS."""
+    columns = known_balance(case)
     names = {"slurry_x": "x", "slurry_y": "y", "slurry_power": "power"}
     if columns is None:
         return {key: Mean(np.nan, np.nan) for key in names}
@@ -103,12 +109,19 @@ def slurry_quantities(case: MillCase) -> dict[str, Mean]:
             for key, name in names.items()}
 
 
+def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
+    """Columns of slurryBalance; None without it, or if fewer turns than TURNS are averaged."""
+    columns = case.balance
+    # Times are rounded
+    return columns if columns and columns["Time"][-1] - case.begin > (TURNS - 0.005) * case.turn else None
+
+
 def drive_power(case: MillCase, quantities: dict[str, Mean]) -> Mean:
-    """Power that the drive gives to balls and slurry together, W; NaN without slurryBalance.
+    """Power that the drive gives to balls and slurry together, W; NaN for fewer turns than TURNS.
 
     Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
     that of the walls on the slurry. Balls that do not feel it give it power of their own, which is added."""
-    columns = case.balance
+    columns = known_balance(case)
     if columns is None:
         return Mean(np.nan, np.nan)
     given = columns["power"]
@@ -146,6 +159,8 @@ def change(before: Pass, after: Pass) -> Change:
     return Change(apart, apart / (NOISE * noise), quantities, over)
 
 
-def settled(changes: Sequence[Change]) -> bool:
-    """Whether nothing changed in the last two of the passes' changes."""
-    return len(changes) >= 2 and all(one.within for one in changes[-2:])
+def settled(changes: Sequence[Change], last: Pass) -> bool:
+    """Whether nothing changed in the last two of the passes' changes, and the forces that moved the balls of the last
+    pass are those of its flow: with strong relaxation alone, nothing would change either."""
+    return (len(changes) >= 2 and all(one.within for one in changes[-2:]) and last.disagreement is not None
+            and last.disagreement <= AGREE)

@@ -225,10 +225,13 @@ class MillCase:
 
     @cached_property
     def coupled(self) -> Path | None:
-        """The folder with coupling.json, if this case is one of the passes of balls and slurry that it compares."""
+        """The folder with coupling.json, if this case's mill is coupled both ways and it is one of the passes of balls
+        and slurry that are compared there."""
+        if self.mill.flow("coupling", "one_way") == "one_way":
+            return None
         for place, name in ((self.folder, "."), (self.folder.resolve().parent, self.name)):
             content = self.json(place / "coupling.json", "coupling")
-            if content and name in content.get("folders", ()):
+            if content and name in content.get("folders", ()) and content["mill"] == self.mill.fingerprint:
                 return place
         return None
 

@@ -2,7 +2,7 @@
 """Balls and slurry that move each other: the passes of a coupled mill, and whether they have settled."""
 import numpy as np
 
-from ..coupling.passes import LIMIT, NOISE, QUANTITIES, forces_apart
+from ..coupling.passes import AGREE, LIMIT, NOISE, QUANTITIES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -11,8 +11,6 @@ from . import page
 from .case_readings import Readings
 from .verdict import Check, judged
 from .words import uncertain
-
-AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 
 
 def has_settled(case: MillCase) -> Check:

@@ -140,6 +140,9 @@ TEST(Flow, only_balls_in_slurryFoam_can_be_coupled_both_ways) {
             std::string::npos);
   EXPECT_NE(refusal_of(text, {"flow.balls=no"}).find("'flow.coupling' = iterated: expected one_way"),
             std::string::npos);
+  EXPECT_NE(refusal_of(text, {"dem.fluid=buoyancy", "dem.fluid_level=0"})
+                .find("'dem.fluid' = buoyancy: expected none where flow.coupling is iterated"),
+            std::string::npos);
   EXPECT_NE(refusal_of(text, {"flow.relaxation=0"}).find("a share above 0 and up to 1"), std::string::npos);
 }
 
