@@ -93,8 +93,9 @@ class MadeUpTree(Tree):
         self.assert_refused("meshing/files/a.cpp", '"meshing/surface/pi.hpp"',
                             "meshing/files must not know meshing/surface")
 
-    def test_dem_driver_must_not_include_averaging(self):
-        self.assert_refused("dem_driver/a.cpp", '"averaging/box_grid.hpp"', "dem_driver must not know averaging")
+    def test_dem_driver_must_not_include_the_flow(self):
+        self.assert_refused("dem_driver/a.cpp", '"openfoam_module/record/a.hpp"',
+                            "dem_driver must not know openfoam_module")
 
     def test_openfoam_module_must_not_include_meshing(self):
         self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill/mill.hpp"',

@@ -62,8 +62,9 @@ class Passes(unittest.TestCase):
         self.assertGreater(table["force_disagreement"][1], 0)
         content = read_json(self.case / "coupling.json", "coupling")
         self.assertEqual((content["passes"], content["settled"], content["folders"]), (2, False, [".", "pass_2"]))
-        # What walls give to balls and slurry is what the first mill gives, and more or less that of the second
-        self.assertAlmostEqual(table["drive_power_W"][1] / table["drive_power_W"][0], 1, delta=0.3)
+        # Less than a turn of flow has no error, so that it never settles
+        self.assertTrue(np.isnan(table["drive_power_W"]).all())
+        self.assertTrue(np.isfinite(table["charge_power_W"]).all())
 
     def test_the_report_is_that_of_the_last(self):
         page = (self.case / "report.html").read_text()

@@ -212,6 +212,7 @@ class Passes(FluidCase):
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.addCleanup(process.kill)
         folder = case / options[options.index("--case") + 1]
+
         def written():
             marks = [line for line in (folder / "dem" / "log.liggghts").read_text().splitlines()
                      if line.startswith("millFoam restart")] if (folder / "dem" / "log.liggghts").exists() else []

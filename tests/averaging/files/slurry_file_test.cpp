@@ -179,7 +179,7 @@ TEST_F(SlurryFile, AFlowWithoutBallsHasNoGroupOfThem) {
 }
 
 TEST_F(SlurryFile, SegmentsWithAndWithoutBallsAreNotMixed) {
-  const auto with = write("a.h5", stretch_with_balls(0, 1, 0.2, 100));
+  const auto with = write("a.h5", stretch_with_balls(0, 1, 0.2, 100, 3));
   const auto without = write("b.h5", stretch(0, 1, 0.2, 1));
   EXPECT_NE(message_of<SlurryFileError>([&] {
               read_segment(with, two_voxels);
