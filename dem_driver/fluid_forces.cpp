@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem_driver/case_folder.hpp"
 #include "meshing/mill/mill.hpp"
 #include "meshing/surface/pi.hpp"
 
@@ -34,7 +35,12 @@ FluidForce PoolForces::on(const BallInFluid& ball) const {
 }
 
 std::unique_ptr<FluidForces> make_fluid_forces(const FluidSettings& fluid) {
-  if (fluid.kind == FluidKind::slurry) return std::make_unique<VoxelForces>(fluid.file, fluid.time);
+  if (fluid.kind == FluidKind::slurry) {
+    if (file_hash(fluid.file) != fluid.file_id)
+      throw averaging::SlurryFileError(fluid.file.string() +
+                                       ": has changed since millDem checked it, run millDem again");
+    return std::make_unique<VoxelForces>(fluid.file, fluid.time);
+  }
   return std::make_unique<PoolForces>(fluid.level, fluid.density);
 }
 

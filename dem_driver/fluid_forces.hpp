@@ -100,7 +100,8 @@ class VoxelForces : public FluidForces {
   double blend_ = 0;                                              ///< share of late_
 };
 
-/// What acts on the balls of a run with a fluid. Throws as VoxelForces.
+/// What acts on the balls of a run with a fluid. Throws as VoxelForces, and where the flow's file is not the
+/// one that was checked.
 std::unique_ptr<FluidForces> make_fluid_forces(const FluidSettings& fluid);
 
 /// The factor e/y + phi + 0.064 e y of a ball of diameter y d32 in a mixture of sizes of solidity phi.

@@ -35,11 +35,8 @@ void check_file(hid_t root) {
 BallFieldsHeader read_header(hid_t root) {
   const hdf5::Handle balls = hdf5::open_group(root, "balls");
   BallFieldsHeader header;
-  if (hdf5::has_attribute(root, "program")) header.program = hdf5::read_text_attribute(root, "program");
   if (hdf5::has_attribute(root, "mill_flow")) header.mill_flow = hdf5::read_text_attribute(root, "mill_flow");
-  header.law = hdf5::read_text_attribute(balls.get(), "law");
   header.polydispersity = hdf5::read_int_attribute(balls.get(), "polydispersity", 1)[0] != 0;
-  header.slurry_density = hdf5::read_double_attribute(balls.get(), "slurry_density", 1)[0];
   // forces.h5 of a coupled mill has the mean alone
   if (hdf5::has(root, "window"))
     header.windows = static_cast<std::size_t>(hdf5::dimensions(root, "window/begin").at(0));
@@ -145,10 +142,7 @@ BallFields SlurryReader::mean() const {
       throw hdf5::Error(std::string("has no mean over the run (group /mean/balls), because the flow ended "
                                     "before flow.averages.start: ") +
                         again);
-    const hdf5::Handle group = hdf5::open_group(root, "mean");
     BallFields fields;
-    fields.begin = hdf5::read_double_attribute(group.get(), "begin", 1)[0];
-    fields.end = hdf5::read_double_attribute(group.get(), "end", 1)[0];
     file_->read_fields(
         "mean/insideFraction", "mean/balls/",
         [&](const std::string& name) { return hdf5::read_all(root, name); }, fields);
@@ -159,8 +153,6 @@ BallFields SlurryReader::mean() const {
 BallFields SlurryReader::window(std::size_t number) const {
   return hdf5::naming_file<SlurryFileError>(file_->path, [&] {
     BallFields fields;
-    fields.begin = file_->begin.at(number);
-    fields.end = file_->end.at(number);
     file_->read_fields(
         "grid/insideFraction", "balls/",
         [&](const std::string& name) { return hdf5::read_row(file_->handle.get(), name, number); }, fields);

@@ -17,8 +17,6 @@ namespace millfoam::averaging {
 /// A flow on n voxels as a ball feels it, mean over a time: a ball of volume V and velocity v feels
 /// V (pressure_force + drag_force - exchange v). Fields are in C order [z][y][x].
 struct BallFields {
-  double begin = 0;                    ///< DEM time, s
-  double end = 0;                      ///< DEM time, s
   std::vector<double> inside;          ///< [n] share of the voxel in the flow's mesh; 0: no fluid there
   std::vector<double> pressure_force;  ///< [n][3] -grad p of the fluid, N/m^3
   std::vector<double> exchange;        ///< [n] K, kg/(m^3 s)
@@ -29,11 +27,8 @@ struct BallFields {
 
 /// What holds for a whole slurry file.
 struct BallFieldsHeader {
-  std::string program;          ///< that wrote the file, with its version
   std::string mill_flow;        ///< fingerprint of the mill; empty: not known
-  std::string law;              ///< drag law
   bool polydispersity = false;  ///< a ball of diameter d feels the exchange of its own size
-  double slurry_density = 0;    ///< kg/m^3
   std::size_t windows = 0;      ///< number of time windows
 };
 

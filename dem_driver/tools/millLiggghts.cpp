@@ -11,6 +11,7 @@
 #include <mpi.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
@@ -33,6 +34,14 @@ bool begins(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
+/// Ends the program on all ranks, with the error in the log as one of LIGGGHTS.
+[[noreturn]] void stop(const std::exception& error) {
+  std::printf("ERROR: %s\n", error.what());
+  std::fflush(stdout);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();
+}
+
 /// The fluid's forces as a `fix external` of the deck gets them in every step, on every rank of its own
 /// balls.
 class FluidFix {
@@ -52,7 +61,12 @@ class FluidFix {
         static_cast<LAMMPS_NS::FixExternal*>(liggghts.modify->fix[liggghts.modify->find_fix(name.c_str())]);
     fix->set_callback(
         [](void* self, LAMMPS_NS::bigint step, int balls, int*, double** position, double** force) {
-          static_cast<FluidFix*>(self)->act(static_cast<long>(step), balls, position, force);
+          // An exception must not pass through LIGGGHTS
+          try {
+            static_cast<FluidFix*>(self)->act(static_cast<long>(step), balls, position, force);
+          } catch (const std::exception& error) {
+            stop(error);
+          }
         },
         this);
   }
@@ -145,9 +159,7 @@ int main(int argc, char** argv) {
   try {
     run(argc, argv, rank);
   } catch (const std::exception& error) {
-    std::printf("ERROR: %s\n", error.what());
-    std::fflush(stdout);
-    MPI_Abort(MPI_COMM_WORLD, 1);
+    stop(error);
   }
   MPI_Finalize();
 }

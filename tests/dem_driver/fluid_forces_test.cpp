@@ -11,6 +11,7 @@
 #include <string>
 
 #include "averaging/files/slurry_file.hpp"
+#include "dem_driver/case_folder.hpp"
 #include "tests/dem_driver/small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -222,6 +223,17 @@ TEST_F(FluidForcesTest, OfAFlowWithoutBallsAreRefused) {
   const std::string message = tests::message_of([&] { VoxelForces(file, FluidTime::mean); });
   EXPECT_NE(message.find("slurry.h5"), std::string::npos) << message;
   EXPECT_NE(message.find("no forces on balls"), std::string::npos) << message;
+}
+
+TEST_F(FluidForcesTest, OfAFileThatHasChangedSinceItWasCheckedAreRefused) {
+  FluidSettings fluid;
+  fluid.kind = FluidKind::slurry;
+  fluid.file = write({pushing});
+  fluid.file_id = file_hash(fluid.file);
+  EXPECT_NE(make_fluid_forces(fluid), nullptr);
+  fluid.file_id = "0123456789abcdef";
+  const std::string message = tests::message_of([&] { make_fluid_forces(fluid); });
+  EXPECT_NE(message.find("slurry.h5: has changed since millDem checked it"), std::string::npos) << message;
 }
 
 TEST_F(FluidForcesTest, ThatAreNotFiniteAreRefusedWithTheirVoxel) {
