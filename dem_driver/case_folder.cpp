@@ -95,8 +95,8 @@ FolderLock::~FolderLock() {
 }
 
 void remove_results(const CaseFolder& folder) {
-  for (const auto& file :
-       {folder.run_file(), folder.results(), folder.energy(), folder.fluid(), folder.overlaps(), folder.charge()})
+  for (const auto& file : {folder.run_file(), folder.results(), folder.energy(), folder.fluid(),
+                           folder.overlaps(), folder.charge()})
     fs::remove(file);
 }
 

@@ -91,8 +91,8 @@ std::string file_hash(const std::filesystem::path& file);
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
 
-/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, begin, duration, mass of the charge and fluid.
-/// The file appears whole or not at all.
+/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, begin, duration, mass of the charge and
+/// fluid. The file appears whole or not at all.
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

@@ -30,7 +30,8 @@ Json read_run_file(const fs::path& file) {
 }
 
 double number(const Json& run, const char* key, const fs::path& file) {
-  if (!run.contains(key) || !run[key].is_number()) refuse(file, std::string("no number '") + key + "'", "one");
+  if (!run.contains(key) || !run[key].is_number())
+    refuse(file, std::string("no number '") + key + "'", "one");
   return run[key].get<double>();
 }
 
@@ -39,16 +40,19 @@ long end_of(const fs::path& file, const meshing::Mill& mill, const DemPlan& plan
   const Json run = read_run_file(file);
   const std::string charge = run.value(Json::json_pointer("/mill/charge"), std::string());
   if (charge != mill.fingerprint.charge)
-    refuse(file, "the run is of another mill (charge " + charge + ")", "this mill's, " + mill.fingerprint.charge);
+    refuse(file, "the run is of another mill (charge " + charge + ")",
+           "this mill's, " + mill.fingerprint.charge);
   const double time_step = number(run, "timestep_s", file);
   if (std::abs(time_step - plan.step.value) > 1e-9 * plan.step.value)
-    refuse(file, "the time-step is " + exact(time_step) + " s", "this run's, " + exact(plan.step.value) + " s");
+    refuse(file, "the time-step is " + exact(time_step) + " s",
+           "this run's, " + exact(plan.step.value) + " s");
   const double begin = run.contains("begin_s") ? number(run, "begin_s", file) : 0;
   return std::lround((begin + number(run, "duration_s", file)) / time_step);
 }
 
 /// The deck of a run carries the checksums of its walls.
-void require_same_walls(const CaseFolder& other, const CaseFolder& folder, const std::vector<std::string>& parts) {
+void require_same_walls(const CaseFolder& other, const CaseFolder& folder,
+                        const std::vector<std::string>& parts) {
   std::ifstream in(other.deck());
   const std::string deck{std::istreambuf_iterator<char>(in), {}};
   if (deck.find(wall_checksums(folder, parts)) == std::string::npos)
@@ -61,14 +65,16 @@ LastState last_state(const CaseFolder& other, const CaseFolder& folder, const st
                      const meshing::Mill& mill, const DemPlan& plan) {
   std::error_code none;
   if (fs::equivalent(other.root, folder.root, none))
-    throw std::runtime_error("--continue " + other.root.string() +
-                             ": is the folder of this run, expected another case; a run is made longer with a larger "
-                             "dem.duration and --resume");
+    throw std::runtime_error(
+        "--continue " + other.root.string() +
+        ": is the folder of this run, expected another case; a run is made longer with a larger "
+        "dem.duration and --resume");
   LastState state;
   state.step = end_of(other.run_file(), mill, plan);
   require_same_walls(other, folder, parts);
   state.restart = other.dem() / ("restart." + std::to_string(state.step));
-  if (!fs::exists(state.restart)) refuse(state.restart, "no such file", "the restart file of the run's last step");
+  if (!fs::exists(state.restart))
+    refuse(state.restart, "no such file", "the restart file of the run's last step");
   const std::string complaint = restart_complaint(state.restart, plan.charge.balls());
   if (!complaint.empty()) throw std::runtime_error(state.restart.string() + ": " + complaint);
   state.id = file_hash(state.restart);

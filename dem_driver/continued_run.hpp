@@ -18,9 +18,9 @@ struct LastState {
   std::string id;                 ///< hash of the file's bytes (FNV-1a, 16 hexadecimal digits)
 };
 
-/// The last state of the run in `other`. Throws std::runtime_error that names the file, what was found and what was
-/// expected, when that run is not complete, is that of another charge or time-step, has other walls than `folder`,
-/// or has lost its last restart file; or when both folders are the same.
+/// The last state of the run in `other`. Throws std::runtime_error that names the file, what was found and
+/// what was expected, when that run is not complete, is that of another charge or time-step, has other walls
+/// than `folder`, or has lost its last restart file; or when both folders are the same.
 /// @param folder  of the run that continues
 /// @param parts  its walls
 /// @param plan  of the run that continues

@@ -18,25 +18,25 @@ namespace millfoam::dem_driver {
 /// Everything that is decided before the deck is written: the numbers that deck, progress and summary agree
 /// on.
 struct DemPlan {
-  TimeStep step;             ///< chosen by choose_time_step
-  ChargePlan charge;         ///< made by plan_charge
-  long round_steps = 0;      ///< settling after each round but the last
-  long settle_steps = 0;     ///< settling after the last round, mill at rest
-  long begin = 0;            ///< step of the turning mill at which this run begins; 0: from a settled charge
-  long turning_steps = 0;    ///< from `begin` on, a whole number of records
-  long dumps = 0;            ///< of the turning mill, with the one at step `begin`
-  long thermo_steps = 0;     ///< between two lines of LIGGGHTS' log
-  long contact_steps = 0;    ///< between two dumps of the contacts; 0: they are not dumped
-  long contact_dumps = 0;    ///< of the turning mill, with the one at step `begin`, if it has one
-  long restart_steps = 0;    ///< between two restart files of the turning mill, a whole number of records
-  FluidSettings fluid;       ///< that pushes the balls
-  bool continues() const { return begin > 0; }              ///< from the last state of another run
-  long end_step() const { return begin + turning_steps; }   ///< last step of the turning mill
-  long insertions() const;    ///< single insertions of all rounds; each takes one step
-  long resting_steps() const; ///< of insertions and settling together; 0 of a run that continues another
-  long total_steps() const;   ///< of insertions, settling and turning mill together
-  double begin_time() const;  ///< DEM time at `begin`, s
-  double duration() const;    ///< s of turning mill, from `begin` on
+  TimeStep step;           ///< chosen by choose_time_step
+  ChargePlan charge;       ///< made by plan_charge
+  long round_steps = 0;    ///< settling after each round but the last
+  long settle_steps = 0;   ///< settling after the last round, mill at rest
+  long begin = 0;          ///< step of the turning mill at which this run begins; 0: from a settled charge
+  long turning_steps = 0;  ///< from `begin` on, a whole number of records
+  long dumps = 0;          ///< of the turning mill, with the one at step `begin`
+  long thermo_steps = 0;   ///< between two lines of LIGGGHTS' log
+  long contact_steps = 0;  ///< between two dumps of the contacts; 0: they are not dumped
+  long contact_dumps = 0;  ///< of the turning mill, with the one at step `begin`, if it has one
+  long restart_steps = 0;  ///< between two restart files of the turning mill, a whole number of records
+  FluidSettings fluid;     ///< that pushes the balls
+  bool continues() const { return begin > 0; }             ///< from the last state of another run
+  long end_step() const { return begin + turning_steps; }  ///< last step of the turning mill
+  long insertions() const;     ///< single insertions of all rounds; each takes one step
+  long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
+  long total_steps() const;    ///< of insertions, settling and turning mill together
+  double begin_time() const;   ///< DEM time at `begin`, s
+  double duration() const;     ///< s of turning mill, from `begin` on
 };
 
 /// Most steps of the turning mill, and most of the settling one; a run of more is refused, because it would

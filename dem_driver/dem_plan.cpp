@@ -15,8 +15,8 @@ constexpr double longest_time_step = 1;  // s, above that of any ball
 constexpr long restarts = 50;            // of a run, unless it is short
 constexpr long fewest_records_per_restart = 10;
 
-/// About a fiftieth of all records, so that the run, and what was before its begin, are whole numbers of such parts
-/// wherever they can be: the histograms of the overlaps are written one for each part.
+/// About a fiftieth of all records, so that the run, and what was before its begin, are whole numbers of such
+/// parts wherever they can be: the histograms of the overlaps are written one for each part.
 long records_per_restart(long before, long records) {
   const long wished = std::min(records, std::max(fewest_records_per_restart, records / restarts));
   for (long part = wished; part <= std::min(records, 4 * wished); ++part)

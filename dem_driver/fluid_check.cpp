@@ -44,7 +44,8 @@ void require_cover(const averaging::SlurryReader& reader, const meshing::Geometr
                           "the mill, from " + point(lower) + " to " + point(upper) + " m");
   if (grid.periodic() != std::array<bool, 3>{false, false, periodic})
     throw SlurryFileError(reader.path().string() + ": the voxels " + (periodic ? "do not repeat" : "repeat") +
-                          " along the axis as those of a " + (periodic ? "mill with ends" : "periodic slice") +
+                          " along the axis as those of a " +
+                          (periodic ? "mill with ends" : "periodic slice") +
                           " do, expected those of this mill");
 }
 
@@ -68,10 +69,11 @@ void require_slow_drag(const averaging::BallFields& fields, const averaging::Slu
   const auto [nx, ny, nz] = reader.grid().shape();
   const int index = static_cast<int>(where);
   const Vector centre = reader.grid().centre({index % nx, index / nx % ny, index / nx / ny});
-  throw SlurryFileError(reader.path().string() + ": the drag at " + point(centre) + " m, K = " + shown(strongest) +
-                        " kg/(m3 s), takes " + shown(share) + " of a ball's speed in a step of " +
-                        shown(time_step) + " s, expected at most " + shown(largest_drag_step) +
-                        ": lower dem.rayleigh_fraction (now " + shown(mill.dem.rayleigh_fraction) + ") to " +
+  throw SlurryFileError(reader.path().string() + ": the drag at " + point(centre) +
+                        " m, K = " + shown(strongest) + " kg/(m3 s), takes " + shown(share) +
+                        " of a ball's speed in a step of " + shown(time_step) + " s, expected at most " +
+                        shown(largest_drag_step) + ": lower dem.rayleigh_fraction (now " +
+                        shown(mill.dem.rayleigh_fraction) + ") to " +
                         shown(mill.dem.rayleigh_fraction * largest_drag_step / share) +
                         " at most, and run the mill and the flow again");
 }

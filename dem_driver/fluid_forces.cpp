@@ -108,7 +108,8 @@ VoxelForces::Neighbours VoxelForces::around(double coordinate, int axis) const {
   return result;
 }
 
-VoxelForces::Voxel VoxelForces::interpolate(const Field& field, const std::array<Neighbours, 3>& around) const {
+VoxelForces::Voxel VoxelForces::interpolate(const Field& field,
+                                            const std::array<Neighbours, 3>& around) const {
   const averaging::BoxGrid& grid = reader_.grid();
   Voxel sum;
   double weights = 0;

@@ -18,9 +18,9 @@ using Vector = std::array<double, 3>;
 
 /// A ball as the fluid sees it.
 struct BallInFluid {
-  Vector position = {};  ///< of its centre, lab frame, m
-  Vector velocity = {};  ///< m/s
-  double diameter = 0;   ///< m
+  Vector position = {};   ///< of its centre, lab frame, m
+  Vector velocity = {};   ///< m/s
+  double diameter = 0;    ///< m
   double volume() const;  ///< m^3
 };
 
@@ -95,9 +95,9 @@ class VoxelForces : public FluidForces {
 
   averaging::SlurryReader reader_;
   FluidTime time_;
-  Field early_, late_;         ///< the mean, or the windows before and after the time
+  Field early_, late_;  ///< the mean, or the windows before and after the time
   std::size_t window_ = std::numeric_limits<std::size_t>::max();  ///< of early_
-  double blend_ = 0;           ///< share of late_
+  double blend_ = 0;                                              ///< share of late_
 };
 
 /// What acts on the balls of a run with a fluid. Throws as VoxelForces.

@@ -22,7 +22,8 @@ void FluidSums::add(const BallInFluid& ball, const FluidForce& force) {
 
 FluidLedgerFile::FluidLedgerFile(const std::filesystem::path& file) : name_(file), out_(file) {
   out_.precision(10);
-  out_ << "# step, then sums over the balls, means over the record's steps: force of the pressure x y z, of the "
+  out_ << "# step, then sums over the balls, means over the record's steps: force of the pressure x y z, of "
+          "the "
           "drag x y z (N), power (W), balls without field\n"
        << std::flush;
   if (!out_) throw std::runtime_error(name_.string() + ": cannot be written");

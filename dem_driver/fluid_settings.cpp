@@ -51,7 +51,8 @@ std::string in_words(const FluidSettings& fluid) {
     case FluidKind::none:
       return "none";
     case FluidKind::buoyancy:
-      return "buoyancy in a pool of " + shown(fluid.density) + " kg/m3 up to y = " + shown(fluid.level) + " m";
+      return "buoyancy in a pool of " + shown(fluid.density) + " kg/m3 up to y = " + shown(fluid.level) +
+             " m";
     case FluidKind::slurry:
       return "forces of a flow (slurry.h5 " + fluid.file_id + ", " + name_of(fluid.time) + ")";
   }
@@ -78,10 +79,12 @@ void write_fluid_order(const fs::path& file, const meshing::Mill& mill, const Fl
 
 FluidOrder read_fluid_order(const fs::path& file) {
   std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
+  if (!in)
+    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
   const Json json = Json::parse(in, nullptr, false);
   if (!json.is_object() || value_of<std::string>(json, "format", file) != order_format)
-    throw std::runtime_error(file.string() + ": is not of the format " + order_format + ": run millDem again");
+    throw std::runtime_error(file.string() + ": is not of the format " + order_format +
+                             ": run millDem again");
   FluidOrder order;
   order.timestep = value_of<double>(json, "timestep_s", file);
   order.record_steps = value_of<long>(json, "interval", file);

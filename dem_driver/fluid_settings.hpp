@@ -46,8 +46,8 @@ std::string in_words(const FluidSettings& fluid);
 
 /// What millLiggghts needs besides the deck.
 struct FluidOrder {
-  FluidSettings fluid;   ///< not FluidKind::none; `file` as it is found from the order's folder
-  double timestep = 0;   ///< s
+  FluidSettings fluid;    ///< not FluidKind::none; `file` as it is found from the order's folder
+  double timestep = 0;    ///< s
   long record_steps = 0;  ///< between two lines of the ledger
 };
 

@@ -28,7 +28,8 @@ std::string require(const std::string& program, const std::string& package) {
   return path->string();
 }
 
-/// millLiggghts, which is in the folder of this program, or what MILLFOAM_LIGGGHTS names, a path or a name on PATH.
+/// millLiggghts, which is in the folder of this program, or what MILLFOAM_LIGGGHTS names, a path or a name on
+/// PATH.
 std::string liggghts_program() {
   const char* other = std::getenv("MILLFOAM_LIGGGHTS");
   if (other != nullptr && *other != '\0') {
@@ -37,8 +38,9 @@ std::string liggghts_program() {
   }
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "millLiggghts";
   if (!std::filesystem::exists(program))
-    throw RunError(program.string() + ": no such program, expected it next to millDem: build or install millFoam "
-                                      "with the library of LIGGGHTS (Debian: package libliggghts-dev)");
+    throw RunError(program.string() +
+                   ": no such program, expected it next to millDem: build or install millFoam "
+                   "with the library of LIGGGHTS (Debian: package libliggghts-dev)");
   return program.string();
 }
 

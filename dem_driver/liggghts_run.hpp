@@ -35,10 +35,10 @@ void require_programs(int ranks);
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
 /// `in.resume` when the run resumes from step `resumed_at`. Its output is appended to DIR/dem/log.liggghts.
 /// Shows progress, and stops at the first sign of a useless run. Every dump and restart file is checked when
-/// it is written (OutputCheck), and the last complete restart file is kept. Throws RunError as require_programs
-/// does, when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts another number than asked,
-/// or when the number of dumps is not the plan's; the message has the log's name and last lines, or mpirun's
-/// first ones.
+/// it is written (OutputCheck), and the last complete restart file is kept. Throws RunError as
+/// require_programs does, when mpirun refuses so many ranks, when LIGGGHTS fails, loses balls or inserts
+/// another number than asked, or when the number of dumps is not the plan's; the message has the log's name
+/// and last lines, or mpirun's first ones.
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
                        std::optional<long> resumed_at = std::nullopt);
 

@@ -105,7 +105,8 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
 }
 
 void write_fluid(std::ostream& out, const Results& results) {
-  out << "time_s,force_x_N,force_y_N,force_z_N,pressure_x_N,pressure_y_N,pressure_z_N,drag_x_N,drag_y_N,drag_z_N,"
+  out << "time_s,force_x_N,force_y_N,force_z_N,pressure_x_N,pressure_y_N,pressure_z_N,drag_x_N,drag_y_N,drag_"
+         "z_N,"
          "power_W,balls_without_field\n"
       << std::setprecision(8);
   for (std::size_t i = 0; i < results.fluid.size(); ++i) {

@@ -68,8 +68,8 @@ struct Results {
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv`, `dumps/charge.csv` and, with a fluid,
-/// `dumps/fluid.csv`. Layout: FORMATS.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv`, `dumps/charge.csv` and, with a
+/// fluid, `dumps/fluid.csv`. Layout: FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

@@ -27,8 +27,8 @@ inline constexpr const char* contact_kinds[] = {"pairs", "walls", "balls"};
 /// Every `contacts/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_contacts(const CaseFolder& folder, const std::string& kind);
 
-/// What is wrong with the contacts of the run's steps up to `step`: "folder: 3 pairs up to step 50, expected 6"; empty
-/// when all contacts of the plan are there.
+/// What is wrong with the contacts of the run's steps up to `step`: "folder: 3 pairs up to step 50, expected
+/// 6"; empty when all contacts of the plan are there.
 std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, long step);
 
 /// Every complete restart file, `dem/restart.<step>`, by step.

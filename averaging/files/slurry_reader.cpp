@@ -27,8 +27,9 @@ void check_file(hid_t root) {
                       again);
   hdf5::check_format(root, "millfoam-slurry", version_with_balls, again);
   if (!hdf5::has(root, "balls"))
-    throw hdf5::Error("has no forces on balls (group /balls), because its flow had no balls; expected a flow "
-                      "with flow.balls in slurryFoam");
+    throw hdf5::Error(
+        "has no forces on balls (group /balls), because its flow had no balls; expected a flow "
+        "with flow.balls in slurryFoam");
 }
 
 BallFieldsHeader read_header(hid_t root) {
@@ -62,9 +63,9 @@ void check_field(const std::vector<double>& values, const std::string& name, std
     const auto row = static_cast<int>(voxel / static_cast<std::size_t>(nx));
     const VoxelIndex index{static_cast<int>(voxel % static_cast<std::size_t>(nx)), row % ny, row / ny};
     const Vector3 centre = grid.centre(index);
-    throw hdf5::Error("'" + name + "' is not finite in voxel x y z = " + triple(index[0], index[1], index[2]) +
-                      ", whose centre is " + triple(centre[0], centre[1], centre[2]) +
-                      " m; expected a number: " + again);
+    throw hdf5::Error(
+        "'" + name + "' is not finite in voxel x y z = " + triple(index[0], index[1], index[2]) +
+        ", whose centre is " + triple(centre[0], centre[1], centre[2]) + " m; expected a number: " + again);
   }
 }
 
@@ -78,7 +79,10 @@ struct SlurryReader::File {
   std::vector<double> begin, end;  ///< of the windows, DEM time, s
 
   explicit File(const std::filesystem::path& place)
-      : path(place), handle(hdf5::open_file(place)), grid(read_box(handle.get())), header(read_header(handle.get())) {
+      : path(place),
+        handle(hdf5::open_file(place)),
+        grid(read_box(handle.get())),
+        header(read_header(handle.get())) {
     begin = hdf5::read_all(handle.get(), "window/begin");
     end = hdf5::read_all(handle.get(), "window/end");
   }
@@ -91,7 +95,8 @@ struct SlurryReader::File {
 
   /// All fields; `read` gives the values of a data set that is in the file under `inside_at` or in `balls`.
   void read_fields(const std::string& inside_at, const std::string& balls,
-                   const std::function<std::vector<double>(const std::string&)>& read, BallFields& fields) const {
+                   const std::function<std::vector<double>(const std::string&)>& read,
+                   BallFields& fields) const {
     fields.inside = read(inside_at);
     check_field(fields.inside, inside_at, 1, std::vector<double>(grid.size(), 1.0), grid);
     const auto take = [&](const char* name, std::size_t width) {

@@ -48,8 +48,8 @@ class SlurryReader {
   SlurryReader(SlurryReader&&) noexcept;
   SlurryReader& operator=(SlurryReader&&) = delete;
 
-  const BoxGrid& grid() const;              ///< of the voxels
-  const BallFieldsHeader& header() const;   ///< what holds for the whole file
+  const BoxGrid& grid() const;                ///< of the voxels
+  const BallFieldsHeader& header() const;     ///< what holds for the whole file
   const std::filesystem::path& path() const;  ///< of the file
   /// Middle of a window, DEM time, s.
   double middle(std::size_t window) const;

@@ -53,12 +53,14 @@ void take_grid(const meshing::Mill& mill, Options& options) {
   options.template_points = mill.averages.template_points;
 }
 
-/// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at its
-/// end, and averages.start counts from there.
-void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run, Options& options) {
+/// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at
+/// its end, and averages.start counts from there.
+void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run,
+                  Options& options) {
   const double window = mill.averages.window;
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
-  const double start = mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
+  const double start =
+      mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
   const double left = begin + duration - start;
   const double count = std::floor(left / window * (1 + 1e-9));
   if (count < 1)

@@ -46,9 +46,9 @@ struct Options {
   bool deck_only = false;
   bool resume = false;
   bool or_anew = false;
-  std::string fluid;       ///< slurry.h5; empty: none
+  std::string fluid;  ///< slurry.h5; empty: none
   std::string fluid_time = "mean";
-  std::string continued;   ///< folder of the case from whose last state the run continues; empty: none
+  std::string continued;  ///< folder of the case from whose last state the run continues; empty: none
   std::string plan_file;
 };
 
@@ -98,10 +98,11 @@ std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_dr
   while (!restarts.empty() && restarts.front().step <= plan.begin) restarts.erase(restarts.begin());
   if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
   if (identity(read_text(folder.deck())) != identity(deck))
-    throw std::runtime_error(folder.deck().string() +
-                             ": the existing run has another mill.yaml, other walls, another fluid or another "
-                             "begin" +
-                             otherwise);
+    throw std::runtime_error(
+        folder.deck().string() +
+        ": the existing run has another mill.yaml, other walls, another fluid or another "
+        "begin" +
+        otherwise);
   const auto step = dem_driver::last_good_restart(folder, plan);
   if (!step || *step != restarts.back().step)
     std::cout << restarts.back().file.string()
@@ -154,10 +155,10 @@ void run(const Options& options, const meshing::MillDescription& description) {
   dem_driver::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
   if (!options.fluid.empty())
-    plan.fluid = dem_driver::require_fluid_of(options.fluid,
-                                              options.fluid_time == "windows" ? dem_driver::FluidTime::windows
-                                                                              : dem_driver::FluidTime::mean,
-                                              mill, plan);
+    plan.fluid = dem_driver::require_fluid_of(
+        options.fluid,
+        options.fluid_time == "windows" ? dem_driver::FluidTime::windows : dem_driver::FluidTime::mean, mill,
+        plan);
   std::optional<dem_driver::LastState> state;
   if (!options.continued.empty()) {
     state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
@@ -272,11 +273,13 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.add_flag("--or-anew", options.or_anew, "start a run that cannot be resumed from the beginning")
       ->needs(resume);
   auto* fluid = app.add_option("--fluid", options.fluid, "slurry.h5 of a flow that pushes the balls");
-  app.add_option("--fluid-time", options.fluid_time, "of that flow: its mean over the run, or its time windows")
+  app.add_option("--fluid-time", options.fluid_time,
+                 "of that flow: its mean over the run, or its time windows")
       ->check(CLI::IsMember({"mean", "windows"}))
       ->needs(fluid);
-  app.add_option("--continue", options.continued,
-                 "begin with the last state of the complete run in this case folder, and turn for dem.duration more");
+  app.add_option(
+      "--continue", options.continued,
+      "begin with the last state of the complete run in this case folder, and turn for dem.duration more");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the options of
-// the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has a fluid. See
-// dem_driver/README.md.
+// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the
+// options of the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has
+// a fluid. See dem_driver/README.md.
 #include <liggghts/atom.h>
 #include <liggghts/fix_external.h>
 #include <liggghts/input.h>
@@ -33,7 +33,8 @@ bool begins(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
 }
 
-/// The fluid's forces as a `fix external` of the deck gets them in every step, on every rank of its own balls.
+/// The fluid's forces as a `fix external` of the deck gets them in every step, on every rank of its own
+/// balls.
 class FluidFix {
  public:
   /// Of the fix `name`, which the deck has just made.
@@ -47,7 +48,8 @@ class FluidFix {
     MPI_Comm_rank(liggghts.world, &rank_);
     if (!ledger.empty() && rank_ == 0) ledger_.emplace(ledger + '.' + std::to_string(last_) + ".txt");
     keeps_ledger_ = !ledger.empty();
-    auto* fix = static_cast<LAMMPS_NS::FixExternal*>(liggghts.modify->fix[liggghts.modify->find_fix(name.c_str())]);
+    auto* fix =
+        static_cast<LAMMPS_NS::FixExternal*>(liggghts.modify->fix[liggghts.modify->find_fix(name.c_str())]);
     fix->set_callback(
         [](void* self, LAMMPS_NS::bigint step, int balls, int*, double** position, double** force) {
           static_cast<FluidFix*>(self)->act(static_cast<long>(step), balls, position, force);
@@ -79,8 +81,8 @@ class FluidFix {
     ++steps_;
     if (step % record_ != 0) return;
     FluidSums all;
-    MPI_Reduce(sums_.values.data(), all.values.data(), static_cast<int>(all.values.size()), MPI_DOUBLE, MPI_SUM, 0,
-               liggghts_.world);
+    MPI_Reduce(sums_.values.data(), all.values.data(), static_cast<int>(all.values.size()), MPI_DOUBLE,
+               MPI_SUM, 0, liggghts_.world);
     if (ledger_) ledger_->write(step, all, steps_);
     sums_ = {};
     steps_ = 0;
@@ -119,7 +121,8 @@ std::string deck_name(int argc, char** argv) {
   throw std::runtime_error("expected -in DECK");
 }
 
-/// Feeds the deck to LIGGGHTS line by line, and gives its fluid's fixes their forces as soon as they are there.
+/// Feeds the deck to LIGGGHTS line by line, and gives its fluid's fixes their forces as soon as they are
+/// there.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
   LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
@@ -134,6 +137,13 @@ void run(int argc, char** argv, int rank) {
 }
 
 }  // namespace
+
+#ifdef __SANITIZE_ADDRESS__
+/// LIGGGHTS leaves memory to the end of the process.
+extern "C" const char* __asan_default_options() {  // NOLINT: the sanitizer's name
+  return "detect_leaks=0";
+}
+#endif
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);

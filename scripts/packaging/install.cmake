@@ -13,6 +13,9 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/millFoam)
 set(share ${CMAKE_INSTALL_DATADIR}/millfoam)
 
 set(tools millMesh millDem millAverage millDrag)
+if(MILLFOAM_LIGGGHTS)
+  list(APPEND tools millLiggghts)
+endif()
 if(MILLFOAM_OPENFOAM)
   list(APPEND tools slurryStart slurryFoam millInterFoam foamMeshToH5)
   # Cases name it in controlDict's `libs`
@@ -70,7 +73,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 # What the programs start, and the report's Python; libraries are found by dpkg-shlibdeps
 string(CONCAT CPACK_DEBIAN_PACKAGE_DEPENDS
-       "liggghts, openmpi-bin, python3, python3-numpy, python3-h5py, python3-matplotlib, python3-scipy, "
+       "openmpi-bin, python3, python3-numpy, python3-h5py, python3-matplotlib, python3-scipy, "
        "python3-skimage, python3-pil")
 # With another OpenFOAM than the distribution's, its owner sources it
 if(MILLFOAM_OPENFOAM AND NOT MILLFOAM_OPENFOAM_SOURCED)

@@ -124,6 +124,8 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
                             {"timestep_s", plan.step.value},
                             {"interval", plan.step.steps_per_record},
                             {"angular_velocity_rad_s", -12.0},
+                            {"begin_s", 0.0},
+                            {"fluid", {{"kind", "none"}}},
                             {"duration_s", plan.duration()},
                             {"charge_mass_kg", plan.charge.mass()},
                             {"fines_mass_kg", mill.charge.classes.at(0).mass}}));

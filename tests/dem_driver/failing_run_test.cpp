@@ -17,13 +17,15 @@ using tests::small_mill;
 using tests::TemporaryFolder;
 using tests::Variable;
 
-/// A case with its own `liggghts`, before everything else on PATH.
+/// A case with its own `liggghts` in the place of millLiggghts, and its folder before everything else on
+/// PATH.
 class FailingRun : public ::testing::Test {
  protected:
   /// What run_liggghts complains about when LIGGGHTS does `script`.
   std::string complaint(const std::string& script, int ranks = 1) {
     tests::write_script(temporary_.path() / "liggghts", script);
     const Variable path("PATH", temporary_.path().string() + ":" + std::getenv("PATH"));
+    const Variable program("MILLFOAM_LIGGGHTS", "liggghts");
     prepare_folders(folder_);
     std::ostringstream progress;
     return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), ranks, {progress, false}); });
@@ -138,14 +140,14 @@ TEST_F(FailingRun, OnManyRanksAFailureOfLiggghtsIsNotMpiruns) {
   EXPECT_EQ(complaint("exit 3", 2).find("LIGGGHTS stopped with exit code 7"), 0u);
 }
 
-TEST_F(FailingRun, WithoutLiggghtsOnPathThePackageIsNamed) {
+TEST_F(FailingRun, WithoutAProgramOnPathItsPackageIsNamed) {
   prepare_folders(folder_);
   const Variable path("PATH", "/no/such/folder");
   std::ostringstream progress;
-  const std::string message = message_of([&] {
-    run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false});
-  });
-  EXPECT_NE(message.find("liggghts is not on PATH"), std::string::npos) << message;
+  const auto run = [&] { run_liggghts(folder_, plan_dem(small_mill()), 1, {progress, false}); };
+  EXPECT_EQ(message_of(run), "setpriv is not on PATH: install it (Debian: package util-linux)");
+  const Variable program("MILLFOAM_LIGGGHTS", "liggghts");
+  EXPECT_EQ(message_of(run), "liggghts is not on PATH: install it (Debian: package liggghts)");
 }
 
 }  // namespace

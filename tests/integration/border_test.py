@@ -93,8 +93,10 @@ class MadeUpTree(Tree):
         self.assert_refused("meshing/files/a.cpp", '"meshing/surface/pi.hpp"',
                             "meshing/files must not know meshing/surface")
 
-    def test_dem_driver_must_not_include_averaging(self):
-        self.assert_refused("dem_driver/a.cpp", '"averaging/box_grid.hpp"', "dem_driver must not know averaging")
+    def test_dem_driver_may_include_averaging_but_not_its_tool(self):
+        self.assert_allowed("dem_driver/a.cpp", '"averaging/box_grid.hpp"')
+        self.assert_refused("dem_driver/a.cpp", '"averaging/tools/options.hpp"',
+                            "dem_driver must not know averaging/tools")
 
     def test_openfoam_module_must_not_include_meshing(self):
         self.assert_refused("openfoam_module/foam/a.C", '"meshing/mill/mill.hpp"',

@@ -16,7 +16,8 @@ MAY_USE = {
     "meshing/surface": {"meshing/files"},
     "meshing": {"meshing/files", "meshing/surface",
                 "openfoam_module/drag"},  # the names of the laws, which are only in its table
-    "dem_driver": {"meshing", "meshing/files", "meshing/surface"},
+    # Fields of a flow, and grids
+    "dem_driver": {"averaging", "meshing", "meshing/files", "meshing/surface"},
     "averaging": {"meshing/files", "meshing/surface"},
     # The tool reads a mill's section; the library does not depend on mills
     "averaging/tools": {"averaging", "meshing", "meshing/files", "meshing/surface"},

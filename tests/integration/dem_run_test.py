@@ -116,7 +116,7 @@ class DemRun(unittest.TestCase):
                 except OSError:  # it has ended
                     continue
                 found = re.search(r"^VmHWM:\s+(\d+) kB", status, re.M)
-                if status.startswith("Name:\tliggghts") and found:
+                if status.startswith("Name:\tmillLiggghts") and found:
                     peak = max(peak, 1024e-9 * float(found.group(1)))
             time.sleep(0.1)
         self.assertEqual(process.returncode, 0)
@@ -260,7 +260,7 @@ class DemRun(unittest.TestCase):
         before = sorted(case.glob("*/*"))
         done = subprocess.run([shutil.which("millDem"), "mill.yaml", "--case", "."], cwd=case, capture_output=True,
                               text=True, env={**os.environ, "PATH": "/no/such/folder"})
-        self.assertIn("liggghts is not on PATH", done.stderr)
+        self.assertIn("setpriv is not on PATH", done.stderr)
         self.assertEqual(sorted(case.glob("*/*")), before)
         shell = case / "walls" / "shell.stl"
         shell.write_bytes(shell.read_bytes()[:-200])
