@@ -54,7 +54,7 @@ void VoxelForces::Voxel::add(double weight, const Voxel& other) {
 }
 
 VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : reader_(file), time_(time) {
-  set_time(0);
+  VoxelForces::set_time(0);
 }
 
 VoxelForces::Field VoxelForces::read(std::size_t window) const {

@@ -300,6 +300,12 @@ class Passes(FluidCase):
         np.testing.assert_allclose(table["time_s"], 0.2 + 0.005 * np.arange(1, 41), rtol=1e-6)
         np.testing.assert_allclose(table["pressure_y_N"], BALLS * ONE_BALL * SLURRY / BALL * GRAVITY, rtol=1e-6)
         self.assertIn("nothing to do", run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew"))
+        # A third pass
+        run(case, "millMesh", "mill.yaml", "--case", "pass_3", "--walls")
+        run(case, "millDem", "mill.yaml", "--case", "pass_3", "--continue", "pass_2")
+        self.assertEqual(list(read_dumps(case / "pass_3"))[0], steps[-1])
+        self.assertAlmostEqual(read_json(case / "pass_3" / "dumps" / "run.json")["begin_s"], 0.4, delta=1e-9)
+        self.assertFalse((case / "pass_3" / "dumps" / "fluid.csv").exists())
         # Killed before its first restart file, it begins again with the other's
         for path in (case / "pass_2" / "dem").glob("restart.*"):
             path.unlink()
