@@ -99,6 +99,16 @@ TEST(ReadMill, fills_in_dimensions_that_sources_seldom_give) {
   EXPECT_DOUBLE_EQ(narrow.pulp_lifters->discharge_radius, 0.25 * 0.052);
 }
 
+TEST(ReadMill, takes_a_pools_level_from_the_slurry_unless_it_is_given) {
+  EXPECT_FALSE(read(example_mill).dem.pool_level);
+  const std::string wet = with(example_mill, "seed: 20121", "seed: 20121\n  fluid: buoyancy");
+  EXPECT_EQ(read(wet).dem.pool_level, -0.012);
+  EXPECT_EQ(read(with(wet, "fluid: buoyancy", "fluid: buoyancy\n  fluid_level: 0.01")).dem.pool_level, 0.01);
+  const std::string message = refusal(with(wet, "  level: -0.012\n", ""));
+  EXPECT_NE(message.find("key 'dem.fluid_level' is missing: expected a height in m"), std::string::npos)
+      << message;
+}
+
 TEST(ReadMill, turns_clockwise_with_negative_speed) {
   const double critical = std::sqrt(9.81 / 0.06);
   EXPECT_DOUBLE_EQ(read(example_mill).angular_velocity, -0.5 * critical);
@@ -345,6 +355,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "'dem.contact_interval' = 2: expected 0 for no contacts, or a time in s from 1.6e-06 s to "
                 "that of the duration"},
         Refused{"seed: 20121", "seed: 0", "'dem.seed' = 0"},
+        Refused{"seed: 20121", "fluid: water\n  seed: 20121",
+                "'dem.fluid' = water: expected one of none, buoyancy"},
+        Refused{"seed: 20121", "fluid_level: 0\n  seed: 20121",
+                "'dem.fluid_level' = 0: expected this key with dem.fluid buoyancy only"},
+        Refused{"seed: 20121", "fluid: buoyancy\n  fluid_level: 0.07\n  seed: 20121",
+                "'dem.fluid_level' = 0.07: expected a height in m within the radius"},
         Refused{"level: -0.012", "level: 0.061",
                 "'slurry.level' = 0.061: expected a height in m within the radius"},
         Refused{"yield_stress: 0.16", "yield_stress: -1", "'slurry.yield_stress' = -1"},

@@ -78,6 +78,19 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
+TEST(Fingerprints, know_the_pool_of_a_run_with_buoyancy_and_nothing_of_one_without) {
+  const auto charge = [](const std::vector<std::string>& set) {
+    return describe(example_mill, set).mill.fingerprint.charge;
+  };
+  const std::string dry = charge({});
+  EXPECT_EQ(charge({"dem.fluid=none"}), dry);
+  EXPECT_EQ(charge({"slurry.density=1100"}), dry);
+  const std::string wet = charge({"dem.fluid=buoyancy", "dem.fluid_level=-0.01"});
+  EXPECT_NE(wet, dry);
+  EXPECT_NE(charge({"dem.fluid=buoyancy", "dem.fluid_level=-0.02"}), wet);
+  EXPECT_NE(charge({"dem.fluid=buoyancy", "dem.fluid_level=-0.01", "slurry.density=1100"}), wet);
+}
+
 TEST(Fingerprints, are_of_the_materials_numbers_by_whatever_name) {
   const auto of = [](const std::vector<std::string>& set) {
     return describe(example_mill, set).mill.fingerprint.charge;
