@@ -49,7 +49,6 @@ void add_steps(Json& json, const DemPlan& plan) {
                {"rounds", plan.charge.rounds.size()},
                {"round_steps", plan.round_steps},
                {"settle_steps", plan.settle_steps},
-               {"begin", plan.begin},
                {"turning_steps", plan.turning_steps},
                {"duration_s", plan.duration()},
                {"timestep_s", plan.step.value},

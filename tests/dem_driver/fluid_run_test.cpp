@@ -142,7 +142,7 @@ TEST_F(FluidRun, FlowsOfAnotherMillAndVoxelsThatDoNotFitItAreRefused) {
   content.grid = averaging::BoxGrid({-0.02, -0.02, 0}, {0.02, 0.02, 0.024}, {4, 4, 4}, {false, false, true});
   EXPECT_NE(complaint(content).find("expected the period of the mill"), std::string::npos);
   content.grid = averaging::BoxGrid({-0.02, -0.02, 0}, {0.02, 0.02, 0.012}, {4, 4, 2});
-  EXPECT_NE(complaint(content).find("the voxels do not repeat along the axis"), std::string::npos);
+  EXPECT_NE(complaint(content).find("the voxels are not periodic along the axis"), std::string::npos);
 }
 
 TEST_F(FluidRun, TheLedgerJoinsTheSegmentsOfAResumedRun) {

@@ -60,7 +60,8 @@ TEST(Forecast, AClassOfOneBallIsInTheTrialToo) {
 TEST(Forecast, ATrialThatFailsLeavesTheLogThatItNames) {
   const tests::TemporaryFolder temporary;
   const tests::Variable folder("TMPDIR", temporary.path());
-  tests::write_script(temporary.path() / "mpirun", tests::refusal_of_open_mpi);
+  for (const char* program : {"liggghts", "mpirun"})
+    tests::write_script(temporary.path() / program, tests::refusal_of_open_mpi);
   const tests::Variable path("PATH", temporary.path().string() + ":" + std::getenv("PATH"));
   const tests::Variable liggghts("MILLFOAM_LIGGGHTS", (temporary.path() / "liggghts").string());
   auto mill = small_mill();
