@@ -21,8 +21,10 @@ struct LastState {
 /// The last state of the run in `other`. Throws std::runtime_error that names the file, what was found and
 /// what was expected, when that run is not complete, is that of another charge or time-step, has other walls
 /// than `folder`, or has lost its last restart file; or when both folders are the same.
+/// @param other  case folder of the complete run
 /// @param folder  of the run that continues
 /// @param parts  its walls
+/// @param mill  of the run that continues
 /// @param plan  of the run that continues
 LastState last_state(const CaseFolder& other, const CaseFolder& folder, const std::vector<std::string>& parts,
                      const meshing::Mill& mill, const DemPlan& plan);

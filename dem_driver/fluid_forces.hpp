@@ -57,7 +57,8 @@ class PoolForces : public FluidForces {
 };
 
 /// Share of a sphere's volume that lies below a level: a cap of height t has t^2 (3 R - t)/(4 R^3).
-/// @param height  of its centre above the level, in units of length of `radius`
+/// @param height  of its centre above the level, m
+/// @param radius  of the sphere, m
 double share_below(double height, double radius);
 
 /// The forces of a flow, from slurry.h5: F = V (pressure_force + drag_force - K v). Fields are trilinear

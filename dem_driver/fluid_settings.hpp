@@ -23,7 +23,7 @@ enum class FluidTime {
 
 /// The fluid of a run.
 struct FluidSettings {
-  FluidKind kind = FluidKind::none;
+  FluidKind kind = FluidKind::none;  ///< what it is
   double level = 0;                  ///< of the pool, m
   double density = 0;                ///< of the pool, kg/m^3
   std::filesystem::path file = {};   ///< slurry.h5

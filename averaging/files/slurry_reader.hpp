@@ -40,6 +40,7 @@ class SlurryReader {
   /// flow without balls.
   explicit SlurryReader(const std::filesystem::path& path);
   ~SlurryReader();
+  /// Takes the open file of another.
   SlurryReader(SlurryReader&&) noexcept;
   SlurryReader& operator=(SlurryReader&&) = delete;
 
