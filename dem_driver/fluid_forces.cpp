@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "averaging/files/slurry_file.hpp"
 #include "dem_driver/case_folder.hpp"
 #include "meshing/mill/mill.hpp"
 #include "meshing/surface/pi.hpp"
