@@ -43,7 +43,7 @@ class FluidForces {
 
 /// Buoyancy in a pool at rest: the weight of the fluid in the place of the part of the sphere below the
 /// pool's surface, upwards.
-class PoolForces : public FluidForces {
+class PoolForces final : public FluidForces {
  public:
   /// @param level  height y of the surface, m
   /// @param density  of the fluid, kg/m^3
@@ -68,7 +68,7 @@ double share_below(double height, double radius);
 /// (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
 ///
 /// Memory: the mean, or two windows, which are read when their time comes.
-class VoxelForces : public FluidForces {
+class VoxelForces final : public FluidForces {
  public:
   /// Throws averaging::SlurryFileError where the file cannot be read.
   VoxelForces(const std::filesystem::path& file, FluidTime time);
