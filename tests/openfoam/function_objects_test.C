@@ -312,7 +312,7 @@ TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
     EXPECT_NEAR(total(5) / sum(weight * exchange), 1, 1e-12);
     EXPECT_NEAR(total(12) / (density * sum(weight)), 1, 1e-12);
     EXPECT_NEAR(total(13) / (0.005 * sum(weight)), 1, 1e-12);
-    for (label axis = 0; axis < 3; ++axis)
+    for (direction axis = 0; axis < 3; ++axis)
     {
         const scalarField push(pressure.component(axis));
         const scalarField velocity(box.U.primitiveField().component(axis));
