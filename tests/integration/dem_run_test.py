@@ -23,6 +23,7 @@ from millfoam.files.tracks import read_tracks
 from millfoam.readings import compare
 from millfoam.readings.tracer import tracer_map
 from millfoam.run import RunError, run
+from waiting import wait_for
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -40,16 +41,6 @@ resolution: {cell_size: 0.003, layers: 4}
 """
 RECORDS = 200  # of the whole run
 FORECAST = ("ranks", "rate_balls_steps_per_s", "wall_time_s", "disk_bytes", "memory_bytes")  # of a plan, not of a run
-
-
-def wait_for(condition, seconds):
-    """Whether the condition comes true within so many seconds."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.02)
-    return False
 
 
 def descendants(pid):

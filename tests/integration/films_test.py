@@ -30,11 +30,7 @@ class Film(SlurryTest):
             case.at_patch(side, U="type slip;")
         case.control(end_time, 0.002, 10)
         case.decompose_into(2, 1, 1)
-        if ranks > 1:
-            self.assert_runs(case, "decomposePar")
-        self.assert_runs(case, "slurryFoam", ranks=ranks)
-        if ranks > 1:
-            self.assert_runs(case, "reconstructPar")
+        self.assert_flows(case, ranks)
         self.assert_kept(case)
         return case
 

@@ -8,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import h5py
 import numpy as np
 
 from millfoam.run import RunError, run
+from waiting import wait_for
 
 GRAVITY = 9.81
 BALL, SLURRY = 2700, 1239  # kg/m3, of glass and of the slurry
@@ -81,16 +81,6 @@ def write_slurry(path, pressure_force=(0, SLURRY * GRAVITY, 0), exchange=0.0, ve
         for name, values in fields.items():
             balls[name] = values[None]
             file[f"mean/balls/{name}"] = values
-
-
-def wait_for(condition, seconds):
-    """Whether the condition comes true within so many seconds."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.02)
-    return False
 
 
 class FluidCase(unittest.TestCase):

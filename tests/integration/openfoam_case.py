@@ -199,6 +199,14 @@ class OpenFoamTest(unittest.TestCase):
         self.assertEqual(result.code, 0, f"{result.program} failed:\n{result.tail()}")
         return result
 
+    def assert_flows(self, case, ranks=1):
+        """slurryFoam runs in a case that `decompose_into` has prepared, and its times are put together again."""
+        if ranks > 1:
+            self.assert_runs(case, "decomposePar")
+        self.assert_runs(case, "slurryFoam", ranks=ranks)
+        if ranks > 1:
+            self.assert_runs(case, "reconstructPar")
+
     def assert_refused(self, case, *words, program="millInterFoam", options=(), ranks=1):
         """The program fails, and the message of its end holds every one of the words."""
         result = case.run(program, *options, ranks=ranks)

@@ -102,11 +102,7 @@ class Ranks(SlurryTest):
         solution = case.path / "system/fvSolution"
         solution.write_text(solution.read_text().replace('"p_rgh.*"', '"(p_rgh|sweptPotential).*"'))
         case.decompose_into(2, 1, 1)
-        if ranks > 1:
-            self.assert_runs(case, "decomposePar")
-        self.assert_runs(case, "slurryFoam", ranks=ranks)
-        if ranks > 1:
-            self.assert_runs(case, "reconstructPar")
+        self.assert_flows(case, ranks)
         names = ("U", "p_rgh", "alpha.slurry", "phi", "solidity", "solidsVelocity")
         return {name: case.field(name, 0.02) for name in names}
 
