@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -55,6 +56,11 @@ DemPlan plan_dem(const meshing::Mill& mill);
 /// Lets a plan begin with a step of the turning mill, with all balls in it, instead of with an insertion: its
 /// dumps and its time continue from there, over the plan's duration.
 void continue_from(long step, DemPlan& plan);
+
+/// Lets the balls feel a flow that runs at the same time and meets them in `folder`: a restart file is written
+/// whenever the flow's fields are, so that both can resume at the same time. The interval of the flow must be
+/// a whole number of records; else the nearest number is taken.
+void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, DemPlan& plan);
 
 /// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is not a whole
 /// number from 1 on.

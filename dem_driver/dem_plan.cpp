@@ -106,6 +106,13 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   return plan;
 }
 
+void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, DemPlan& plan) {
+  plan.fluid.kind = FluidKind::flow;
+  plan.fluid.file = std::filesystem::absolute(folder);
+  const long records = std::lround(mill.flow.write_interval / mill.dem.record_interval);
+  plan.restart_steps = std::max(1L, records) * plan.step.steps_per_record;
+}
+
 void continue_from(long step, DemPlan& plan) {
   plan.begin = step;
   plan_output(plan);

@@ -48,35 +48,6 @@ void require_cover(const averaging::SlurryReader& reader, const meshing::Geometr
                                     : "periodic, expected voxels that are not, as the mill has ends"));
 }
 
-/// Throws where the drag stops the smallest ball within too few steps.
-void require_slow_drag(const averaging::BallFields& fields, const averaging::SlurryReader& reader,
-                       const meshing::Mill& mill, double time_step) {
-  const double smallest = smallest_simulated(mill);
-  const bool mixture = reader.header().polydispersity;
-  double strongest = 0;
-  std::size_t where = 0;
-  for (std::size_t i = 0; i < fields.exchange.size(); ++i) {
-    if (!(fields.inside[i] > 0)) continue;
-    const double d32 = fields.diameter[i];
-    const double factor = mixture && d32 > 0 ? mixture_factor(smallest / d32, fields.solidity[i]) : 1;
-    if (factor * fields.exchange[i] <= strongest) continue;
-    strongest = factor * fields.exchange[i];
-    where = i;
-  }
-  const double share = strongest * time_step / mill.ball.density;
-  if (share <= largest_drag_step) return;
-  const auto [nx, ny, nz] = reader.grid().shape();
-  const int index = static_cast<int>(where);
-  const Vector centre = reader.grid().centre({index % nx, index / nx % ny, index / nx / ny});
-  throw SlurryFileError(reader.path().string() + ": the drag at " + point(centre) +
-                        " m, K = " + shown(strongest) + " kg/(m3 s), takes " + shown(share) +
-                        " of a ball's speed in a step of " + shown(time_step) + " s, expected at most " +
-                        shown(largest_drag_step) + ": lower dem.rayleigh_fraction (now " +
-                        shown(mill.dem.rayleigh_fraction) + ") to " +
-                        shown(mill.dem.rayleigh_fraction * largest_drag_step / share) +
-                        " at most, and run the mill and the flow again");
-}
-
 void require_windows(const averaging::SlurryReader& reader) {
   if (reader.header().windows > 0) return;
   throw SlurryFileError(reader.path().string() +
@@ -86,17 +57,46 @@ void require_windows(const averaging::SlurryReader& reader) {
 
 }  // namespace
 
+void require_slow_drag(const averaging::BallFields& fields, const averaging::BoxGrid& grid,
+                       const DragLimits& limits, const std::string& source) {
+  double strongest = 0;
+  std::size_t where = 0;
+  for (std::size_t i = 0; i < fields.exchange.size(); ++i) {
+    if (!(fields.inside[i] > 0)) continue;
+    const double d32 = fields.diameter[i];
+    const bool mixture = limits.polydispersity && d32 > 0;
+    const double factor = mixture ? mixture_factor(limits.smallest_ball / d32, fields.solidity[i]) : 1;
+    if (factor * fields.exchange[i] <= strongest) continue;
+    strongest = factor * fields.exchange[i];
+    where = i;
+  }
+  const double share = strongest * limits.timestep / limits.ball_density;
+  if (share <= largest_drag_step) return;
+  const auto [nx, ny, nz] = grid.shape();
+  const int index = static_cast<int>(where);
+  const Vector centre = grid.centre({index % nx, index / nx % ny, index / nx / ny});
+  throw SlurryFileError(source + ": the drag at " + point(centre) + " m, K = " + shown(strongest) +
+                        " kg/(m3 s), takes " + shown(share) + " of a ball's speed in a step of " +
+                        shown(limits.timestep) + " s, expected at most " + shown(largest_drag_step) +
+                        ": lower dem.rayleigh_fraction (now " + shown(limits.rayleigh_fraction) + ") to " +
+                        shown(limits.rayleigh_fraction * largest_drag_step / share) +
+                        " at most, and run the mill and the flow again");
+}
+
 FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time, const meshing::Mill& mill,
                                const DemPlan& plan) {
   const averaging::SlurryReader reader(file);
   require_mill(reader, mill);
   require_cover(reader, mill.geometry);
+  const DragLimits limits{reader.header().polydispersity, smallest_simulated(mill), mill.ball.density,
+                          plan.step.value, mill.dem.rayleigh_fraction};
+  const std::string source = reader.path().string();
   if (time == FluidTime::mean) {
-    require_slow_drag(reader.mean(), reader, mill, plan.step.value);
+    require_slow_drag(reader.mean(), reader.grid(), limits, source);
   } else {
     require_windows(reader);
     for (std::size_t window = 0; window < reader.header().windows; ++window)
-      require_slow_drag(reader.window(window), reader, mill, plan.step.value);
+      require_slow_drag(reader.window(window), reader.grid(), limits, source);
   }
   FluidSettings fluid;
   fluid.kind = FluidKind::slurry;

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "averaging/files/slurry_reader.hpp"
+#include "averaging/grids/box_grid.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/fluid_settings.hpp"
 #include "meshing/mill/mill.hpp"
@@ -13,6 +15,22 @@ namespace millfoam::dem_driver {
 /// a ball: K dt/rho is at most this. The ball's speed against the fluid then decays by a rate that is right
 /// to half of it.
 inline constexpr double largest_drag_step = 0.05;
+
+/// What the drag of a run's balls is judged by.
+struct DragLimits {
+  bool polydispersity = false;     ///< a ball feels the exchange of its own size
+  double smallest_ball = 0;        ///< diameter, m
+  double ball_density = 0;         ///< kg/m^3
+  double timestep = 0;             ///< of the DEM run, s
+  double rayleigh_fraction = 0;    ///< dem.rayleigh_fraction, by which the time-step is chosen
+};
+
+/// Throws averaging::SlurryFileError where the drag stops the smallest ball within too few steps; the message
+/// names `source`, the place and what to change.
+/// @param fields  on the grid
+/// @param limits  of the mill: density and smallest diameter of its balls
+void require_slow_drag(const averaging::BallFields& fields, const averaging::BoxGrid& grid,
+                       const DragLimits& limits, const std::string& source);
 
 /// A flow's forces for a run of this mill. All fields that the run will use are read. Throws
 /// averaging::SlurryFileError as SlurryReader does, and for a file of another mill, for voxels that do not

@@ -11,14 +11,6 @@
 
 namespace millfoam::dem_driver {
 
-namespace {
-
-Vector voxel_vector(const std::vector<double>& values, std::size_t voxel) {
-  return {values[3 * voxel], values[3 * voxel + 1], values[3 * voxel + 2]};
-}
-
-}  // namespace
-
 double BallInFluid::volume() const {
   return pi / 6 * diameter * diameter * diameter;
 }
@@ -50,16 +42,6 @@ double mixture_factor(double y, double solidity) {
   return voidage / y + solidity + 0.064 * voidage * y;
 }
 
-void VoxelForces::Voxel::add(double weight, const Voxel& other) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    pressure[k] += weight * other.pressure[k];
-    drag[k] += weight * other.drag[k];
-  }
-  exchange += weight * other.exchange;
-  solidity += weight * other.solidity;
-  diameter += weight * other.diameter;
-}
-
 VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : reader_(file), time_(time) {
   if (time == FluidTime::windows && reader_.header().windows == 0)
     throw averaging::SlurryFileError(
@@ -69,24 +51,13 @@ VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : re
   set_time(0);
 }
 
-VoxelForces::Field VoxelForces::read(std::size_t window) const {
-  const averaging::BallFields fields = time_ == FluidTime::mean ? reader_.mean() : reader_.window(window);
-  Field field(reader_.grid().size());
-  for (std::size_t i = 0; i < field.size(); ++i) {
-    if (!(fields.inside[i] > 0)) continue;
-    field[i] = {true,
-                voxel_vector(fields.pressure_force, i),
-                voxel_vector(fields.drag_force, i),
-                fields.exchange[i],
-                fields.solidity[i],
-                fields.diameter[i]};
-  }
-  return field;
+VoxelField VoxelForces::read(std::size_t window) const {
+  return {reader_.grid(), time_ == FluidTime::mean ? reader_.mean() : reader_.window(window)};
 }
 
 void VoxelForces::set_time(double time) {
   if (time_ == FluidTime::mean) {
-    if (early_.empty()) early_ = read(0);
+    if (!early_) early_ = read(0);
     return;
   }
   const std::size_t last = reader_.header().windows - 1;
@@ -95,7 +66,8 @@ void VoxelForces::set_time(double time) {
   while (window < last && reader_.middle(window + 1) <= time) ++window;
   const std::size_t next = std::min(window + 1, last);
   if (window != window_) {
-    early_ = window == window_ + 1 && !late_.empty() ? std::move(late_) : read(window);
+    if (window == window_ + 1 && late_) early_ = std::move(late_);
+    else early_ = read(window);
     late_ = read(next);
     window_ = window;
   }
@@ -103,67 +75,12 @@ void VoxelForces::set_time(double time) {
   blend_ = length > 0 ? std::clamp((time - begin) / length, 0.0, 1.0) : 0;
 }
 
-VoxelForces::Neighbours VoxelForces::around(double coordinate, int axis) const {
-  const auto a = static_cast<std::size_t>(axis);
-  const averaging::BoxGrid& grid = reader_.grid();
-  const double place = (coordinate - grid.lower()[a]) / grid.spacing()[a] - 0.5;
-  const double below = std::floor(place);
-  const int count = grid.shape()[a];
-  Neighbours result{{-1, -1}, {1 - (place - below), place - below}};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const double voxel = below + static_cast<double>(side);
-    if (grid.periodic()[a])
-      result.voxel[side] = static_cast<int>(voxel - count * std::floor(voxel / count));
-    else if (voxel >= 0 && voxel < count)
-      result.voxel[side] = static_cast<int>(voxel);
-  }
-  return result;
-}
-
-VoxelForces::Voxel VoxelForces::interpolate(const Field& field,
-                                            const std::array<Neighbours, 3>& around) const {
-  const averaging::BoxGrid& grid = reader_.grid();
-  Voxel sum;
-  double weights = 0;
-  for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t j = 0; j < 2; ++j)
-      for (std::size_t i = 0; i < 2; ++i) {
-        const averaging::VoxelIndex index{around[0].voxel[i], around[1].voxel[j], around[2].voxel[k]};
-        if (index[0] < 0 || index[1] < 0 || index[2] < 0) continue;
-        const Voxel& voxel = field[grid.offset(index)];
-        if (!voxel.fluid) continue;
-        const double weight = around[0].weight[i] * around[1].weight[j] * around[2].weight[k];
-        sum.add(weight, voxel);
-        weights += weight;
-      }
-  if (!(weights > 0)) return {};
-  Voxel mean;
-  mean.add(1 / weights, sum);
-  mean.fluid = true;
-  return mean;
-}
-
-FluidForce VoxelForces::on(const BallInFluid& ball) const {
-  const auto& x = ball.position;
-  const std::array<Neighbours, 3> places{around(x[0], 0), around(x[1], 1), around(x[2], 2)};
-  Voxel felt = interpolate(early_, places);
-  if (blend_ > 0) {
-    const Voxel late = interpolate(late_, places);
-    if (felt.fluid && late.fluid) {
-      Voxel between;
-      between.add(1 - blend_, felt);
-      between.add(blend_, late);
-      between.fluid = true;
-      felt = between;
-    } else if (late.fluid) {
-      felt = late;
-    }
-  }
+FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity) {
   FluidForce force;
-  force.known = felt.fluid;
-  if (!felt.fluid) return force;
+  force.known = felt.known;
+  if (!felt.known) return force;
   double factor = 1;
-  if (reader_.header().polydispersity && felt.diameter > 0)
+  if (polydispersity && felt.diameter > 0)
     factor = mixture_factor(ball.diameter / felt.diameter, felt.solidity);
   const double volume = ball.volume();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -171,6 +88,23 @@ FluidForce VoxelForces::on(const BallInFluid& ball) const {
     force.drag[k] = volume * factor * (felt.drag[k] - felt.exchange * ball.velocity[k]);
   }
   return force;
+}
+
+FluidForce VoxelForces::on(const BallInFluid& ball) const {
+  FeltFluid felt = early_->at(ball.position);
+  if (blend_ > 0) {
+    const FeltFluid late = late_->at(ball.position);
+    if (felt.known && late.known) {
+      FeltFluid between;
+      between.add(1 - blend_, felt);
+      between.add(blend_, late);
+      between.known = true;
+      felt = between;
+    } else if (late.known) {
+      felt = late;
+    }
+  }
+  return force_on(ball, felt, reader_.header().polydispersity);
 }
 
 }  // namespace millfoam::dem_driver

@@ -6,15 +6,13 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "averaging/files/slurry_reader.hpp"
 #include "dem_driver/fluid_settings.hpp"
+#include "dem_driver/voxel_field.hpp"
 
 namespace millfoam::dem_driver {
-
-/// Three components along x, y, z.
-using Vector = std::array<double, 3>;
 
 /// A ball as the fluid sees it.
 struct BallInFluid {
@@ -61,11 +59,12 @@ class PoolForces final : public FluidForces {
 /// @param radius  of the sphere, m
 double share_below(double height, double radius);
 
-/// The forces of a flow, from slurry.h5: F = V (pressure_force + drag_force - K v). Fields are trilinear
-/// between the centres of voxels, over those that have fluid; periodic where the grid is. A ball without such
-/// a voxel among the eight around it feels none. With polydispersity, drag_force and K of a ball of diameter
-/// d are e/y + phi + 0.064 e y times those of the file, y = d/d32, phi the solidity, e = 1 - phi
-/// (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
+/// The force on a ball where it feels this: F = V (pressure_force + drag_force - K v). With polydispersity,
+/// drag_force and K of a ball of diameter d are e/y + phi + 0.064 e y times those of the flow, y = d/d32, phi
+/// the solidity, e = 1 - phi (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
+FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity);
+
+/// The forces of a flow, from slurry.h5, by `force_on` of a VoxelField.
 ///
 /// Memory: the mean, or two windows, which are read when their time comes.
 class VoxelForces final : public FluidForces {
@@ -76,27 +75,11 @@ class VoxelForces final : public FluidForces {
   FluidForce on(const BallInFluid& ball) const override;
 
  private:
-  /// A voxel's values, in the order in which they are interpolated.
-  struct Voxel {
-    bool fluid = false;
-    Vector pressure = {}, drag = {};
-    double exchange = 0, solidity = 0, diameter = 0;
-    void add(double weight, const Voxel& other);
-  };
-  using Field = std::vector<Voxel>;
-  /// The voxels around a point along an axis; -1: beyond the box.
-  struct Neighbours {
-    std::array<int, 2> voxel;
-    std::array<double, 2> weight;
-  };
-
-  Field read(std::size_t window) const;
-  Neighbours around(double coordinate, int axis) const;
-  Voxel interpolate(const Field& field, const std::array<Neighbours, 3>& around) const;
+  VoxelField read(std::size_t window) const;
 
   averaging::SlurryReader reader_;
   FluidTime time_;
-  Field early_, late_;  ///< the mean, or the windows before and after the time
+  std::optional<VoxelField> early_, late_;  ///< the mean, or the windows before and after the time
   std::size_t window_ = std::numeric_limits<std::size_t>::max();  ///< of early_
   double blend_ = 0;                                              ///< share of late_
 };

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
+#include "dem_driver/pairs.hpp"
 #include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
@@ -26,11 +27,59 @@ Value value_of(const Json& json, const char* key, const fs::path& file) {
   }
 }
 
+Json to_json(const ExchangeOrder& order) {
+  Json json;
+  json["lower_m"] = order.grid.lower();
+  json["upper_m"] = order.grid.upper();
+  json["shape"] = order.grid.shape();
+  json["periodic"] = order.grid.periodic();
+  json["exact"] = order.exact;
+  json["template_points"] = order.template_points;
+  json["walls"] = Json::array();
+  for (const fs::path& wall : order.walls) json["walls"].push_back(wall.string());
+  json["angular_velocity_rad_s"] = order.angular_velocity;
+  json["averages"] = order.mill;
+  json["ball_density_kg_m3"] = order.ball_density;
+  json["smallest_ball_m"] = order.smallest_ball;
+  json["rayleigh_fraction"] = order.rayleigh_fraction;
+  json["begin"] = order.begin;
+  json["end"] = order.end;
+  return json;
+}
+
+ExchangeOrder read_exchange(const Json& json, const fs::path& file) {
+  ExchangeOrder order{{value_of<averaging::Vector3>(json, "lower_m", file),
+                       value_of<averaging::Vector3>(json, "upper_m", file),
+                       value_of<averaging::VoxelIndex>(json, "shape", file),
+                       value_of<std::array<bool, 3>>(json, "periodic", file)}};
+  order.exact = value_of<bool>(json, "exact", file);
+  order.template_points = value_of<int>(json, "template_points", file);
+  for (const auto& wall : value_of<std::vector<std::string>>(json, "walls", file))
+    order.walls.push_back(file.parent_path() / wall);
+  order.angular_velocity = value_of<double>(json, "angular_velocity_rad_s", file);
+  order.mill = value_of<std::string>(json, "averages", file);
+  order.ball_density = value_of<double>(json, "ball_density_kg_m3", file);
+  order.smallest_ball = value_of<double>(json, "smallest_ball_m", file);
+  order.rayleigh_fraction = value_of<double>(json, "rayleigh_fraction", file);
+  order.begin = value_of<long>(json, "begin", file);
+  order.end = value_of<long>(json, "end", file);
+  return order;
+}
+
 }  // namespace
 
 std::string name_of(FluidKind kind) {
-  if (kind == FluidKind::none) return "none";
-  return kind == FluidKind::buoyancy ? "buoyancy" : "slurry";
+  switch (kind) {
+    case FluidKind::none:
+      return "none";
+    case FluidKind::buoyancy:
+      return "buoyancy";
+    case FluidKind::slurry:
+      return "slurry";
+    case FluidKind::flow:
+      return "flow";
+  }
+  return {};
 }
 
 std::string name_of(FluidTime time) {
@@ -55,8 +104,27 @@ std::string in_words(const FluidSettings& fluid) {
              " m";
     case FluidKind::slurry:
       return "forces of a flow (slurry.h5 " + fluid.file_id + ", " + name_of(fluid.time) + ")";
+    case FluidKind::flow:
+      return "forces of a flow that runs at the same time";
   }
   return {};
+}
+
+ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin, long end) {
+  const meshing::Voxels& voxels = mill.averages.voxels;
+  const bool periodic = mill.geometry.ends == meshing::Ends::periodic;
+  ExchangeOrder order{{voxels.lower, voxels.upper, voxels.shape, {false, false, periodic}}};
+  order.exact = mill.averages.method == "exact";
+  order.template_points = mill.averages.template_points;
+  order.walls = walls;
+  order.angular_velocity = mill.angular_velocity;
+  order.mill = mill.fingerprint.averages;
+  order.ball_density = mill.ball.density;
+  order.smallest_ball = smallest_simulated(mill);
+  order.rayleigh_fraction = mill.dem.rayleigh_fraction;
+  order.begin = begin;
+  order.end = end;
+  return order;
 }
 
 void write_fluid_order(const fs::path& file, const meshing::Mill& mill, const FluidOrder& order) {
@@ -69,6 +137,9 @@ void write_fluid_order(const fs::path& file, const meshing::Mill& mill, const Fl
   if (fluid.kind == FluidKind::buoyancy) {
     json["level_m"] = fluid.level;
     json["density_kg_m3"] = fluid.density;
+  } else if (fluid.kind == FluidKind::flow) {
+    json["folder"] = fs::relative(fluid.file, file.parent_path()).string();
+    json["exchange"] = to_json(order.exchange.value());
   } else {
     json["file"] = fs::relative(fluid.file, file.parent_path()).string();
     json["file_id"] = fluid.file_id;
@@ -88,7 +159,12 @@ FluidOrder read_fluid_order(const fs::path& file) {
   FluidOrder order;
   order.timestep = value_of<double>(json, "timestep_s", file);
   order.record_steps = value_of<long>(json, "interval", file);
-  if (value_of<std::string>(json, "kind", file) == name_of(FluidKind::buoyancy)) {
+  const auto kind = value_of<std::string>(json, "kind", file);
+  if (kind == name_of(FluidKind::flow)) {
+    order.fluid.kind = FluidKind::flow;
+    order.fluid.file = file.parent_path() / value_of<std::string>(json, "folder", file);
+    order.exchange = read_exchange(value_of<Json>(json, "exchange", file), file);
+  } else if (kind == name_of(FluidKind::buoyancy)) {
     order.fluid.kind = FluidKind::buoyancy;
     order.fluid.level = value_of<double>(json, "level_m", file);
     order.fluid.density = value_of<double>(json, "density_kg_m3", file);

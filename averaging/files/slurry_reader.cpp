@@ -55,17 +55,9 @@ void check_field(const std::vector<double>& values, const std::string& name, std
   if (values.size() != width * grid.size())
     throw hdf5::Error("'" + name + "' has " + std::to_string(values.size()) + " numbers, expected " +
                       std::to_string(width * grid.size()) + ": " + again);
-  const auto [nx, ny, nz] = grid.shape();
-  for (std::size_t at = 0; at < values.size(); ++at) {
-    const std::size_t voxel = at / width;
-    if (std::isfinite(values[at]) || inside[voxel] == 0) continue;
-    const auto row = static_cast<int>(voxel / static_cast<std::size_t>(nx));
-    const VoxelIndex index{static_cast<int>(voxel % static_cast<std::size_t>(nx)), row % ny, row / ny};
-    const Vector3 centre = grid.centre(index);
-    throw hdf5::Error(
-        "'" + name + "' is not finite in voxel x y z = " + triple(index[0], index[1], index[2]) +
-        ", whose centre is " + triple(centre[0], centre[1], centre[2]) + " m; expected a number: " + again);
-  }
+  if (const auto voxel = not_finite(values, width, inside))
+    throw hdf5::Error("'" + name + "' is not finite in " + voxel_in_words(grid, *voxel) +
+                      "; expected a number: " + again);
 }
 
 }  // namespace
@@ -111,6 +103,22 @@ struct SlurryReader::File {
     fields.diameter = take("diameter", 1);
   }
 };
+
+std::optional<std::size_t> not_finite(const std::vector<double>& values, std::size_t width,
+                                      const std::vector<double>& inside) {
+  for (std::size_t at = 0; at < values.size(); ++at)
+    if (!std::isfinite(values[at]) && inside[at / width] != 0) return at / width;
+  return std::nullopt;
+}
+
+std::string voxel_in_words(const BoxGrid& grid, std::size_t voxel) {
+  const auto [nx, ny, nz] = grid.shape();
+  const auto row = static_cast<int>(voxel / static_cast<std::size_t>(nx));
+  const VoxelIndex index{static_cast<int>(voxel % static_cast<std::size_t>(nx)), row % ny, row / ny};
+  const Vector3 centre = grid.centre(index);
+  return "voxel x y z = " + triple(index[0], index[1], index[2]) + ", whose centre is " +
+         triple(centre[0], centre[1], centre[2]) + " m";
+}
 
 SlurryReader::SlurryReader(const std::filesystem::path& path)
     : file_(hdf5::naming_file<SlurryFileError>(path, [&] { return std::make_unique<File>(path); })) {}

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,15 @@ struct BallFields {
   std::vector<double> solidity;        ///< [n] that the flow saw
   std::vector<double> diameter;        ///< [n] Sauter mean diameter that the drag law saw, m
 };
+
+/// The first voxel with fluid in which a field is not finite.
+/// @param values  [n][width]
+/// @param inside  [n] as in BallFields
+std::optional<std::size_t> not_finite(const std::vector<double>& values, std::size_t width,
+                                      const std::vector<double>& inside);
+
+/// A voxel for messages: "voxel x y z = (3, 0, 1), whose centre is (0.01, 0, 0.02) m".
+std::string voxel_in_words(const BoxGrid& grid, std::size_t voxel);
 
 /// What holds for a whole slurry file.
 struct BallFieldsHeader {

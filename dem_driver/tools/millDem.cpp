@@ -48,6 +48,7 @@ struct Options {
   bool or_anew = false;
   std::string fluid;  ///< slurry.h5; empty: none
   std::string fluid_time = "mean";
+  std::string with_flow;  ///< folder of the exchange with a flow that runs at the same time; empty: none
   std::string continued;  ///< folder of the case from whose last state the run continues; empty: none
   std::string plan_file;
 };
@@ -140,12 +141,18 @@ std::optional<long> first_step(const Options& options, const dem_driver::CaseFol
 
 /// The file for millLiggghts, or none of an earlier run.
 void write_fluid(const dem_driver::CaseFolder& folder, const meshing::Mill& mill,
-                 const dem_driver::DemPlan& plan) {
-  if (plan.fluid.kind == dem_driver::FluidKind::none)
+                 const dem_driver::DemPlan& plan, const std::vector<std::string>& parts) {
+  if (plan.fluid.kind == dem_driver::FluidKind::none) {
     fs::remove(folder.fluid_order());
-  else
-    dem_driver::write_fluid_order(folder.fluid_order(), mill,
-                                  {plan.fluid, plan.step.value, plan.step.steps_per_record});
+    return;
+  }
+  dem_driver::FluidOrder order{plan.fluid, plan.step.value, plan.step.steps_per_record, std::nullopt};
+  if (plan.fluid.kind == dem_driver::FluidKind::flow) {
+    std::vector<fs::path> walls;
+    for (const std::string& part : parts) walls.push_back(fs::path("../walls") / (part + ".stl"));
+    order.exchange = dem_driver::exchange_of(mill, walls, plan.begin, plan.end_step());
+  }
+  dem_driver::write_fluid_order(folder.fluid_order(), mill, order);
 }
 
 void run(const Options& options, const meshing::MillDescription& description) {
@@ -162,11 +169,15 @@ void run(const Options& options, const meshing::MillDescription& description) {
         options.fluid,
         options.fluid_time == "windows" ? dem_driver::FluidTime::windows : dem_driver::FluidTime::mean, mill,
         plan);
+  if (!options.with_flow.empty() && mill.dem.pool_level)
+    throw dem_driver::KeyError("dem.fluid", "buoyancy",
+                               "none with --with-flow, which has the buoyancy of its flow");
   std::optional<dem_driver::LastState> state;
   if (!options.continued.empty()) {
     state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
     dem_driver::continue_from(state->step, plan);
   }
+  if (!options.with_flow.empty()) dem_driver::meet_flow(options.with_flow, mill, plan);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
@@ -186,7 +197,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     prepare(folder, step);
     if (state && !step) dem_driver::take_restart(*state, folder);
   }
-  write_fluid(folder, mill, plan);
+  write_fluid(folder, mill, plan, parts);
   replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
@@ -280,6 +291,9 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
                  "of that flow: its mean over the run, or its time windows")
       ->check(CLI::IsMember({"mean", "windows"}))
       ->needs(fluid);
+  app.add_option("--with-flow", options.with_flow,
+                 "folder through which slurryFoam, which runs at the same time, gives its forces")
+      ->excludes(fluid);
   app.add_option(
       "--continue", options.continued,
       "begin with the last state of the complete run in this case folder, and turn for dem.duration more");

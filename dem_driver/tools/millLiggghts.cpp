@@ -20,8 +20,11 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "dem_driver/deck.hpp"
+#include "dem_driver/flow_exchange.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"
 
@@ -42,6 +45,31 @@ bool begins(const std::string& text, const std::string& start) {
   std::abort();
 }
 
+/// The ranks of LIGGGHTS.
+class MpiRanks final : public RankGroup {
+ public:
+  explicit MpiRanks(MPI_Comm ranks) : ranks_(ranks) {}
+  int rank() const override {
+    int number = 0;
+    MPI_Comm_rank(ranks_, &number);
+    return number;
+  }
+  void sum(std::vector<double>& numbers) override {
+    std::vector<double> sums(numbers.size());
+    MPI_Reduce(numbers.data(), sums.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, MPI_SUM, 0, ranks_);
+    numbers = std::move(sums);
+  }
+  void broadcast(std::vector<double>& numbers) override {
+    auto length = static_cast<unsigned long>(numbers.size());
+    MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, ranks_);
+    numbers.resize(length);
+    MPI_Bcast(numbers.data(), static_cast<int>(length), MPI_DOUBLE, 0, ranks_);
+  }
+
+ private:
+  MPI_Comm ranks_;
+};
+
 /// The fluid's forces as a `fix external` of the deck gets them in every step, on every rank of its own
 /// balls.
 class FluidFix {
@@ -50,12 +78,18 @@ class FluidFix {
   /// @param ledger  begin of the ledger's name; empty: none is kept
   FluidFix(LAMMPS& liggghts, const std::string& name, const FluidOrder& order, const std::string& ledger)
       : liggghts_(liggghts),
-        forces_(make_fluid_forces(order.fluid)),
+        ranks_(liggghts.world),
         timestep_(order.timestep),
         record_(order.record_steps),
         last_(liggghts.update->ntimestep) {
-    MPI_Comm_rank(liggghts.world, &rank_);
-    if (!ledger.empty() && rank_ == 0) ledger_.emplace(ledger + '.' + std::to_string(last_) + ".txt");
+    if (order.exchange) {
+      auto exchange = std::make_unique<FlowExchange>(order, last_, ranks_);
+      exchange_ = exchange.get();
+      forces_ = std::move(exchange);
+    } else {
+      forces_ = make_fluid_forces(order.fluid);
+    }
+    if (!ledger.empty() && ranks_.rank() == 0) ledger_.emplace(ledger + '.' + std::to_string(last_) + ".txt");
     keeps_ledger_ = !ledger.empty();
     auto* fix =
         static_cast<LAMMPS_NS::FixExternal*>(liggghts.modify->fix[liggghts.modify->find_fix(name.c_str())]);
@@ -76,6 +110,7 @@ class FluidFix {
  private:
   void act(long step, int balls, double** position, double** force) {
     const LAMMPS_NS::Atom& atom = *liggghts_.atom;
+    if (exchange_ != nullptr && exchange_->due(step)) exchange_->meet(balls_at(step, balls, position));
     forces_->set_time(static_cast<double>(step) * timestep_);
     // LIGGGHTS computes the forces of a step once more where a run is divided
     const bool counts = keeps_ledger_ && step > last_;
@@ -88,6 +123,20 @@ class FluidFix {
       if (counts) sums_.add(ball, felt);
     }
     if (counts) end_step(step);
+  }
+
+  /// The balls of this rank.
+  millfoam::averaging::ParticleRecord balls_at(long step, int balls, double** position) const {
+    const LAMMPS_NS::Atom& atom = *liggghts_.atom;
+    millfoam::averaging::ParticleRecord record;
+    record.step = step;
+    record.particles.reserve(static_cast<std::size_t>(balls));
+    for (int i = 0; i < balls; ++i) {
+      const double* x = position[i];
+      const double* v = atom.v[i];
+      record.particles.push_back({atom.tag[i], {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, atom.radius[i]});
+    }
+    return record;
   }
 
   void end_step(long step) {
@@ -103,11 +152,12 @@ class FluidFix {
   }
 
   LAMMPS& liggghts_;
+  MpiRanks ranks_;
   std::unique_ptr<FluidForces> forces_;
+  FlowExchange* exchange_ = nullptr;  ///< the forces, if a flow that runs at the same time gives them
   double timestep_;
   long record_;
   long last_;  ///< step that the ledger has, or at which it begins
-  int rank_ = 0;
   bool keeps_ledger_ = false;
   std::optional<FluidLedgerFile> ledger_;  ///< of the first rank
   FluidSums sums_;

@@ -170,12 +170,23 @@ struct FlowAverages {
   double interval = 0;  ///< between samples, s
 };
 
+/// Whether the balls feel the slurry, and how.
+enum class CouplingKind {
+  one_way,   ///< they do not
+  iterated,  ///< balls and slurry are computed in turn until neither changes
+  direct     ///< balls and slurry are computed at the same time
+};
+
 /// Whether the balls feel the slurry.
 struct Coupling {
-  bool iterated = false;  ///< balls and slurry are computed in turn until neither changes
-  int passes = 0;         ///< of balls and slurry, at most, the dry one included
-  double relaxation = 0;  ///< share of the latest flow's forces in those that the balls feel next
+  CouplingKind kind = CouplingKind::one_way;  ///< and how
+  int passes = 0;         ///< `iterated`: of balls and slurry, at most, the dry one included
+  double relaxation = 0;  ///< `iterated`: share of the latest flow's forces in those that the balls feel next
+  bool both_ways() const { return kind != CouplingKind::one_way; }  ///< whether the balls feel the slurry
 };
+
+/// "one_way", "iterated" or "direct".
+std::string name_of(CouplingKind kind);
 
 /// How the slurry's flow is done.
 struct Flow {

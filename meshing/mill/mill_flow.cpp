@@ -164,10 +164,12 @@ void read_drag(const Section& in, Flow& flow) {
 
 Coupling read_coupling(Section& in, const Flow& flow) {
   Coupling coupling;
-  coupling.iterated = in.choice("coupling", {"one_way", "iterated"}, "one_way") == "iterated";
-  if (coupling.iterated && flow.solver != "slurryFoam")
-    in.refuse("coupling", "one_way: only slurryFoam writes what the balls feel");
-  if (coupling.iterated && !flow.balls) in.refuse("coupling", "one_way where flow.balls is no");
+  const std::string kind = in.choice("coupling", {"one_way", "iterated", "direct"}, "one_way");
+  for (const CouplingKind one : {CouplingKind::one_way, CouplingKind::iterated, CouplingKind::direct})
+    if (kind == name_of(one)) coupling.kind = one;
+  if (coupling.both_ways() && flow.solver != "slurryFoam")
+    in.refuse("coupling", "one_way: only slurryFoam knows what the balls feel");
+  if (coupling.both_ways() && !flow.balls) in.refuse("coupling", "one_way where flow.balls is no");
   coupling.passes = in.integer("passes", whole_number("passes", 2, 50), usual_passes);
   coupling.relaxation =
       in.number("relaxation", {"a share above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
@@ -318,6 +320,18 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis), mill.resolution.layers);
   flow.averages = read_flow_averages(in, flow, mill);
   return flow;
+}
+
+std::string name_of(CouplingKind kind) {
+  switch (kind) {
+    case CouplingKind::one_way:
+      return "one_way";
+    case CouplingKind::iterated:
+      return "iterated";
+    case CouplingKind::direct:
+      return "direct";
+  }
+  return {};
 }
 
 }  // namespace millfoam::meshing

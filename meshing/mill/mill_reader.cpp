@@ -133,8 +133,9 @@ std::optional<double> read_pool_level(Section& in, const Mill& mill) {
     in.drop("fluid_level");
     return std::nullopt;
   }
-  if (mill.flow.coupling.iterated)
-    in.refuse("fluid", "none where flow.coupling is iterated, whose first pass is dry");
+  if (mill.flow.coupling.both_ways())
+    in.refuse("fluid", "none where flow.coupling is " + name_of(mill.flow.coupling.kind) +
+                           ", which begins with a dry run");
   const double radius = mill.geometry.radius();
   const Rule level = {"a height in m within the radius, " + shown(radius) + " m, of the axis",
                       [=](double v) { return std::abs(v) <= radius; }};

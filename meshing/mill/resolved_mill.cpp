@@ -122,7 +122,7 @@ Json flow_numbers(const Mill& mill) {
           {"polydispersity", flow.polydispersity},
           {"mixed_drag", flow.mixed_drag},
           {"out_of_range", flow.out_of_range},
-          {"coupling", flow.coupling.iterated ? "iterated" : "one_way"},
+          {"coupling", name_of(flow.coupling.kind)},
           {"passes", flow.coupling.passes},
           {"relaxation", flow.coupling.relaxation},
           {"start", start_numbers(flow.start)},

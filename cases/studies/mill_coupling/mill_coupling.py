@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares one-way coupling, buoyancy alone and iterated coupling of the 12 cm mill's slice: a table on the screen,
+"""Compares one-way coupling, buoyancy alone, iterated and direct coupling of the 12 cm mill's slice: a table on the screen,
 mill_coupling.txt, mill_coupling.csv and mill_coupling.png."""
 import argparse
 import csv
@@ -22,12 +22,13 @@ HALF = 0.5  # share of the slurry's outline
 
 
 def passes_of(mill):
-    """Name -> Pass of a mill's three ways; the iterated one is the last pass."""
+    """Name -> Pass of a mill's four ways; the iterated one is the last pass."""
     folder = HERE / "runs" / mill
     coupling = read_json(folder / "coupling.json", "coupling")
     last = coupling["folders"][-1]
     return {"one way": read_pass(1, folder), "buoyancy": read_pass(1, HERE / "runs" / f"{mill}_buoyancy"),
-            f"iterated ({coupling['passes']})": read_pass(coupling["passes"], folder / last)}
+            f"iterated ({coupling['passes']})": read_pass(coupling["passes"], folder / last),
+            "direct": read_pass(2, HERE / "runs" / f"{mill}_direct" / "direct")}
 
 
 def rows_of(mill, ways):
@@ -63,7 +64,7 @@ def lines_of(rows):
 def draw(mills):
     """Figure of a row per mill and a panel per way: solidity, outline of the slurry, and the dry charge's outline."""
     import matplotlib.pyplot as plt
-    figure, axes = plt.subplots(len(mills), 3, figsize=(10, 3.3 * len(mills)), squeeze=False, layout="constrained")
+    figure, axes = plt.subplots(len(mills), 4, figsize=(13, 3.3 * len(mills)), squeeze=False, layout="constrained")
     for line, (mill, ways) in zip(axes, mills.items()):
         dry: Pass = ways["one way"]
         for axis, (name, one) in zip(line, ways.items()):

@@ -222,7 +222,7 @@ Foam::tmp<Foam::scalarField> Foam::movingBed::diameterOfBalls() const
 
 Foam::wordList Foam::movingBed::entries()
 {
-    return {"solids",          "interpolation",
+    return {"exchange",        "solids",          "interpolation",
             "inTime",          "outOfRange",
             "time0",           "omega",
             "fingerprint",     "block",

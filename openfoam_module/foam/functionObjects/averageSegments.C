@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "averageSegments.H"
+#include "cellsOnVoxels.H"
 #include "optionalDictionary.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -114,15 +115,6 @@ static void stopWith(const std::optional<std::string>& reason)
     }
 }
 
-
-//- Add up the values of all ranks on the master
-static void gather(std::vector<double>& values)
-{
-    scalarList sums(UList<scalar>(values.data(), label(values.size())));
-    Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    std::copy(sums.begin(), sums.end(), values.begin());
-}
-
 } // End namespace Foam
 
 
@@ -176,8 +168,8 @@ void Foam::averageSegments::check() const
 void Foam::averageSegments::close(const scalar end)
 {
     sums_.end = end;
-    gather(sums_.volume);
-    gather(sums_.components);
+    sumOnMaster(sums_.volume);
+    sumOnMaster(sums_.components);
     reduce(sums_.slurry, sumOp<scalar>());
     if (Pstream::master())
     {

@@ -5,8 +5,6 @@
 
 #include "voxelAverages.H"
 #include "addToRunTimeSelectionTable.H"
-#include "averagingMesh.H"
-#include "untrapped.H"
 
 #include <algorithm>
 #include <array>
@@ -26,48 +24,28 @@ addToRunTimeSelectionTable(functionObject, voxelAverages, dictionary);
 } // End namespace Foam
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-std::optional<Eigen::Isometry3d>
-Foam::functionObjects::voxelAverages::place() const
+namespace Foam
 {
-    static_assert(sizeof(point) == 3 * sizeof(double), "points are doubles");
-    using Points = Eigen::Map<const Eigen::Matrix3Xd>;
-    const pointField& now = mesh_.points();
-    const Points from(made_.cdata()->cdata(), 3, made_.size());
-    const Points to(now.cdata()->cdata(), 3, now.size());
 
-    Eigen::Isometry3d motion;
-    motion.matrix() = Eigen::umeyama(from, to, false);
-    const scalar off =
-        ((motion.linear() * from).colwise() + motion.translation() - to)
-            .cwiseAbs()
-            .maxCoeff();
-    // Round-off of the points, relative to the size of the mesh
-    const scalar size = to.cwiseAbs().maxCoeff();
-    return off < 1e-10 * size ? std::optional(motion) : std::nullopt;
-}
-
-
-Eigen::Isometry3d Foam::functionObjects::voxelAverages::locateCells()
+//- The entry divisions
+static label divisions(const dictionary& dict)
 {
-    if (cells_)
+    const label number = dict.lookupOrDefault<label>("divisions", 1);
+    if (number < 1 || number > 10)
     {
-        if (const std::optional<Eigen::Isometry3d> motion = place())
-        {
-            return *motion;
-        }
+        FatalIOErrorInFunction(dict)
+            << "divisions is " << number << "; expected 1 to 10"
+            << exit(FatalIOError);
     }
-    const MeshGeometry geometry(
-        averagingTopology(
-            mesh_.nPoints(), mesh_.nCells(), mesh_.faces(), mesh_.faceOwner(),
-            mesh_.faceNeighbour()),
-        averagingPoints(mesh_.points()));
-    cells_ = std::make_unique<CellPoints>(geometry, divisions_);
-    made_ = mesh_.points();
-    return Eigen::Isometry3d::Identity();
+    return number;
 }
 
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
 {
@@ -95,78 +73,25 @@ std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
     }
     if (balls_)
     {
-        addBalls(values);
+        addBallComponents(
+            balls_->present(), balls_->flow(), alpha, U, values,
+            segments_.components(), slurry_components);
     }
     return values;
 }
 
 
-void Foam::functionObjects::voxelAverages::addBalls(
-    std::vector<double>& values) const
-{
-    const ballForces feel(balls_->present());
-    const ballsInFlow& flow = balls_->flow();
-    const scalarField& alpha = fields_.alpha().primitiveField();
-    const vectorField& U = fields_.U().primitiveField();
-    auto* cell = values.data() + slurry_components;
-    forAll(alpha, celli)
-    {
-        const scalar w = feel.solidity[celli] + few_balls;
-        const vector pressure(w * feel.pressure[celli]);
-        const scalar exchange = w * feel.exchange[celli];
-        const vector drag(exchange * (U[celli] - feel.velocity[celli]));
-        const vector moved(w * feel.velocity[celli]);
-        const scalar density = alpha[celli] * flow.slurryDensity +
-                               (1 - alpha[celli]) * flow.airDensity;
-        const std::array<double, ball_components> own{
-            w,
-            feel.solidity[celli],
-            pressure.x(),
-            pressure.y(),
-            pressure.z(),
-            exchange,
-            drag.x(),
-            drag.y(),
-            drag.z(),
-            moved.x(),
-            moved.y(),
-            moved.z(),
-            w * density,
-            w * feel.diameter[celli]};
-        std::copy(own.begin(), own.end(), cell);
-        cell += segments_.components();
-    }
-}
-
-
-VoxelSums Foam::functionObjects::voxelAverages::deposit(
-    const std::vector<double>& values, const std::size_t components)
-{
-    VoxelSums sums(segments_.grid().size(), components);
-    const auto reason = untrapped(
-        [&]
-        {
-            const Eigen::Isometry3d motion(locateCells());
-            cells_->deposit(segments_.grid(), motion, values, sums);
-        });
-    if (reason)
-    {
-        FatalErrorInFunction << reason->c_str() << exit(FatalError);
-    }
-    return sums;
-}
-
-
 VoxelSums Foam::functionObjects::voxelAverages::sample()
 {
-    return deposit(cellValues(), segments_.components());
+    return cells_.sum(
+        segments_.grid(), cellValues(), segments_.components());
 }
 
 
 void Foam::functionObjects::voxelAverages::checkBox()
 {
     // The fields may not be known yet
-    const VoxelSums sums(deposit({}, 0));
+    const VoxelSums sums(cells_.sum(segments_.grid(), {}, 0));
     const scalar inside = returnReduce(
         std::accumulate(sums.volume.begin(), sums.volume.end(), scalar(0)),
         sumOp<scalar>());
@@ -234,7 +159,7 @@ Foam::functionObjects::voxelAverages::voxelAverages(
   balls_(mesh_.findObject<fluidOnBalls>(fluidOnBalls::typeName)),
   segments_(name, runTime, dict, balls_),
   interval_(dict.lookupOrDefault<scalar>("interval", 0)),
-  divisions_(dict.lookupOrDefault<label>("divisions", 1)),
+  cells_(mesh_, divisions(dict)),
   last_(runTime.value()),
   slurry_(0),
   outside_(0)
@@ -248,12 +173,6 @@ Foam::functionObjects::voxelAverages::voxelAverages(
         FatalIOErrorInFunction(dict)
             << "interval is " << interval_ << " s; expected a time from 0 to"
             << " the window, " << window << " s" << exit(FatalIOError);
-    }
-    if (divisions_ < 1 || divisions_ > 10)
-    {
-        FatalIOErrorInFunction(dict)
-            << "divisions is " << divisions_ << "; expected 1 to 10"
-            << exit(FatalIOError);
     }
     checkBox();
     strict_.relax();

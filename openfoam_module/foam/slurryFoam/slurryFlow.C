@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
+#include "averaging/files/slurry_file.hpp"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
@@ -356,6 +357,21 @@ millfoam::record::StepRow Foam::slurryFlow::report()
         row.force_95 = load_->high();
     }
     return row;
+}
+
+
+void Foam::slurryFlow::tellBalls()
+{
+    if (!bed_.feelsFlow())
+    {
+        return;
+    }
+    clock_.begin("balls");
+    const std::size_t width = millfoam::averaging::ball_components;
+    std::vector<double> values(mesh_.nCells() * width);
+    addBallComponents(
+        onBalls_->present(), onBalls_->flow(), alpha_, U_, values, width, 0);
+    bed_.tell(values);
 }
 
 

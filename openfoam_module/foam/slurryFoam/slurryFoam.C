@@ -45,6 +45,8 @@ static const millfoam::record::ToolHelp help{
      "constant/grateProperties        grates; without it there are none",
      "constant/millProperties         fingerprints of the mill, of millMesh; "
      "optional",
+     "exchange/                       pipes to balls that move at the same time, "
+     "where bedProperties names it",
      "solids.h5                       the balls, of millAverage, where "
      "bedProperties names it",
      "system/                         controlDict, fvSchemes, fvSolution"},
@@ -90,6 +92,7 @@ int main(int argc, char* argv[])
     flowRecorder recorder(runTime, setup);
     courantNumbers courant(flow.bounds());
 
+    flow.tellBalls();
     Info << "Starting time loop\n" << endl;
 
     while (runTime.run())
@@ -118,6 +121,7 @@ int main(int argc, char* argv[])
         runTime.write();
         recorder.setStages(clock);
         recorder.add(row, courant);
+        flow.tellBalls();
         runTime.printExecutionTime(Info);
     }
 

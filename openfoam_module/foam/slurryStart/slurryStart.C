@@ -235,7 +235,9 @@ int main(int argc, char* argv[])
     const IOdictionary dict(IOobject(
         "slurryStartDict", runTime.system(), mesh, IOobject::MUST_READ,
         IOobject::NO_WRITE));
-    const IOdictionary bedDict(optionalDictionary("bedProperties", mesh));
+    IOdictionary bedDict(optionalDictionary("bedProperties", mesh));
+    // Balls that will move with the flow are not there yet
+    bedDict.remove("exchange");
     const movingBed bed(bedDict, mesh);
 
     const heightCut cut(mesh, upwards(mesh), bed.voidage().primitiveField());

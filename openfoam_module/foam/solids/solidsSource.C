@@ -6,6 +6,7 @@
 #include "solidsSource.H"
 #include "labelList.H"
 #include "solidsBlocks.H"
+#include "solidsExchange.H"
 #include "solidsRecord.H"
 
 // * * * * * * * * * * * * * * * * Selectors * * * * * * * * * * * * * * * * //
@@ -23,6 +24,10 @@ Foam::solidsSource::New(const dictionary& dict, const fvMesh& mesh)
             << " them" << exit(FatalIOError);
     }
 
+    if (dict.found("exchange"))
+    {
+        return autoPtr<solidsSource>(new solidsExchange(dict, mesh));
+    }
     if (record)
     {
         return autoPtr<solidsSource>(new solidsRecord(dict, mesh));

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Coupling of balls and slurry by passes.
+"""Coupling of balls and slurry, by passes or at the same time.
 
     python3 -m millfoam.coupling forces PASS BEFORE   writes PASS/forces.h5, what the balls of PASS will feel: the
                                                       forces of the flow in BEFORE, relaxed by those that moved its
                                                       balls
     python3 -m millfoam.coupling judge CASE N         compares N passes of CASE (CASE itself, CASE/pass_2, …): writes
-                                                      coupling.csv, coupling.json and coupling.png"""
+                                                      coupling.csv, coupling.json and coupling.png
+    python3 -m millfoam.coupling together CASE BEFORE -np N [--resume]
+                                                      runs the balls of CASE, which go on from the last state of the dry
+                                                      run in BEFORE, and the flow of CASE at the same time
+    python3 -m millfoam.coupling direct CASE          writes coupling.json of a CASE whose balls and flow in CASE/direct
+                                                      ran at the same time"""
 import argparse
 import sys
 from pathlib import Path
@@ -14,7 +19,7 @@ import matplotlib
 
 from ..files.mill import read_mill
 from ..files.slurry_file import read_ball_forces
-from . import ball_forces, passes, table
+from . import ball_forces, passes, table, together
 
 
 def make_forces(folder: Path, before: Path) -> None:
@@ -50,6 +55,29 @@ def judge(case: Path, count: int) -> None:
         print(f"not settled: most of all changed the {changes[-1].largest}")
 
 
+def run_direct(case: Path, before: Path, ranks: int, resume: bool) -> None:
+    """Runs balls and flow of a case until both have ended; `resume`: from the latest time that both have."""
+    balls = ["millDem", "mill.json", "--case", ".", "--continue", str(before), "--with-flow", together.EXCHANGE,
+             "-np", str(ranks)]
+    flow = ["slurryFoam"] if ranks == 1 else ["mpirun", "-np", str(ranks), "slurryFoam", "-parallel"]
+    if resume:
+        common = together.align(case)
+        print(f"Balls and flow resume at the flow's time {common:g} s" if common else "Balls and flow begin anew",
+              file=sys.stderr)
+        balls += ["--resume", "--or-anew"]
+    together.run_together(balls, flow, case)
+
+
+def judge_direct(case: Path) -> None:
+    """Writes coupling.json of balls and flow that ran at the same time, and prints what they gave to each other."""
+    folder = case / "direct"
+    found = passes.read_pass(2, folder)
+    exchanged = passes.exchanged_forces(folder)
+    table.write_json(case / "coupling.json", table.direct_result(read_mill(case), found, exchanged))
+    print(f"mean force of the flow on the balls: {exchanged.given:.4g} N by the flow, {exchanged.taken:.4g} N by the "
+          f"balls; they differ by {exchanged.disagreement:.2%}")
+
+
 def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(prog="millfoam.coupling", description=__doc__,
@@ -61,9 +89,20 @@ def main() -> None:
     judged = commands.add_parser("judge", help="compares the passes of a case")
     judged.add_argument("case", type=Path, metavar="CASE")
     judged.add_argument("count", type=int, metavar="N")
+    runs = commands.add_parser("together", help="runs balls and flow at the same time")
+    runs.add_argument("case", type=Path, metavar="CASE")
+    runs.add_argument("before", type=Path, metavar="BEFORE")
+    runs.add_argument("-np", dest="ranks", type=int, default=1, metavar="N")
+    runs.add_argument("--resume", action="store_true")
+    direct = commands.add_parser("direct", help="compares what balls and flow gave to each other")
+    direct.add_argument("case", type=Path, metavar="CASE")
     options = parser.parse_args()
     if options.command == "forces":
         make_forces(options.folder, options.before)
+    elif options.command == "together":
+        run_direct(options.case, options.before, options.ranks, options.resume)
+    elif options.command == "direct":
+        judge_direct(options.case)
     else:
         judge(options.case, options.count)
 

@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
+from ..files.data_files import read_csv
 from ..files.mill_case import MillCase
 from ..files.slurry_file import read_ball_forces
 from ..files.solids_file import SolidsMap, mean_map
 from ..readings.batches import error_over_turns
 from ..readings.charge import charge_with_errors, circulation_centre
 from ..readings.compare import difference
+from ..readings.fluid_on_balls import fluid_on_balls
 from ..readings.free_surface import WALL, toe_and_shoulder
 from ..readings.means import Mean, time_mean
 from . import ball_forces
@@ -30,6 +32,7 @@ LIMIT = 3.0
 # which the noise does not have
 NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
+EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
 TURNS = 3  # of the averaged flow, at least: the error of fewer turns is not known
 
 
@@ -109,6 +112,12 @@ def slurry_quantities(case: MillCase) -> dict[str, Mean]:
             for key, name in names.items()}
 
 
+def feels_slurry(case: MillCase) -> bool:
+    """Whether the balls of a MillCase felt a flow, and not only a pool's buoyancy."""
+    fluid = (case.results or {}).get("fluid") or {}
+    return fluid.get("kind") in ("slurry", "flow")
+
+
 def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
     """Columns of slurryBalance; None without it, or if fewer turns than TURNS are averaged."""
     columns = case.balance
@@ -125,7 +134,7 @@ def drive_power(case: MillCase, quantities: dict[str, Mean]) -> Mean:
     if columns is None:
         return Mean(np.nan, np.nan)
     given = columns["power"]
-    if (case.folder / FORCES).is_file():
+    if feels_slurry(case):
         given = np.sum([values for name, values in columns.items() if name.startswith("power_")], axis=0)
     charge = quantities["charge_power"]
     error = error_over_turns(columns["Time"], given, case.begin, case.turn)
@@ -148,6 +157,28 @@ def forces_apart(folder: Path) -> float | None:
         return None
     applied, felt = (read_ball_forces(folder / name) for name in (FORCES, "slurry.h5"))
     return ball_forces.disagreement(applied, felt)
+
+
+@dataclass(frozen=True)
+class Exchanged:
+    """Mean force of a flow on all balls over its averaged time, N: size by the flow (slurry.h5) and by the balls
+    (fluid.csv), and size of the difference over that of the flow's."""
+    given: float
+    taken: float
+    disagreement: float
+
+
+def exchanged_forces(folder: Path) -> Exchanged:
+    """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without slurry.h5 or fluid.csv."""
+    case = MillCase(folder)
+    assert case.flow is not None
+    given = fluid_on_balls(folder / "slurry.h5", case.mill.ball_density).force
+    rows = read_csv(folder / "dumps" / "fluid.csv")
+    begin, end = (case.flow.time0 + at for at in (case.begin, case.last))
+    within = (rows["time_s"] > begin) & (rows["time_s"] <= end)
+    taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
+    sizes = [float(np.linalg.norm(force)) for force in (given, taken, given - taken)]
+    return Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0])
 
 
 def change(before: Pass, after: Pass) -> Change:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from ..files.mill import Mill
 from ..readings.means import Mean
-from .passes import LIMIT, NOISE, QUANTITIES, Change, Pass
+from .passes import LIMIT, NOISE, QUANTITIES, Change, Exchanged, Pass
 
 COLUMNS = {"toe": "toe_deg", "shoulder": "shoulder_deg", "charge_x": "charge_x_m", "charge_y": "charge_y_m",
            "charge_power": "charge_power_W", "slurry_x": "slurry_x_m", "slurry_y": "slurry_y_m",
@@ -48,11 +48,19 @@ def error_column(column: str) -> str:
 def result(mill: Mill, passes: Sequence[Pass], changes: Sequence[Change], settled: bool, most: int) -> dict[str, Any]:
     """Content of coupling.json (FORMATS.md)."""
     return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
-            "passes": len(passes), "most_passes": most, "settled": settled,
+            "coupling": "iterated", "passes": len(passes), "most_passes": most, "settled": settled,
             "limit_standard_errors": LIMIT, "limit_noise": NOISE,
             "force_over_weight": known(passes[-1].load), "force_disagreement": known(passes[-1].disagreement),
             "largest_change": changes[-1].largest if changes else None,
             "folders": [one.folder.name if one.number > 1 else "." for one in passes]}
+
+
+def direct_result(mill: Mill, one: Pass, exchanged: Exchanged) -> dict[str, Any]:
+    """Content of coupling.json (FORMATS.md) of balls and flow that ran at the same time."""
+    return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
+            "coupling": "direct", "folders": [".", one.folder.name], "force_over_weight": known(one.load),
+            "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
+            "force_disagreement": known(exchanged.disagreement)}
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:

@@ -153,6 +153,11 @@ class Mill:
         classes = entry(self.content, self.path, "derived", "charge", "classes")
         return max((one["diameter_m"] for one in classes if not one["simulated"]), default=0.0)
 
+    @property
+    def ball_density(self) -> float:
+        """Of the balls, kg/m3."""
+        return number(entry(self.content, self.path, "derived", "materials", "ball"), self.path, "density_kg_m3")
+
     def slurry(self, key: str) -> float:
         """A number of the slurry: density_kg_m3, plastic_viscosity_Pa_s, yield_stress_Pa."""
         return self.derived("slurry", key)

@@ -18,6 +18,7 @@ AIR_COURANT, SLURRY_COURANT = 0.55, 1.05  # limit of the Courant number -> time-
 STEP_WITH_BALLS, STEP_WITHOUT = 2.0, 1.35  # mean step of a flow over a step at its start without balls
 CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 190, 110  # of a written time
 FACE_BYTES = 32
+FORCES = 1.15  # time of a step of balls that feel a flow, over that of a dry one (measured, PERFORMANCE.md)
 RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
 PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
 VOXEL_BYTES_WITH_BALLS, VOXEL_BYTES_WITHOUT = 100, 42  # of one window of slurry.h5
@@ -120,13 +121,21 @@ def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ra
 
 
 def passes_stage(mill: Mill, stages: Sequence[Stage]) -> Stage | None:
-    """Stage of all passes after the dry one, if as many are made as the mill allows; None with one-way coupling. Each
+    """Stage of all passes after the dry one, if as many are made as the mill allows; None unless they are made. Each
     repeats the Stages of the dry one, but for the balls' fall into the mill, which is short."""
-    if mill.flow("coupling", "one_way") == "one_way":
+    if mill.flow("coupling", "one_way") != "iterated":
         return None
     one, more = total(stages), round(flow_number(mill, "passes")) - 1
     return Stage(f"{more} more pass{'es' if more > 1 else ''}", more * one.time, more * one.disk, one.memory,
                  "as the first; fewer if it settles")
+
+
+def together_stage(mill: Mill, charge: Stage, flow: Stage) -> Stage:
+    """Stage of balls and flow at the same time: one waits for the other; the balls turn as long as the flow. Their
+    forces make a step of the balls longer by FORCES."""
+    longer = flow_number(mill, "duration_s") / mill.asked("dem", "duration")
+    return Stage("balls and flow", FORCES * longer * charge.time + flow.time, longer * charge.disk + flow.disk,
+                 charge.memory + flow.memory, "both trials")
 
 
 def pictures_stage(plan: FlowPlan) -> Stage:
@@ -156,6 +165,8 @@ def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list
     stages += [Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"),
                Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
                flow_stage(mill, mesh, trial, plan, ranks)]
+    if dry and mill.flow("coupling", "one_way") == "direct":
+        stages[-1] = together_stage(mill, stages[1], stages[-1])
     passes = passes_stage(mill, stages)
     stages += [passes] if passes else []
     return [*stages, pictures_stage(plan)], plan, mesh

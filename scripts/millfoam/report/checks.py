@@ -2,7 +2,7 @@
 """Whether a run is reliable: what the checks found, and what to do if they fail."""
 from ..files.mill_case import MillCase
 from .charge_checks import averaging_volume, charge_steadiness, follows_shell, ledger, lost_balls, overlap, window_noise
-from .coupling_section import forces_agree, has_settled
+from .coupling_section import coupling_checks
 from .flow_checks import conservation, continuity, courant, drag_range, mesh, one_way, solids_on_mesh
 from .stages import same_mill
 from .steadiness import flow_steadiness
@@ -22,7 +22,7 @@ def all_checks(case: MillCase) -> list[Check]:
         functions += [follows_shell, ledger, averaging_volume, window_noise]
     if case.flow and case.law:
         functions += [solids_on_mesh, continuity, drag_range]
-        functions += [has_settled, forces_agree] if case.coupled else [one_way]
+        functions += coupling_checks(case) if case.coupled else [one_way]
     checks, unusable = [], []
     for function in functions:
         try:

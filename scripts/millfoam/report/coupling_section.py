@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balls and slurry that move each other: the passes of a coupled mill, and whether they have settled."""
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
-from ..coupling.passes import AGREE, LIMIT, NOISE, QUANTITIES, forces_apart
+from ..coupling.passes import AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -13,10 +16,30 @@ from .verdict import Check, judged
 from .words import uncertain
 
 
+def coupling_of(case: MillCase) -> dict[str, Any]:
+    """Content of a coupled case's coupling.json."""
+    assert case.coupled is not None
+    return read_json(case.coupled / "coupling.json", "coupling")
+
+
+def coupling_checks(case: MillCase) -> list[Callable[[MillCase], Check]]:
+    """The checks of a coupled case."""
+    return [forces_exchanged] if coupling_of(case)["coupling"] == "direct" else [has_settled, forces_agree]
+
+
+def forces_exchanged(case: MillCase) -> Check:
+    """Whether balls and flow that ran at the same time gave the same force to each other."""
+    content = coupling_of(case)
+    apart = content["force_disagreement"]
+    return judged("The balls feel the slurry's force", apart, EXCHANGED, "balls and flow ran at the same time; the "
+                  f"mean force on all balls by the flow and by the balls differ by {100 * apart:.2f} % (limit "
+                  f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
+
+
 def has_settled(case: MillCase) -> Check:
     """Whether the passes have settled."""
     name = "Balls and slurry have settled"
-    content = read_json(case.coupled / "coupling.json", "coupling")
+    content = coupling_of(case)
     count, most = content["passes"], content["most_passes"]
     if content["settled"]:
         return Check(name, "holds", f"after {count} passes: in the last two nothing changed by more than {LIMIT:g} "
@@ -38,10 +61,23 @@ def forces_agree(case: MillCase) -> Check:
                   "Take more passes (flow.passes), or longer ones (dem.duration, flow.turns).", doubtful=0.25)
 
 
+def exchanged_table(case: MillCase) -> str:
+    """Table of what balls and flow that ran at the same time gave to each other."""
+    content = coupling_of(case)
+    rows = [["mean force of the flow on all balls, by the flow", f"{content['force_by_flow_N']:.4g} N"],
+            ["the same, by the balls", f"{content['force_by_balls_N']:.4g} N"],
+            ["size of their difference", f"{content['force_disagreement']:.2%}"],
+            ["slurry's force over the balls' weight", f"{content['force_over_weight']:.3f}"]]
+    return page.table(["", ""], rows, title="Balls and slurry at the same time",
+                      note="Means over the flow's averaged time. Balls and flow meet at every time-step of the flow.")
+
+
 def coupling_section(case: MillCase, _readings: Readings) -> list[str]:
     """Table and curves of the passes; nothing of a case with one-way coupling."""
     if case.coupled is None:
         return []
+    if coupling_of(case)["coupling"] == "direct":
+        return [exchanged_table(case)]
     columns = read_csv(case.coupled / "coupling.csv")
     head = ["", *(f"pass {number:.0f}" for number in columns["pass"])]
     rows = [[f"{name}, {unit}", *(uncertain(scale * value, scale * error, "").strip() for value, error in zip(

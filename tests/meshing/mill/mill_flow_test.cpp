@@ -127,9 +127,10 @@ TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
 }
 
 TEST(Flow, coupling_is_one_way_unless_it_is_asked_for) {
-  EXPECT_FALSE(mill_of(bare_mill).flow.coupling.iterated);
+  EXPECT_EQ(mill_of(bare_mill).flow.coupling.kind, CouplingKind::one_way);
   const Coupling coupling = mill_of(bare_mill + "flow: {coupling: iterated, passes: 3}\n").flow.coupling;
-  EXPECT_TRUE(coupling.iterated);
+  EXPECT_EQ(coupling.kind, CouplingKind::iterated);
+  EXPECT_EQ(mill_of(bare_mill + "flow: {coupling: direct}\n").flow.coupling.kind, CouplingKind::direct);
   EXPECT_EQ(coupling.passes, 3);
   EXPECT_DOUBLE_EQ(coupling.relaxation, 0.7);
 }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "averaging/files/slurry_reader.hpp"
+#include "averaging/grids/box_grid.hpp"
+
+namespace millfoam::dem_driver {
+
+/// Three components along x, y, z.
+using Vector = std::array<double, 3>;
+
+/// A flow at a point, as a ball there feels it.
+struct FeltFluid {
+  bool known = false;    ///< false: there is no fluid around the point
+  Vector pressure = {};  ///< -grad p, N/m^3
+  Vector drag = {};      ///< drag_force of BallFields, N/m^3
+  double exchange = 0;   ///< K, kg/(m^3 s)
+  double solidity = 0;   ///< share of the balls
+  double diameter = 0;   ///< Sauter mean, m
+
+  /// Adds the values of another, times a weight; `known` stays.
+  void add(double weight, const FeltFluid& other);
+};
+
+/// A flow on voxels, trilinear between the centres of those that have fluid, and periodic where the grid is.
+class VoxelField {
+ public:
+  /// No fluid anywhere.
+  explicit VoxelField(const averaging::BoxGrid& grid);
+  /// @param fields  on the grid
+  VoxelField(const averaging::BoxGrid& grid, const averaging::BallFields& fields);
+
+  /// The flow at a point (m, lab frame); not known where none of the eight voxels around it has fluid.
+  FeltFluid at(const Vector& point) const;
+
+ private:
+  /// The voxels around a point along an axis; -1: beyond the box.
+  struct Neighbours {
+    std::array<int, 2> voxel;
+    std::array<double, 2> weight;
+  };
+
+  Neighbours around(double coordinate, std::size_t axis) const;
+
+  averaging::BoxGrid grid_;
+  std::vector<FeltFluid> voxels_;
+};
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Balls and flow at the same time: two programs that exchange forces and averages, and resume at the same time."""
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from ..files.data_files import read_json
+
+EXCHANGE = "exchange"  # folder of the pipes, in the case
+BALLS_LOG = "log.balls"
+WAIT = 0.2  # s, between two looks at the programs
+
+
+class TogetherError(RuntimeError):
+    """One of the two programs has failed."""
+
+
+def flow_folders(case: Path) -> list[Path]:
+    """Folders with the flow's times: one for each rank, or the case."""
+    return sorted(case.glob("processor[0-9]*")) or [case]
+
+
+def flow_times(folder: Path) -> dict[str, float]:
+    """Name -> flow time (s) of the times after 0 in a folder."""
+    found = {}
+    for path in folder.iterdir():
+        try:
+            value = float(path.name)
+        except ValueError:
+            continue
+        if path.is_dir() and value > 0:
+            found[path.name] = value
+    return found
+
+
+def restart_times(case: Path) -> dict[Path, float]:
+    """Restart file -> flow time (s) of a run of balls with a flow, oldest first; none if it has not begun."""
+    order = case / "dem" / "fluid.json"
+    if not order.is_file():
+        return {}
+    content = read_json(order, "fluid")
+    begin, step = content["exchange"]["begin"], content["timestep_s"]
+    files = sorted((int(path.suffix[1:]), path) for path in (case / "dem").glob("restart.*")
+                   if path.suffix[1:].isdigit())
+    return {path: (number - begin) * step for number, path in files if number > begin}
+
+
+def align(case: Path) -> float:
+    """Makes both programs resume at the same time: removes what one of them has beyond the latest time that both
+    have, and returns that time, s. 0: they begin anew."""
+    restarts = restart_times(case)
+    folders = flow_folders(case)
+    interval = read_json(case / "dem" / "fluid.json", "fluid")["timestep_s"] if restarts else 0.0
+    common = 0.0
+    for at in restarts.values():
+        if all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders):
+            common = max(common, at)
+    for path, at in restarts.items():
+        if at > common + interval:
+            path.unlink()
+    for folder in folders:
+        for name, value in flow_times(folder).items():
+            if value > common + interval:
+                shutil.rmtree(folder / name)
+    return common
+
+
+def run_together(balls: Sequence[str], flow: Sequence[str], case: Path) -> None:
+    """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to the
+    output of this program. Each ends when this program is killed. If one fails, the other is ended. TogetherError
+    with the last lines of the balls' log if they fail, or with the flow's exit code."""
+    for pipe in (case / EXCHANGE).glob("to_*"):
+        pipe.unlink()
+
+    def start(command: Sequence[str], out: int | None) -> subprocess.Popen[bytes]:
+        return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, stdout=out,
+                                stderr=subprocess.STDOUT if out else None)
+    log = case / BALLS_LOG
+    with open(log, "wb") as out:
+        programs = {"millDem": start(balls, out.fileno()), Path(flow[0]).name: start(flow, None)}
+    try:
+        while any(program.poll() is None for program in programs.values()):
+            if any(program.poll() for program in programs.values()):
+                # The other one notices that the pipe is closed, unless it waits for its opening
+                time.sleep(10 * WAIT)
+                break
+            time.sleep(WAIT)
+    finally:
+        for program in programs.values():
+            if program.poll() is None:
+                program.send_signal(signal.SIGTERM)
+                program.wait()
+    if programs["millDem"].returncode > 0:
+        lines = log.read_text(errors="replace").splitlines()
+        raise TogetherError(f"millDem failed; {log} ends with:\n" + "\n".join(lines[-15:]))
+    failed = [f"{name} ended with {program.returncode}" for name, program in programs.items() if program.returncode]
+    if failed:
+        raise TogetherError(", ".join(failed))
+    sys.stdout.flush()
