@@ -19,13 +19,6 @@ Triple cross(const Triple& a, const Triple& b) {
 
 }  // namespace
 
-ContactWork& ContactWork::operator+=(const ContactWork& other) {
-  normal += other.normal;
-  tangential += other.tangential;
-  rolling += other.rolling;
-  return *this;
-}
-
 Triple tangential_force(const ContactForce& contact) {
   Triple tangential;
   for (std::size_t k = 0; k < 3; ++k) tangential[k] = contact.force[k] - contact.push * contact.normal[k];

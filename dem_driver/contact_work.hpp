@@ -13,7 +13,12 @@ struct ContactWork {
   double rolling = 0;     ///< of the rest of the torque, rolling friction
   /// The sum of the three, J.
   double total() const { return normal + tangential + rolling; }
-  ContactWork& operator+=(const ContactWork& other);
+  ContactWork& operator+=(const ContactWork& other) {
+    normal += other.normal;
+    tangential += other.tangential;
+    rolling += other.rolling;
+    return *this;
+  }
 };
 
 /// The force of a contact on its first body, which is a ball. The second one, a ball or a wall, feels the
