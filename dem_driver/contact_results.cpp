@@ -40,15 +40,12 @@ long step_of(const SegmentLine& line) {
   return std::lround(line.values.front());
 }
 
-/// A body of a kind: the diameter of a class, m, or the name of a part of the walls.
-std::string name_of(int body, const ContactOrder& order) {
-  if (body < 0) return order.parts[static_cast<std::size_t>(-1 - body)];
-  return shown(order.diameters[static_cast<std::size_t>(body)]);
-}
-
-std::string names_of(int kind, const ContactOrder& order) {
-  const auto bodies = order.kinds().bodies(kind);
-  return name_of(bodies.first, order) + ',' + name_of(bodies.second, order);
+/// The bodies of a kind: diameters, m, 0 of a wall; number of the wall, -1 of two balls.
+std::string bodies_of(int kind, const ContactOrder& order) {
+  const auto [first, second] = order.kinds().bodies(kind);
+  const auto diameter = [&](int of) { return shown(order.diameters[static_cast<std::size_t>(of)]); };
+  if (second < 0) return diameter(first) + ",0," + std::to_string(-1 - second);
+  return diameter(first) + ',' + diameter(second) + ",-1";
 }
 
 void write_work(std::ostream& out, const ContactWork& work, double time) {
@@ -60,13 +57,13 @@ bool is_nothing(const ContactWork& work) {
 }
 
 void write_power(std::ostream& out, const std::vector<ContactBlock>& blocks, const ContactOrder& order) {
-  out << "begin_s,end_s,first,second,normal_W,tangential_W,rolling_W\n" << std::setprecision(8);
+  out << "begin_s,end_s,first_m,second_m,wall,normal_W,tangential_W,rolling_W\n" << std::setprecision(8);
   for (const ContactBlock& block : blocks)
     for (int kind = 0; kind < order.kinds().size(); ++kind) {
       const ContactWork work = block.sums.of(kind).work;
       if (is_nothing(work)) continue;
       out << static_cast<double>(block.step - block.steps) * order.timestep << ','
-          << static_cast<double>(block.step) * order.timestep << ',' << names_of(kind, order);
+          << static_cast<double>(block.step) * order.timestep << ',' << bodies_of(kind, order);
       write_work(out, work, static_cast<double>(block.steps) * order.timestep);
       out << '\n';
     }
@@ -74,7 +71,7 @@ void write_power(std::ostream& out, const std::vector<ContactBlock>& blocks, con
 
 void write_spectra(std::ostream& out, const ContactSpan& span, const ContactOrder& order) {
   const double time = static_cast<double>(span.end - span.begin) * order.timestep;
-  out << "first,second,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_W,rolling_"
+  out << "first_m,second_m,wall,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_W,rolling_"
          "W\n"
       << std::setprecision(8);
   for (int kind = 0; kind < order.kinds().size(); ++kind) {
@@ -82,7 +79,7 @@ void write_spectra(std::ostream& out, const ContactSpan& span, const ContactOrde
     for (int bin = 0; bin < energy_bins; ++bin) {
       const BinSums& in = sums.bins[static_cast<std::size_t>(bin)];
       if (in.touches == 0 && in.collisions == 0) continue;
-      out << names_of(kind, order) << ',' << (bin == 0 ? "-inf" : shown(energy_edge(bin - 1))) << ','
+      out << bodies_of(kind, order) << ',' << (bin == 0 ? "-inf" : shown(energy_edge(bin - 1))) << ','
           << (bin == energy_edges ? "inf" : shown(energy_edge(bin))) << ',' << in.touches / time << ','
           << in.collisions / time;
       write_work(out, in.work, time);
@@ -103,7 +100,7 @@ Json powers_of(const ContactSpan& span, const ContactOrder& order) {
   std::map<std::string, ContactWork> works;
   for (int kind = 0; kind < order.kinds().size(); ++kind) {
     const int second = order.kinds().bodies(kind).second;
-    works[second < 0 ? name_of(second, order) : "balls"] += span.sums.of(kind).work;
+    works[second < 0 ? order.parts[static_cast<std::size_t>(-1 - second)] : "balls"] += span.sums.of(kind).work;
   }
   Json powers;
   for (const auto& [name, work] : works)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from millfoam.files.data_files import read_csv
 from millfoam.files.wall_forces import read_wall_forces
 from millfoam.run import run
 
@@ -190,8 +191,7 @@ class Drum(ContactCase):
         middle, force = cells.corners.mean(axis=1), cells.fields["force_N"]
         moment = np.sum(middle[:, 0] * force[:, 1] - middle[:, 1] * force[:, 0])
         self.assertAlmostEqual(moment / walls["torque_Nm"], 1, delta=0.01)
-        powers = np.genfromtxt(case / "dumps" / "contact_spectra.csv", delimiter=",", names=True, dtype=None,
-                               encoding=None)
+        powers = read_csv(case / "dumps" / "contact_spectra.csv")
         whole = sum(powers[part].sum() for part in ("normal_W", "tangential_W", "rolling_W"))
         self.assertAlmostEqual(whole / contacts["dissipated_W"], 1, delta=0.05)
         self.assertAlmostEqual(powers["touches_per_s"].sum() / contacts["collisions_per_s"], 1, delta=1e-6)
