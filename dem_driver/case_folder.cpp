@@ -95,9 +95,9 @@ FolderLock::~FolderLock() {
 }
 
 void remove_results(const CaseFolder& folder) {
-  for (const auto& file : {folder.run_file(), folder.results(), folder.energy(), folder.fluid(),
-                           folder.contact_power(), folder.contact_spectra(), folder.wall_forces(),
-                           folder.overlaps(), folder.charge()})
+  for (const auto& file :
+       {folder.run_file(), folder.results(), folder.energy(), folder.fluid(), folder.contact_power(),
+        folder.contact_spectra(), folder.wall_forces(), folder.overlaps(), folder.charge()})
     fs::remove(file);
 }
 

@@ -45,9 +45,10 @@ ContactRecord::ContactRecord(const fs::path& folder, const ContactKinds& kinds, 
       bins_(numbered(folder, contact_bins_kind, start),
             "step, kind of contact, bin of energy, touches, collisions, their work (J): normal, tangential, "
             "rolling"),
-      walls_(numbered(folder, wall_cells_kind, start),
-             "step, steps up to it, cell, sums over the steps: contacts, normal and tangential force (N), force "
-             "x y z (N), moment (N m), normal and tangential work (J)") {}
+      walls_(
+          numbered(folder, wall_cells_kind, start),
+          "step, steps up to it, cell, sums over the steps: contacts, normal and tangential force (N), force "
+          "x y z (N), moment (N m), normal and tangential work (J)") {}
 
 void ContactRecord::write(long step, long steps, const ContactSums& sums) {
   for (int kind = 0; kind < kinds_.size(); ++kind) {
@@ -104,7 +105,8 @@ std::optional<ContactState> read_contact_state(const fs::path& folder, long step
   };
   const auto expect = [&](bool good, const char* what) {
     if (!good)
-      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": '" + text + "', expected " + what);
+      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": '" + text + "', expected " +
+                               what);
   };
   std::size_t contacts = 0, numbers = 0;
   expect(static_cast<bool>(line() >> contacts), "a number of contacts");

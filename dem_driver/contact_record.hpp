@@ -21,7 +21,8 @@ inline constexpr char wall_cells_kind[] = "wallCells";
 /// Name of the file beside each restart file, `dem/<name>.<step>.txt`.
 inline constexpr char contact_state_kind[] = "contactState";
 
-/// Writes the segments of a run that begins or resumes at a step. Every call is on the disk before it returns.
+/// Writes the segments of a run that begins or resumes at a step. Every call is on the disk before it
+/// returns.
 class ContactRecord {
  public:
   /// Begins the files. Throws std::runtime_error naming a file that cannot be written.
@@ -53,8 +54,8 @@ struct ContactState {
 /// naming the file.
 void write_contact_state(const std::filesystem::path& folder, long step, const ContactState& state);
 
-/// Reads it back; nothing where there is no such file. Throws std::runtime_error naming file and line where it
-/// cannot be read.
+/// Reads it back; nothing where there is no such file. Throws std::runtime_error naming file and line where
+/// it cannot be read.
 std::optional<ContactState> read_contact_state(const std::filesystem::path& folder, long step);
 
 }  // namespace millfoam::dem_driver

@@ -71,7 +71,8 @@ void write_power(std::ostream& out, const std::vector<ContactBlock>& blocks, con
 
 void write_spectra(std::ostream& out, const ContactSpan& span, const ContactOrder& order) {
   const double time = static_cast<double>(span.end - span.begin) * order.timestep;
-  out << "first_m,second_m,wall,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_W,rolling_"
+  out << "first_m,second_m,wall,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_"
+         "W,rolling_"
          "W\n"
       << std::setprecision(8);
   for (int kind = 0; kind < order.kinds().size(); ++kind) {
@@ -100,7 +101,8 @@ Json powers_of(const ContactSpan& span, const ContactOrder& order) {
   std::map<std::string, ContactWork> works;
   for (int kind = 0; kind < order.kinds().size(); ++kind) {
     const int second = order.kinds().bodies(kind).second;
-    works[second < 0 ? order.parts[static_cast<std::size_t>(-1 - second)] : "balls"] += span.sums.of(kind).work;
+    works[second < 0 ? order.parts[static_cast<std::size_t>(-1 - second)] : "balls"] +=
+        span.sums.of(kind).work;
   }
   Json powers;
   for (const auto& [name, work] : works)
@@ -127,7 +129,8 @@ std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const Co
     expect_numbers(line, 6);
     const auto& v = line.values;
     const long step = step_of(line);
-    auto& block = blocks.try_emplace(step, ContactBlock{step, std::lround(v[1]), ContactSums(kinds)}).first->second;
+    auto& block =
+        blocks.try_emplace(step, ContactBlock{step, std::lround(v[1]), ContactSums(kinds)}).first->second;
     block.sums.add_work(static_cast<int>(index_in(line, 2, count, "a kind")), {v[3], v[4], v[5]});
   }
   for (const auto& line : read_segments(folder, contact_bins_kind)) {
@@ -156,7 +159,8 @@ ContactSpan sum_blocks(const std::vector<ContactBlock>& blocks, const ContactOrd
   return span;
 }
 
-ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order, const std::vector<DriveRow>& rows) {
+ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order,
+                          const std::vector<DriveRow>& rows) {
   ContactBalance balance;
   const double time = static_cast<double>(span.end - span.begin) * order.timestep;
   const ContactWork work = work_of_all(span.sums, order.kinds());
@@ -222,7 +226,8 @@ ContactResults gather_contacts(const CaseFolder& folder, const ContactOrder& ord
 void write_contact_files(const CaseFolder& folder, const ContactResults& contacts) {
   const ContactOrder& order = contacts.order;
   replace_file(folder.contact_power(), [&](std::ostream& out) { write_power(out, contacts.blocks, order); });
-  replace_file(folder.contact_spectra(), [&](std::ostream& out) { write_spectra(out, contacts.span, order); });
+  replace_file(folder.contact_spectra(),
+               [&](std::ostream& out) { write_spectra(out, contacts.span, order); });
   replace_file(folder.wall_forces(), [&](std::ostream& out) {
     write_wall_forces(out, order.cells(), contacts.walls.sums, contacts.walls.begin, contacts.walls.end,
                       order.timestep);

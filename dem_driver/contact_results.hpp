@@ -14,13 +14,13 @@ namespace millfoam::dem_driver {
 
 /// The contacts of some steps that follow each other.
 struct ContactBlock {
-  long step = 0;    ///< the last one
-  long steps = 0;   ///< their number
-  ContactSums sums; ///< over them
+  long step = 0;     ///< the last one
+  long steps = 0;    ///< their number
+  ContactSums sums;  ///< over them
 };
 
-/// All blocks that millLiggghts has written, in order. Throws std::runtime_error naming file and line where they
-/// cannot be read.
+/// All blocks that millLiggghts has written, in order. Throws std::runtime_error naming file and line where
+/// they cannot be read.
 std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const ContactOrder& order);
 
 /// Sums over the steps after `begin` up to `end`.
@@ -30,8 +30,8 @@ struct ContactSpan {
   ContactSums sums;
 };
 
-/// The blocks that begin at `from` (a step) or later, but at least the last one; not the run's first block, if
-/// there are others, because energies at its begin are not recorded.
+/// The blocks that begin at `from` (a step) or later, but at least the last one; not the run's first block,
+/// if there are others, because energies at its begin are not recorded.
 ContactSpan sum_blocks(const std::vector<ContactBlock>& blocks, const ContactOrder& order, long from);
 
 /// What the mill gives to the charge at one record.
@@ -44,16 +44,17 @@ struct DriveRow {
 
 /// What the contacts take and what the drive gives, in the same steps, W.
 struct ContactBalance {
-  ContactWork power;   ///< of the contacts
-  double drive = 0;    ///< of the mill's drive, and of the fluid
-  double gain = 0;     ///< of the charge's kinetic energy of translation and potential energy
-  double torque = 0;   ///< of the charge on the mill, N m
+  ContactWork power;  ///< of the contacts
+  double drive = 0;   ///< of the mill's drive, and of the fluid
+  double gain = 0;    ///< of the charge's kinetic energy of translation and potential energy
+  double torque = 0;  ///< of the charge on the mill, N m
   double ratio() const { return power.total() / (drive - gain); }
 };
 
 /// The balance of a span. A span that begins before the first row has the gain from that row on. Throws
 /// std::runtime_error where rows are missing.
-ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order, const std::vector<DriveRow>& rows);
+ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order,
+                          const std::vector<DriveRow>& rows);
 
 /// The wall cells of a span.
 struct WallSpan {
@@ -75,7 +76,7 @@ struct ContactResults {
   WallSpan walls;                        ///< of the steady part
   double time() const;                   ///< of `span`, s
   double collisions_per_second() const;  ///< in `span`
-  double wall_torque() const;            ///< of the forces on the wall cells about the axis, N m, mean over `walls`
+  double wall_torque() const;  ///< of the forces on the wall cells about the axis, N m, mean over `walls`
 };
 
 /// Reads what millLiggghts has written. Throws as the functions above.

@@ -82,14 +82,15 @@ struct OpenContact {
   ContactWork work;       ///< since its first touch
 };
 
-/// Follows every contact from its first touch to its separation. Touches of one ball with several triangles of
-/// one part of the walls are one contact.
+/// Follows every contact from its first touch to its separation. Touches of one ball with several triangles
+/// of one part of the walls are one contact.
 class ContactStatistics {
  public:
   explicit ContactStatistics(const ContactKinds& kinds);
   /// A contact in this step.
   /// @param ball, other, kind  as OpenContact
-  /// @param energy  of the motion along the normal and of the spring, J: at first touch, the collision's energy
+  /// @param energy  of the motion along the normal and of the spring, J: at first touch, the collision's
+  /// energy
   void add(std::int32_t ball, std::int32_t other, int kind, double energy, const ContactWork& work);
   /// Ends the step: contacts that were not in it have ended.
   void end_step();

@@ -34,18 +34,18 @@ struct ContactForce {
 
 /// The motion of the two bodies of a contact.
 struct ContactMotion {
-  std::array<double, 3> velocity = {};    ///< of the first body less that of the second, m/s; of a wall, at the
-                                          ///< contact
-  std::array<double, 3> spin = {};        ///< of the first, rad/s
+  std::array<double, 3> velocity = {};  ///< of the first body less that of the second, m/s; of a wall, at the
+                                        ///< contact
+  std::array<double, 3> spin = {};      ///< of the first, rad/s
   std::array<double, 3> other_spin = {};  ///< of the second, rad/s; 0 of a wall
 };
 
 /// The tangential part of the force, N.
 std::array<double, 3> tangential_force(const ContactForce& contact);
 
-/// The work of one step, -(F . v + T . w) dt, in three parts. It is exact for the velocity Verlet method, whose
-/// force of step n changes the kinetic energy between the half steps before and after n, if the motion is that
-/// of the whole step n, and the force is the one that LIGGGHTS applied at n.
+/// The work of one step, -(F . v + T . w) dt, in three parts. It is exact for the velocity Verlet method,
+/// whose force of step n changes the kinetic energy between the half steps before and after n, if the motion
+/// is that of the whole step n, and the force is the one that LIGGGHTS applied at n.
 /// @param timestep  dt, s
 ContactWork work_of(const ContactForce& contact, const ContactMotion& motion, double timestep);
 

@@ -30,8 +30,8 @@ struct DemPlan {
   long contact_dumps = 0;  ///< of the turning mill, with the one at step `begin`, if it has one
   long restart_steps = 0;  ///< between two restart files of the turning mill, a whole number of records
   FluidSettings fluid;     ///< that pushes the balls
-  bool watches_contacts = false;  ///< whether every contact is followed in every step
-  bool continues() const { return begin > 0; }             ///< from the last state of another run
+  bool watches_contacts = false;                ///< whether every contact is followed in every step
+  bool continues() const { return begin > 0; }  ///< from the last state of another run
   long end_step() const { return begin + turning_steps; }  ///< last step of the turning mill
   long insertions() const;     ///< single insertions of all rounds; each takes one step
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another

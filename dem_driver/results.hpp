@@ -60,14 +60,15 @@ struct Results {
   Steadiness potential_steadiness;  ///< of the potential energy, J
   /// Of two balls; the largest is that of all records too, not only of the histograms.
   OverlapStatistics ball_overlaps;
-  OverlapStatistics wall_overlaps;  ///< of balls and walls
+  OverlapStatistics wall_overlaps;         ///< of balls and walls
   std::optional<ContactResults> contacts;  ///< of a run that follows its contacts
-  bool steady() const;              ///< whether power and both energies are
-  double steady_from() const;       ///< s, the latest of the three
+  bool steady() const;                     ///< whether power and both energies are
+  double steady_from() const;              ///< s, the latest of the three
 };
 
-/// Reads what LIGGGHTS has written and judges it. Throws as read_history, read_overlaps and gather_contacts do, and RunError
-/// when LIGGGHTS has not written a record of torque and energy for every dump, or none of the fluid.
+/// Reads what LIGGGHTS has written and judges it. Throws as read_history, read_overlaps and gather_contacts
+/// do, and RunError when LIGGGHTS has not written a record of torque and energy for every dump, or none of
+/// the fluid.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 

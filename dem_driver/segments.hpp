@@ -17,7 +17,7 @@ struct NumberedFile {
 };
 
 /// What a run writes in segments: every resumed run begins its own files.
-inline constexpr const char* segment_kinds[] = {"torque",      "energy",      "fluid",    "ballOverlaps",
+inline constexpr const char* segment_kinds[] = {"torque",       "energy",      "fluid",       "ballOverlaps",
                                                 "wallOverlaps", "contactWork", "contactBins", "wallCells"};
 
 /// Every `dem/<kind>.<step>.txt`, by step.

@@ -38,7 +38,8 @@ WallCells::WallCells(const std::filesystem::path& folder, const std::vector<std:
   for (const auto& name : parts) {
     Part part{name, {}, {}, {}};
     for (const auto& read : surface::read_stl(folder / (name + ".stl"))) {
-      const Triangle triangle{array_of(read.corners[0]), array_of(read.corners[1]), array_of(read.corners[2])};
+      const Triangle triangle{array_of(read.corners[0]), array_of(read.corners[1]),
+                              array_of(read.corners[2])};
       const double wished = std::ceil(longest_edge(triangle) / longest * (1 - 1e-9));
       const int n = static_cast<int>(std::clamp<double>(wished, 1, most_divisions));
       part.triangles.push_back(triangle);
@@ -106,15 +107,9 @@ double area_of(const Triangle& triangle) {
 void WallSums::add(std::size_t cell, const ContactForce& contact, double moment, const ContactWork& work) {
   const auto tangential = tangential_force(contact);
   const double shear = std::hypot(tangential[0], tangential[1], tangential[2]);
-  const double values[numbers_per_wall_cell] = {1,
-                                                contact.push,
-                                                shear,
-                                                -contact.force[0],
-                                                -contact.force[1],
-                                                -contact.force[2],
-                                                moment,
-                                                work.normal,
-                                                work.tangential};
+  const double values[numbers_per_wall_cell] = {
+      1,      contact.push, shear,          -contact.force[0], -contact.force[1], -contact.force[2],
+      moment, work.normal,  work.tangential};
   add(cell, values);
 }
 

@@ -14,16 +14,16 @@ namespace millfoam::dem_driver {
 /// Three corners, m.
 using Triangle = std::array<std::array<double, 3>, 3>;
 
-/// Sums over the contacts of one wall cell in some steps. The forces are those of the balls on the wall, in the
-/// frame that turns with the mill.
+/// Sums over the contacts of one wall cell in some steps. The forces are those of the balls on the wall, in
+/// the frame that turns with the mill.
 struct WallCellSums {
-  double contacts = 0;                ///< times steps
-  double push = 0;                    ///< forces along the contacts' normals, N times steps
-  double shear = 0;                   ///< magnitudes of the tangential forces, N times steps
-  std::array<double, 3> force = {};   ///< whole forces, N times steps
-  double moment = 0;                  ///< of the forces about the axis, N m times steps
-  double normal_work = 0;             ///< J
-  double tangential_work = 0;         ///< J, of sliding, tangential damping and springs
+  double contacts = 0;               ///< times steps
+  double push = 0;                   ///< forces along the contacts' normals, N times steps
+  double shear = 0;                  ///< magnitudes of the tangential forces, N times steps
+  std::array<double, 3> force = {};  ///< whole forces, N times steps
+  double moment = 0;                 ///< of the forces about the axis, N m times steps
+  double normal_work = 0;            ///< J
+  double tangential_work = 0;        ///< J, of sliding, tangential damping and springs
 };
 
 /// The walls of a mill, cut into cells: each triangle of a wall file into n^2 equal ones, so that no edge is
@@ -33,9 +33,9 @@ class WallCells {
   /// One part of the walls.
   struct Part {
     std::string name;
-    std::vector<Triangle> triangles;   ///< in the order of the file
-    std::vector<int> divisions;        ///< n of each
-    std::vector<std::size_t> first;    ///< the first cell of each
+    std::vector<Triangle> triangles;  ///< in the order of the file
+    std::vector<int> divisions;       ///< n of each
+    std::vector<std::size_t> first;   ///< the first cell of each
   };
   /// Reads `<folder>/<part>.stl` of each part. Throws std::runtime_error naming a file that cannot be read.
   /// @param longest  of the cells' edges, m; a triangle is cut into `most_divisions`^2 cells at most

@@ -13,8 +13,8 @@ namespace {
 constexpr int digits = 8;
 
 /// One field of the cells; `write` writes the numbers of a cell.
-void write_field(std::ostream& out, const char* type, const std::string& name, int components, std::size_t cells,
-                 const std::function<void(std::size_t)>& write) {
+void write_field(std::ostream& out, const char* type, const std::string& name, int components,
+                 std::size_t cells, const std::function<void(std::size_t)>& write) {
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
       << "\" format=\"ascii\">\n";
   for (std::size_t cell = 0; cell < cells; ++cell) {
@@ -49,7 +49,8 @@ void write_wall_forces(std::ostream& out, const WallCells& cells, const WallSums
   out.precision(digits);
   out << "<?xml version=\"1.0\"?>\n<!-- parts:";
   for (const auto& part : cells.parts()) out << ' ' << part.name;
-  out << "; DEM time " << static_cast<double>(begin) * timestep << " to " << static_cast<double>(end) * timestep
+  out << "; DEM time " << static_cast<double>(begin) * timestep << " to "
+      << static_cast<double>(end) * timestep
       << " s -->\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
       << "<Piece NumberOfPoints=\"" << 3 * cells.size() << "\" NumberOfPolys=\"" << cells.size() << "\">\n";
   write_geometry(out, corners);

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The headers of the contact models come first: they need the lists of models that CMakeLists.txt writes.
-#include <liggghts/contact_models.h>
-//
-#include <liggghts/fix_insert_stream.h>
-//
-#include <liggghts/fix_wall_gran_base.h>
-#include <liggghts/pair_gran_base.h>
-//
 #include "dem_driver/tools/contact_watch.hpp"
 
 #include <liggghts/atom.h>
 #include <liggghts/comm.h>
 #include <liggghts/fix.h>
 #include <liggghts/fix_mesh_surface.h>
+#include <liggghts/lammps.h>
 #include <liggghts/modify.h>
 #include <liggghts/neighbor.h>
 #include <liggghts/update.h>
 #include <mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -31,30 +25,14 @@
 #include "dem_driver/contact_record.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/tools/stop.hpp"
+#include "dem_driver/tools/watched_model.hpp"
 
 namespace millfoam::dem_driver {
 
 namespace {
 
-namespace models = LIGGGHTS::ContactModels;
 using LAMMPS_NS::LAMMPS;
 using Triple = std::array<double, 3>;
-
-/// A contact as the contact model has computed it in this step.
-struct Seen {
-  int ball = 0;   ///< index of the ball, which is the first body
-  int other = 0;  ///< of the second one, or not used
-  double energy = 0;
-  ContactForce contact;
-};
-
-/// One at a wall.
-struct SeenAtWall : Seen {
-  LAMMPS_NS::FixMeshSurface* part = nullptr;
-  int triangle = 0;
-  Triple velocity = {};  ///< of the wall
-  Triple point = {};     ///< lab frame
-};
 
 Triple triple_of(const double* values) {
   return {values[0], values[1], values[2]};
@@ -67,78 +45,6 @@ Triple minus(const double* first, const double* second) {
 Triple turned(const Triple& vector, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]};
-}
-
-/// What the contact model hands over during a step. LIGGGHTS has one pair style and one fix of walls, and makes
-/// them itself, so there is one such place for all.
-class Collector {
- public:
-  void add(const models::SurfacesIntersectData& data, const models::ForceData& on_ball);
-  void follow(const LAMMPS_NS::Atom* atom) { atom_ = atom; }
-  void clear() {
-    balls.clear();
-    walls.clear();
-  }
-  std::vector<Seen> balls;
-  std::vector<SeenAtWall> walls;
-
- private:
-  const LAMMPS_NS::Atom* atom_ = nullptr;  ///< nothing: contacts are not followed
-};
-
-Collector collector;
-
-void Collector::add(const models::SurfacesIntersectData& data, const models::ForceData& on_ball) {
-  if (atom_ == nullptr || !data.computeflag || !data.shearupdate) return;
-  // Each rank with one of the two balls computes a contact; the one that has the lower id counts it
-  if (!data.is_wall && data.j >= atom_->nlocal && atom_->tag[data.i] > atom_->tag[data.j]) return;
-  Seen seen;
-  seen.ball = data.i;
-  seen.other = data.j;
-  seen.energy = data.meff * data.vn * data.vn / 2 + 0.4 * data.kn * data.deltan * data.deltan;
-  seen.contact = {triple_of(data.en),
-                  data.Fn,
-                  triple_of(on_ball.delta_F),
-                  triple_of(on_ball.delta_torque),
-                  data.cri,
-                  data.is_wall ? 0 : data.crj};
-  if (!data.is_wall) {
-    balls.push_back(seen);
-    return;
-  }
-  walls.push_back({seen, data.fix_mesh, data.fix_mesh->triMesh()->id(data.j), triple_of(data.v_j),
-                   minus(atom_->x[data.i], data.delta)});
-}
-
-constexpr int watched_surface = 41;  // of LIGGGHTS' numbers up to 63 one that is free
-using Style = models::GranStyle<models::HERTZ, models::TANGENTIAL_HISTORY, models::COHESION_OFF,
-                                models::ROLLING_CDT, models::SURFACE_DEFAULT>;
-using WatchedStyle = models::GranStyle<models::HERTZ, models::TANGENTIAL_HISTORY, models::COHESION_OFF,
-                                       models::ROLLING_CDT, watched_surface>;
-
-/// The contact model of the decks. LIGGGHTS' templates call it, so its functions hide those of the base.
-class WatchedModel : public models::ContactModel<Style> {
- public:
-  using Base = models::ContactModel<Style>;
-  using Base::Base;
-  int64_t hashcode() { return WatchedStyle::HASHCODE; }
-  void surfacesIntersect(models::SurfacesIntersectData& data, models::ForceData& first,
-                         models::ForceData& second) {
-    Base::surfacesIntersect(data, first, second);
-    collector.add(data, first);
-  }
-};
-
-using WatchedPair = LIGGGHTS::PairStyles::Granular<WatchedModel>;
-using WatchedWall = LIGGGHTS::Walls::Granular<WatchedModel>;
-
-LIGGGHTS::PairStyles::IGranularPairStyle* make_pair_style(LAMMPS* liggghts, LAMMPS_NS::PairGran* parent,
-                                                          int64_t hash) {
-  return new WatchedPair(liggghts, parent, hash);
-}
-
-LIGGGHTS::Walls::IGranularWall* make_wall(LAMMPS* liggghts, LAMMPS_NS::FixWallGran* parent, int64_t hash) {
-  return new WatchedWall(liggghts, parent, hash);
 }
 
 /// Gathers a vector of plain values of all ranks, on rank 0 or on all.
@@ -194,7 +100,7 @@ class WatchFix : public LAMMPS_NS::Fix {
   int setmask() override { return LAMMPS_NS::FixConst::END_OF_STEP; }
 
   void setup(int) override {
-    collector.clear();
+    collector().clear();
     moved_ = true;
   }
 
@@ -219,16 +125,17 @@ class WatchFix : public LAMMPS_NS::Fix {
     record_.emplace(".", kinds_, start_);
     const auto state = read_contact_state(".", start_);
     if (!state) return;
+    resumes_ = 1;
     homeless_ = state->open;
     wall_steps_ = state->wall_steps;
     if (!state->wall_numbers.empty()) wall_totals_.numbers = state->wall_numbers;
   }
 
-  /// After LIGGGHTS' first exchange of balls: whether the run resumes, and that the walls are those of the files.
+  /// After LIGGGHTS' first exchange of balls: whether the run resumes, and that the walls are those of the
+  /// files.
   void begin_following() {
-    int resumes = homeless_.empty() ? 0 : 1;
-    MPI_Bcast(&resumes, 1, MPI_INT, 0, world);
-    statistics_.count_touches(resumes != 0);
+    MPI_Bcast(&resumes_, 1, MPI_INT, 0, world);
+    statistics_.count_touches(resumes_ != 0);
     MPI_Bcast(&wall_steps_, 1, MPI_LONG, 0, world);
     require_walls();
     begun_ = true;
@@ -247,7 +154,8 @@ class WatchFix : public LAMMPS_NS::Fix {
           node = in_mill(node);
           double nearest = order_.cell_edge;
           for (const auto& corner : triangles[number])
-            nearest = std::min(nearest, std::hypot(node[0] - corner[0], node[1] - corner[1], node[2] - corner[2]));
+            nearest =
+                std::min(nearest, std::hypot(node[0] - corner[0], node[1] - corner[1], node[2] - corner[2]));
           same = nearest < 1e-3 * order_.cell_edge;
         }
         if (!same)
@@ -259,7 +167,8 @@ class WatchFix : public LAMMPS_NS::Fix {
 
   /// From the lab frame to the frame of the wall files.
   Triple in_mill(const Triple& vector) const {
-    return turned(vector, -order_.angular_velocity * order_.timestep * static_cast<double>(update->ntimestep));
+    return turned(vector,
+                  -order_.angular_velocity * order_.timestep * static_cast<double>(update->ntimestep));
   }
 
   void follow(long step) {
@@ -268,9 +177,9 @@ class WatchFix : public LAMMPS_NS::Fix {
     comm->forward_comm();
     if (moved_ || neighbor->ago == 0) hand_over();
     moved_ = false;
-    for (const Seen& seen : collector.balls) add(seen);
-    for (const SeenAtWall& seen : collector.walls) add(seen);
-    collector.clear();
+    for (const Seen& seen : collector().balls) add(seen);
+    for (const SeenAtWall& seen : collector().walls) add(seen);
+    collector().clear();
     statistics_.end_step();
     statistics_.count_touches(true);
     ++wall_steps_;
@@ -353,6 +262,7 @@ class WatchFix : public LAMMPS_NS::Fix {
   std::vector<LAMMPS_NS::FixMeshSurface*> parts_;
   std::optional<ContactRecord> record_;  ///< of rank 0
   std::vector<OpenContact> homeless_;    ///< read from a file, not yet on the rank of their ball
+  int resumes_ = 0;                      ///< whether the run before has left its contacts
   long start_;
   long last_;  ///< step of the last block
   long wall_steps_ = 0;
@@ -361,13 +271,6 @@ class WatchFix : public LAMMPS_NS::Fix {
 };
 
 }  // namespace
-
-void add_watched_model() {
-  models::Factory::instance().addSurfaceModel(watched_surface_model, watched_surface);
-  LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(WatchedStyle::HASHCODE),
-                                                     make_pair_style);
-  LIGGGHTS::Walls::Factory::instance().addStyle("gran", static_cast<int>(WatchedStyle::HASHCODE), make_wall);
-}
 
 void watch_contacts(LAMMPS& liggghts, const std::filesystem::path& order) {
   // LIGGGHTS' list of fixes takes only styles that it knows, so an idle one of its own is exchanged
@@ -382,7 +285,7 @@ void watch_contacts(LAMMPS& liggghts, const std::filesystem::path& order) {
   delete modify.fix[index];
   modify.fix[index] = fix.release();
   modify.fmask[index] = modify.fix[index]->setmask();
-  collector.follow(liggghts.atom);
+  collector().follow(liggghts.atom);
 }
 
 }  // namespace millfoam::dem_driver

@@ -9,15 +9,11 @@ class LAMMPS;
 
 namespace millfoam::dem_driver {
 
-/// Adds the surface model `watched` (deck.hpp) to LIGGGHTS' library: the contact model of the decks, which also
-/// shows its contacts to `watch_contacts`. To be called before the deck is read.
-void add_watched_model();
-
 /// From now on follows every contact in every step and writes the segments of contact_record.hpp into the
 /// present folder.
 /// @param order  contacts.json
-/// Throws std::runtime_error naming a file that cannot be read or written, and where the walls in LIGGGHTS are
-/// not those of the files.
+/// Throws std::runtime_error naming a file that cannot be read or written, and where the walls in LIGGGHTS
+/// are not those of the files.
 void watch_contacts(LAMMPS_NS::LAMMPS& liggghts, const std::filesystem::path& order);
 
 }  // namespace millfoam::dem_driver

@@ -26,6 +26,7 @@
 #include "dem_driver/fluid_settings.hpp"
 #include "dem_driver/tools/contact_watch.hpp"
 #include "dem_driver/tools/stop.hpp"
+#include "dem_driver/tools/watched_model.hpp"
 
 namespace {
 
@@ -129,8 +130,8 @@ std::string deck_name(int argc, char** argv) {
   throw std::runtime_error("expected -in DECK");
 }
 
-/// Feeds the deck to LIGGGHTS line by line, gives its fluid's fixes their forces as soon as they are there, and
-/// follows the contacts from the deck's `watch_command` on.
+/// Feeds the deck to LIGGGHTS line by line, gives its fluid's fixes their forces as soon as they are there,
+/// and follows the contacts from the deck's `watch_command` on.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
   add_watched_model();

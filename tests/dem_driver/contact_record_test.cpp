@@ -84,9 +84,10 @@ TEST_F(ContactRecordTest, TheStateIsReadBackAsItWasWritten) {
 
 TEST_F(ContactRecordTest, ADamagedStateIsRefusedWithItsLine) {
   const auto file = folder_.dem() / "contactState.30.txt";
-  for (const auto& [text, place] : {std::pair{"2\n3 7 1 1 2 3\n", ":3: '', expected a contact"},
-                                    {"0\n5 2\n7 1.5\nend\n", ":3: '7 1.5', expected a number of the walls"},
-                                    {"0\n5 2\n1 1.5\n", ":4: '', expected a number of the walls, or 'end'"}}) {
+  for (const auto& [text, place] :
+       {std::pair{"2\n3 7 1 1 2 3\n", ":3: '', expected a contact"},
+        {"0\n5 2\n7 1.5\nend\n", ":3: '7 1.5', expected a number of the walls"},
+        {"0\n5 2\n1 1.5\n", ":4: '', expected a number of the walls, or 'end'"}}) {
     std::ofstream(file) << text;
     const std::string message = message_of([&] { read_contact_state(folder_.dem(), 30); });
     EXPECT_NE(message.find(file.string() + place), std::string::npos) << message;

@@ -19,10 +19,11 @@ using tests::TemporaryFolder;
 class WallCellsTest : public ::testing::Test {
  protected:
   WallCellsTest() {
-    std::ofstream(temporary_.path() / "plate.stl")
-        << "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 0.03 0 0.1\nvertex 0 0.03 0.1\n"
-           "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 0.03 0.03 0.1\nvertex 0 0.03 0.1\nvertex "
-           "0.03 0 0.1\nendloop\nendfacet\nendsolid plate\n";
+    std::ofstream(temporary_.path() / "plate.stl") << "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 "
+                                                      "0 0.1\nvertex 0.03 0 0.1\nvertex 0 0.03 0.1\n"
+                                                      "endloop\nendfacet\nfacet normal 0 0 1\nouter "
+                                                      "loop\nvertex 0.03 0.03 0.1\nvertex 0 0.03 0.1\nvertex "
+                                                      "0.03 0 0.1\nendloop\nendfacet\nendsolid plate\n";
   }
   TemporaryFolder temporary_;
 };
@@ -82,7 +83,8 @@ TEST_F(WallCellsTest, TheFileHasTheMeansOfTheCells) {
   write_wall_forces(out, cells, sums, 10, 20, 0.1);
   const auto field = [&](const std::string& name) {
     const std::string text = out.str();
-    std::istringstream in(text.substr(text.find("format=\"ascii\">", text.find("Name=\"" + name + '"')) + 15));
+    std::istringstream in(
+        text.substr(text.find("format=\"ascii\">", text.find("Name=\"" + name + '"')) + 15));
     double first = 0, second = 0;
     in >> first >> second;
     EXPECT_EQ(first, 0) << name;

@@ -32,15 +32,15 @@ def statistics_cards(case: MillCase) -> list[str]:
                         note="Between balls of two diameters, and between balls and the wall. From the collisions that "
                              "ended in this time."),
              page.table(*part_table(case), title="Where the drive's power goes",
-                        note=f"{span} Sliding includes the tangential damper. The contacts must dissipate what the "
-                             "drive gives, minus the gain of the charge's kinetic and potential energy.")]
+                        note=f"{span} Sliding includes the tangential damper. The contacts must dissipate what "
+                             "the drive gives, minus the gain of the charge's kinetic and potential energy.")]
     path = case.dry / "wall_forces.vtp"
     if path.is_file() and case.mill.lifters[0]:
         walls = read_wall_forces(path)
         cards.append(page.picture(liner_figure(case, walls), "The liner around one lifter, over the axis and over all "
                                   f"{case.mill.lifters[0]} lifters. The arrow shows where it moves to. Means over time "
-                                  "and area: force of the balls along the contacts' normals; work of impacts, which the "
-                                  "normal force dissipates; work of sliding, which wears the liner. DEM time "
+                                  "and area: force of the balls along the contacts' normals; work of impacts, which "
+                                  "the normal force dissipates; work of sliding, which wears the liner. DEM time "
                                   f"{walls.begin:.3g} to {walls.end:.3g} s.", title="Load of the liner"))
     return cards
 
