@@ -105,8 +105,7 @@ double area_of(const Triangle& triangle) {
 }
 
 void WallSums::add(std::size_t cell, const ContactForce& contact, double moment, const ContactWork& work) {
-  const auto tangential = tangential_force(contact);
-  const double shear = std::hypot(tangential[0], tangential[1], tangential[2]);
+  const double shear = vector_of(tangential_force(contact)).norm();
   const double values[numbers_per_wall_cell] = {
       1,      contact.push, shear,          -contact.force[0], -contact.force[1], -contact.force[2],
       moment, work.normal,  work.tangential};

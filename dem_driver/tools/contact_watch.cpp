@@ -42,11 +42,6 @@ Triple minus(const double* first, const double* second) {
   return {first[0] - second[0], first[1] - second[1], first[2] - second[2]};
 }
 
-Triple turned(const Triple& vector, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * vector[0] - s * vector[1], s * vector[0] + c * vector[1], vector[2]};
-}
-
 /// Gathers a vector of plain values of all ranks, on rank 0 or on all.
 template <typename Value>
 std::vector<Value> gather(const std::vector<Value>& values, MPI_Comm world, bool on_all) {
@@ -167,15 +162,20 @@ class WatchFix : public LAMMPS_NS::Fix {
 
   /// From the lab frame to the frame of the wall files.
   Triple in_mill(const Triple& vector) const {
-    return turned(vector,
-                  -order_.angular_velocity * order_.timestep * static_cast<double>(update->ntimestep));
+    return {cosine_ * vector[0] + sine_ * vector[1], cosine_ * vector[1] - sine_ * vector[0], vector[2]};
   }
 
   void follow(long step) {
+    const double angle = order_.angular_velocity * order_.timestep * static_cast<double>(step);
+    cosine_ = std::cos(angle);
+    sine_ = std::sin(angle);
     if (!begun_) begin_following();
     // The velocities of the other ranks' balls are those of the half step before
     comm->forward_comm();
-    if (moved_ || neighbor->ago == 0) hand_over();
+    if (moved_ || neighbor->ago == 0) {
+      hand_over();
+      find_classes();
+    }
     moved_ = false;
     for (const Seen& seen : collector().balls) add(seen);
     for (const SeenAtWall& seen : collector().walls) add(seen);
@@ -199,12 +199,18 @@ class WatchFix : public LAMMPS_NS::Fix {
       if (is_here(contact)) statistics_.put(contact);
   }
 
-  int class_of(int ball) const {
-    const double diameter = 2 * atom->radius[ball];
+  /// The class of each ball, ghosts too: that of the nearest diameter.
+  void find_classes() {
+    classes_.resize(static_cast<std::size_t>(atom->nlocal + atom->nghost));
     const auto& all = order_.diameters;
-    const auto nearer = [&](double a, double b) { return std::abs(a - diameter) < std::abs(b - diameter); };
-    return static_cast<int>(std::min_element(all.begin(), all.end(), nearer) - all.begin());
+    for (std::size_t i = 0; i < classes_.size(); ++i) {
+      const double diameter = 2 * atom->radius[i];
+      const auto nearer = [&](double a, double b) { return std::abs(a - diameter) < std::abs(b - diameter); };
+      classes_[i] = static_cast<int>(std::min_element(all.begin(), all.end(), nearer) - all.begin());
+    }
   }
+
+  int class_of(int ball) const { return classes_[static_cast<std::size_t>(ball)]; }
 
   void add(const Seen& seen) {
     const int i = seen.ball, j = seen.other;
@@ -261,11 +267,14 @@ class WatchFix : public LAMMPS_NS::Fix {
   WallSums wall_totals_;  ///< on rank 0, of all ranks until the last block
   std::vector<LAMMPS_NS::FixMeshSurface*> parts_;
   std::optional<ContactRecord> record_;  ///< of rank 0
+  std::vector<int> classes_;             ///< of the balls in LIGGGHTS' order
   std::vector<OpenContact> homeless_;    ///< read from a file, not yet on the rank of their ball
   int resumes_ = 0;                      ///< whether the run before has left its contacts
   long start_;
   long last_;  ///< step of the last block
   long wall_steps_ = 0;
+  double cosine_ = 1;  ///< of the walls' angle
+  double sine_ = 0;
   bool moved_ = true;  ///< whether balls may have changed their rank
   bool begun_ = false;
 };

@@ -8,9 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from millfoam.files.data_files import DataError
+from millfoam.files.mill_case import MillCase
 from millfoam.files.wall_forces import WallForces, read_wall_forces
 from millfoam.readings.contact_statistics import read_statistics, section_means
-from millfoam.report.contact_statistics_cards import sector_outline
+from millfoam.report.checks import all_checks
+from millfoam.report.contact_cards import contact_section
+from millfoam.report.contact_statistics_cards import LOADS, sector_outline
+from report_cases import write_dry
 
 HEAD = ("first_m,second_m,wall,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_W,"
         "rolling_W\n")
@@ -109,6 +113,28 @@ class Liner(unittest.TestCase):
         pieces, means = section_means(walls, outline, 4, ("load",), 1.0)
         self.assertEqual(len(pieces), 2)
         np.testing.assert_allclose(means["load"], [1, 5])
+
+
+class Cards(unittest.TestCase):
+    def test_a_run_with_statistics_shows_them_and_one_with_a_damaged_file_says_so(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        powers = {"normal_W": 1.0, "tangential_W": 2.0, "rolling_W": 0.1}
+        write_dry(folder, contacts={"begin_s": 1.0, "end_s": 2.0, "collisions_per_s": 5e4, "dissipated_W": 6.2,
+                                    "drive_W": 6.0, "gain_W": -0.25, "dissipated_over_drive": 0.992,
+                                    "power": {"shell": powers, "balls": powers}})
+        (folder / "dumps" / "contact_spectra.csv").write_text(HEAD + "0.004,0,0,1e-06,1.584893e-06,5,4,0.1,0.2,0.01\n")
+        fields = "".join(f'<DataArray type="Float64" Name="{name}" NumberOfComponents="1" format="ascii">\n3\n'
+                         "</DataArray>\n" for name in LOADS)
+        (folder / "dumps" / "wall_forces.vtp").write_text(VTP.replace("<CellData>", "<CellData>" + fields))
+        case = MillCase(folder)
+        cards = "".join(contact_section(case, None))
+        for title in ("Spectra of energy", "Power that contacts dissipate", "Where the drive", "at the wall shell"):
+            self.assertIn(title, cards)
+        self.assertEqual("Load of the liner" in cards, case.mill.lifters[0] > 0)
+        checked = {check.name: check.state for check in all_checks(case)}
+        self.assertEqual(checked["Contacts dissipate what the drive gives"], "holds")
+        (folder / "dumps" / "contact_spectra.csv").write_text(HEAD + "0.004,0,0\n")
+        self.assertIn("Contacts cannot be shown", contact_section(MillCase(folder), None)[0])
 
 
 if __name__ == "__main__":
