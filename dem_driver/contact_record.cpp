@@ -40,8 +40,9 @@ void ContactRecord::File::flush() {
 
 ContactRecord::ContactRecord(const fs::path& folder, const ContactKinds& kinds, long start)
     : kinds_(kinds),
-      work_(numbered(folder, contact_work_kind, start),
-            "step, steps up to it, kind of contact, work (J): normal, tangential, rolling"),
+      work_(
+          numbered(folder, contact_work_kind, start),
+          "step, steps up to it, energy of spin (J), kind of contact, work (J): normal, tangential, rolling"),
       bins_(numbered(folder, contact_bins_kind, start),
             "step, kind of contact, bin of energy, touches, collisions, their work (J): normal, tangential, "
             "rolling"),
@@ -50,11 +51,11 @@ ContactRecord::ContactRecord(const fs::path& folder, const ContactKinds& kinds, 
           "step, steps up to it, cell, sums over the steps: contacts, normal and tangential force (N), force "
           "x y z (N), moment (N m), normal and tangential work (J)") {}
 
-void ContactRecord::write(long step, long steps, const ContactSums& sums) {
+void ContactRecord::write(long step, long steps, double spin, const ContactSums& sums) {
   for (int kind = 0; kind < kinds_.size(); ++kind) {
     const KindSums of = sums.of(kind);
-    work_.out << step << ' ' << steps << ' ' << kind << ' ' << of.work.normal << ' ' << of.work.tangential
-              << ' ' << of.work.rolling << '\n';
+    work_.out << step << ' ' << steps << ' ' << spin << ' ' << kind << ' ' << of.work.normal << ' '
+              << of.work.tangential << ' ' << of.work.rolling << '\n';
     for (int bin = 0; bin < energy_bins; ++bin) {
       const BinSums& in = of.bins[static_cast<std::size_t>(bin)];
       if (in.touches != 0 || in.collisions != 0)

@@ -27,8 +27,10 @@ class ContactRecord {
  public:
   /// Begins the files. Throws std::runtime_error naming a file that cannot be written.
   ContactRecord(const std::filesystem::path& folder, const ContactKinds& kinds, long start);
-  /// The sums of the `steps` steps up to `step`. Throws as above.
-  void write(long step, long steps, const ContactSums& sums);
+  /// The sums of the `steps` steps up to `step`.
+  /// @param spin  energy of all balls' spin at the end of `step`, J
+  /// Throws as above.
+  void write(long step, long steps, double spin, const ContactSums& sums);
   /// The same of the wall cells. Throws as above.
   void write(long step, long steps, const WallSums& sums);
 

@@ -126,12 +126,12 @@ std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const Co
   const auto count = static_cast<std::size_t>(kinds.size());
   std::map<long, ContactBlock> blocks;
   for (const auto& line : read_segments(folder, contact_work_kind)) {
-    expect_numbers(line, 6);
+    expect_numbers(line, 7);
     const auto& v = line.values;
     const long step = step_of(line);
-    auto& block =
-        blocks.try_emplace(step, ContactBlock{step, std::lround(v[1]), ContactSums(kinds)}).first->second;
-    block.sums.add_work(static_cast<int>(index_in(line, 2, count, "a kind")), {v[3], v[4], v[5]});
+    auto& block = blocks.try_emplace(step, ContactBlock{step, std::lround(v[1]), v[2], ContactSums(kinds)})
+                      .first->second;
+    block.sums.add_work(static_cast<int>(index_in(line, 3, count, "a kind")), {v[4], v[5], v[6]});
   }
   for (const auto& line : read_segments(folder, contact_bins_kind)) {
     expect_numbers(line, 8);
@@ -152,7 +152,9 @@ ContactSpan sum_blocks(const std::vector<ContactBlock>& blocks, const ContactOrd
   if (blocks.empty()) throw std::runtime_error("contacts: millLiggghts has written no block of them");
   std::size_t first = blocks.size() > 1 ? 1 : 0;
   while (first + 1 < blocks.size() && blocks[first].step - blocks[first].steps < from) ++first;
-  ContactSpan span{blocks[first].step - blocks[first].steps, blocks.back().step, ContactSums(order.kinds())};
+  ContactSpan span{blocks[first].step - blocks[first].steps, blocks.back().step, 0,
+                   ContactSums(order.kinds())};
+  if (first > 0) span.spin_gain = blocks.back().spin - blocks[first - 1].spin;
   for (std::size_t i = first; i < blocks.size(); ++i)
     for (std::size_t k = 0; k < span.sums.numbers.size(); ++k)
       span.sums.numbers[k] += blocks[i].sums.numbers[k];
@@ -177,7 +179,7 @@ ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order,
   balance.drive /= counted;
   balance.torque /= counted;
   const long begin = std::max(span.begin, rows.front().step);
-  balance.gain = (energy_at(rows, span.end) - energy_at(rows, begin)) / time;
+  balance.gain = (energy_at(rows, span.end) - energy_at(rows, begin) + span.spin_gain) / time;
   return balance;
 }
 

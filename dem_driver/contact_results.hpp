@@ -16,6 +16,7 @@ namespace millfoam::dem_driver {
 struct ContactBlock {
   long step = 0;     ///< the last one
   long steps = 0;    ///< their number
+  double spin = 0;   ///< energy of all balls' spin at the end of the last one, J
   ContactSums sums;  ///< over them
 };
 
@@ -27,6 +28,7 @@ std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const Co
 struct ContactSpan {
   long begin = 0;
   long end = 0;
+  double spin_gain = 0;  ///< of the energy of spin, J; 0 where that at the begin is not known
   ContactSums sums;
 };
 
@@ -46,7 +48,7 @@ struct DriveRow {
 struct ContactBalance {
   ContactWork power;  ///< of the contacts
   double drive = 0;   ///< of the mill's drive, and of the fluid
-  double gain = 0;    ///< of the charge's kinetic energy of translation and potential energy
+  double gain = 0;    ///< of the charge's kinetic energy, of spin too, and potential energy
   double torque = 0;  ///< of the charge on the mill, N m
   double ratio() const { return power.total() / (drive - gain); }
 };

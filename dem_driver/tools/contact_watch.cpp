@@ -238,17 +238,29 @@ class WatchFix : public LAMMPS_NS::Fix {
     wall_sums_.add(cell, in_mill_frame, moment, work);
   }
 
+  /// Energy of spin of this rank's balls, J.
+  double spin_energy() const {
+    double energy = 0;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      const double* spin = atom->omega[i];
+      energy += atom->rmass[i] * atom->radius[i] * atom->radius[i] / 5 *
+                (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
+    }
+    return energy;
+  }
+
   void end_block(long step) {
     ContactSums sums(kinds_);
     sums.numbers = reduce(statistics_.sums.numbers, world);
     statistics_.sums.clear();
     const auto wall_numbers = reduce(wall_sums_.numbers, world);
     wall_sums_.clear();
+    const double spin = reduce({spin_energy()}, world).front();
     const auto open = gather(statistics_.open(), world, false);
     const bool ends_walls = wall_steps_ >= order_.wall_steps || step == order_.end_step;
     if (comm->me == 0) {
       for (std::size_t k = 0; k < wall_numbers.size(); ++k) wall_totals_.numbers[k] += wall_numbers[k];
-      record_->write(step, step - last_, sums);
+      record_->write(step, step - last_, spin, sums);
       if (ends_walls) {
         record_->write(step, wall_steps_, wall_totals_);
         wall_totals_.clear();

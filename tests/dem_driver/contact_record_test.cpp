@@ -41,7 +41,7 @@ class ContactRecordTest : public ::testing::Test {
     sums.add_work(0, {work, 0, 0});
     sums.add_touch(0, work);
     sums.add_collision(0, {work, 0, 0});
-    record.write(step, 10, sums);
+    record.write(step, 10, 0.001 * static_cast<double>(step), sums);
   }
 
   TemporaryFolder temporary_;
@@ -110,6 +110,7 @@ TEST_F(ContactRecordTest, ARunThatWasKilledAndResumedHasEachBlockOnce) {
   const auto span = sum_blocks(blocks, order_, 15);
   EXPECT_EQ(span.begin, 20);
   EXPECT_EQ(span.end, 40);
+  EXPECT_NEAR(span.spin_gain, 0.02, 1e-12);
   EXPECT_EQ(span.sums.of(0).work.normal, 7);
   EXPECT_EQ(sum_blocks(blocks, order_, 0).begin, 10);
   EXPECT_EQ(sum_blocks(blocks, order_, 35).begin, 30);
@@ -125,14 +126,14 @@ TEST_F(ContactRecordTest, TheBalanceComparesTheContactsWithTheDriveAndTheGainOfT
     record.write(20, 20, walls);
     record.write(40, 20, walls);
   }
-  // 2 W are dissipated; 2.5 W of the drive less 0.5 W that the charge gains
+  // 2 W are dissipated; 3.5 W of the drive less 0.5 W and, in spin, 1 W that the charge gains
   std::vector<DriveRow> rows;
   for (long step = 5; step <= 40; step += 5)
-    rows.push_back({step, step <= 20 ? 100 : 2.5, 0.3, 0.5 * static_cast<double>(step) * order_.timestep});
+    rows.push_back({step, step <= 20 ? 100 : 3.5, 0.3, 0.5 * static_cast<double>(step) * order_.timestep});
   const auto contacts = gather_contacts(folder_, order_, rows, 20);
   EXPECT_NEAR(contacts.balance.power.total(), 2, 1e-12);
-  EXPECT_NEAR(contacts.balance.drive, 2.5, 1e-12);
-  EXPECT_NEAR(contacts.balance.gain, 0.5, 1e-12);
+  EXPECT_NEAR(contacts.balance.drive, 3.5, 1e-12);
+  EXPECT_NEAR(contacts.balance.gain, 1.5, 1e-12);
   EXPECT_NEAR(contacts.balance.ratio(), 1, 1e-12);
   EXPECT_NEAR(contacts.collisions_per_second(), 2 / 0.02, 1e-9);
   EXPECT_EQ(contacts.walls.begin, 20);

@@ -14,9 +14,9 @@ from . import page
 from .contact_figures import power_table, spectra_figure
 
 # Fields of the wall cells, their colour bars' labels and colours
-LOADS = {"normal_stress_Pa": ("normal force per area, Pa", "viridis"),
-         "impact_power_W_m2": ("power of the normal force\nper area, W/m$^2$", "inferno"),
-         "sliding_power_W_m2": ("power of sliding\nper area, W/m$^2$", "inferno")}
+LOADS = {"normal_stress_Pa": ("normal force,\nPa", "viridis"),
+         "impact_power_W_m2": ("impacts,\nW/m$^2$", "inferno"),
+         "sliding_power_W_m2": ("sliding,\nW/m$^2$", "inferno")}
 
 
 def statistics_cards(case: MillCase) -> list[str]:
@@ -78,7 +78,7 @@ def liner_figure(case: MillCase, walls: WallForces) -> Figure:
     """The section of the liner around one lifter, which points upwards, coloured by its load."""
     outline = sector_outline(case.radius, case.mill.lifters)
     pieces, means = section_means(walls, outline, case.mill.lifters[0], tuple(LOADS), case.lifter_height / 6)
-    figure, axes = plt.subplots(len(LOADS), 1, figsize=(5.4, 1.8 * len(LOADS)), sharex=True, constrained_layout=True)
+    figure, axes = plt.subplots(len(LOADS), 1, figsize=(5.4, 1.9 * len(LOADS)), sharex=True, constrained_layout=True)
     # Turned so that the angle 0 is straight down
     drawn = 1e3 * np.stack([pieces[..., 1], case.radius - pieces[..., 0]], axis=-1)
     for axis, (name, (label, colours)) in zip(axes, LOADS.items()):
