@@ -235,6 +235,11 @@ class Drum(ContactCase):
         # Chaos lets the motion on two ranks differ from its rounding errors on
         np.testing.assert_allclose(works[1], works[0], rtol=1e-5, atol=1e-5 * works[0].max())
 
+    def test_a_run_with_statistics_can_be_planned(self):
+        case = self.make_drum()
+        run(case, "millDem", "plan", "mill.yaml", "--json", "plan.json")
+        self.assertGreater(json.loads((case / "plan.json").read_text())["wall_time_s"], 0)
+
     def test_a_resumed_run_continues_the_open_contacts(self):
         case = self.make_drum()
         self.run_mill(case, "--set", "dem.duration=0.2")
