@@ -95,8 +95,9 @@ FolderLock::~FolderLock() {
 }
 
 void remove_results(const CaseFolder& folder) {
-  for (const auto& file : {folder.run_file(), folder.results(), folder.energy(), folder.fluid(),
-                           folder.overlaps(), folder.charge()})
+  for (const auto& file :
+       {folder.run_file(), folder.results(), folder.energy(), folder.fluid(), folder.contact_power(),
+        folder.contact_spectra(), folder.wall_forces(), folder.overlaps(), folder.charge()})
     fs::remove(file);
 }
 
@@ -105,6 +106,8 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   fs::create_directories(folder.dumps());
   remove_results(folder);
   fs::remove(folder.fluid_order());
+  fs::remove(folder.contact_order());
+  remove_contact_states(folder, [](long) { return true; });
   for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
   for (const char* kind : segment_kinds)
     for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);

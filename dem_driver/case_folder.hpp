@@ -32,6 +32,7 @@ struct CaseFolder {
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
   /// What millLiggghts needs for a fluid besides the deck; only with one.
   std::filesystem::path fluid_order() const { return dem() / "fluid.json"; }
+  std::filesystem::path contact_order() const { return dem() / "contacts.json"; }
   /// Time-step, steps and charge before the run.
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   /// Held by FolderLock.
@@ -44,6 +45,9 @@ struct CaseFolder {
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
   /// What the fluid did to the balls, a row for each record; only with one.
   std::filesystem::path fluid() const { return dumps() / "fluid.csv"; }
+  std::filesystem::path contact_power() const { return dumps() / "contact_power.csv"; }
+  std::filesystem::path contact_spectra() const { return dumps() / "contact_spectra.csv"; }
+  std::filesystem::path wall_forces() const { return dumps() / "wall_forces.vtp"; }
   /// Histograms of the overlaps.
   std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }
   /// Books of the charge, a row for each size class.

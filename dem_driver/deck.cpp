@@ -21,6 +21,11 @@ namespace {
 // within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
+/// The same model, whose contacts are followed.
+std::string model_of(const DemPlan& plan) {
+  return contact_model + (plan.watches_contacts ? std::string(" surface ") + watched_surface_model : "");
+}
+
 /// LIGGGHTS needs a different prime above 10000 for every random stream. Each seed has its own range of
 /// numbers, so that two seeds have no stream in common.
 class Primes {
@@ -126,16 +131,17 @@ void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
                mill.ball_wall.friction);
   write_matrix(out, "rolling", "coefficientRollingFriction", types, mill.ball_ball.rolling_friction,
                mill.ball_wall.rolling_friction);
-  out << "pair_style " << contact_model << "\npair_coeff * *\n"
+  out << "pair_style " << model_of(plan) << "\npair_coeff * *\n"
       << "timestep " << plan.step.value << '\n'
       << "fix gravity all gravity " << meshing::gravity << " vector 0 -1 0\n";
 }
 
-void write_walls(std::ostream& out, const std::vector<std::string>& parts, const AtomTypes& types) {
+void write_walls(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
+                 const AtomTypes& types) {
   for (const auto& part : parts)
     out << "fix " << part << " all mesh/surface/stress file ../walls/" << part << ".stl type " << types.wall()
         << '\n';
-  out << "fix walls all wall/" << contact_model << " mesh n_meshes " << parts.size() << " meshes";
+  out << "fix walls all wall/" << model_of(plan) << " mesh n_meshes " << parts.size() << " meshes";
   for (const auto& part : parts) out << ' ' << part;
   out << '\n';
 }
@@ -282,6 +288,7 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
       << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"
       << "variable now equal step\n";
   write_contacts(out, plan);
+  if (plan.watches_contacts) out << watch_command << '\n';
   out << "run " << plan.end_step() << " upto every " << plan.restart_steps
       << " \"write_restart restart.part\" \"shell mv restart.part restart.${now}\" \"print '" << restart_mark
       << " ${now}'\"\n"
@@ -319,7 +326,7 @@ void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
   write_style(out, mill, plan, ranks);
   write_box(out, mill, types);
   write_physics(out, mill, plan, types);
-  write_walls(out, parts, types);
+  write_walls(out, plan, parts, types);
   write_thermo(out, plan);
   write_charge(out, mill, plan, types);
   if (plan.fluid.acts_at_rest()) out << "unfix " << fluid_at_rest_fix << '\n';
@@ -336,7 +343,7 @@ void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPl
   write_style(out, mill, plan, ranks);
   out << "read_restart restart." << step << '\n';
   write_physics(out, mill, plan, types);
-  write_walls(out, parts, types);
+  write_walls(out, plan, parts, types);
   write_thermo(out, plan);
   out << "fix motion all nve/sphere\n";
   write_turning(out, mill, plan, parts, step);

@@ -31,7 +31,8 @@ struct DemPlan {
   long contact_dumps = 0;  ///< of the turning mill, with the one at step `begin`, if it has one
   long restart_steps = 0;  ///< between two restart files of the turning mill, a whole number of records
   FluidSettings fluid;     ///< that pushes the balls
-  bool continues() const { return begin > 0; }             ///< from the last state of another run
+  bool watches_contacts = false;                ///< whether every contact is followed in every step
+  bool continues() const { return begin > 0; }  ///< from the last state of another run
   long end_step() const { return begin + turning_steps; }  ///< last step of the turning mill
   long insertions() const;     ///< single insertions of all rounds; each takes one step
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
@@ -96,6 +97,12 @@ inline constexpr char finished_mark[] = "millFoam finished";
 inline constexpr char fluid_fix[] = "fluid";
 /// See `fluid_fix`.
 inline constexpr char fluid_at_rest_fix[] = "fluidAtRest";
+
+/// The deck's contact model when every contact is followed: only millLiggghts knows this surface model, which
+/// computes the same forces as the default one.
+inline constexpr char watched_surface_model[] = "watched";
+/// Command of the deck that millLiggghts carries out itself: from here on it follows the contacts.
+inline constexpr char watch_command[] = "watch_contacts";
 
 /// Number of bins of the overlaps' histograms, of equal width from 0 on.
 inline constexpr int overlap_bins = 1000;

@@ -102,6 +102,7 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.contact_steps = steps_between_contacts(mill, plan.step.value);
   plan.fluid = fluid_of(mill);
+  plan.watches_contacts = mill.dem.contact_statistics;
   plan_output(plan);
   return plan;
 }

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "dem_driver/case_folder.hpp"
+#include "dem_driver/contact_order.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
 #include "dem_driver/segments.hpp"
@@ -163,8 +164,10 @@ Cost measure_in(const CaseFolder& folder, const meshing::Mill& mill, int ranks) 
                        folder.walls());
   const DemPlan plan = plan_dem(trial);
   prepare_folders(folder);
-  replace_file(folder.deck(),
-               [&](std::ostream& out) { write_deck(out, trial, plan, find_walls(folder, trial), ranks); });
+  const auto parts = find_walls(folder, trial);
+  replace_file(folder.deck(), [&](std::ostream& out) { write_deck(out, trial, plan, parts, ranks); });
+  if (plan.watches_contacts)
+    write_contact_order(folder.contact_order(), trial, contact_order_of(trial, plan, parts, folder.walls()));
   std::ostringstream unseen;
   run_liggghts(folder, plan, ranks, {unseen, false});
   return {logged_rate(folder.log()), dump_bytes_per_ball(folder, plan),

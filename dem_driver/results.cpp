@@ -100,8 +100,20 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"wall_overlap_largest_m", results.wall_overlaps.largest},
                {"wall_overlap_99_m", results.wall_overlaps.percentile(0.99)},
                {"resting_speed_m_s", results.resting_speed},
-               {"fluid", fluid_of(plan, results)}});
+               {"fluid", fluid_of(plan, results)},
+               {"contacts", results.contacts ? Json::parse(contact_entry(*results.contacts)) : Json()}});
   return json;
+}
+
+ContactResults contacts_of(const CaseFolder& folder, const Results& results) {
+  const ContactOrder order = read_contact_order(folder.contact_order());
+  std::vector<DriveRow> rows;
+  for (std::size_t i = 0; i < results.history.size(); ++i) {
+    const HistoryRow& row = results.history[i];
+    const double fluid = results.fluid.empty() ? 0 : results.fluid[i].power;
+    rows.push_back({row.step, results.power[i] + fluid, row.torque, row.kinetic + row.potential});
+  }
+  return gather_contacts(folder, order, rows, std::lround(results.steady_from() / order.timestep));
 }
 
 void write_fluid(std::ostream& out, const Results& results) {
@@ -205,6 +217,7 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
       judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.kinetic; }));
   results.potential_steadiness =
       judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.potential; }));
+  if (plan.watches_contacts) results.contacts = contacts_of(folder, results);
   const double largest = plan.charge.classes.front().diameter;
   results.ball_overlaps = read_overlaps(folder, "ballOverlaps", largest);
   results.wall_overlaps = read_overlaps(folder, "wallOverlaps", largest);
@@ -225,6 +238,7 @@ void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, co
   });
   if (plan.fluid.kind != FluidKind::none)
     replace_file(folder.fluid(), [&](std::ostream& out) { write_fluid(out, results); });
+  if (results.contacts) write_contact_files(folder, *results.contacts);
   replace_file(folder.overlaps(), [&](std::ostream& out) {
     out << "overlap_m,ball_contacts,wall_contacts\n" << std::setprecision(8);
     for (std::size_t bin = 0; bin < overlap_bins; ++bin)
@@ -260,6 +274,7 @@ void print_results(std::ostream& out, const DemPlan& plan, const Results& result
     out << "steady from " << results.steady_from() << " s of DEM time on\n";
   else
     out << "NOT STEADY: power, kinetic or potential energy still change; raise dem.duration\n";
+  if (results.contacts) print_contacts(out, *results.contacts);
   print_overlaps("two balls", results.ball_overlaps);
   print_overlaps("balls and walls", results.wall_overlaps);
   out << results.run.dumps << " dumps, one every " << plan.step.steps_per_record << " steps\n";

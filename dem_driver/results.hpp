@@ -2,10 +2,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dem_driver/case_folder.hpp"
+#include "dem_driver/contact_results.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/liggghts_run.hpp"
@@ -58,18 +60,20 @@ struct Results {
   Steadiness potential_steadiness;  ///< of the potential energy, J
   /// Of two balls; the largest is that of all records too, not only of the histograms.
   OverlapStatistics ball_overlaps;
-  OverlapStatistics wall_overlaps;  ///< of balls and walls
-  bool steady() const;              ///< whether power and both energies are
-  double steady_from() const;       ///< s, the latest of the three
+  OverlapStatistics wall_overlaps;         ///< of balls and walls
+  std::optional<ContactResults> contacts;  ///< of a run that follows its contacts
+  bool steady() const;                     ///< whether power and both energies are
+  double steady_from() const;              ///< s, the latest of the three
 };
 
-/// Reads what LIGGGHTS has written and judges it. Throws as read_history and read_overlaps do, and RunError
-/// when LIGGGHTS has not written a record of torque and energy for every dump, or none of the fluid.
+/// Reads what LIGGGHTS has written and judges it. Throws as read_history, read_overlaps and gather_contacts
+/// do, and RunError when LIGGGHTS has not written a record of torque and energy for every dump, or none of
+/// the fluid.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
 /// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv`, `dumps/charge.csv` and, with a
-/// fluid, `dumps/fluid.csv`. Layout: FORMATS.md.
+/// fluid, `dumps/fluid.csv`; with contacts also what write_contact_files writes. Layout: FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

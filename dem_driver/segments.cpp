@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "dem_driver/contact_record.hpp"
+
 namespace millfoam::dem_driver {
 
 namespace fs = std::filesystem;
@@ -129,14 +131,21 @@ void remove_dumps_after(const CaseFolder& folder, long step) {
       if (contacts.step > step) fs::remove(contacts.file);
 }
 
+void remove_contact_states(const CaseFolder& folder, const std::function<bool(long)>& chosen) {
+  for (const auto& state : find_segments(folder, contact_state_kind))
+    if (chosen(state.step)) fs::remove(state.file);
+}
+
 void remove_restarts_after(const CaseFolder& folder, long step) {
   for (const auto& restart : find_restarts(folder))
     if (restart.step > step) fs::remove(restart.file);
+  remove_contact_states(folder, [&](long other) { return other > step; });
 }
 
 void remove_restarts_before(const CaseFolder& folder, long step) {
   for (const auto& restart : find_restarts(folder))
     if (restart.step < step) fs::remove(restart.file);
+  remove_contact_states(folder, [&](long other) { return other < step; });
 }
 
 }  // namespace millfoam::dem_driver

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct NumberedFile {
 };
 
 /// What a run writes in segments: every resumed run begins its own files.
-inline constexpr const char* segment_kinds[] = {"torque", "energy", "fluid", "ballOverlaps", "wallOverlaps"};
+inline constexpr const char* segment_kinds[] = {"torque",       "energy",      "fluid",       "ballOverlaps",
+                                                "wallOverlaps", "contactWork", "contactBins", "wallCells"};
 
 /// Every `dem/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind);
@@ -58,10 +60,13 @@ long count_dumps_until(const CaseFolder& folder, long step);
 /// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps before `step`.
+/// Removes `dem/contactState.<step>.txt`, which belongs to the restart file of that step, of chosen steps.
+void remove_contact_states(const CaseFolder& folder, const std::function<bool(long)>& chosen);
+
+/// Removes the restart files of steps before `step`, with what belongs to them.
 void remove_restarts_before(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps after `step`: they cannot be resumed from.
+/// Removes the restart files of steps after `step`, with what belongs to them: they cannot be resumed from.
 void remove_restarts_after(const CaseFolder& folder, long step);
 
 }  // namespace millfoam::dem_driver

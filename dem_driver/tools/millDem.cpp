@@ -16,6 +16,7 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/charge_plan.hpp"
+#include "dem_driver/contact_order.hpp"
 #include "dem_driver/continued_run.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/disk_room.hpp"
@@ -155,6 +156,16 @@ void write_fluid(const dem_driver::CaseFolder& folder, const meshing::Mill& mill
   dem_driver::write_fluid_order(folder.fluid_order(), mill, order);
 }
 
+/// The same for the contacts.
+void write_contact_order(const dem_driver::CaseFolder& folder, const meshing::Mill& mill,
+                         const dem_driver::DemPlan& plan, const std::vector<std::string>& parts) {
+  if (plan.watches_contacts)
+    dem_driver::write_contact_order(folder.contact_order(), mill,
+                                    contact_order_of(mill, plan, parts, folder.walls()));
+  else
+    fs::remove(folder.contact_order());
+}
+
 void run(const Options& options, const meshing::MillDescription& description) {
   const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
@@ -198,6 +209,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     if (state && !step) dem_driver::take_restart(*state, folder);
   }
   write_fluid(folder, mill, plan, parts);
+  write_contact_order(folder, mill, plan, parts);
   replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the
 // options of the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has
-// a fluid. See dem_driver/README.md.
+// a fluid, and dem/contacts.json where it watches contacts. See dem_driver/README.md.
 #include <liggghts/atom.h>
 #include <liggghts/fix_external.h>
 #include <liggghts/input.h>
@@ -27,6 +27,9 @@
 #include "dem_driver/flow_exchange.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"
+#include "dem_driver/tools/contact_watch.hpp"
+#include "dem_driver/tools/stop.hpp"
+#include "dem_driver/tools/watched_model.hpp"
 
 namespace {
 
@@ -35,14 +38,6 @@ using LAMMPS_NS::LAMMPS;
 
 bool begins(const std::string& text, const std::string& start) {
   return text.rfind(start, 0) == 0;
-}
-
-/// Ends the program on all ranks, with the error in the log as one of LIGGGHTS.
-[[noreturn]] void stop(const std::exception& error) {
-  std::printf("ERROR: %s\n", error.what());
-  std::fflush(stdout);
-  MPI_Abort(MPI_COMM_WORLD, 1);
-  std::abort();
 }
 
 /// The ranks of LIGGGHTS.
@@ -185,13 +180,18 @@ std::string deck_name(int argc, char** argv) {
   throw std::runtime_error("expected -in DECK");
 }
 
-/// Feeds the deck to LIGGGHTS line by line, and gives its fluid's fixes their forces as soon as they are
-/// there.
+/// Feeds the deck to LIGGGHTS line by line, gives its fluid's fixes their forces as soon as they are there,
+/// and follows the contacts from the deck's `watch_command` on.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
+  add_watched_model();
   LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
   std::unique_ptr<FluidFix> fluid;
   for (std::string line; std::getline(deck, line);) {
+    if (begins(line, watch_command)) {
+      watch_contacts(liggghts, "contacts.json");
+      continue;
+    }
     liggghts.input->one(line.c_str());
     for (const char* name : {fluid_at_rest_fix, fluid_fix})
       if (begins(line, std::string("fix ") + name + ' '))
@@ -201,6 +201,13 @@ void run(int argc, char** argv, int rank) {
 }
 
 }  // namespace
+
+void millfoam::dem_driver::stop(const std::exception& error) {
+  std::printf("ERROR: %s\n", error.what());
+  std::fflush(stdout);
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();
+}
 
 #ifdef __SANITIZE_ADDRESS__
 /// LIGGGHTS leaves memory to the end of the process.

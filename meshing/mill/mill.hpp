@@ -105,7 +105,8 @@ struct Dem {
   double duration = 0;           ///< s of turning mill, from DEM time 0
   double record_interval = 0;    ///< s between dumps
   double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
-  int seed = 0;                  ///< of the random insertion
+  bool contact_statistics = false;  ///< whether every contact is followed in every step
+  int seed = 0;                     ///< of the random insertion
   /// m, height y of the surface of a pool at rest in which the balls float up; nothing: no pool.
   std::optional<double> pool_level;
 };

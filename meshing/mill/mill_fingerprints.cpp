@@ -22,9 +22,11 @@ Json contact_numbers(const Contact& contact) {
           {"rolling_friction", contact.rolling_friction}};
 }
 
-/// The keys of `dem`; without a pool as before there was one, with it also its density.
+/// The keys of `dem`; without a pool as before there was one, with it also its density. Statistics of the
+/// contacts do not change the motion.
 Json dem_numbers(const Json& keys, const Mill& mill) {
   Json dem = keys.at("dem");
+  dem.erase("contact_statistics");
   if (mill.dem.pool_level)
     dem["fluid_density"] = mill.slurry.density;
   else

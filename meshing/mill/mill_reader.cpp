@@ -120,6 +120,7 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
       "contact_interval",
       {"0 for no contacts, or " + interval.expected, [&](double v) { return v == 0 || interval.holds(v); }},
       0);
+  dem.contact_statistics = in.boolean("contact_statistics", false);
   dem.seed = in.integer(
       "seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }}, 1);
   return dem;
@@ -210,9 +211,10 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
-  Section dem = in.optional_section(
-      "dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction", "settle_time",
-              "duration", "record_interval", "contact_interval", "seed", "fluid", "fluid_level"});
+  Section dem =
+      in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
+                                  "settle_time", "duration", "record_interval", "contact_interval",
+                                  "contact_statistics", "seed", "fluid", "fluid_level"});
   mill.dem = read_dem(dem, mill.geometry, mill.turn());
   Section slurry =
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});

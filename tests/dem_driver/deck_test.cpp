@@ -354,5 +354,16 @@ TEST(Deck, TheTorqueIsOfAllWalls) {
                        "variable torque equal 0+f_shell[6]+f_lifters[6]"));
 }
 
+TEST(Deck, OnlyARunThatFollowsItsContactsNeedsMillLiggghtsForThem) {
+  auto mill = small_mill();
+  EXPECT_EQ(deck_of(mill).find("watch"), std::string::npos);
+  mill.dem.contact_statistics = true;
+  const std::string deck = deck_of(mill);
+  EXPECT_EQ(after(deck, "surface"), (std::vector<std::string>{"watched", "watched"}));
+  // After the restart and the clock, so that step 0 is the begin of rotation
+  EXPECT_TRUE(has_line(deck, watch_command));
+  EXPECT_GT(deck.find(watch_command), deck.find("reset_timestep 0"));
+}
+
 }  // namespace
 }  // namespace millfoam::dem_driver

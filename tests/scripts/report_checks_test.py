@@ -57,6 +57,12 @@ class Numbers(Verdicts):
         self.check(judged("name", 1.001, 1, "found", "do"), "fails")
 
 
+class Contacts(Verdicts):
+    def test_they_must_dissipate_what_the_drive_gives_to_1_per_cent(self):
+        for ratio, state in ((0.9901, "holds"), (1.0099, "holds"), (1.02, "look"), (0.94, "fails"), (np.nan, "fails")):
+            self.check(checks.contact_balance(case(result=lambda *keys, found=ratio: found)), state)
+
+
 class Flow(Verdicts):
     def test_slurry_that_is_missing(self):
         for missing, state in ((0.9e-9, "holds"), (-0.9e-9, "holds"), (1.1e-9, "fails"), (-1.1e-9, "fails"),

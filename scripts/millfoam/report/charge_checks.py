@@ -10,6 +10,7 @@ from .verdict import Check, judged
 
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
 FOLLOWS, SLIDES = 0.8, 0.5  # speed of the balls at the shell over its own: a charge that follows it, one that slides
+CONTACTS, CONTACTS_DOUBTFUL = 0.01, 0.05  # of the drive's power that may be missing in the contacts
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
@@ -58,6 +59,16 @@ def overlap(case: MillCase) -> Check:
                   f"largest overlap {100 * share:.1f} % of the smallest diameter (limit {100 * allowed:.0f} %), 99 % "
                   f"of the contacts below {100 * usual:.2f} %",
                   "Raise dem.youngs_modulus, or lower dem.largest_overlap.")
+
+
+def contact_balance(case: MillCase) -> Check:
+    """Whether the contacts dissipate the drive's power minus the charge's gain of energy."""
+    ratio = case.result("contacts", "dissipated_over_drive")
+    return judged("Contacts dissipate what the drive gives", abs(ratio - 1), CONTACTS,
+                  f"{ratio:.4f} of the drive's power minus the gain of the charge's energy (limit "
+                  f"{100 * CONTACTS:.0f} %)",
+                  "Shorten the time-step (dem.rayleigh_fraction), or let the steady part be longer (dem.duration).",
+                  doubtful=CONTACTS_DOUBTFUL)
 
 
 def ledger(case: MillCase) -> Check:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a run is reliable: what the checks found, and what to do if they fail."""
 from ..files.mill_case import MillCase
-from .charge_checks import averaging_volume, charge_steadiness, follows_shell, ledger, lost_balls, overlap, window_noise
+from .charge_checks import (averaging_volume, charge_steadiness, contact_balance, follows_shell, ledger, lost_balls,
+                            overlap, window_noise)
 from .coupling_section import coupling_checks
 from .flow_checks import conservation, continuity, courant, drag_range, mesh, one_way, solids_on_mesh
 from .stages import same_mill
@@ -18,6 +19,7 @@ def all_checks(case: MillCase) -> list[Check]:
         functions += [conservation, flow_steadiness, courant, mesh]
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]
+        functions += [contact_balance] if case.results.get("contacts") else []
     if case.solids:
         functions += [follows_shell, ledger, averaging_volume, window_noise]
     if case.flow and case.law:

@@ -52,6 +52,7 @@ TEST(ReadMill, gives_every_number_of_the_file_in_its_place) {
   EXPECT_EQ(mill.dem.duration, 1.6);
   EXPECT_EQ(mill.dem.record_interval, 0.002);
   EXPECT_EQ(mill.dem.contact_interval, 0);
+  EXPECT_FALSE(mill.dem.contact_statistics);
   EXPECT_EQ(mill.dem.seed, 20121);
   EXPECT_EQ(mill.slurry.density, 1239);
   EXPECT_EQ(mill.slurry.plastic_viscosity, 0.0014);

@@ -73,6 +73,8 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("averages.window=0.1").averages, mill.averages);
   EXPECT_EQ(changed("speed.fraction_of_critical=0.6").walls, mill.walls);
   EXPECT_NE(changed("speed.fraction_of_critical=0.6").charge, mill.charge);
+  EXPECT_EQ(changed("dem.contact_statistics=true").charge, mill.charge);
+  EXPECT_EQ(changed("dem.contact_statistics=true").averages, mill.averages);
   // A longer dry run is resumed, but its averages are others
   EXPECT_EQ(changed("dem.duration=3").charge, mill.charge);
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/contact_order.hpp"
+
+#include <fstream>
+#include <stdexcept>
+
+#include "dem_driver/json_file.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char order_format[] = "millfoam-contacts";
+constexpr double cells_per_diameter = 60;
+constexpr long wall_records = 10;  // of a run
+
+}  // namespace
+
+ContactKinds ContactOrder::kinds() const {
+  return {static_cast<int>(diameters.size()), static_cast<int>(parts.size())};
+}
+
+WallCells ContactOrder::cells() const {
+  return {walls, parts, cell_edge};
+}
+
+ContactOrder contact_order_of(const meshing::Mill& mill, const DemPlan& plan,
+                              const std::vector<std::string>& parts, const fs::path& walls) {
+  ContactOrder order;
+  for (const auto& size : plan.charge.classes) order.diameters.push_back(size.diameter);
+  order.parts = parts;
+  order.timestep = plan.step.value;
+  order.angular_velocity = mill.angular_velocity;
+  order.cell_edge = mill.geometry.diameter / cells_per_diameter;
+  order.end_step = plan.end_step();
+  order.block_steps = plan.restart_steps;
+  order.wall_steps = (plan.turning_steps + wall_records - 1) / wall_records;
+  order.walls = walls;
+  return order;
+}
+
+void write_contact_order(const fs::path& file, const meshing::Mill& mill, const ContactOrder& order) {
+  Json json = begin_result("contacts", mill);
+  json.update({{"diameters_m", order.diameters},
+               {"parts", order.parts},
+               {"walls", fs::relative(order.walls, file.parent_path()).string()},
+               {"timestep_s", order.timestep},
+               {"angular_velocity_rad_s", order.angular_velocity},
+               {"cell_edge_m", order.cell_edge},
+               {"end_step", order.end_step},
+               {"block_steps", order.block_steps},
+               {"wall_steps", order.wall_steps}});
+  write_json(file, json);
+}
+
+ContactOrder read_contact_order(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in)
+    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
+  const Json json = Json::parse(in, nullptr, false);
+  const char* key = "format";
+  const auto read = [&](const char* name, auto& value) {
+    key = name;
+    json.at(name).get_to(value);
+  };
+  try {
+    std::string format, walls;
+    read("format", format);
+    if (format != order_format) throw std::runtime_error(format);
+    ContactOrder order;
+    read("diameters_m", order.diameters);
+    read("parts", order.parts);
+    read("walls", walls);
+    order.walls = file.parent_path() / walls;
+    read("timestep_s", order.timestep);
+    read("angular_velocity_rad_s", order.angular_velocity);
+    read("cell_edge_m", order.cell_edge);
+    read("end_step", order.end_step);
+    read("block_steps", order.block_steps);
+    read("wall_steps", order.wall_steps);
+    return order;
+  } catch (const std::exception&) {
+    throw std::runtime_error(file.string() + ": key '" + key + "' is missing or wrong: run millDem again");
+  }
+}
+
+}  // namespace millfoam::dem_driver
