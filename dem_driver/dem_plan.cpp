@@ -98,7 +98,8 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.round_steps = whole(plan.charge.round_settle_time / plan.step.value);
   plan.settle_steps = whole(mill.dem.settle_time / plan.step.value);
   const long records = std::max(1L, whole(mill.dem.duration / mill.dem.record_interval));
-  plan.dumps = records + 1;
+  plan.records = records + 1;
+  plan.dumps = mill.dem.dumps ? plan.records : 0;
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.contact_steps = steps_between_contacts(mill, plan.step.value);
   plan.fluid = fluid_of(mill);

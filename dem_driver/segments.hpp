@@ -58,10 +58,13 @@ long count_dumps_until(const CaseFolder& folder, long step);
 /// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps before `step`.
+/// Every file of averages of the run under way, `dem/averages_*`: their states and finished windows.
+std::vector<std::filesystem::path> find_averages(const CaseFolder& folder);
+
+/// Removes the restart files of steps before `step`, with the states of averages that belong to them.
 void remove_restarts_before(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps after `step`: they cannot be resumed from.
+/// Removes the restart files of steps after `step`, with the states of averages: they cannot be resumed from.
 void remove_restarts_after(const CaseFolder& folder, long step);
 
 }  // namespace millfoam::dem_driver

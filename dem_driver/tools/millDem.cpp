@@ -27,6 +27,7 @@
 #include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/tools/averages_of_run.hpp"
 #include "dem_driver/wall_fit.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/text_numbers.hpp"
@@ -49,6 +50,7 @@ struct Options {
   std::string fluid;  ///< slurry.h5; empty: none
   std::string fluid_time = "mean";
   std::string continued;  ///< folder of the case from whose last state the run continues; empty: none
+  std::vector<std::string> averages;  ///< made while the mill turns: options of millAverage
   std::string plan_file;
 };
 
@@ -80,7 +82,7 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
                                "at least the " + seconds(step - plan.begin) + " s that the run in " +
                                    folder.root.string() + " has reached" + otherwise);
   }
-  const long expected = (step - plan.begin) / plan.step.steps_per_record + 1;
+  const long expected = plan.dumps > 0 ? (step - plan.begin) / plan.step.steps_per_record + 1 : 0;
   const long found = dem_driver::count_dumps_until(folder, step);
   if (found != expected)
     throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
@@ -100,7 +102,7 @@ std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_dr
   if (identity(read_text(folder.deck())) != identity(deck))
     throw std::runtime_error(
         folder.deck().string() +
-        ": the existing run has another mill.yaml, other walls, another fluid or another "
+        ": the existing run has another mill.yaml, other walls, another fluid, other averages or another "
         "begin" +
         otherwise);
   const auto step = dem_driver::last_good_restart(folder, plan);
@@ -167,6 +169,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
     dem_driver::continue_from(state->step, plan);
   }
+  const dem_driver::AveragesOfRun averages(description, folder, options.averages, plan, std::cout);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
@@ -177,6 +180,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.end_step() && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
+    averages.finish(std::cout);
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
@@ -187,6 +191,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     if (state && !step) dem_driver::take_restart(*state, folder);
   }
   write_fluid(folder, mill, plan);
+  averages.write_order();
   replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
@@ -212,6 +217,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   // Only now, so that the dumps of a broken run are not taken for a complete one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
+  averages.finish(std::cout);
 }
 
 /// Before the trial, which takes half a minute.
@@ -283,6 +289,12 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.add_option(
       "--continue", options.continued,
       "begin with the last state of the complete run in this case folder, and turn for dem.duration more");
+  app.add_option("--average", options.averages,
+                 "make averages while the mill turns, of these options of millAverage, in quotes, as in "
+                 "'--cylinder 0 0.06 0 0.024 --shape 30 40 1 -o rings.h5'; may be given again")
+      ->expected(1)
+      ->take_all()
+      ->type_name("OPTIONS");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

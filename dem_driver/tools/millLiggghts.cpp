@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the
-// options of the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has
-// a fluid. See dem_driver/README.md.
+// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls and the
+// averages of the balls. It takes the options of the program liggghts, prints what that prints, and needs
+// dem/fluid.json and dem/averages.json only where the deck has these. See dem_driver/README.md.
 #include <liggghts/atom.h>
 #include <liggghts/fix_external.h>
 #include <liggghts/input.h>
@@ -24,6 +24,7 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"
+#include "dem_driver/tools/averages_fix.hpp"
 
 namespace {
 
@@ -135,8 +136,8 @@ std::string deck_name(int argc, char** argv) {
   throw std::runtime_error("expected -in DECK");
 }
 
-/// Feeds the deck to LIGGGHTS line by line, and gives its fluid's fixes their forces as soon as they are
-/// there.
+/// Feeds the deck to LIGGGHTS line by line, and gives the fixes of fluid and averages their work as soon as
+/// they are there.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
   LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
@@ -147,6 +148,8 @@ void run(int argc, char** argv, int rank) {
       if (begins(line, std::string("fix ") + name + ' '))
         fluid = std::make_unique<FluidFix>(liggghts, name, read_fluid_order("fluid.json"),
                                            name == fluid_fix ? "fluid" : "");
+    if (begins(line, std::string("fix ") + averages_fix + ' '))
+      make_averages(liggghts, averages_fix, "averages.json", stop);
   }
 }
 

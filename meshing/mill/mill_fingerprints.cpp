@@ -22,14 +22,23 @@ Json contact_numbers(const Contact& contact) {
           {"rolling_friction", contact.rolling_friction}};
 }
 
-/// The keys of `dem`; without a pool as before there was one, with it also its density.
+/// The keys of `dem`; without a pool as before there was one, with it also its density. Whether the balls are
+/// dumped does not change their motion.
 Json dem_numbers(const Json& keys, const Mill& mill) {
   Json dem = keys.at("dem");
   if (mill.dem.pool_level)
     dem["fluid_density"] = mill.slurry.density;
   else
     dem.erase("fluid");
+  dem.erase("dumps");
   return dem;
+}
+
+/// The keys of `averages` but the time at which they are made.
+Json averages_numbers(const Json& keys) {
+  Json averages = keys.at("averages");
+  averages.erase("live");
+  return averages;
 }
 
 }  // namespace
@@ -62,9 +71,10 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["dem"].erase("duration");
   result.charge = fingerprint(of.dump());
   of["dem"] = dem_numbers(keys, mill);
-  of["averages"] = keys.at("averages");
+  of["averages"] = averages_numbers(keys);
   result.averages = fingerprint(of.dump());
   of = keys;
+  of["averages"] = averages_numbers(keys);
   of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;
   of.erase("title");
