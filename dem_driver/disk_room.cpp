@@ -64,7 +64,9 @@ void require_room(const CaseFolder& folder, const DemPlan& plan, long begin) {
   if (needed <= available) return;
   throw std::runtime_error(
       fs::canonical(folder.root).string() + ": the disk has room for " + megabytes(available) +
-      ", expected at least " + megabytes(needed) + " for " + std::to_string(plan.dumps) + " dumps of " +
+      ", expected at least " + megabytes(needed) + " for " +
+      (plan.dumps > 0 ? std::to_string(plan.dumps) + " dumps of "
+                      : "averages, contacts and restart files of ") +
       std::to_string(plan.charge.balls()) +
       " balls: free some room, raise dem.record_interval or dem.contact_interval, or lower dem.duration");
 }

@@ -10,6 +10,7 @@
 
 #include "averaging/files/solids_file.hpp"
 #include "averaging/run/checkpoint.hpp"
+#include "averaging/run/endless_windows.hpp"
 #include "averaging/run/grid_check.hpp"
 #include "averaging/run/solids_output.hpp"
 #include "averaging/statistics/record_sums.hpp"
@@ -21,32 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 void ignore(const std::string&) {}
-
-/// The windows of a series by time-steps, without an end.
-struct Cuts {
-  long long start = 0;                          ///< of the first window
-  std::optional<long long> length;              ///< nothing: one window over the whole run
-  std::optional<long long> end = std::nullopt;  ///< from which on records are left out
-
-  Cuts(const AverageRequest& request, const WindowsRequest& windows, const LiveRun& run) {
-    const double timestep = run.settings.timestep;
-    start = request.start ? whole_steps(*request.start, timestep, "the start") : run.begin;
-    if (windows.length) length = whole_steps(*windows.length, timestep, "the window's length");
-    if (request.end) end = whole_steps(*request.end, timestep, "the end");
-  }
-
-  bool holds(long long step) const { return step >= start && (!end || step < *end); }
-  std::size_t window_of(long long step) const {
-    return length ? static_cast<std::size_t>((step - start) / *length) : 0;
-  }
-  TimeWindow time_of(std::size_t window, double timestep) const {
-    TimeWindow time;
-    const long long begin = start + static_cast<long long>(window) * length.value_or(0);
-    time.begin = static_cast<double>(begin) * timestep;
-    time.end = static_cast<double>(begin + length.value_or(0)) * timestep;
-    return time;
-  }
-};
 
 std::size_t hash(const std::string& id) {
   return std::hash<std::string>()(id);
@@ -67,8 +42,7 @@ WindowRecorder recorder_at(const LiveFiles& files, std::size_t number, const Cel
                            const std::string& id, const Checkpoint* state) {
   const fs::path journal = files.journal(number);
   const std::size_t cells = cell_count(setup.grid), rows = state != nullptr ? state->rows[number] : 0;
-  if (rows > 0 &&
-      !WindowJournal::holds(journal, hash(id), cells, !setup.limits.whole_volumes.empty(), rows))
+  if (rows > 0 && !WindowJournal::holds(journal, hash(id), cells, !setup.limits.whole_volumes.empty(), rows))
     throw SolidsFileError(journal.string() + ": lacks windows of the run, expected " + std::to_string(rows) +
                           ": run again without --resume");
   WindowRecorder recorder(journal, setup.limits, cells, hash(id), rows);
@@ -96,7 +70,7 @@ void leave_out_before(double time, double timestep, WindowPlan& plan) {
 }  // namespace
 
 struct LiveAverages::Series {
-  Cuts cuts;
+  EndlessWindows windows;
   WindowRecorder recorder;
 };
 
@@ -129,8 +103,8 @@ LiveAverages::LiveAverages(const AverageRequest& request, const LiveRun& run, Li
   std::optional<Checkpoint> state;
   if (resumed) state = state_at(files_, id_, *resumed);
   for (std::size_t s = 0; s < request.windows.size(); ++s)
-    series_.push_back(
-        {{request, request.windows[s], run}, recorder_at(files_, s, setup_, id_, state ? &*state : nullptr)});
+    series_.push_back({{request, request.windows[s], run.settings.timestep, run.begin},
+                       recorder_at(files_, s, setup_, id_, state ? &*state : nullptr)});
 }
 
 LiveAverages::~LiveAverages() = default;
@@ -171,10 +145,10 @@ void LiveAverages::add(const ParticleRecord& own) {
   if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
   if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
   for (Series& series : series_) {
-    if (!series.cuts.holds(own.step)) continue;
+    if (!series.windows.hold(own.step)) continue;
     WindowRecorder& recorder = series.recorder;
-    if (series.cuts.window_of(own.step) > recorder.finished())
-      recorder.close(series.cuts.time_of(recorder.finished(), run_.settings.timestep));
+    if (series.windows.window_of(own.step) > recorder.finished())
+      recorder.close(series.windows.time_of(recorder.finished()));
     recorder.open().add(sums_);
   }
 }
@@ -219,12 +193,12 @@ std::vector<SolidsSummary> finish_live(const AverageRequest& request, const Live
     WindowPlan& plan = plans[s];
     if (end.steady_from) leave_out_before(*end.steady_from, run.settings.timestep, plan);
     for (const std::string& sentence : plan.notes) note(sentence);
-    const Cuts cuts(request, request.windows[s], run);
+    const EndlessWindows windows(request, request.windows[s], run.settings.timestep, run.begin);
     const WindowRecorder recorder = recorder_at(files, s, setup, id, &state);
     const auto window = [&](std::size_t w) {
       const WindowSpan& span = plan.windows[w];
       const TimeWindow time = time_of(span, run.settings.timestep);
-      const std::size_t row = cuts.window_of(span.begin);
+      const std::size_t row = windows.window_of(span.begin);
       WindowAverage average = row < recorder.finished() ? recorder.read(row) : recorder.average_open(time);
       const long long records = average.time.records;
       if (records != static_cast<long long>(span.records))
@@ -236,8 +210,8 @@ std::vector<SolidsSummary> finish_live(const AverageRequest& request, const Live
       return average;
     };
     const double time0 = static_cast<double>(plan.windows.front().begin) * run.settings.timestep;
-    const SolidsHeader header = solids_header(request, request.windows[s], run.settings, setup, end.metadata,
-                                              time0, end.program);
+    const SolidsHeader header =
+        solids_header(request, request.windows[s], run.settings, setup, end.metadata, time0, end.program);
     summaries.push_back(
         write_solids(request.windows[s].output, setup.grid, header, plan.windows.size(), window));
   }

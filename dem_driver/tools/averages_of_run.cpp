@@ -54,8 +54,20 @@ double steady_from(const fs::path& results) {
   std::ifstream in(results);
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || !json.value("steady_from_s", nlohmann::json()).is_number())
-    throw std::runtime_error(results.string() + ": no number steady_from_s, which averages.start 'steady' needs");
+    throw std::runtime_error(results.string() +
+                             ": no number steady_from_s, which averages.start 'steady' needs");
   return json["steady_from_s"];
+}
+
+/// Whether all files of these averages are there, of this run.
+bool are_written(const averaging::AverageRequest& request, const std::string& run_id) {
+  return std::all_of(request.windows.begin(), request.windows.end(), [&](const auto& windows) {
+    try {
+      return averaging::SolidsReader(windows.output).header().run_id == run_id;
+    } catch (const averaging::SolidsFileError&) {
+      return false;
+    }
+  });
 }
 
 }  // namespace
@@ -70,9 +82,10 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
                    "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
   order_.run = run_of(mill_, plan);
   for (const std::string& text : texts)
-    requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),
-                                                plan.duration()));
+    requests_.push_back(
+        averaging::live_request(description, text, folder.root.string(), plan.begin_time(), plan.duration()));
   require_different_outputs(requests_);
+  plan.averages_bytes = 0;
   for (const averaging::LiveRequest& averages : requests_) {
     const averaging::AverageRequest& request = averages.request;
     for (const averaging::WindowsRequest& windows : request.windows) averaging::xdmf_path(windows.output);
@@ -92,20 +105,8 @@ void AveragesOfRun::write_order() const {
     write_averages_order(folder_.averages_order(), mill_, order_);
 }
 
-/// Whether all files of these averages are there, of this run.
-bool AveragesOfRun::finished(const averaging::LiveRequest& averages, const std::string& run_id) const {
-  const auto& windows = averages.request.windows;
-  return std::all_of(windows.begin(), windows.end(), [&](const averaging::WindowsRequest& series) {
-    try {
-      return averaging::SolidsReader(series.output).header().run_id == run_id;
-    } catch (const averaging::SolidsFileError&) {
-      return false;
-    }
-  });
-}
-
 /// Returns whether the ledger is within the tolerance.
-bool AveragesOfRun::finish(std::size_t number, std::ostream& out) const {
+bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out) const {
   const averaging::LiveRequest& averages = requests_[number];
   averaging::AverageRequest request = averages.request;
   if (averages.end) request.end = averages.end;
@@ -113,7 +114,7 @@ bool AveragesOfRun::finish(std::size_t number, std::ostream& out) const {
   end.step = plan_.end_step();
   end.metadata = averaging::read_run_metadata(folder_.dumps());
   end.program = std::string("millDem ") + version();
-  if (finished(averages, end.metadata->run_id)) return true;
+  if (keep && are_written(request, end.metadata->run_id)) return true;
   if (averages.steady) end.steady_from = steady_from(folder_.results());
   bool passes = true;
   for (const averaging::SolidsSummary& summary : averaging::finish_live(
@@ -128,9 +129,9 @@ bool AveragesOfRun::finish(std::size_t number, std::ostream& out) const {
   return passes;
 }
 
-void AveragesOfRun::finish(std::ostream& out) const {
+void AveragesOfRun::finish(bool keep, std::ostream& out) const {
   bool passes = true;
-  for (std::size_t n = 0; n < requests_.size(); ++n) passes = finish(n, out) && passes;
+  for (std::size_t n = 0; n < requests_.size(); ++n) passes = finish_one(n, keep, out) && passes;
   if (!passes) throw std::runtime_error("the averages are beyond their --tolerance, see above");
 }
 

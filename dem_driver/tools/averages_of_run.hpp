@@ -27,14 +27,14 @@ class AveragesOfRun {
   /// Writes the file for millLiggghts, or removes that of an earlier run.
   void write_order() const;
 
-  /// Writes the solids files of the complete run, unless they are there, and prints their ledgers. The run's
-  /// file and results must be there.
+  /// Writes the solids files of the complete run and prints their ledgers. The run's file and results must be
+  /// there.
+  /// @param keep  files of this run that are there are kept
   /// Throws std::runtime_error when the ledger of one is beyond its tolerance, and as finish_live.
-  void finish(std::ostream& out) const;
+  void finish(bool keep, std::ostream& out) const;
 
  private:
-  bool finished(const averaging::LiveRequest& averages, const std::string& run_id) const;
-  bool finish(std::size_t number, std::ostream& out) const;
+  bool finish_one(std::size_t number, bool keep, std::ostream& out) const;
 
   const meshing::Mill& mill_;
   const CaseFolder& folder_;

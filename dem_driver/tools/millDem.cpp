@@ -180,7 +180,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.end_step() && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
-    averages.finish(std::cout);
+    averages.finish(true, std::cout);
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
@@ -217,7 +217,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   // Only now, so that the dumps of a broken run are not taken for a complete one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
-  averages.finish(std::cout);
+  averages.finish(false, std::cout);
 }
 
 /// Before the trial, which takes half a minute.
