@@ -33,8 +33,8 @@ struct DemPlan {
   FluidSettings fluid;     ///< that pushes the balls
   /// Of the averages that are made while the mill turns: their `averages_id`.
   std::vector<std::string> averages = {};
-  double averages_bytes = 0;  ///< that the windows of these averages need on the disk
-  bool continues() const { return begin > 0; }             ///< from the last state of another run
+  double averages_bytes = 0;                    ///< that the windows of these averages need on the disk
+  bool continues() const { return begin > 0; }  ///< from the last state of another run
   long end_step() const { return begin + turning_steps; }  ///< last step of the turning mill
   long insertions() const;     ///< single insertions of all rounds; each takes one step
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
@@ -107,11 +107,11 @@ inline constexpr double overlap_range = 0.2;
 long contact_dumps_until(const DemPlan& plan, long step);
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
-/// each of `parts`, dumps to `../dumps/dump.<step>.txt` unless the plan has none, and writes into its own folder, from step 0 on,
-/// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with
-/// contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first
-/// atom types, one for each modulus, the wall is the last. Of a plan that continues another run, it is the
-/// deck that resumes from the restart file of `plan.begin`.
+/// each of `parts`, dumps to `../dumps/dump.<step>.txt` unless the plan has none, and writes into its own
+/// folder, from step 0 on, `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and
+/// `restart.<step>`; with contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds`
+/// (segments.hpp). Balls are the first atom types, one for each modulus, the wall is the last. Of a plan that
+/// continues another run, it is the deck that resumes from the restart file of `plan.begin`.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 

@@ -42,8 +42,7 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
     end = last_whole_window(*options.start, begin + duration, duration, window);
   }
   if (!own_grid) take_grid(mill, options);
-  if (options.output.empty())
-    options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
+  if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
   LiveRequest result{as_request(options), end, !own_windows && !mill.averages.start, tolerance(options, 1)};
   if (!own_grid && !own_windows && !options.solidity_cap)
     result.request.mill_averages = mill.fingerprint.averages;

@@ -19,8 +19,8 @@ struct LiveRequest {
 };
 
 /// The averages of a text of millAverage's options (cells, method, windows, tolerance and file); what these
-/// leave open is that of the mill. Windows of a mill whose averages start `steady` begin with the run, because
-/// the steady time is not known while the mill turns.
+/// leave open is that of the mill. Windows of a mill whose averages start `steady` begin with the run,
+/// because the steady time is not known while the mill turns.
 /// @param options  empty: the mill's averages
 /// @param case_folder  has walls/, and gets solids.h5
 /// @param begin  DEM time at which the run begins, s

@@ -44,8 +44,8 @@ double steady_start(const fs::path& file) {
 
 void require_dumps(const nlohmann::json& run, const fs::path& file) {
   if (run.value("dumps", 1) > 0) return;
-  throw std::invalid_argument(file.string() +
-                              ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
+  throw std::invalid_argument(
+      file.string() + ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
 }
 
 }  // namespace

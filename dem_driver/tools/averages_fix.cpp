@@ -105,8 +105,9 @@ class AveragesFix : public LAMMPS_NS::Fix {
 void make_averages(LAMMPS_NS::LAMMPS& liggghts, const std::string& name, const std::string& order,
                    Stop stop) {
   std::string id = name, group = "all", style = "millFoam/averages";
-  auto fix = std::make_unique<AveragesFix>(liggghts, std::array<char*, 3>{id.data(), group.data(), style.data()},
-                                           read_averages_order(order), stop);
+  auto fix =
+      std::make_unique<AveragesFix>(liggghts, std::array<char*, 3>{id.data(), group.data(), style.data()},
+                                    read_averages_order(order), stop);
   const int place = liggghts.modify->find_fix(name.c_str());
   liggghts.modify->fmask[place] = fix->setmask();
   delete liggghts.modify->fix[place];

@@ -59,11 +59,13 @@ double steady_from(const fs::path& results) {
   return json["steady_from_s"];
 }
 
-/// Whether all files of these averages are there, of this run.
-bool are_written(const averaging::AverageRequest& request, const std::string& run_id) {
+/// Whether all files of these averages are there, written after the run was complete. Runs of equal plans
+/// have one id, so that this alone does not tell.
+bool are_written(const averaging::AverageRequest& request, const averaging::RunMetadata& run) {
   return std::all_of(request.windows.begin(), request.windows.end(), [&](const auto& windows) {
     try {
-      return averaging::SolidsReader(windows.output).header().run_id == run_id;
+      return averaging::SolidsReader(windows.output).header().run_id == run.run_id &&
+             fs::last_write_time(windows.output) >= fs::last_write_time(run.file);
     } catch (const averaging::SolidsFileError&) {
       return false;
     }
@@ -114,7 +116,7 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
   end.step = plan_.end_step();
   end.metadata = averaging::read_run_metadata(folder_.dumps());
   end.program = std::string("millDem ") + version();
-  if (keep && are_written(request, end.metadata->run_id)) return true;
+  if (keep && are_written(request, *end.metadata)) return true;
   if (averages.steady) end.steady_from = steady_from(folder_.results());
   bool passes = true;
   for (const averaging::SolidsSummary& summary : averaging::finish_live(

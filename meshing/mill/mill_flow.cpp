@@ -244,8 +244,8 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
 }  // namespace
 
 Averages read_averages(const Section& root, const Mill& mill) {
-  Section in =
-      root.optional_section("averages", {"voxel_size", "counts", "window", "start", "method", "template", "live"});
+  Section in = root.optional_section(
+      "averages", {"voxel_size", "counts", "window", "start", "method", "template", "live"});
   const ChargeNumbers charge = count_charge(mill);
   const double radius = mill.geometry.radius();
   const double many_balls = std::min(usual_voxel * charge.sauter_diameter, radius / usual_voxels_of_radius);

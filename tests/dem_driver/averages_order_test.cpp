@@ -213,7 +213,9 @@ TEST_F(Averages, WithoutDumpsNeedLessRoomOnTheDisk) {
   EXPECT_NEAR(least_disk(plan, 0) - none, 1e6, 1);
   EXPECT_NEAR(least_disk(plan, plan.turning_steps / 2) - none, 5e5, 1);
   mill.averages.live = true;
-  EXPECT_GT(plan_dem(mill).averages_bytes, 0);
+  mill.averages.voxels.shape = {5, 4, 3};
+  mill.averages.window = mill.dem.duration / 7;
+  EXPECT_NEAR(plan_dem(mill).averages_bytes, 7 * 60 * 13 * 8, 1);
 }
 
 }  // namespace
