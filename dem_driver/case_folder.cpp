@@ -108,6 +108,8 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   fs::remove(folder.fluid_order());
   fs::remove(folder.contact_order());
   remove_contact_states(folder, [](long) { return true; });
+  fs::remove(folder.averages_order());
+  for (const auto& file : find_averages(folder)) fs::remove(file);
   for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
   for (const char* kind : segment_kinds)
     for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);
@@ -135,6 +137,7 @@ void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const D
   Json run = begin_result("dumps", mill);
   run["timestep_s"] = plan.step.value;
   run["interval"] = plan.step.steps_per_record;
+  run["dumps"] = plan.dumps;
   run["angular_velocity_rad_s"] = mill.angular_velocity;
   run["begin_s"] = plan.begin_time();
   run["duration_s"] = plan.duration();

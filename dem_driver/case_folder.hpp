@@ -33,6 +33,8 @@ struct CaseFolder {
   /// What millLiggghts needs for a fluid besides the deck; only with one.
   std::filesystem::path fluid_order() const { return dem() / "fluid.json"; }
   std::filesystem::path contact_order() const { return dem() / "contacts.json"; }
+  /// What millLiggghts needs for averages of the run besides the deck; only with them.
+  std::filesystem::path averages_order() const { return dem() / "averages.json"; }
   /// Time-step, steps and charge before the run.
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
   /// Held by FolderLock.
@@ -84,8 +86,9 @@ class FolderLock {
 /// of an earlier run.
 void remove_results(const CaseFolder& folder);
 
-/// Makes the folders and removes dumps, contacts, run file, results, restart files and histories of an
-/// earlier run, so that two runs never mix. Nothing else is removed. Returns the number of dumps removed.
+/// Makes the folders and removes dumps, contacts, run file, results, restart files, states of averages and
+/// histories of an earlier run, so that two runs never mix. Nothing else is removed. Returns the number of
+/// dumps removed.
 std::size_t prepare_folders(const CaseFolder& folder);
 
 /// FNV-1a hash (64 bits) of a file's bytes, 16 hexadecimal digits.
@@ -95,8 +98,8 @@ std::string file_hash(const std::filesystem::path& file);
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
 
-/// Writes `dumps/run.json`: time-step, interval of the dumps, speed, begin, duration, mass of the charge and
-/// fluid. The file appears whole or not at all.
+/// Writes `dumps/run.json`: time-step, interval and number of the dumps, speed, begin, duration, mass of the
+/// charge and fluid. The file appears whole or not at all.
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

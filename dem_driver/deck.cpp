@@ -269,6 +269,14 @@ void write_contacts(std::ostream& out, const DemPlan& plan) {
       << "dump_modify contactBalls format \"%d %d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\"\n";
 }
 
+/// The balls' averages are made by millLiggghts, which finds the settings next to the deck.
+void write_averages(std::ostream& out, const DemPlan& plan) {
+  if (plan.averages.empty()) return;
+  out << "# averages";
+  for (const std::string& id : plan.averages) out << ' ' << id;
+  out << ": need millLiggghts and averages.json\nfix " << averages_fix << " all external pf/callback 1 1\n";
+}
+
 /// From step `start` on, which is 0 or that of a restart file.
 void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                    const std::vector<std::string>& parts, long start) {
@@ -281,12 +289,14 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
           << (mill.angular_velocity > 0 ? 1 : -1) << " period " << period << '\n';
   }
   write_results(out, plan, parts, start);
+  write_averages(out, plan);
+  if (plan.dumps > 0)
+    out << "dump balls all custom " << plan.step.steps_per_record
+        << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
+        << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n";
   // Renamed when it is complete, so that a run killed while it writes leaves no half restart file of that
   // name.
-  out << "dump balls all custom " << plan.step.steps_per_record
-      << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
-      << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n"
-      << "variable now equal step\n";
+  out << "variable now equal step\n";
   write_contacts(out, plan);
   if (plan.watches_contacts) out << watch_command << '\n';
   out << "run " << plan.end_step() << " upto every " << plan.restart_steps

@@ -25,13 +25,17 @@ struct DemPlan {
   long settle_steps = 0;   ///< settling after the last round, mill at rest
   long begin = 0;          ///< step of the turning mill at which this run begins; 0: from a settled charge
   long turning_steps = 0;  ///< from `begin` on, a whole number of records
-  long dumps = 0;          ///< of the turning mill, with the one at step `begin`
+  long records = 0;        ///< of the turning mill, with the one at step `begin`
+  long dumps = 0;          ///< one for each record; 0: they are not written
   long thermo_steps = 0;   ///< between two lines of LIGGGHTS' log
   long contact_steps = 0;  ///< between two dumps of the contacts; 0: they are not dumped
   long contact_dumps = 0;  ///< of the turning mill, with the one at step `begin`, if it has one
   long restart_steps = 0;  ///< between two restart files of the turning mill, a whole number of records
   FluidSettings fluid;     ///< that pushes the balls
-  bool watches_contacts = false;                ///< whether every contact is followed in every step
+  bool watches_contacts = false;  ///< whether every contact is followed in every step
+  /// Of the averages that are made while the mill turns: their `averages_id`.
+  std::vector<std::string> averages = {};
+  double averages_bytes = 0;                    ///< that the windows of these averages need on the disk
   bool continues() const { return begin > 0; }  ///< from the last state of another run
   long end_step() const { return begin + turning_steps; }  ///< last step of the turning mill
   long insertions() const;     ///< single insertions of all rounds; each takes one step
@@ -58,9 +62,9 @@ DemPlan plan_dem(const meshing::Mill& mill);
 /// dumps and its time continue from there, over the plan's duration.
 void continue_from(long step, DemPlan& plan);
 
-/// Lets the balls feel a flow that runs at the same time and meets them in `folder`: a restart file is written
-/// whenever the flow's fields are, so that both can resume at the same time. The interval of the flow must be
-/// a whole number of records; else the nearest number is taken.
+/// Lets the balls feel a flow that runs at the same time and meets them in `folder`: a restart file is
+/// written whenever the flow's fields are, so that both can resume at the same time. The interval of the flow
+/// must be a whole number of records; else the nearest number is taken.
 void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, DemPlan& plan);
 
 /// The number of ranks that the word after `-np` is. Throws std::runtime_error for one that is not a whole
@@ -103,6 +107,8 @@ inline constexpr char fluid_at_rest_fix[] = "fluidAtRest";
 inline constexpr char watched_surface_model[] = "watched";
 /// Command of the deck that millLiggghts carries out itself: from here on it follows the contacts.
 inline constexpr char watch_command[] = "watch_contacts";
+/// Name of the deck's fix through which the balls' averages are made. Only millLiggghts makes them.
+inline constexpr char averages_fix[] = "averages";
 
 /// Number of bins of the overlaps' histograms, of equal width from 0 on.
 inline constexpr int overlap_bins = 1000;
@@ -113,11 +119,11 @@ inline constexpr double overlap_range = 0.2;
 long contact_dumps_until(const DemPlan& plan, long step);
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
-/// each of `parts`, dumps to `../dumps/dump.<step>.txt`, and writes into its own folder, from step 0 on,
-/// `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with
-/// contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first
-/// atom types, one for each modulus, the wall is the last. Of a plan that continues another run, it is the
-/// deck that resumes from the restart file of `plan.begin`.
+/// each of `parts`, dumps to `../dumps/dump.<step>.txt` unless the plan has none, and writes into its own
+/// folder, from step 0 on, `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and
+/// `restart.<step>`; with contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds`
+/// (segments.hpp). Balls are the first atom types, one for each modulus, the wall is the last. Of a plan that
+/// continues another run, it is the deck that resumes from the restart file of `plan.begin`.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 

@@ -63,6 +63,13 @@ long steps_between_contacts(const meshing::Mill& mill, double time_step) {
   return std::lround(interval / time_step);
 }
 
+/// Of the windows that `averages.live` keeps until the run is complete: 13 numbers of each voxel and window.
+double bytes_of_averages(const meshing::Mill& mill) {
+  if (!mill.averages.live) return 0;
+  const auto& shape = mill.averages.voxels.shape;
+  return 13 * sizeof(double) * mill.dem.duration / mill.averages.window * shape[0] * shape[1] * shape[2];
+}
+
 }  // namespace
 
 long DemPlan::insertions() const {
@@ -98,11 +105,13 @@ DemPlan plan_dem(const meshing::Mill& mill) {
   plan.round_steps = whole(plan.charge.round_settle_time / plan.step.value);
   plan.settle_steps = whole(mill.dem.settle_time / plan.step.value);
   const long records = std::max(1L, whole(mill.dem.duration / mill.dem.record_interval));
-  plan.dumps = records + 1;
+  plan.records = records + 1;
+  plan.dumps = mill.dem.dumps ? plan.records : 0;
   plan.turning_steps = records * plan.step.steps_per_record;
   plan.contact_steps = steps_between_contacts(mill, plan.step.value);
   plan.fluid = fluid_of(mill);
   plan.watches_contacts = mill.dem.contact_statistics;
+  plan.averages_bytes = bytes_of_averages(mill);
   plan_output(plan);
   return plan;
 }

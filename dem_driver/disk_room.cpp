@@ -52,9 +52,10 @@ double removable(const CaseFolder& folder, long step) {
 double least_disk(const DemPlan& plan, long begin) {
   const auto balls = static_cast<double>(plan.charge.balls());
   const auto steps = static_cast<double>(plan.end_step() - begin);
-  const double dumps = steps / static_cast<double>(plan.step.steps_per_record);
+  const double dumps = plan.dumps > 0 ? steps / static_cast<double>(plan.step.steps_per_record) : 0;
   const double contacts = plan.contact_steps > 0 ? steps / static_cast<double>(plan.contact_steps) : 0;
-  return balls * (dumps * least_dump + contacts * least_contacts + least_restart);
+  const double averages = plan.averages_bytes * steps / static_cast<double>(plan.turning_steps);
+  return balls * (dumps * least_dump + contacts * least_contacts + least_restart) + averages;
 }
 
 void require_room(const CaseFolder& folder, const DemPlan& plan, long begin) {
@@ -63,7 +64,9 @@ void require_room(const CaseFolder& folder, const DemPlan& plan, long begin) {
   if (needed <= available) return;
   throw std::runtime_error(
       fs::canonical(folder.root).string() + ": the disk has room for " + megabytes(available) +
-      ", expected at least " + megabytes(needed) + " for " + std::to_string(plan.dumps) + " dumps of " +
+      ", expected at least " + megabytes(needed) + " for " +
+      (plan.dumps > 0 ? std::to_string(plan.dumps) + " dumps of "
+                      : "averages, contacts and restart files of ") +
       std::to_string(plan.charge.balls()) +
       " balls: free some room, raise dem.record_interval or dem.contact_interval, or lower dem.duration");
 }

@@ -9,7 +9,8 @@
 
 namespace millfoam::dem_driver {
 
-/// Bytes that the dumps, of contacts too, and the restart file of the run from step `begin` on need at least.
+/// Bytes that the dumps, of contacts too, the restart file and the averages made in the run need at least,
+/// from step `begin` on.
 double least_disk(const DemPlan& plan, long begin);
 
 /// Throws std::runtime_error with both numbers when the rest of the run, from step `begin` on, cannot fit on

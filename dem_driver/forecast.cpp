@@ -84,6 +84,7 @@ double logged_rate(const fs::path& file) {
 }
 
 double dump_bytes_per_ball(const CaseFolder& folder, const DemPlan& plan) {
+  if (plan.dumps == 0) return 0;
   double bytes = 0;
   for (const auto& dump : find_dumps(folder)) bytes += static_cast<double>(fs::file_size(dump));
   return bytes / static_cast<double>(plan.dumps * plan.charge.balls());
@@ -196,7 +197,7 @@ Forecast forecast(const DemPlan& plan, const Cost& cost, int ranks) {
                            static_cast<double>(plan.restart_steps);
   const double dumps = cost.dump * static_cast<double>(plan.dumps);
   const double contacts = cost.contacts * static_cast<double>(plan.contact_dumps);
-  result.disk = balls * (dumps + contacts + restart_per_ball) + histogram;
+  result.disk = balls * (dumps + contacts + restart_per_ball) + histogram + plan.averages_bytes;
   result.memory = ranks * cost.memory + balls * memory_per_ball;
   return result;
 }

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <vector>
 
+#include "averaging/run/live_averages.hpp"
+#include "dem_driver/averages_order.hpp"
 #include "dem_driver/disk_room.hpp"
 #include "dem_driver/liggghts_log.hpp"
 #include "dem_driver/segments.hpp"
@@ -90,6 +92,13 @@ bool whole_part(const CaseFolder& folder, const DemPlan& plan, long begin, long 
   return true;
 }
 
+/// Whether the averages that are made in the run can be resumed from a step.
+bool whole_averages(const CaseFolder& folder, const DemPlan& plan, long step) {
+  for (std::size_t n = 0; n < plan.averages.size(); ++n)
+    if (!averaging::has_checkpoint(averages_files(folder.dem(), n), plan.averages[n], step)) return false;
+  return true;
+}
+
 /// Throws RunError that says what an incomplete file means for the run.
 [[noreturn]] void stop(const CaseFolder& folder, const DemPlan& plan, const fs::path& file,
                        const std::string& complaint) {
@@ -129,6 +138,7 @@ std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& p
   const auto restarts = find_restarts(folder);
   for (auto restart = restarts.rbegin(); restart != restarts.rend(); ++restart) {
     if (restart_complaint(restart->file, plan.charge.balls()).empty() &&
+        whole_averages(folder, plan, restart->step) &&
         whole_part(folder, plan, restart->step - plan.restart_steps, restart->step))
       return restart->step;
   }
@@ -159,6 +169,9 @@ void OutputCheck::restart(long step) {
   const fs::path file = folder_.dem() / ("restart." + std::to_string(step));
   const std::string complaint = restart_complaint(file, plan_.charge.balls());
   if (!complaint.empty()) stop(folder_, plan_, file, complaint);
+  if (!whole_averages(folder_, plan_, step))
+    stop(folder_, plan_, averages_files(folder_.dem(), 0).checkpoint(step),
+         "there is no state of the averages of this step, expected one");
 }
 
 }  // namespace millfoam::dem_driver

@@ -23,7 +23,8 @@ std::string dump_complaint(const std::filesystem::path& file, long entries);
 /// up to its last byte.
 std::string restart_complaint(const std::filesystem::path& file, long balls);
 
-/// Step of the last restart file that is complete, as are all dumps of the part of the run that ends with it;
+/// Step of the last restart file that is complete, as are the averages of the run at that step and all dumps
+/// of the part of the run that ends with it;
 /// nothing when there is none. The dumps of earlier parts were checked before their restart files were
 /// removed.
 std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& plan);

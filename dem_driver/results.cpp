@@ -200,9 +200,9 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   results.balls = plan.charge.balls();
   results.resting_speed = resting_speed(folder, plan);
   results.history = read_history(folder);
-  if (static_cast<long>(results.history.size()) + 1 != plan.dumps)
+  if (static_cast<long>(results.history.size()) + 1 != plan.records)
     throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
-                   " records of torque and energy, expected " + std::to_string(plan.dumps - 1));
+                   " records of torque and energy, expected " + std::to_string(plan.records - 1));
   results.fluid = read_fluid_ledger(folder);
   if (plan.fluid.kind != FluidKind::none && results.fluid.size() != results.history.size())
     throw RunError(folder.dem().string() + ": " + std::to_string(results.fluid.size()) +
@@ -277,7 +277,11 @@ void print_results(std::ostream& out, const DemPlan& plan, const Results& result
   if (results.contacts) print_contacts(out, *results.contacts);
   print_overlaps("two balls", results.ball_overlaps);
   print_overlaps("balls and walls", results.wall_overlaps);
-  out << results.run.dumps << " dumps, one every " << plan.step.steps_per_record << " steps\n";
+  if (plan.dumps > 0)
+    out << results.run.dumps << " dumps";
+  else
+    out << "no dumps (dem.dumps: no), " << plan.records << " records";
+  out << ", one every " << plan.step.steps_per_record << " steps\n";
 }
 
 }  // namespace millfoam::dem_driver

@@ -69,7 +69,23 @@ std::vector<SegmentLine> read_file(const fs::path& file) {
   return lines;
 }
 
+/// Every state of averages after a record, by its step.
+std::vector<NumberedFile> find_states(const CaseFolder& folder) {
+  std::vector<NumberedFile> states;
+  for (const fs::path& file : find_averages(folder))
+    if (const auto step = number_in(file.extension().string(), ".", "")) states.push_back({*step, file});
+  return states;
+}
+
 }  // namespace
+
+std::vector<fs::path> find_averages(const CaseFolder& folder) {
+  std::vector<fs::path> found;
+  if (!fs::is_directory(folder.dem())) return found;
+  for (const auto& entry : fs::directory_iterator(folder.dem()))
+    if (entry.path().filename().string().rfind("averages_", 0) == 0) found.push_back(entry.path());
+  return found;
+}
 
 std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind) {
   return find_numbered(folder.dem(), kind + ".", ".txt");
@@ -137,14 +153,16 @@ void remove_contact_states(const CaseFolder& folder, const std::function<bool(lo
 }
 
 void remove_restarts_after(const CaseFolder& folder, long step) {
-  for (const auto& restart : find_restarts(folder))
-    if (restart.step > step) fs::remove(restart.file);
+  for (const auto& files : {find_restarts(folder), find_states(folder)})
+    for (const auto& found : files)
+      if (found.step > step) fs::remove(found.file);
   remove_contact_states(folder, [&](long other) { return other > step; });
 }
 
 void remove_restarts_before(const CaseFolder& folder, long step) {
-  for (const auto& restart : find_restarts(folder))
-    if (restart.step < step) fs::remove(restart.file);
+  for (const auto& files : {find_restarts(folder), find_states(folder)})
+    for (const auto& found : files)
+      if (found.step < step) fs::remove(found.file);
   remove_contact_states(folder, [&](long other) { return other < step; });
 }
 

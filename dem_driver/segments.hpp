@@ -60,6 +60,9 @@ long count_dumps_until(const CaseFolder& folder, long step);
 /// file.
 void remove_dumps_after(const CaseFolder& folder, long step);
 
+/// Every file of averages of the run under way, `dem/averages_*`: their states and finished windows.
+std::vector<std::filesystem::path> find_averages(const CaseFolder& folder);
+
 /// Removes `dem/contactState.<step>.txt`, which belongs to the restart file of that step, of chosen steps.
 void remove_contact_states(const CaseFolder& folder, const std::function<bool(long)>& chosen);
 

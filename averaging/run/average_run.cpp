@@ -9,7 +9,6 @@
 #include <functional>
 #include <utility>
 
-#include "averaging/files/output_lock.hpp"
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/checkpoint.hpp"
@@ -17,23 +16,12 @@
 #include "averaging/run/record_worker.hpp"
 #include "averaging/run/run_plan.hpp"
 #include "averaging/run/run_signature.hpp"
-#include "averaging/run/summary_file.hpp"
+#include "averaging/run/solids_output.hpp"
 #include "averaging/run/window_series.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
-
-/// Checks that every file that a run is to write may be written, before it begins. Throws SolidsFileError.
-std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
-  std::vector<OutputLock> locks;
-  for (const WindowsRequest& windows : request.windows) {
-    require_solids_or_nothing(windows.output);
-    require_summary_or_nothing(summary_path(windows.output));
-    locks.emplace_back(windows.output);
-  }
-  return locks;
-}
 
 /// Rank 0's part: the blocks go into the windows, the windows into the files.
 class Collector {
@@ -54,9 +42,9 @@ class Collector {
     for (std::size_t s = 0; s < plan.series.size(); ++s) {
       series_.emplace_back(request.windows[s].output, plan.series[s], plan.settings.timestep, setup.limits,
                            cells, id, earlier ? earlier->rows[s] : 0);
-      if (earlier) series_.back().restore(earlier->open[s]);
+      if (earlier) series_.back().recorder().open().unpack(earlier->open[s]);
     }
-    if (earlier) next_block_ = earlier->next_block;
+    if (earlier) next_block_ = earlier->reached;
     for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
       const std::size_t records = plan.blocks[b].last - plan.blocks[b].first;
       total_ += records;
@@ -86,14 +74,14 @@ class Collector {
     save();
     std::vector<SolidsSummary> summaries;
     for (std::size_t s = 0; s < series_.size(); ++s) {
-      const std::filesystem::path& output = request_.windows[s].output;
-      SolidsSummary summary = begin_summary(output, header(s), setup_.grid);
-      series_[s].write(setup_.grid, summary.header, [&](const WindowAverage& window) {
-        summary.windows.push_back(
-            summarise(setup_.grid, window.time, window.ledger, window.balls_per_cell, window.mean));
-      });
-      write_summary(summary_path(output), summary);
-      summaries.push_back(std::move(summary));
+      const WindowsRequest& windows = request_.windows[s];
+      const double time0 =
+          static_cast<double>(plan_.series[s].windows.front().begin) * plan_.settings.timestep;
+      const SolidsHeader header =
+          solids_header(request_, windows, plan_.settings, setup_, plan_.metadata, time0, program());
+      const WindowRecorder& recorder = series_[s].recorder();
+      summaries.push_back(write_solids(windows.output, setup_.grid, header, recorder.finished(),
+                                       [&](std::size_t row) { return recorder.read(row); }));
     }
     // First the note, so that a kill in between leaves none without its journals.
     std::filesystem::remove(resume_);
@@ -124,31 +112,12 @@ class Collector {
   void save() {
     Checkpoint checkpoint{signature_, next_block_, {}, {}};
     for (WindowSeries& series : series_) {
-      series.sync();
-      checkpoint.rows.push_back(series.finished());
-      checkpoint.open.push_back(series.open_window().packed());
+      WindowRecorder& recorder = series.recorder();
+      recorder.sync();
+      checkpoint.rows.push_back(recorder.finished());
+      checkpoint.open.push_back(recorder.open().packed());
     }
     write_checkpoint(resume_, checkpoint);
-  }
-
-  SolidsHeader header(std::size_t s) const {
-    SolidsHeader header;
-    header.time0 = static_cast<double>(plan_.series[s].windows.front().begin) * plan_.settings.timestep;
-    header.timestep = plan_.settings.timestep;
-    header.whole_run = !request_.windows[s].length;
-    header.method = setup_.method;
-    header.angular_velocity = plan_.settings.angular_velocity;
-    header.smoothing = setup_.smoothing;
-    header.solidity_cap = request_.solidity_cap;
-    header.inside_fractions = !setup_.limits.whole_volumes.empty();
-    header.program = program();
-    header.mill_averages = request_.mill_averages;
-    if (plan_.metadata) {
-      header.mill_charge = plan_.metadata->mill_charge;
-      header.run_id = plan_.metadata->run_id;
-      header.fines_share = plan_.metadata->fines_share;
-    }
-    return header;
   }
 
   const AverageRequest& request_;

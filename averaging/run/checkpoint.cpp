@@ -29,7 +29,7 @@ std::string as_bytes(const Checkpoint& checkpoint) {
   std::string bytes;
   put(bytes, checkpoint.signature.size());
   bytes += checkpoint.signature;
-  put(bytes, checkpoint.next_block);
+  put(bytes, checkpoint.reached);
   put(bytes, checkpoint.rows.size());
   for (std::size_t s = 0; s < checkpoint.rows.size(); ++s) {
     put(bytes, checkpoint.rows[s]);
@@ -114,7 +114,7 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& path) {
   Parts parts(bytes);
   Checkpoint checkpoint;
   checkpoint.signature = parts.text();
-  checkpoint.next_block = parts.number();
+  checkpoint.reached = parts.number();
   const std::size_t series = parts.number();
   for (std::size_t s = 0; s < series; ++s) {
     checkpoint.rows.push_back(parts.number());

@@ -12,7 +12,7 @@ namespace millfoam::averaging {
 /// State of a run, from which the next one resumes after it was killed.
 struct Checkpoint {
   std::string signature;                  ///< of what is averaged and how
-  std::size_t next_block = 0;             ///< all before it are merged
+  std::size_t reached = 0;                ///< number of blocks merged; of a DEM run under way, its step
   std::vector<std::size_t> rows;          ///< finished windows of each series of windows
   std::vector<std::vector<double>> open;  ///< moments of each series' window under way, packed
 };

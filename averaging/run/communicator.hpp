@@ -28,6 +28,10 @@ class Communicator {
     static_cast<void>(numbers);
   }
 
+  /// Leaves on rank 0 the sums over all ranks, entry by entry. Other ranks may be left with any numbers.
+  /// @param numbers  as many on every rank
+  virtual void sum(std::vector<double>& numbers) { static_cast<void>(numbers); }
+
   /// The number that rank 0 has, for all.
   virtual long long broadcast(long long number) { return number; }
 };

@@ -54,11 +54,15 @@ std::string extent_in_words(const MeshCells& mesh) {
   return extent.in_words();
 }
 
-std::string extents(const Grid& grid, const ParticleRecord& record) {
+std::string extents(const Grid& grid, const std::string& balls) {
+  return "the grid spans " + std::visit([](const auto& kind) { return extent_in_words(kind); }, grid) +
+         (balls.empty() ? "" : ", the balls " + balls) + "; expected metres";
+}
+
+std::string extents(const ParticleRecord& record) {
   Extent balls;
   for (const Particle& ball : record.particles) balls.add(ball.position.data(), ball.radius);
-  return "the grid spans " + std::visit([](const auto& kind) { return extent_in_words(kind); }, grid) +
-         ", the balls " + balls.in_words() + "; expected metres";
+  return balls.in_words();
 }
 
 double grid_volume(const Grid& grid) {
@@ -67,28 +71,38 @@ double grid_volume(const Grid& grid) {
   return volume;
 }
 
-}  // namespace
-
-std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
-                   double largest_outside) {
-  RecordSums sums;
-  sum_record(*setup.deposition->clone(), record, time, sums);
-  const Ledger& ledger = sums.ledger;
+/// @param balls  their extents in words; empty: not known
+std::string misfit_in_words(const CellSetup& setup, const Ledger& ledger, const std::string& balls,
+                            const std::string& name, double largest_outside) {
   if (!(ledger.volume_in > 0)) return {};
   std::ostringstream text;
   text.precision(3);
   text << name << ": ";
   if (ledger.outside > largest_outside * ledger.volume_in) {
     text << 100 * ledger.outside / ledger.volume_in
-         << " % of the balls' volume lies outside the grid: " << extents(setup.grid, record)
+         << " % of the balls' volume lies outside the grid: " << extents(setup.grid, balls)
          << ". To average only a part of the balls, give --tolerance SHARE";
     return text.str();
   }
   const double fill = ledger.volume_in / grid_volume(setup.grid);
   if (fill >= smallest_fill) return {};
   text << "the balls fill only " << fill
-       << " of the grid, which is far too large for them: " << extents(setup.grid, record);
+       << " of the grid, which is far too large for them: " << extents(setup.grid, balls);
   return text.str();
+}
+
+}  // namespace
+
+std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
+                   double largest_outside) {
+  RecordSums sums;
+  sum_record(*setup.deposition->clone(), record, time, sums);
+  return misfit_in_words(setup, sums.ledger, extents(record), name, largest_outside);
+}
+
+std::string misfit(const CellSetup& setup, const Ledger& ledger, const std::string& name,
+                   double largest_outside) {
+  return misfit_in_words(setup, ledger, "", name, largest_outside);
 }
 
 }  // namespace millfoam::averaging

@@ -21,4 +21,9 @@ inline constexpr double smallest_fill = 1e-6;
 std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
                    double largest_outside);
 
+/// The same where only the sums over the balls are known: the sentence has the grid's extents alone.
+/// @param ledger  of the record, m^3
+std::string misfit(const CellSetup& setup, const Ledger& ledger, const std::string& name,
+                   double largest_outside);
+
 }  // namespace millfoam::averaging

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "averaging/run/program.hpp"
 #include "meshing/files/output_file.hpp"
 
 namespace millfoam::averaging {
@@ -128,10 +127,10 @@ void require_summary_or_nothing(const std::filesystem::path& path) {
                         " file; it would be overwritten: give another name or remove it");
 }
 
-std::string as_json(const SolidsSummary& summary) {
+std::string as_json(const SolidsSummary& summary, const std::string& writer) {
   const WindowSummary all = overall(summary);
   Json json{{"format", summary_format},
-            {"program", program()},
+            {"program", writer},
             {"mill", fingerprints(summary.header)},
             {"run_id", known(summary.header.run_id)},
             {"file", summary.file.filename().string()}};
@@ -151,8 +150,9 @@ std::string as_json(const SolidsSummary& summary) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-void write_summary(const std::filesystem::path& path, const SolidsSummary& summary) {
-  const std::string text = as_json(summary);
+void write_summary(const std::filesystem::path& path, const SolidsSummary& summary,
+                   const std::string& writer) {
+  const std::string text = as_json(summary, writer);
   try {
     replace_file(path, [&](std::ostream& out) { out << text; });
   } catch (const std::runtime_error&) {

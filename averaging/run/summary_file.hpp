@@ -17,9 +17,11 @@ void require_summary_or_nothing(const std::filesystem::path& path);
 
 /// The summary as JSON, see FORMATS.md: what `report` prints, as numbers with units in their keys.
 /// What is not known is null.
-std::string as_json(const SolidsSummary& summary);
+/// @param writer  the program that writes it, with its version
+std::string as_json(const SolidsSummary& summary, const std::string& writer);
 
 /// Writes that into a file, replacing an older one only when it is complete. Throws SolidsFileError.
-void write_summary(const std::filesystem::path& path, const SolidsSummary& summary);
+void write_summary(const std::filesystem::path& path, const SolidsSummary& summary,
+                   const std::string& writer);
 
 }  // namespace millfoam::averaging

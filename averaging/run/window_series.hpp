@@ -2,16 +2,14 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
-#include "averaging/files/window_journal.hpp"
 #include "averaging/run/record_blocks.hpp"
-#include "averaging/statistics/window_average.hpp"
+#include "averaging/run/window_recorder.hpp"
 
 namespace millfoam::averaging {
 
-/// The windows of one length: takes in the blocks of records in order, closes each window when its last block
-/// is in, and writes the solids file when all are.
+/// The windows of one length of recorded dumps: takes in the blocks of records in order, and closes each
+/// window when its last block is in.
 class WindowSeries {
  public:
   /// @param output  the solids file; its windows are kept in `output` + ".journal" until it is complete
@@ -28,17 +26,8 @@ class WindowSeries {
   /// `average` with the time of the window.
   void add(const RecordBlock& block, const WindowMoments& moments);
 
-  std::size_t finished() const { return journal_.rows(); }    ///< number of closed windows
-  const WindowMoments& open_window() const { return open_; }  ///< the one under way
-  /// Takes up the window under way of an earlier run, `WindowMoments::packed`.
-  void restore(const std::vector<double>& packed) { open_.unpack(packed); }
-
-  /// Waits until the finished windows are on the disk.
-  void sync() { journal_.sync(); }
-
-  /// Writes the solids file and its .xdmf, calling `each` with every window. Throws SolidsFileError.
-  void write(const Grid& grid, const SolidsHeader& header,
-             const std::function<void(const WindowAverage&)>& each) const;
+  /// Its windows, finished and under way.
+  WindowRecorder& recorder() { return recorder_; }
 
   /// Removes the journal.
   void forget() const;
@@ -47,14 +36,10 @@ class WindowSeries {
   static std::filesystem::path journal_path(const std::filesystem::path& output);
 
  private:
-  WindowAverage average_of_window(double begin) const;
-
   std::filesystem::path output_;
   WindowPlan plan_;
   double timestep_;
-  const CellLimits& limits_;
-  WindowMoments open_;
-  WindowJournal journal_;
+  WindowRecorder recorder_;
 };
 
 }  // namespace millfoam::averaging

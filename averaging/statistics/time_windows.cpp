@@ -17,18 +17,6 @@ std::string seconds(long long steps, double timestep) {
   return text.str();
 }
 
-long long whole_steps(double time, double timestep, const char* what) {
-  constexpr double exactly_countable = 9e15;
-  const double steps = std::round(time / timestep);
-  if (!(std::abs(steps) < exactly_countable)) {
-    std::ostringstream message;
-    message << what << " is " << time << " s, expected a time that can be counted in steps of " << timestep
-            << " s";
-    throw WindowError(message.str());
-  }
-  return static_cast<long long>(steps);
-}
-
 /// The median of the numbers of steps between two records, which an odd dump or a gap does not change; 1 when
 /// there is only one record.
 long long usual_interval(const std::vector<long long>& steps) {
@@ -137,6 +125,27 @@ void end_with_the_dumps(const std::vector<long long>& steps, long long interval,
 }
 
 }  // namespace
+
+long long whole_steps(double time, double timestep, const char* what) {
+  constexpr double exactly_countable = 9e15;
+  const double steps = std::round(time / timestep);
+  if (!(std::abs(steps) < exactly_countable)) {
+    std::ostringstream message;
+    message << what << " is " << time << " s, expected a time that can be counted in steps of " << timestep
+            << " s";
+    throw WindowError(message.str());
+  }
+  return static_cast<long long>(steps);
+}
+
+TimeWindow time_of(const WindowSpan& span, double timestep) {
+  TimeWindow time;
+  time.begin = static_cast<double>(span.begin) * timestep;
+  time.end = static_cast<double>(span.end) * timestep;
+  time.starts_late = span.starts_late;
+  time.ends_short = span.ends_short;
+  return time;
+}
 
 WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest& request) {
   if (steps.empty()) throw WindowError("there are no records");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "averaging/values/solids_window.hpp"
+
 namespace millfoam::averaging {
 
 /// Windows that cannot be cut; the message names the times.
@@ -31,6 +33,15 @@ struct WindowSpan {
   bool starts_late = false;      ///< a record or more is missing at its beginning
   bool ends_short = false;       ///< or at its requested end
 };
+
+/// A time in whole time-steps. Throws WindowError that names it as `what` where it cannot be counted.
+/// @param time  s
+/// @param timestep  of the DEM run, s
+long long whole_steps(double time, double timestep, const char* what);
+
+/// The times and marks of a window; its number of records is left 0.
+/// @param timestep  of the DEM run, s
+TimeWindow time_of(const WindowSpan& span, double timestep);
 
 /// A run cut into windows.
 struct WindowPlan {

@@ -7,7 +7,9 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <stdexcept>
 
+#include "averaging/run/program.hpp"
 #include "averaging/run/summary_file.hpp"
 #include "averaging/tools/mill_averages.hpp"
 #include "averaging/tools/mpi_communicator.hpp"
@@ -41,6 +43,7 @@ int run(Options& options, Communicator& communicator) {
   };
   std::string fingerprint;
   if (!options.mill.file.empty()) fingerprint = take_from_mill(options.mill.read(), options);
+  if (options.dumps.empty()) throw std::invalid_argument("--dumps is missing");
   const double allowed = tolerance(options, 1);
   AverageRequest request = as_request(options);
   request.mill_averages = fingerprint;
@@ -57,7 +60,7 @@ int report_file(const Options& options) {
   if (!options.json.empty()) require_summary_or_nothing(options.json);
   const SolidsSummary summary = summarise(options.report);
   std::cout << report(summary);
-  if (!options.json.empty()) write_summary(options.json, summary);
+  if (!options.json.empty()) write_summary(options.json, summary, program());
   return verdict(summary, tolerance(options, usual_tolerance));
 }
 

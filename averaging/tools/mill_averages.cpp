@@ -42,6 +42,24 @@ double steady_start(const fs::path& file) {
   return results["steady_from_s"].get<double>();
 }
 
+void require_dumps(const nlohmann::json& run, const fs::path& file) {
+  if (run.value("dumps", 1) > 0) return;
+  throw std::invalid_argument(
+      file.string() + ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
+}
+
+}  // namespace
+
+double last_whole_window(double start, double end, double duration, double window) {
+  const double left = end - start;
+  const double count = std::floor(left / window * (1 + 1e-9));
+  if (count < 1)
+    throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
+                                exact(duration) + " s has only " + exact(left) + " s from " + exact(start) +
+                                " s on: raise dem.duration, or lower averages.window");
+  return start + count * window;
+}
+
 void take_grid(const meshing::Mill& mill, Options& options) {
   const meshing::Voxels& voxels = mill.averages.voxels;
   options.box.assign(voxels.lower.begin(), voxels.lower.end());
@@ -53,6 +71,8 @@ void take_grid(const meshing::Mill& mill, Options& options) {
   options.template_points = mill.averages.template_points;
 }
 
+namespace {
+
 /// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at
 /// its end, and averages.start counts from there.
 void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run,
@@ -61,15 +81,9 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohma
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
-  const double left = begin + duration - start;
-  const double count = std::floor(left / window * (1 + 1e-9));
-  if (count < 1)
-    throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
-                                exact(duration) + " s has only " + exact(left) + " s from " + exact(start) +
-                                " s on: raise dem.duration, or lower averages.window");
+  options.end = last_whole_window(start, begin + duration, duration, window);
   options.windows = {exact(window)};
   options.start = start;
-  options.end = start + count * window;
 }
 
 }  // namespace
@@ -83,6 +97,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   if (options.dumps.empty()) {
     const nlohmann::json run = read_object(dumps / "run.json");
     require_charge_of(run, dumps / "run.json", of.charge);
+    require_dumps(run, dumps / "run.json");
     options.dumps = (dumps / "dump.*.txt").string();
     if (!own_windows) take_windows(mill, dumps, run, options);
   } else if (!own_windows) {

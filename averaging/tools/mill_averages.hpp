@@ -17,4 +17,16 @@ namespace millfoam::averaging {
 /// Throws MillError, and std::invalid_argument for dumps of another mill, or where no window is left.
 std::string take_from_mill(const meshing::MillDescription& description, Options& options);
 
+/// Fills grid, periods, walls and method from the section `averages` of a mill; the grid of the options must
+/// be empty.
+void take_grid(const meshing::Mill& mill, Options& options);
+
+/// DEM time at which the last whole window of a dry run ends, s. Throws std::invalid_argument where there is
+/// none.
+/// @param start  of the first window, s
+/// @param end  of the dry run, s
+/// @param duration  of the dry run, s, for the message
+/// @param window  length of the windows, s
+double last_whole_window(double start, double end, double duration, double window);
+
 }  // namespace millfoam::averaging

@@ -148,8 +148,14 @@ void declare_files(CLI::App& app, Options& options) {
   app.add_option("--dt", options.timestep,
                  "DEM time-step, s; unless given, from run.json in the folder of the dumps");
   app.add_option("--speed", options.speed, "of the mill about z, rad/s; unless given, from run.json");
+}
+
+void declare_output(CLI::App& app, Options& options) {
   app.add_option("-o,--output", options.output,
                  "file to write; with several windows NAME_LENGTH.h5 for NAME.h5");
+  app.add_option("--tolerance", options.tolerance,
+                 "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
+                 "--report, otherwise none]");
 }
 
 void declare_cells(CLI::App& app, Options& options) {
@@ -200,9 +206,6 @@ void declare_run(CLI::App& app, Options& options) {
   CLI::Option* const report =
       app.add_option("--report", options.report, "only print the ledger and summary of this solids file");
   app.add_option("--json", options.json, "with --report: also write them to this file")->needs(report);
-  app.add_option("--tolerance", options.tolerance,
-                 "fail when more than this share of the balls' volume is outside or above the cap [0.01 with "
-                 "--report, otherwise none]");
 }
 
 }  // namespace
@@ -210,10 +213,15 @@ void declare_run(CLI::App& app, Options& options) {
 void declare(CLI::App& app, Options& options) {
   declare_mill(app, options);
   declare_files(app, options);
+  declare_averages(app, options);
+  declare_run(app, options);
+}
+
+void declare_averages(CLI::App& app, Options& options) {
   declare_cells(app, options);
   declare_method(app, options);
   declare_windows(app, options);
-  declare_run(app, options);
+  declare_output(app, options);
 }
 
 double tolerance(const Options& options, double usual) {
@@ -224,9 +232,8 @@ double tolerance(const Options& options, double usual) {
 }
 
 AverageRequest as_request(const Options& options) {
-  const std::array<std::pair<const char*, bool>, 3> required{{{"--dumps", options.dumps.empty()},
-                                                              {"--window", options.windows.empty()},
-                                                              {"-o", options.output.empty()}}};
+  const std::array<std::pair<const char*, bool>, 2> required{
+      {{"--window", options.windows.empty()}, {"-o", options.output.empty()}}};
   for (const auto& [name, missing] : required) {
     if (missing) throw std::invalid_argument(std::string(name) + " is missing");
   }

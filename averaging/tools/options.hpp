@@ -45,11 +45,14 @@ struct Options {
 /// Declares them, with their help.
 void declare(CLI::App& app, Options& options);
 
+/// Declares those that hold for averages of a run under way, too: cells, method, windows, tolerance and file.
+void declare_averages(CLI::App& app, Options& options);
+
 /// The share that --tolerance gives, or the usual one. Throws as `as_request`.
 double tolerance(const Options& options, double usual);
 
-/// Checks that they go together. Throws std::invalid_argument naming the option, its value and what was
-/// expected.
+/// Checks that they go together, but for --dumps, which may be empty. Throws std::invalid_argument naming the
+/// option, its value and what was expected.
 AverageRequest as_request(const Options& options);
 
 }  // namespace millfoam::averaging

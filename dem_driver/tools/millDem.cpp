@@ -28,6 +28,7 @@
 #include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/tools/averages_of_run.hpp"
 #include "dem_driver/wall_fit.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/text_numbers.hpp"
@@ -51,6 +52,7 @@ struct Options {
   std::string fluid_time = "mean";
   std::string with_flow;  ///< folder of the exchange with a flow that runs at the same time; empty: none
   std::string continued;  ///< folder of the case from whose last state the run continues; empty: none
+  std::vector<std::string> averages;  ///< made while the mill turns: options of millAverage
   std::string plan_file;
 };
 
@@ -82,7 +84,7 @@ void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::D
                                "at least the " + seconds(step - plan.begin) + " s that the run in " +
                                    folder.root.string() + " has reached" + otherwise);
   }
-  const long expected = (step - plan.begin) / plan.step.steps_per_record + 1;
+  const long expected = plan.dumps > 0 ? (step - plan.begin) / plan.step.steps_per_record + 1 : 0;
   const long found = dem_driver::count_dumps_until(folder, step);
   if (found != expected)
     throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
@@ -102,7 +104,7 @@ std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_dr
   if (identity(read_text(folder.deck())) != identity(deck))
     throw std::runtime_error(
         folder.deck().string() +
-        ": the existing run has another mill.yaml, other walls, another fluid or another "
+        ": the existing run has another mill.yaml, other walls, another fluid, other averages or another "
         "begin" +
         otherwise);
   const auto step = dem_driver::last_good_restart(folder, plan);
@@ -189,6 +191,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     dem_driver::continue_from(state->step, plan);
   }
   if (!options.with_flow.empty()) dem_driver::meet_flow(options.with_flow, mill, plan);
+  const dem_driver::AveragesOfRun averages(description, folder, options.averages, plan, std::cout);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
@@ -199,6 +202,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.end_step() && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";
+    averages.finish(true, std::cout);
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
@@ -210,6 +214,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   }
   write_fluid(folder, mill, plan, parts);
   write_contact_order(folder, mill, plan, parts);
+  averages.write_order();
   replace_file(folder.deck(), [&](std::ostream& out) { out << deck.str(); });
   dem_driver::write_plan_file(folder.plan_file(), mill, plan);
   meshing::write_resolved_mill(description, "millDem", folder.root / meshing::resolved_mill_name);
@@ -235,6 +240,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   // Only now, so that the dumps of a broken run are not taken for a complete one.
   dem_driver::write_run_file(folder, mill, plan);
   dem_driver::print_results(std::cout, plan, results);
+  averages.finish(false, std::cout);
 }
 
 /// Before the trial, which takes half a minute.
@@ -309,6 +315,12 @@ Action parse(CLI::App& app, Options& options, std::vector<std::string> words) {
   app.add_option(
       "--continue", options.continued,
       "begin with the last state of the complete run in this case folder, and turn for dem.duration more");
+  app.add_option("--average", options.averages,
+                 "make averages while the mill turns, of these options of millAverage, in quotes, as in "
+                 "'--cylinder 0 0.06 0 0.024 --shape 30 40 1 -o rings.h5'; may be given again")
+      ->expected(1)
+      ->take_all()
+      ->type_name("OPTIONS");
   app.add_flag("--deck-only", options.deck_only, "write the deck, do not run it");
   app.parse(words);
   if (options.case_folder.empty() && options.mill.resolved.empty()) throw CLI::RequiredError("--case");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls. It takes the
-// options of the program liggghts, prints what that prints, and needs dem/fluid.json only where the deck has
-// a fluid, and dem/contacts.json where it watches contacts. See dem_driver/README.md.
+// millLiggghts -in DECK …: LIGGGHTS as millDem starts it, with the fluid that pushes the balls, the averages
+// of the balls and the statistics of their contacts. It takes the options of the program liggghts, prints
+// what that prints, and needs dem/fluid.json, dem/averages.json and dem/contacts.json only where the deck has
+// these. See dem_driver/README.md.
 #include <liggghts/atom.h>
 #include <liggghts/fix_external.h>
 #include <liggghts/input.h>
@@ -27,6 +28,7 @@
 #include "dem_driver/flow_exchange.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"
+#include "dem_driver/tools/averages_fix.hpp"
 #include "dem_driver/tools/contact_watch.hpp"
 #include "dem_driver/tools/stop.hpp"
 #include "dem_driver/tools/watched_model.hpp"
@@ -180,8 +182,8 @@ std::string deck_name(int argc, char** argv) {
   throw std::runtime_error("expected -in DECK");
 }
 
-/// Feeds the deck to LIGGGHTS line by line, gives its fluid's fixes their forces as soon as they are there,
-/// and follows the contacts from the deck's `watch_command` on.
+/// Feeds the deck to LIGGGHTS line by line, gives the fixes of fluid and averages their work as soon as they
+/// are there, and follows the contacts from the deck's `watch_command` on.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
   add_watched_model();
@@ -197,6 +199,8 @@ void run(int argc, char** argv, int rank) {
       if (begins(line, std::string("fix ") + name + ' '))
         fluid = std::make_unique<FluidFix>(liggghts, name, read_fluid_order("fluid.json"),
                                            name == fluid_fix ? "fluid" : "");
+    if (begins(line, std::string("fix ") + averages_fix + ' '))
+      make_averages(liggghts, averages_fix, "averages.json", stop);
   }
 }
 

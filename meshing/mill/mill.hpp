@@ -103,7 +103,8 @@ struct Dem {
   double rayleigh_fraction = 0;  ///< largest time-step over the Rayleigh time of the smallest ball
   double settle_time = 0;        ///< s the balls fall in the mill at rest, before DEM time 0
   double duration = 0;           ///< s of turning mill, from DEM time 0
-  double record_interval = 0;    ///< s between dumps
+  double record_interval = 0;    ///< s between records of the balls
+  bool dumps = true;             ///< whether the balls of every record are dumped
   double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
   bool contact_statistics = false;  ///< whether every contact is followed in every step
   int seed = 0;                     ///< of the random insertion
@@ -154,6 +155,7 @@ struct Averages {
   std::optional<double> start;  ///< DEM time, s; nothing: when the dry run has become steady
   std::string method;           ///< exact or sample
   int template_points = 0;      ///< along a diameter, of `sample`
+  bool live = false;            ///< made by millDem while the mill turns
 };
 
 /// The slurry at the start of the flow: a level, or a volume.

@@ -23,7 +23,7 @@ Json contact_numbers(const Contact& contact) {
 }
 
 /// The keys of `dem`; without a pool as before there was one, with it also its density. Statistics of the
-/// contacts do not change the motion.
+/// contacts and dumps of the balls do not change the motion.
 Json dem_numbers(const Json& keys, const Mill& mill) {
   Json dem = keys.at("dem");
   dem.erase("contact_statistics");
@@ -31,7 +31,15 @@ Json dem_numbers(const Json& keys, const Mill& mill) {
     dem["fluid_density"] = mill.slurry.density;
   else
     dem.erase("fluid");
+  dem.erase("dumps");
   return dem;
+}
+
+/// The keys of `averages` but the time at which they are made.
+Json averages_numbers(const Json& keys) {
+  Json averages = keys.at("averages");
+  averages.erase("live");
+  return averages;
 }
 
 }  // namespace
@@ -64,9 +72,10 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["dem"].erase("duration");
   result.charge = fingerprint(of.dump());
   of["dem"] = dem_numbers(keys, mill);
-  of["averages"] = keys.at("averages");
+  of["averages"] = averages_numbers(keys);
   result.averages = fingerprint(of.dump());
   of = keys;
+  of["averages"] = averages_numbers(keys);
   of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;
   of.erase("title");

@@ -246,8 +246,8 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
 }  // namespace
 
 Averages read_averages(const Section& root, const Mill& mill) {
-  Section in =
-      root.optional_section("averages", {"voxel_size", "counts", "window", "start", "method", "template"});
+  Section in = root.optional_section(
+      "averages", {"voxel_size", "counts", "window", "start", "method", "template", "live"});
   const ChargeNumbers charge = count_charge(mill);
   const double radius = mill.geometry.radius();
   const double many_balls = std::min(usual_voxel * charge.sauter_diameter, radius / usual_voxels_of_radius);
@@ -272,6 +272,7 @@ Averages read_averages(const Section& root, const Mill& mill) {
   averages.template_points =
       in.integer("template",
                  {"a whole number of points from 2 to 100", [](double v) { return v >= 2 && v <= 100; }}, 12);
+  averages.live = in.boolean("live", false);
   return averages;
 }
 

@@ -115,6 +115,7 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
   dem.duration = in.number("duration", time_above_zero(), usual_dem_turns * turn);
   dem.record_interval = in.number("record_interval", part_of("duration", dem.duration),
                                   std::min(turn / records_per_turn, dem.duration));
+  dem.dumps = in.boolean("dumps", true);
   const Rule interval = part_of("duration", dem.duration);
   dem.contact_interval = in.number(
       "contact_interval",
@@ -213,7 +214,7 @@ Mill read_root(const Section& in, const std::string& usual_title) {
                             mill.geometry, mill.ball.density);
   Section dem =
       in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
-                                  "settle_time", "duration", "record_interval", "contact_interval",
+                                  "settle_time", "duration", "record_interval", "dumps", "contact_interval",
                                   "contact_statistics", "seed", "fluid", "fluid_level"});
   mill.dem = read_dem(dem, mill.geometry, mill.turn());
   Section slurry =

@@ -123,6 +123,7 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
                             {"mill", {{"walls", "w"}, {"charge", "c"}}},
                             {"timestep_s", plan.step.value},
                             {"interval", plan.step.steps_per_record},
+                            {"dumps", 31},
                             {"angular_velocity_rad_s", -12.0},
                             {"begin_s", 0.0},
                             {"duration_s", plan.duration()},

@@ -18,6 +18,8 @@ MAY_USE = {
                 "openfoam_module/drag"},  # the names of the laws, which are only in its table
     # A flow's file, out of which balls take their forces
     "dem_driver": {"averaging", "meshing", "meshing/files", "meshing/surface"},
+    # millDem takes the options of millAverage
+    "dem_driver/tools": {"dem_driver", "averaging", "averaging/tools", "meshing", "meshing/files", "meshing/surface"},
     "averaging": {"meshing/files", "meshing/surface"},
     # The tool reads a mill's section; the library does not depend on mills
     "averaging/tools": {"averaging", "meshing", "meshing/files", "meshing/surface"},

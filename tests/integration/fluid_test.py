@@ -233,7 +233,7 @@ class Passes(FluidCase):
         self.assertEqual(list(dumps), list(others))
         for at, table in dumps.items():
             np.testing.assert_array_equal(table, others[at])
-        with self.assertRaisesRegex(RunError, "another mill.yaml, other walls, another fluid or another begin"):
+        with self.assertRaisesRegex(RunError, "other walls, another fluid, other averages or another begin"):
             run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
 
     def test_a_run_continues_from_the_last_state_of_another_case_and_its_averages_follow(self):

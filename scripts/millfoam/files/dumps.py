@@ -18,8 +18,12 @@ def read_timestep(dumps: Path | str) -> float:
 
 
 def numbered_dumps(folder: Path | str, kind: str = "dump") -> list[tuple[int, Path]]:
-    """[(step, path)] of a folder's `<kind>.<step>.txt`, by step; RuntimeError if there are none."""
+    """[(step, path)] of a folder's `<kind>.<step>.txt`, by step; RuntimeError if there are none, as of a dry run with
+    `dem.dumps: no`."""
     found = sorted((int(path.name.split(".")[1]), path) for path in Path(folder).glob(f"{kind}.*.txt"))
     if not found:
-        raise RuntimeError(f"{folder}: no {kind}.<step>.txt")
+        notes = Path(folder) / "run.json"
+        reason = ", because the run wrote none (dem.dumps: no)" if (
+            kind == "dump" and notes.is_file() and read_notes(folder).get("dumps") == 0) else ""
+        raise RuntimeError(f"{folder}: no {kind}.<step>.txt{reason}")
     return found

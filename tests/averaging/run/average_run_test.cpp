@@ -248,8 +248,8 @@ TEST_F(AverageRun, NamesTheMillAndTheDryRunOfTheNotes) {
 TEST_F(AverageRun, LeavesTheSummaryThatReportsOfTheFileGive) {
   folder.write("run.json", R"({"mill": {"charge": "0a1b"}})");
   const SolidsSummary summary = run();
-  EXPECT_EQ(bytes(folder / "solids.json"), as_json(summary));
-  EXPECT_EQ(as_json(summarise(output())), as_json(summary));
+  EXPECT_EQ(bytes(folder / "solids.json"), as_json(summary, program()));
+  EXPECT_EQ(as_json(summarise(output()), program()), as_json(summary, program()));
 }
 
 TEST_F(AverageRun, OverwritesNoFileOfAnotherKind) {

@@ -40,7 +40,7 @@ struct Summary : ::testing::Test {
     summary.windows.push_back(window);
   }
 
-  Json json() const { return Json::parse(as_json(summary)); }
+  Json json() const { return Json::parse(as_json(summary, program())); }
 };
 
 TEST_F(Summary, HoldsTheLedgerWindowByWindow) {
@@ -125,7 +125,7 @@ TEST_F(Summary, ReplacesItsOwnKindOnly) {
   for (const double begin : {1.0, 3.0}) {
     summary.header.time0 = begin;
     require_summary_or_nothing(file);
-    write_summary(file, summary);
+    write_summary(file, summary, program());
     std::ifstream input(file);
     EXPECT_EQ(Json::parse(input)["time0_s"], begin);
   }
@@ -138,7 +138,7 @@ TEST_F(Summary, ReplacesItsOwnKindOnly) {
 }
 
 TEST_F(Summary, ThatCannotBeWrittenIsToldByName) {
-  const auto write = [&] { write_summary(folder / "none/solids.json", summary); };
+  const auto write = [&] { write_summary(folder / "none/solids.json", summary, program()); };
   expect_named(message_of<SolidsFileError>(write), {"none/solids.json", "cannot write"});
 }
 

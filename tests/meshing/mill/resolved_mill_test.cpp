@@ -75,6 +75,12 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("speed.fraction_of_critical=0.6").charge, mill.charge);
   EXPECT_EQ(changed("dem.contact_statistics=true").charge, mill.charge);
   EXPECT_EQ(changed("dem.contact_statistics=true").averages, mill.averages);
+  // When averages are made, and whether balls are dumped, changes no result
+  for (const char* key : {"averages.live=yes", "dem.dumps=no"}) {
+    EXPECT_EQ(changed(key).charge, mill.charge);
+    EXPECT_EQ(changed(key).averages, mill.averages);
+    EXPECT_EQ(changed(key).flow, mill.flow);
+  }
   // A longer dry run is resumed, but its averages are others
   EXPECT_EQ(changed("dem.duration=3").charge, mill.charge);
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);

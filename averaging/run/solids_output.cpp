@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/run/solids_output.hpp"
+
+#include "averaging/files/xdmf.hpp"
+#include "averaging/run/summary_file.hpp"
+
+namespace millfoam::averaging {
+
+std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
+  std::vector<OutputLock> locks;
+  for (const WindowsRequest& windows : request.windows) {
+    require_solids_or_nothing(windows.output);
+    require_summary_or_nothing(summary_path(windows.output));
+    locks.emplace_back(windows.output);
+  }
+  return locks;
+}
+
+SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& windows,
+                           const RunSettings& settings, const CellSetup& setup,
+                           const std::optional<RunMetadata>& metadata, double time0,
+                           const std::string& program) {
+  SolidsHeader header;
+  header.time0 = time0;
+  header.timestep = settings.timestep;
+  header.whole_run = !windows.length;
+  header.method = setup.method;
+  header.angular_velocity = settings.angular_velocity;
+  header.smoothing = setup.smoothing;
+  header.solidity_cap = request.solidity_cap;
+  header.inside_fractions = !setup.limits.whole_volumes.empty();
+  header.program = program;
+  header.mill_averages = request.mill_averages;
+  if (metadata) {
+    header.mill_charge = metadata->mill_charge;
+    header.run_id = metadata->run_id;
+    header.fines_share = metadata->fines_share;
+  }
+  return header;
+}
+
+SolidsSummary write_solids(const std::filesystem::path& output, const Grid& grid, const SolidsHeader& header,
+                           std::size_t windows, const std::function<WindowAverage(std::size_t)>& window) {
+  SolidsSummary summary = begin_summary(output, header, grid);
+  SolidsWriter writer(output, grid, header);
+  for (std::size_t w = 0; w < windows; ++w) {
+    const WindowAverage average = window(w);
+    writer.append(average);
+    summary.windows.push_back(
+        summarise(grid, average.time, average.ledger, average.balls_per_cell, average.mean));
+  }
+  writer.finish();
+  write_xdmf(output);
+  write_summary(summary_path(output), summary, header.program);
+  return summary;
+}
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "averaging/dumps/run_metadata.hpp"
+#include "averaging/files/output_lock.hpp"
+#include "averaging/run/average_run.hpp"
+#include "averaging/run/cell_setup.hpp"
+
+namespace millfoam::averaging {
+
+/// Checks that every file that a request is to write may be written, and locks them. Throws SolidsFileError.
+std::vector<OutputLock> lock_outputs(const AverageRequest& request);
+
+/// What holds for a whole solids file.
+/// @param windows  of the request: the file's
+/// @param time0  DEM time at which its first window begins, s
+/// @param program  that writes it, with its version
+SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& windows,
+                           const RunSettings& settings, const CellSetup& setup,
+                           const std::optional<RunMetadata>& metadata, double time0,
+                           const std::string& program);
+
+/// Writes a solids file, its .xdmf and its summary in JSON, which it returns. Throws SolidsFileError.
+/// @param output  the solids file
+/// @param windows  their number, at least one
+/// @param window  reads each of them, from 0
+SolidsSummary write_solids(const std::filesystem::path& output, const Grid& grid, const SolidsHeader& header,
+                           std::size_t windows, const std::function<WindowAverage(std::size_t)>& window);
+
+}  // namespace millfoam::averaging

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "averaging/tools/live_options.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "averaging/tools/mill_averages.hpp"
+#include "averaging/tools/options.hpp"
+#include "meshing/files/text_numbers.hpp"
+
+namespace millfoam::averaging {
+
+namespace {
+
+Options parse(const std::string& text) {
+  Options options;
+  CLI::App app;
+  app.set_help_flag();
+  declare_averages(app, options);
+  try {
+    if (!text.empty()) app.parse(text);
+  } catch (const CLI::ParseError& error) {
+    throw std::invalid_argument("--average '" + text + "': " + error.what());
+  }
+  return options;
+}
+
+}  // namespace
+
+LiveRequest live_request(const meshing::MillDescription& description, const std::string& text,
+                         const std::string& case_folder, double begin, double duration) {
+  const meshing::Mill& mill = description.mill;
+  Options options = parse(text);
+  options.case_folder = case_folder;
+  const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
+  const bool own_windows = !options.windows.empty() || options.start || options.end;
+  std::optional<double> end;
+  if (!own_windows) {
+    const double window = mill.averages.window;
+    options.windows = {exact(window)};
+    options.start = begin + mill.averages.start.value_or(0);
+    end = last_whole_window(*options.start, begin + duration, duration, window);
+  }
+  if (!own_grid) take_grid(mill, options);
+  if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
+  LiveRequest result{as_request(options), end, !own_windows && !mill.averages.start, tolerance(options, 1)};
+  if (!own_grid && !own_windows && !options.solidity_cap)
+    result.request.mill_averages = mill.fingerprint.averages;
+  return result;
+}
+
+}  // namespace millfoam::averaging

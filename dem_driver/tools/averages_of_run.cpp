@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/tools/averages_of_run.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <set>
+#include <stdexcept>
+
+#include "averaging/dumps/run_metadata.hpp"
+#include "averaging/files/xdmf.hpp"
+#include "averaging/run/solids_output.hpp"
+#include "dem_driver/mill_key.hpp"
+#include "millfoam_version.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// sum d^3 / sum d^2 over the balls.
+double sauter_diameter(const ChargePlan& charge) {
+  double volume = 0, area = 0;
+  for (const ClassCount& size : charge.classes) {
+    const auto count = static_cast<double>(size.count);
+    volume += count * size.diameter * size.diameter * size.diameter;
+    area += count * size.diameter * size.diameter;
+  }
+  return volume / area;
+}
+
+averaging::LiveRun run_of(const meshing::Mill& mill, const DemPlan& plan) {
+  averaging::LiveRun run;
+  run.settings = {plan.step.value, mill.angular_velocity, sauter_diameter(plan.charge)};
+  run.begin = plan.begin;
+  run.interval = plan.step.steps_per_record;
+  run.balls = plan.charge.balls();
+  return run;
+}
+
+void require_different_outputs(const std::vector<averaging::LiveRequest>& requests) {
+  std::set<fs::path> outputs;
+  for (const averaging::LiveRequest& averages : requests)
+    for (const averaging::WindowsRequest& windows : averages.request.windows)
+      if (!outputs.insert(fs::weakly_canonical(windows.output)).second)
+        throw std::invalid_argument("--average: " + windows.output.string() +
+                                    " would be written twice, expected another file for each: give -o FILE");
+}
+
+double steady_from(const fs::path& results) {
+  std::ifstream in(results);
+  const auto json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.value("steady_from_s", nlohmann::json()).is_number())
+    throw std::runtime_error(results.string() +
+                             ": no number steady_from_s, which averages.start 'steady' needs");
+  return json["steady_from_s"];
+}
+
+/// Whether all files of these averages are there, written after the run was complete. Runs of equal plans
+/// have one id, so that this alone does not tell.
+bool are_written(const averaging::AverageRequest& request, const averaging::RunMetadata& run) {
+  return std::all_of(request.windows.begin(), request.windows.end(), [&](const auto& windows) {
+    try {
+      return averaging::SolidsReader(windows.output).header().run_id == run.run_id &&
+             fs::last_write_time(windows.output) >= fs::last_write_time(run.file);
+    } catch (const averaging::SolidsFileError&) {
+      return false;
+    }
+  });
+}
+
+}  // namespace
+
+AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const CaseFolder& folder,
+                             const std::vector<std::string>& options, DemPlan& plan, std::ostream& out)
+    : mill_(description.mill), folder_(folder), plan_(plan) {
+  std::vector<std::string> texts = options;
+  if (mill_.averages.live) texts.insert(texts.begin(), "");
+  if (texts.empty() && !mill_.dem.dumps)
+    throw KeyError("dem.dumps", "no",
+                   "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
+  order_.run = run_of(mill_, plan);
+  for (const std::string& text : texts)
+    requests_.push_back(
+        averaging::live_request(description, text, folder.root.string(), plan.begin_time(), plan.duration()));
+  require_different_outputs(requests_);
+  plan.averages_bytes = 0;
+  for (const averaging::LiveRequest& averages : requests_) {
+    const averaging::AverageRequest& request = averages.request;
+    for (const averaging::WindowsRequest& windows : request.windows) averaging::xdmf_path(windows.output);
+    averaging::lock_outputs(request);
+    const auto setup = averaging::set_up(request, order_.run.settings,
+                                         [&](const std::string& sentence) { out << sentence << '\n'; });
+    plan.averages_bytes += averaging::journal_bytes(setup, plan_live(request, order_.run, plan.end_step()));
+    plan.averages.push_back(averages_id(request));
+    order_.averages.push_back({plan.averages.back(), request});
+  }
+}
+
+void AveragesOfRun::write_order() const {
+  if (requests_.empty())
+    fs::remove(folder_.averages_order());
+  else
+    write_averages_order(folder_.averages_order(), mill_, order_);
+}
+
+/// Returns whether the ledger is within the tolerance.
+bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out) const {
+  const averaging::LiveRequest& averages = requests_[number];
+  averaging::AverageRequest request = averages.request;
+  if (averages.end) request.end = averages.end;
+  averaging::LiveEnd end;
+  end.step = plan_.end_step();
+  end.metadata = averaging::read_run_metadata(folder_.dumps());
+  end.program = std::string("millDem ") + version();
+  if (keep && are_written(request, *end.metadata)) return true;
+  if (averages.steady) end.steady_from = steady_from(folder_.results());
+  bool passes = true;
+  for (const averaging::SolidsSummary& summary : averaging::finish_live(
+           request, order_.run, averages_files(folder_.dem(), number), plan_.averages[number], end,
+           [&](const std::string& sentence) { out << sentence << '\n'; })) {
+    out << averaging::report(summary);
+    for (const std::string& failure : averaging::ledger_failures(summary, averages.tolerance)) {
+      out << summary.file.string() << ": " << failure << '\n';
+      passes = false;
+    }
+  }
+  return passes;
+}
+
+void AveragesOfRun::finish(bool keep, std::ostream& out) const {
+  bool passes = true;
+  for (std::size_t n = 0; n < requests_.size(); ++n) passes = finish_one(n, keep, out) && passes;
+  if (!passes) throw std::runtime_error("the averages are beyond their --tolerance, see above");
+}
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "averaging/tools/live_options.hpp"
+#include "dem_driver/averages_order.hpp"
+#include "dem_driver/case_folder.hpp"
+#include "dem_driver/deck.hpp"
+#include "meshing/mill/mill_reader.hpp"
+
+namespace millfoam::dem_driver {
+
+/// The averages that millDem has made while the mill turns: those of `averages.live`, and those of --average.
+class AveragesOfRun {
+ public:
+  /// Checks them as millAverage does, and notes them in the plan. The plan must have its begin.
+  /// @param options  a text of millAverage's options for each
+  /// @param out  gets sentences about them
+  /// Throws KeyError where nothing could be averaged at all (`dem.dumps: no`), and std::runtime_error or
+  /// std::invalid_argument.
+  AveragesOfRun(const meshing::MillDescription& description, const CaseFolder& folder,
+                const std::vector<std::string>& options, DemPlan& plan, std::ostream& out);
+
+  /// Writes the file for millLiggghts, or removes that of an earlier run.
+  void write_order() const;
+
+  /// Writes the solids files of the complete run and prints their ledgers. The run's file and results must be
+  /// there.
+  /// @param keep  files of this run that are there are kept
+  /// Throws std::runtime_error when the ledger of one is beyond its tolerance, and as finish_live.
+  void finish(bool keep, std::ostream& out) const;
+
+ private:
+  bool finish_one(std::size_t number, bool keep, std::ostream& out) const;
+
+  const meshing::Mill& mill_;
+  const CaseFolder& folder_;
+  const DemPlan& plan_;
+  AveragesOrder order_;
+  std::vector<averaging::LiveRequest> requests_;
+};
+
+}  // namespace millfoam::dem_driver
