@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char order_format[] = "millfoam-contacts";
+constexpr char contact_order_format[] = "millfoam-contacts";
 constexpr double cells_per_diameter = 60;
 constexpr long wall_records = 10;  // of a run
 
@@ -68,7 +68,7 @@ ContactOrder read_contact_order(const fs::path& file) {
   try {
     std::string format, walls;
     read("format", format);
-    if (format != order_format) throw std::runtime_error(format);
+    if (format != contact_order_format) throw std::runtime_error(format);
     ContactOrder order;
     read("diameters_m", order.diameters);
     read("parts", order.parts);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares one-way coupling, buoyancy alone, iterated and direct coupling of the 12 cm mill's slice: a table on the screen,
+"""Compares one-way, buoyant, iterated and direct coupling of the 12 cm mill's slice: a table on the screen,
 mill_coupling.txt, mill_coupling.csv and mill_coupling.png."""
 import argparse
 import csv

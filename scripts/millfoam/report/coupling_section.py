@@ -22,7 +22,7 @@ def coupling_of(case: MillCase) -> dict[str, Any]:
     return read_json(case.coupled / "coupling.json", "coupling")
 
 
-def coupling_checks(case: MillCase) -> list[Callable[[MillCase], Check]]:
+def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
     """The checks of a coupled case."""
     return [forces_exchanged] if coupling_of(case)["coupling"] == "direct" else [has_settled, forces_agree]
 
