@@ -75,7 +75,8 @@ void FlowExchange::greet(long step) {
                 ", expected the same: build all programs again";
     else if (!(std::abs(flow.time - flow_time(step)) <= timestep_))
       refusal = "the flow begins at its time " + exact(flow.time) + " s, the balls at " +
-                exact(flow_time(step)) + " s: remove the flow's later times, or the balls' later restart files";
+                exact(flow_time(step)) +
+                " s: remove the flow's later times, or the balls' later restart files";
     if (!refusal.empty()) {
       pipes_->refuse(refusal);
       throw ExchangeError(folder_ + ": " + refusal);
@@ -112,10 +113,10 @@ SolidsAt FlowExchange::average(const ParticleRecord& record) {
 void FlowExchange::check(const BallFields& fields) const {
   const std::string source = folder_ + ": the flow's forces";
   const std::array<std::pair<const std::vector<double>*, std::size_t>, 5> all{{{&fields.pressure_force, 3},
-                                                                              {&fields.exchange, 1},
-                                                                              {&fields.drag_force, 3},
-                                                                              {&fields.solidity, 1},
-                                                                              {&fields.diameter, 1}}};
+                                                                               {&fields.exchange, 1},
+                                                                               {&fields.drag_force, 3},
+                                                                               {&fields.solidity, 1},
+                                                                               {&fields.diameter, 1}}};
   for (const auto& [values, width] : all)
     if (const auto voxel = not_finite(*values, width, fields.inside))
       throw SlurryFileError(source + " are not finite in " + voxel_in_words(order_.grid, *voxel) +
@@ -163,7 +164,7 @@ void FlowExchange::meet(const ParticleRecord& record) {
 }
 
 FluidForce FlowExchange::on(const BallInFluid& ball) const {
-  return force_on(ball, field_->at(ball.position), polydispersity_);
+  return force_on(ball, field_->over(ball.position, ball.diameter), polydispersity_);
 }
 
 }  // namespace millfoam::dem_driver

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/voxel_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -39,19 +42,16 @@ VoxelField::VoxelField(const averaging::BoxGrid& grid, const averaging::BallFiel
   }
 }
 
+int VoxelField::wrapped(double voxel, std::size_t axis) const {
+  const int count = grid_.shape()[axis];
+  if (grid_.periodic()[axis]) return static_cast<int>(voxel - count * std::floor(voxel / count));
+  return voxel >= 0 && voxel < count ? static_cast<int>(voxel) : -1;
+}
+
 VoxelField::Neighbours VoxelField::around(double coordinate, std::size_t axis) const {
   const double place = (coordinate - grid_.lower()[axis]) / grid_.spacing()[axis] - 0.5;
   const double below = std::floor(place);
-  const int count = grid_.shape()[axis];
-  Neighbours result{{-1, -1}, {1 - (place - below), place - below}};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const double voxel = below + static_cast<double>(side);
-    if (grid_.periodic()[axis])
-      result.voxel[side] = static_cast<int>(voxel - count * std::floor(voxel / count));
-    else if (voxel >= 0 && voxel < count)
-      result.voxel[side] = static_cast<int>(voxel);
-  }
-  return result;
+  return {{wrapped(below, axis), wrapped(below + 1, axis)}, {1 - (place - below), place - below}};
 }
 
 FeltFluid VoxelField::at(const Vector& point) const {
@@ -66,6 +66,36 @@ FeltFluid VoxelField::at(const Vector& point) const {
         const FeltFluid& voxel = voxels_[grid_.offset(index)];
         if (!voxel.known) continue;
         const double weight = places[0].weight[i] * places[1].weight[j] * places[2].weight[k];
+        sum.add(weight, voxel);
+        weights += weight;
+      }
+  if (!(weights > 0)) return {};
+  FeltFluid mean;
+  mean.add(1 / weights, sum);
+  mean.known = true;
+  return mean;
+}
+
+FeltFluid VoxelField::over(const Vector& centre, double diameter) const {
+  const double edge = std::cbrt(pi / 6) * diameter;
+  Vector first{}, last{};  // ends of the cube, in voxels
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = (centre[axis] - edge / 2 - grid_.lower()[axis]) / grid_.spacing()[axis];
+    last[axis] = first[axis] + edge / grid_.spacing()[axis];
+  }
+  const auto share = [&](double voxel, std::size_t axis) {
+    return (std::min(last[axis], voxel + 1) - std::max(first[axis], voxel)) / (last[axis] - first[axis]);
+  };
+  FeltFluid sum;
+  double weights = 0;
+  for (double z = std::floor(first[2]); z < last[2]; ++z)
+    for (double y = std::floor(first[1]); y < last[1]; ++y)
+      for (double x = std::floor(first[0]); x < last[0]; ++x) {
+        const averaging::VoxelIndex index{wrapped(x, 0), wrapped(y, 1), wrapped(z, 2)};
+        if (index[0] < 0 || index[1] < 0 || index[2] < 0) continue;
+        const FeltFluid& voxel = voxels_[grid_.offset(index)];
+        if (!voxel.known) continue;
+        const double weight = share(x, 0) * share(y, 1) * share(z, 2);
         sum.add(weight, voxel);
         weights += weight;
       }

@@ -25,7 +25,8 @@ struct FeltFluid {
   void add(double weight, const FeltFluid& other);
 };
 
-/// A flow on voxels, trilinear between the centres of those that have fluid, and periodic where the grid is.
+/// A flow on voxels. `at` is trilinear between the centres of those that have fluid, and periodic where the
+/// grid is.
 class VoxelField {
  public:
   /// No fluid anywhere.
@@ -36,6 +37,10 @@ class VoxelField {
   /// The flow at a point (m, lab frame); not known where none of the eight voxels around it has fluid.
   FeltFluid at(const Vector& point) const;
 
+  /// The flow over a ball: the mean over a cube of the ball's volume, of values that are constant in a voxel.
+  /// Not known where no voxel that it meets has fluid.
+  FeltFluid over(const Vector& centre, double diameter) const;
+
  private:
   /// The voxels around a point along an axis; -1: beyond the box.
   struct Neighbours {
@@ -44,6 +49,8 @@ class VoxelField {
   };
 
   Neighbours around(double coordinate, std::size_t axis) const;
+  /// The voxel of this number along an axis, by the period where there is one; -1: beyond the box.
+  int wrapped(double voxel, std::size_t axis) const;
 
   averaging::BoxGrid grid_;
   std::vector<FeltFluid> voxels_;

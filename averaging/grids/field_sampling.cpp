@@ -87,21 +87,24 @@ struct Blend {
   }
 };
 
-template <typename Voxels>
-LocalSolids sample_linear(const Voxels& grid, const SolidsWindow& window, const Vector3& point) {
+/// Calls `take` with the offsets of the eight voxels around a point, and their trilinear weights.
+template <typename Voxels, typename Take>
+void for_voxels_around(const Voxels& grid, const Vector3& point, const Take& take) {
   const Vector3 at = coordinates(grid, grid.wrapped(point));
   const std::array<Axis, 3> axis = axes(grid);
   const std::array<Neighbours, 3> along{neighbours(axis[0], at[0]), neighbours(axis[1], at[1]),
                                         neighbours(axis[2], at[2])};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t j = 0; j < 2; ++j)
+      for (std::size_t i = 0; i < 2; ++i)
+        take(grid.offset({along[0].voxel[i], along[1].voxel[j], along[2].voxel[k]}),
+             along[0].weight[i] * along[1].weight[j] * along[2].weight[k]);
+}
+
+template <typename Voxels>
+LocalSolids sample_linear(const Voxels& grid, const SolidsWindow& window, const Vector3& point) {
   Blend blend;
-  for (std::size_t k = 0; k < 2; ++k) {
-    for (std::size_t j = 0; j < 2; ++j) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        const std::size_t n = grid.offset({along[0].voxel[i], along[1].voxel[j], along[2].voxel[k]});
-        blend.add(window, n, along[0].weight[i] * along[1].weight[j] * along[2].weight[k]);
-      }
-    }
-  }
+  for_voxels_around(grid, point, [&](std::size_t n, double weight) { blend.add(window, n, weight); });
   return blend.divided();
 }
 
@@ -128,6 +131,21 @@ LocalSolids sample_voxels(const Voxels& grid, const SolidsWindow& window, const 
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation) {
   return sample_voxels(grid, window, point, interpolation);
+}
+
+std::array<SolidsShare, 8> solids_shares(const BoxGrid& grid, const SolidsWindow& window,
+                                         const Vector3& point) {
+  std::array<SolidsShare, 8> shares{};
+  if (!grid.locate(point)) return shares;
+  std::size_t next = 0;
+  double sum = 0;
+  for_voxels_around(grid, point, [&](std::size_t n, double weight) {
+    if (!window.inside_fraction.empty()) weight *= window.inside_fraction[n];
+    shares[next] = {n, weight * window.solidity[n]};
+    sum += shares[next++].share;
+  });
+  for (SolidsShare& one : shares) one.share = sum > 0 ? one.share / sum : 0;
+  return shares;
 }
 
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "averaging/grids/box_grid.hpp"
 #include "averaging/grids/cylinder_grid.hpp"
 #include "averaging/values/solids_window.hpp"
@@ -35,5 +38,15 @@ LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector
 /// The same on a cylinder, whose own coordinates are r, theta and z.
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
+
+/// How much of the solids that `sample` gives at a point is of a voxel.
+struct SolidsShare {
+  std::size_t voxel = 0;  ///< its offset in the grid
+  double share = 0;       ///< of the solidity at the point; the shares of all voxels add up to 1
+};
+
+/// The shares of `linear` interpolation on a box; all are 0 where there are no solids, and beyond the grid.
+std::array<SolidsShare, 8> solids_shares(const BoxGrid& grid, const SolidsWindow& window,
+                                         const Vector3& point);
 
 }  // namespace millfoam::averaging

@@ -4,7 +4,6 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
-#include "averaging/files/slurry_file.hpp"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "knownEntries.H"
@@ -362,16 +361,11 @@ millfoam::record::StepRow Foam::slurryFlow::report()
 
 void Foam::slurryFlow::tellBalls()
 {
-    if (!bed_.feelsFlow())
+    if (bed_.feelsFlow())
     {
-        return;
+        clock_.begin("balls");
+        bed_.tell(onBalls_->present(), U_.primitiveField());
     }
-    clock_.begin("balls");
-    const std::size_t width = millfoam::averaging::ball_components;
-    std::vector<double> values(mesh_.nCells() * width);
-    addBallComponents(
-        onBalls_->present(), onBalls_->flow(), alpha_, U_, values, width, 0);
-    bed_.tell(values);
 }
 
 

@@ -4,12 +4,13 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsExchange.H"
+#include "cellsOnVoxels.H"
+#include "fluidOnBalls.H"
 #include "Pstream.H"
 #include "readableLog.H"
 #include "untrapped.H"
 #include "volFields.H"
-#include "averaging/fields/ball_means.hpp"
-#include "averaging/files/slurry_file.hpp"
+#include "averaging/fields/ball_reaction.hpp"
 #include "averaging/grids/field_sampling.hpp"
 #include "millfoam_version.hpp"
 
@@ -58,8 +59,8 @@ void Foam::solidsExchange::greet()
         {
             pipes_ = std::make_unique<ExchangePipes>(
                 std::string(folder_), ExchangeSide::flow);
-            pipes_->send(pack(FlowOffer{
-                sizes, mesh_.time().value(), millfoam::version()}));
+            pipes_->send(pack(
+                FlowOffer{sizes, mesh_.time().value(), millfoam::version()}));
             answer = pipes_->receive(BallsOffer::kind);
         });
     spread(answer);
@@ -144,12 +145,10 @@ void Foam::solidsExchange::sampleState(state& one)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::solidsExchange::solidsExchange(
-    const dictionary& dict, const fvMesh& mesh)
+Foam::solidsExchange::solidsExchange(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   mesh_(mesh),
   folder_(dict.get<fileName>("exchange").expand()),
-  cells_(mesh, 1),
   present_(0)
 {
     if (!folder_.isAbsolute())
@@ -171,7 +170,9 @@ Foam::solidsExchange::~solidsExchange()
     {
         // Balls that have ended need not be told
         const auto reason = untrapped(
-            [this] { pipes_->send({exchange_end, {}, {}}); });
+            [this] {
+                pipes_->send({exchange_end, {}, {}});
+            });
         if (reason)
         {
             Info << reason->c_str() << endl;
@@ -212,14 +213,30 @@ bool Foam::solidsExchange::sample(
 }
 
 
-void Foam::solidsExchange::tell(const std::vector<double>& feel)
+void Foam::solidsExchange::tell(const ballForces& feel, const vectorField& U)
 {
-    VoxelSums sums(cells_.sum(balls_->grid, feel, ball_components));
-    sumOnMaster(sums.volume);
-    sumOnMaster(sums.values);
+    const SolidsWindow& window = states_[present_].solids.fields;
+    const vectorField& centres = mesh_.C().primitiveField();
+    const scalarField& volumes = mesh_.V();
+    BallReaction reaction(balls_->grid.size());
+    const auto vector3 = [](const vector& v) {
+        return Vector3{v.x(), v.y(), v.z()};
+    };
+    forAll(centres, celli)
+    {
+        if (feel.solidity[celli] > 0)
+        {
+            reaction.add(
+                solids_shares(balls_->grid, window, vector3(centres[celli])),
+                feel.solidity[celli] * volumes[celli],
+                vector3(feel.pressure[celli]), feel.exchange[celli],
+                vector3(U[celli]));
+        }
+    }
+    sumOnMaster(reaction.sums());
     if (Pstream::master())
     {
-        forces_ = ball_means(balls_->grid, sums);
+        forces_ = reaction.fields(balls_->grid, window);
     }
 }
 
