@@ -103,7 +103,7 @@ class Passes(unittest.TestCase):
         self.assertEqual(output.count("Running charge"), 1)  # of pass 2; the dry one is kept
 
     def test_a_charge_of_another_case_is_refused(self):
-        with self.assertRaisesRegex(RunError, "expected flow.coupling one_way, because coupled passes continue"):
+        with self.assertRaisesRegex(RunError, "expected flow.coupling one_way, because balls that feel"):
             run_mill(self.case, "mill.yaml", charge=".")
 
 

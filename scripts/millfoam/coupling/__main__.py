@@ -73,7 +73,7 @@ def judge_direct(case: Path) -> None:
     folder = case / "direct"
     found = passes.read_pass(2, folder)
     exchanged = passes.exchanged_forces(folder)
-    table.write_json(case / "coupling.json", table.direct_result(read_mill(case), found, exchanged))
+    table.write_json(case / "coupling.json", table.direct_result(read_mill(folder), found, exchanged))
     print(f"mean force of the flow on the balls: {exchanged.given:.4g} N by the flow, {exchanged.taken:.4g} N by the "
           f"balls; they differ by {exchanged.disagreement:.2%}")
 

@@ -3,7 +3,6 @@
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -69,12 +68,17 @@ def align(case: Path) -> float:
     return common
 
 
+def remove_pipes(case: Path) -> None:
+    """Removes the pipes of a case. Programs that have opened them keep them."""
+    for pipe in (case / EXCHANGE).glob("to_*"):
+        pipe.unlink()
+
+
 def run_together(balls: Sequence[str], flow: Sequence[str], case: Path) -> None:
     """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to the
     output of this program. Each ends when this program is killed. If one fails, the other is ended. TogetherError
     with the last lines of the balls' log if they fail, or with the flow's exit code."""
-    for pipe in (case / EXCHANGE).glob("to_*"):
-        pipe.unlink()
+    remove_pipes(case)
 
     def start(command: Sequence[str], out: int | None) -> subprocess.Popen[bytes]:
         return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, stdout=out,
@@ -94,10 +98,10 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path) -> None:
             if program.poll() is None:
                 program.send_signal(signal.SIGTERM)
                 program.wait()
+        remove_pipes(case)
     if programs["millDem"].returncode > 0:
         lines = log.read_text(errors="replace").splitlines()
         raise TogetherError(f"millDem failed; {log} ends with:\n" + "\n".join(lines[-15:]))
     failed = [f"{name} ended with {program.returncode}" for name, program in programs.items() if program.returncode]
     if failed:
         raise TogetherError(", ".join(failed))
-    sys.stdout.flush()

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Balls and flow at the same time in a small mill: what they give to each other, a run that is killed and resumed, and
+programs that lose each other."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from mill_case import SCRIPTS, STAGES, run_mill
+from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.solids_file import read_windows
+from millfoam.readings.fluid_on_balls import fluid_on_balls
+from millfoam.run import RunError
+
+MILL = """
+geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
+speed: {fraction_of_critical: 0.6, sense: clockwise}
+charge: {fill: 0.3, diameter: 0.004}
+materials: {ball: glass, wall: HDPE}
+dem: {settle_time: 0.15, duration: 0.4, record_interval: 0.005, seed: 3}
+slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
+averages: {voxel_size: 0.008, window: 0.05, start: 0.2}
+resolution: {cell_size: 0.006, layers: 2}
+flow: {duration: 0.3, coupling: direct, averages: {start: 0.1}}
+"""
+
+
+class Direct(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.case = Path(tempfile.mkdtemp(prefix="direct-"))
+        cls.addClassCleanup(shutil.rmtree, cls.case)
+        (cls.case / "mill.yaml").write_text(MILL)
+        cls.output = run_mill(cls.case, "mill.yaml")
+        cls.direct = cls.case / "direct"
+
+    def copy(self, name):
+        case = self.case.with_name(self.case.name + name)
+        shutil.copytree(self.case, case, symlinks=True)
+        self.addCleanup(shutil.rmtree, case)
+        return case
+
+    def test_the_balls_take_what_the_flow_gives(self):
+        given = fluid_on_balls(self.direct / "slurry.h5", 2500.0).force
+        rows = read_csv(self.direct / "dumps" / "fluid.csv")
+        within = rows["time_s"] > 0.4 + 0.1
+        taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
+        self.assertLess(np.linalg.norm(given - taken) / np.linalg.norm(given), 0.02)
+        self.assertEqual(np.max(rows["balls_without_field"]), 0)
+        content = read_json(self.case / "coupling.json", "coupling")
+        self.assertEqual(content["folders"], [".", "direct"])
+        self.assertAlmostEqual(content["force_by_balls_N"], np.linalg.norm(taken), places=6)
+
+    def test_both_begin_with_the_last_state_of_the_dry_run_and_end_together(self):
+        run = read_json(self.direct / "dumps" / "run.json", "dumps")
+        self.assertAlmostEqual(run["begin_s"], 0.4, delta=1e-9)
+        self.assertAlmostEqual(run["duration_s"], 0.3, delta=1e-9)
+        self.assertAlmostEqual(read_json(self.direct / "mesh.json", "mesh")["time0_s"], 0.4, delta=1e-9)
+        steps = read_csv(next((self.direct / "postProcessing" / "flow" / "0").glob("steps.csv")))
+        self.assertAlmostEqual(steps["time_s"][-1], 0.3, delta=1e-9)
+
+    def test_the_flow_sees_the_volume_of_the_balls(self):
+        steps = read_csv(self.direct / "postProcessing" / "flow" / "0" / "steps.csv")
+        volume = read_json(self.case / "mill.json", "mill")["derived"]["charge"]["volume_m3"]
+        np.testing.assert_allclose(steps["solids_m3"], volume, rtol=1e-9)
+
+    def test_the_report_says_how_they_agree(self):
+        page = (self.case / "report.html").read_text()
+        self.assertIn("Balls and slurry at the same time", page)
+        self.assertNotIn("The slurry would not move the balls", page)
+
+    def test_a_killed_run_resumes_both_at_the_same_time(self):
+        case = self.copy("-killed")
+        shutil.rmtree(case / "direct")
+        process = subprocess.Popen(["bash", "-c", STAGES, "run_mill", case, SCRIPTS, ".", "mill.yaml"], cwd=case,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        folders = case / "direct"
+        deadline = time.monotonic() + 120
+        while not [*folders.glob("processor0/0.1*"), *folders.glob("0.1*")]:
+            self.assertLess(time.monotonic(), deadline, "no restart file")
+            self.assertIsNone(process.poll(), "the run ended before it could be killed")
+            time.sleep(0.05)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        time.sleep(1)
+        output = run_mill(case, "mill.yaml")
+        self.assertIn("Balls and flow resume at the flow's time", output)
+        run = read_json(folders / "dumps" / "run.json", "dumps")
+        self.assertAlmostEqual(run["duration_s"], 0.3, delta=1e-9)
+        windows = [read_windows(place / "direct" / "solids.h5", 0.4, 0.7) for place in (self.case, case)]
+        self.assertEqual(*(len(found) for found in windows))
+        # Not the same numbers: a resumed DEM run is not exact
+        apart = [np.abs(one.solidity - other.solidity).max() for one, other in zip(*windows)]
+        self.assertLess(apart[0], 0.05)
+
+    def test_a_flow_without_its_balls_ends_with_a_sentence(self):
+        case = self.copy("-alone")
+        (case / "direct" / "walls" / "shell.stl").unlink()
+        (case / "direct" / ".stages" / "flow").unlink()
+        with self.assertRaisesRegex(RunError, "shell"):
+            run_mill(case, "mill.yaml")
+
+    def test_a_second_call_keeps_all_stages(self):
+        self.assertNotIn("Running flow", run_mill(self.case, "mill.yaml"))
+
+
+if __name__ == "__main__":
+    unittest.main()
