@@ -225,8 +225,8 @@ class LiveAverages(unittest.TestCase):
         self.assertFalse((case / "box.h5").exists())
 
     def test_allrun_takes_them_for_the_stage_of_the_averages(self):
-        case = self.make_case()
-        command = (f". {os.environ['MILLFOAM_DIR']}/scripts/case_functions; "
+        case = self.make_case(MILL.replace("duration: 0.2", "duration: 0.1"))
+        command = (f"export MILLFOAM_NP=1; . {os.environ['MILLFOAM_DIR']}/scripts/case_functions; "
                    f". {os.environ['MILLFOAM_DIR']}/scripts/mill_stages; run_mill . mill.yaml --until average")
         for changes, made in ((NO_DUMPS, True), (NO_DUMPS, False),
                               ((*NO_DUMPS, "--set", "averages.window=0.04"), True)):
