@@ -50,25 +50,26 @@ std::string in_words(const FluidSettings& fluid);
 
 /// What an exchange with a flow needs: how balls are averaged for it, and what its drag may be.
 struct ExchangeOrder {
-  averaging::BoxGrid grid;                   ///< of the balls' averages
-  bool exact = true;                         ///< volumes, instead of samples
-  int template_points = 12;                  ///< along a diameter, of samples
-  std::vector<std::filesystem::path> walls;  ///< STL files at DEM time 0, as found from the order's folder
-  double angular_velocity = 0;               ///< of the mill about z, rad/s
-  std::string mill = {};                     ///< fingerprint of its averages
-  double ball_density = 0;                   ///< kg/m^3
-  double smallest_ball = 0;                  ///< diameter, m
-  double rayleigh_fraction = 0;              ///< dem.rayleigh_fraction, for messages
-  long begin = 0;                            ///< step of the turning mill at which the flow begins
-  long end = 0;                              ///< last step of the run
+  averaging::BoxGrid grid;   ///< of the balls' averages
+  bool exact = true;         ///< volumes, instead of samples
+  int template_points = 12;  ///< along a diameter, of samples
+  std::vector<std::filesystem::path> walls =
+      {};                        ///< STL files at DEM time 0, as found from the order's folder
+  double angular_velocity = 0;   ///< of the mill about z, rad/s
+  std::string mill = {};         ///< fingerprint of its averages
+  double ball_density = 0;       ///< kg/m^3
+  double smallest_ball = 0;      ///< diameter, m
+  double rayleigh_fraction = 0;  ///< dem.rayleigh_fraction, for messages
+  long begin = 0;                ///< step of the turning mill at which the flow begins
+  long end = 0;                  ///< last step of the run
 };
 
 /// What millLiggghts needs besides the deck.
 struct FluidOrder {
-  FluidSettings fluid;                    ///< not FluidKind::none; `file` as found from the order's folder
-  double timestep = 0;                    ///< s
-  long record_steps = 0;                  ///< between two lines of the ledger
-  std::optional<ExchangeOrder> exchange;  ///< of FluidKind::flow
+  FluidSettings fluid;    ///< not FluidKind::none; `file` as found from the order's folder
+  double timestep = 0;    ///< s
+  long record_steps = 0;  ///< between two lines of the ledger
+  std::optional<ExchangeOrder> exchange = {};  ///< of FluidKind::flow
 };
 
 /// The exchange of a run of this mill with a flow.

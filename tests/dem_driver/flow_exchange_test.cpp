@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/flow_exchange.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <future>
+#include <limits>
+#include <string>
+
+#include "dem_driver/deck.hpp"
+#include "meshing/surface/pi.hpp"
+#include "millfoam_version.hpp"
+#include "tests/dem_driver/small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using averaging::BallFields;
+using averaging::BoxGrid;
+using averaging::ExchangePipes;
+using averaging::ExchangeSide;
+using tests::message_of;
+
+const BoxGrid box({0, 0, 0}, {0.04, 0.04, 0.02}, {4, 4, 2}, {false, false, true});
+constexpr double dem_step = 1e-5, diameter = 0.004;
+constexpr long first_step = 1000;
+
+/// A uniform flow.
+BallFields uniform(double up, double exchange, double speed) {
+  const std::size_t n = box.size();
+  BallFields fields{std::vector<double>(n, 1),        std::vector<double>(3 * n, 0),
+                    std::vector<double>(n, exchange), std::vector<double>(3 * n, 0),
+                    std::vector<double>(n, 0.3),      std::vector<double>(n, diameter)};
+  for (std::size_t i = 0; i < n; ++i) {
+    fields.pressure_force[3 * i + 1] = up;
+    fields.drag_force[3 * i] = exchange * speed;
+  }
+  return fields;
+}
+
+TEST(VoxelField, is_over_a_ball_the_mean_of_its_voxels) {
+  BallFields fields = uniform(0, 0, 0);
+  for (std::size_t i = 0; i < box.size(); ++i) fields.exchange[i] = static_cast<double>(i);
+  const VoxelField field(box, fields);
+  EXPECT_DOUBLE_EQ(field.over({0.015, 0.005, 0.005}, diameter).exchange, 1);
+  EXPECT_NEAR(field.over({0.02, 0.005, 0.005}, diameter).exchange, 1.5, 1e-12);
+  // Its cube has an edge of 3.22 mm: a quarter of it lies beyond the face at 0.02 m
+  const double edge = std::cbrt(pi / 6) * diameter;
+  EXPECT_NEAR(field.over({0.02 - edge / 4, 0.005, 0.005}, diameter).exchange, 1.25, 1e-12);
+  // The next period's first layer has the numbers 0 to 15, the last one 16 to 31
+  EXPECT_NEAR(field.over({0.005, 0.005, 0.02}, diameter).exchange, 8, 1e-12);
+  // Beyond the box there is nothing, and what is inside counts whole
+  EXPECT_DOUBLE_EQ(field.over({0, 0.005, 0.005}, diameter).exchange, 0);
+  EXPECT_FALSE(field.over({-0.01, 0.005, 0.005}, diameter).known);
+  EXPECT_TRUE(field.over({0, 0.005, 0.005}, diameter).known);
+  fields.inside.assign(box.size(), 0);
+  EXPECT_FALSE(VoxelField(box, fields).over({0.015, 0.005, 0.005}, diameter).known);
+}
+
+/// Balls that meet a flow which the test writes.
+class FlowExchangeTest : public testing::Test {
+ protected:
+  FluidOrder order() const {
+    FluidOrder result;
+    result.fluid.kind = FluidKind::flow;
+    result.fluid.file = folder_.path() / "exchange";
+    result.timestep = dem_step;
+    result.record_steps = 100;
+    result.exchange = ExchangeOrder{box};
+    result.exchange->ball_density = 2500;
+    result.exchange->smallest_ball = diameter;
+    result.exchange->rayleigh_fraction = 0.2;
+    result.exchange->begin = first_step;
+    result.exchange->end = first_step + 1000;
+    return result;
+  }
+
+  /// Starts a flow, which ends its side when it returns.
+  void start(const std::function<void(ExchangePipes&)>& flow) {
+    flow_ = std::async(std::launch::async, [this, flow] {
+      ExchangePipes pipes(folder_.path() / "exchange", ExchangeSide::flow);
+      flow(pipes);
+    });
+  }
+
+  /// A flow that greets and takes the first balls.
+  static averaging::SolidsAt greet(ExchangePipes& pipes, double time = 0) {
+    pipes.send(pack(averaging::FlowOffer{false, time, version()}));
+    averaging::unpack_balls_offer(pipes.receive(averaging::BallsOffer::kind));
+    return averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
+  }
+
+  /// One ball that moves along x.
+  static averaging::ParticleRecord ball(long at) {
+    return {at, {{1, {0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter / 2}}, {}};
+  }
+
+  tests::TemporaryFolder folder_;
+  std::future<void> flow_;
+  RankGroup alone_;
+};
+
+TEST_F(FlowExchangeTest, gives_the_balls_and_gets_their_forces) {
+  const double volume = pi / 6 * diameter * diameter * diameter;
+  start([&](ExchangePipes& pipes) {
+    const auto first = greet(pipes);
+    EXPECT_EQ(first.time, 0);
+    EXPECT_NEAR(first.deposited / volume, 1, 1e-12);
+    EXPECT_EQ(first.fields.velocity[3 * box.offset({1, 1, 0})], 0.5);
+    pipes.send(pack(averaging::ForcesUntil{0.00203, uniform(1e4, 2e5, 0.8)}));
+    const auto second = averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
+    EXPECT_NEAR(second.time, 0.00203, 1e-12);
+    pipes.send(pack(averaging::ForcesUntil{0.01, uniform(2e4, 0, 0)}));
+    averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
+    pipes.send({averaging::exchange_end, {}, {}});
+  });
+  FlowExchange exchange(order(), first_step, alone_);
+  EXPECT_TRUE(exchange.due(first_step));
+  exchange.meet(ball(first_step));
+  EXPECT_FALSE(exchange.due(first_step + 202));
+  EXPECT_TRUE(exchange.due(first_step + 203));
+  const BallInFluid felt{{0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter};
+  EXPECT_NEAR(exchange.on(felt).pressure[1], 1e4 * volume, 1e-12);
+  EXPECT_NEAR(exchange.on(felt).drag[0], 2e5 * (0.8 - 0.5) * volume, 1e-12);
+  exchange.meet(ball(first_step + 203));
+  EXPECT_NEAR(exchange.on(felt).pressure[1], 2e4 * volume, 1e-12);
+  exchange.meet(ball(first_step + 1000));
+  EXPECT_FALSE(exchange.due(first_step + 100000));
+  flow_.get();
+}
+
+TEST_F(FlowExchangeTest, refuses_a_flow_that_ends_early) {
+  start([&](ExchangePipes& pipes) {
+    greet(pipes);
+    pipes.send({averaging::exchange_end, {}, {}});
+  });
+  FlowExchange exchange(order(), first_step, alone_);
+  EXPECT_NE(message_of([&] {
+              exchange.meet(ball(first_step));
+            }).find("the flow has ended at its time 0 s, expected 0.01 s"),
+            std::string::npos);
+  flow_.get();
+}
+
+TEST_F(FlowExchangeTest, refuses_another_version_and_another_time_and_tells_the_flow) {
+  std::string told;
+  start([&](ExchangePipes& pipes) {
+    pipes.send(pack(averaging::FlowOffer{false, 0, "of yesterday"}));
+    told = message_of([&] { pipes.receive(); });
+  });
+  EXPECT_NE(message_of([&] {
+              FlowExchange(order(), first_step, alone_);
+            }).find("the flow is of version of yesterday"),
+            std::string::npos);
+  flow_.get();
+  EXPECT_NE(told.find("cannot go on: the flow is of version of yesterday"), std::string::npos);
+
+  start([&](ExchangePipes& pipes) {
+    pipes.send(pack(averaging::FlowOffer{false, 0.05, version()}));
+    told = message_of([&] { pipes.receive(); });
+  });
+  EXPECT_NE(message_of([&] {
+              FlowExchange(order(), first_step + 4000, alone_);
+            }).find("the flow begins at its time 0.05 s, the balls at 0.04 s"),
+            std::string::npos);
+  flow_.get();
+}
+
+TEST_F(FlowExchangeTest, refuses_forces_that_are_not_finite_or_too_strong) {
+  BallFields broken = uniform(0, 0, 0);
+  broken.pressure_force[3 * box.offset({2, 1, 0})] = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [fields, words] : {std::pair{broken, "not finite in voxel x y z = (2, 1, 0)"},
+                                      std::pair{uniform(0, 2e7, 0), "takes 0.08 of"}}) {
+    std::string told;
+    start([&, given = fields](ExchangePipes& pipes) {
+      greet(pipes);
+      pipes.send(pack(averaging::ForcesUntil{0.001, given}));
+      told = message_of([&] { pipes.receive(); });
+    });
+    {
+      FlowExchange exchange(order(), first_step, alone_);
+      EXPECT_NE(message_of([&] { exchange.meet(ball(first_step)); }).find(words), std::string::npos);
+    }
+    flow_.get();
+    EXPECT_NE(told.find(words), std::string::npos);
+  }
+}
+
+TEST(FluidOrderOfAFlow, comes_back_from_its_file) {
+  const tests::TemporaryFolder folder;
+  meshing::Mill mill = tests::small_mill();
+  mill.flow.write_interval = 3.2 * mill.dem.record_interval;
+  mill.averages.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, mill.geometry.length}, {4, 4, 2}};
+  DemPlan plan = plan_dem(mill);
+  meet_flow(folder.path() / "exchange", mill, plan);
+  EXPECT_EQ(plan.restart_steps, 3 * plan.step.steps_per_record);
+  FluidOrder order{plan.fluid, plan.step.value, plan.step.steps_per_record, std::nullopt};
+  order.exchange = exchange_of(mill, {"../walls/shell.stl"}, plan.begin, plan.end_step());
+  const auto file = folder.path() / "dem" / "fluid.json";
+  std::filesystem::create_directories(file.parent_path());
+  write_fluid_order(file, mill, order);
+  const FluidOrder found = read_fluid_order(file);
+  EXPECT_EQ(found.fluid.kind, FluidKind::flow);
+  EXPECT_TRUE(std::filesystem::weakly_canonical(found.fluid.file) ==
+              std::filesystem::weakly_canonical(folder.path() / "exchange"));
+  ASSERT_TRUE(found.exchange);
+  EXPECT_EQ(found.exchange->grid.shape(), mill.averages.voxels.shape);
+  EXPECT_EQ(found.exchange->walls,
+            std::vector<std::filesystem::path>{file.parent_path() / "../walls/shell.stl"});
+  EXPECT_EQ(found.exchange->angular_velocity, mill.angular_velocity);
+  EXPECT_EQ(found.exchange->ball_density, mill.ball.density);
+  EXPECT_EQ(found.exchange->end, plan.end_step());
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver
