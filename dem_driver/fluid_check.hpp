@@ -18,11 +18,11 @@ inline constexpr double largest_drag_step = 0.05;
 
 /// What the drag of a run's balls is judged by.
 struct DragLimits {
-  bool polydispersity = false;     ///< a ball feels the exchange of its own size
-  double smallest_ball = 0;        ///< diameter, m
-  double ball_density = 0;         ///< kg/m^3
-  double timestep = 0;             ///< of the DEM run, s
-  double rayleigh_fraction = 0;    ///< dem.rayleigh_fraction, by which the time-step is chosen
+  bool polydispersity = false;   ///< a ball feels the exchange of its own size
+  double smallest_ball = 0;      ///< diameter, m
+  double ball_density = 0;       ///< kg/m^3
+  double timestep = 0;           ///< of the DEM run, s
+  double rayleigh_fraction = 0;  ///< dem.rayleigh_fraction, by which the time-step is chosen
 };
 
 /// Throws averaging::SlurryFileError where the drag stops the smallest ball within too few steps; the message

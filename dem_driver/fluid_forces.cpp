@@ -66,8 +66,10 @@ void VoxelForces::set_time(double time) {
   while (window < last && reader_.middle(window + 1) <= time) ++window;
   const std::size_t next = std::min(window + 1, last);
   if (window != window_) {
-    if (window == window_ + 1 && late_) early_ = std::move(late_);
-    else early_ = read(window);
+    if (window == window_ + 1 && late_)
+      early_ = std::move(late_);
+    else
+      early_ = read(window);
     late_ = read(next);
     window_ = window;
   }

@@ -110,7 +110,8 @@ std::string in_words(const FluidSettings& fluid) {
   return {};
 }
 
-ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin, long end) {
+ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin,
+                          long end) {
   const meshing::Voxels& voxels = mill.averages.voxels;
   const bool periodic = mill.geometry.ends == meshing::Ends::periodic;
   ExchangeOrder order{{voxels.lower, voxels.upper, voxels.shape, {false, false, periodic}}};

@@ -14,7 +14,9 @@ class Packer {
  public:
   explicit Packer(ExchangeMessage& message) : numbers_(message.numbers) {}
   void add(double value) { numbers_.push_back(value); }
-  void add(const std::vector<double>& values) { numbers_.insert(numbers_.end(), values.begin(), values.end()); }
+  void add(const std::vector<double>& values) {
+    numbers_.insert(numbers_.end(), values.begin(), values.end());
+  }
   void add(const BoxGrid& grid) {
     for (std::size_t a = 0; a < 3; ++a) {
       add(grid.lower()[a]);
@@ -64,8 +66,9 @@ class Unpacker {
     if (count > left()) wrong();
   }
   [[noreturn]] void wrong() const {
-    throw ExchangeError("a message '" + message_.kind + "' of " + std::to_string(message_.numbers.size()) +
-                        " numbers has another length than expected: both programs must be of the same version");
+    throw ExchangeError(
+        "a message '" + message_.kind + "' of " + std::to_string(message_.numbers.size()) +
+        " numbers has another length than expected: both programs must be of the same version");
   }
 
   const ExchangeMessage& message_;

@@ -19,20 +19,20 @@ namespace millfoam::averaging {
 
 /// The first message of the flow.
 struct FlowOffer {
-  bool polydispersity = false; ///< a ball of diameter d feels the exchange of its own size
-  double time = 0;             ///< at which it begins
-  std::string program;         ///< with its version
+  bool polydispersity = false;  ///< a ball of diameter d feels the exchange of its own size
+  double time = 0;              ///< at which it begins
+  std::string program;          ///< with its version
 
   static constexpr char kind[] = "flow";
 };
 
 /// The answer of the balls.
 struct BallsOffer {
-  BoxGrid grid;                           ///< on which solids and forces are given
-  double time0 = 0;                       ///< DEM time at flow time 0, s
-  std::optional<double> angular_velocity; ///< of the mill about z, rad/s
-  std::string program;                    ///< with its version
-  std::string mill;                       ///< fingerprint of the mill's averages
+  BoxGrid grid;                            ///< on which solids and forces are given
+  double time0 = 0;                        ///< DEM time at flow time 0, s
+  std::optional<double> angular_velocity;  ///< of the mill about z, rad/s
+  std::string program;                     ///< with its version
+  std::string mill;                        ///< fingerprint of the mill's averages
 
   static constexpr char kind[] = "balls";
 };
@@ -47,9 +47,9 @@ struct ForcesUntil {
 
 /// The balls at a time.
 struct SolidsAt {
-  double time = 0;      ///< of the DEM step that is nearest to the one that was asked for
-  double deposited = 0; ///< volume of the balls in the grid, m^3
-  SolidsWindow fields;  ///< on the balls' grid
+  double time = 0;       ///< of the DEM step that is nearest to the one that was asked for
+  double deposited = 0;  ///< volume of the balls in the grid, m^3
+  SolidsWindow fields;   ///< on the balls' grid
 
   static constexpr char kind[] = "solids";
 };

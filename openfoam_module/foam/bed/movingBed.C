@@ -222,13 +222,22 @@ Foam::tmp<Foam::scalarField> Foam::movingBed::diameterOfBalls() const
 
 Foam::wordList Foam::movingBed::entries()
 {
-    return {"exchange",        "solids",          "interpolation",
-            "inTime",          "outOfRange",
-            "time0",           "omega",
-            "fingerprint",     "block",
-            "blocks",          "uncovered",
-            "emptyZones",      "ledgerCorrection",
-            "largestSolidity", "largestCorrection"};
+    return {
+        "exchange",
+        "solids",
+        "interpolation",
+        "inTime",
+        "outOfRange",
+        "time0",
+        "omega",
+        "fingerprint",
+        "block",
+        "blocks",
+        "uncovered",
+        "emptyZones",
+        "ledgerCorrection",
+        "largestSolidity",
+        "largestCorrection"};
 }
 
 

@@ -15,8 +15,7 @@ using namespace millfoam::averaging;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-std::optional<Eigen::Isometry3d>
-Foam::cellsOnVoxels::place() const
+std::optional<Eigen::Isometry3d> Foam::cellsOnVoxels::place() const
 {
     static_assert(sizeof(point) == 3 * sizeof(double), "points are doubles");
     using Points = Eigen::Map<const Eigen::Matrix3Xd>;
@@ -59,7 +58,8 @@ Eigen::Isometry3d Foam::cellsOnVoxels::locate()
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::cellsOnVoxels::cellsOnVoxels(const fvMesh& mesh, const label divisions)
-: mesh_(mesh), divisions_(divisions)
+: mesh_(mesh),
+  divisions_(divisions)
 {
 }
 

@@ -83,8 +83,7 @@ std::vector<double> Foam::functionObjects::voxelAverages::cellValues() const
 
 VoxelSums Foam::functionObjects::voxelAverages::sample()
 {
-    return cells_.sum(
-        segments_.grid(), cellValues(), segments_.components());
+    return cells_.sum(segments_.grid(), cellValues(), segments_.components());
 }
 
 

@@ -45,7 +45,8 @@ static const millfoam::record::ToolHelp help{
      "constant/grateProperties        grates; without it there are none",
      "constant/millProperties         fingerprints of the mill, of millMesh; "
      "optional",
-     "exchange/                       pipes to balls that move at the same time, "
+     "exchange/                       pipes to balls that move at the same "
+     "time, "
      "where bedProperties names it",
      "solids.h5                       the balls, of millAverage, where "
      "bedProperties names it",
