@@ -10,6 +10,7 @@ import numpy as np
 # Sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
 CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: only an edge of a ball was in the voxel
+MISSING = 0.02  # share of the averaged time that a record may miss at its end
 
 
 def open_hdf5(path: Path | str) -> h5py.File:
@@ -106,8 +107,10 @@ def mean_map(maps: Sequence[SolidsMap]) -> SolidsMap:
 
 def span_of_flow(first: float, last: float, begin: float, end: float) -> tuple[float, float]:
     """DEM times (s) over which the charge of a flow from `begin` to `end` is averaged, for a record from `first` to
-    `last`: the same times, or the whole record if the flow is longer, so that it holds or repeats the record."""
-    return (begin, end) if end <= last * (1 + 1e-9) and begin >= first else (first, last)
+    `last`: the same times, as far as the record goes, which may lack a last window that was not full. If the flow is
+    longer by more than MISSING, it holds or repeats the record, and it is averaged over the whole record."""
+    within = begin >= first and end <= last + MISSING * (end - begin)
+    return (begin, min(end, last)) if within else (first, last)
 
 
 def recorded_span(path: Path | str) -> tuple[float, float]:
