@@ -4,8 +4,8 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsExchange.H"
+#include "ballForces.H"
 #include "cellsOnVoxels.H"
-#include "fluidOnBalls.H"
 #include "Pstream.H"
 #include "readableLog.H"
 #include "untrapped.H"
