@@ -32,6 +32,7 @@ struct CaseFolder {
   std::filesystem::path resume_deck() const { return dem() / "in.resume"; }
   /// What millLiggghts needs for a fluid besides the deck; only with one.
   std::filesystem::path fluid_order() const { return dem() / "fluid.json"; }
+  /// What millLiggghts needs for statistics of the contacts besides the deck; only with them.
   std::filesystem::path contact_order() const { return dem() / "contacts.json"; }
   /// What millLiggghts needs for averages of the run besides the deck; only with them.
   std::filesystem::path averages_order() const { return dem() / "averages.json"; }
@@ -47,8 +48,11 @@ struct CaseFolder {
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
   /// What the fluid did to the balls, a row for each record; only with one.
   std::filesystem::path fluid() const { return dumps() / "fluid.csv"; }
+  /// Power that the contacts dissipate, by their kinds; only with their statistics.
   std::filesystem::path contact_power() const { return dumps() / "contact_power.csv"; }
+  /// Collisions over their energy; only with their statistics.
   std::filesystem::path contact_spectra() const { return dumps() / "contact_spectra.csv"; }
+  /// Force and work on the cells of the walls; only with statistics of the contacts.
   std::filesystem::path wall_forces() const { return dumps() / "wall_forces.vtp"; }
   /// Histograms of the overlaps.
   std::filesystem::path overlaps() const { return dumps() / "overlaps.csv"; }

@@ -28,6 +28,9 @@ class ContactRecord {
   /// Begins the files. Throws std::runtime_error naming a file that cannot be written.
   ContactRecord(const std::filesystem::path& folder, const ContactKinds& kinds, long start);
   /// The sums of the `steps` steps up to `step`.
+  /// @param step  the last one
+  /// @param steps  their number
+  /// @param sums  of all kinds
   /// @param spin  energy of all balls' spin at the end of `step`, J
   /// Throws as above.
   void write(long step, long steps, double spin, const ContactSums& sums);

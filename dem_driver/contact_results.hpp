@@ -26,10 +26,10 @@ std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const Co
 
 /// Sums over the steps after `begin` up to `end`.
 struct ContactSpan {
-  long begin = 0;
-  long end = 0;
+  long begin = 0;        ///< step
+  long end = 0;          ///< step
   double spin_gain = 0;  ///< of the energy of spin, J; 0 where that at the begin is not known
-  ContactSums sums;
+  ContactSums sums;      ///< of all kinds
 };
 
 /// The blocks that begin at `from` (a step) or later, but at least the last one; not the run's first block,
@@ -50,6 +50,7 @@ struct ContactBalance {
   double drive = 0;   ///< of the mill's drive, and of the fluid
   double gain = 0;    ///< of the charge's kinetic energy, of spin too, and potential energy
   double torque = 0;  ///< of the charge on the mill, N m
+  /// What the contacts take over what the drive gives less the gain; 1 where the energy is balanced.
   double ratio() const { return power.total() / (drive - gain); }
 };
 
@@ -60,9 +61,9 @@ ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order,
 
 /// The wall cells of a span.
 struct WallSpan {
-  long begin = 0;
-  long end = 0;
-  WallSums sums;
+  long begin = 0;  ///< step
+  long end = 0;    ///< step
+  WallSums sums;   ///< of all cells
 };
 
 /// The records of the wall cells that begin at `from` (a step) or later, but at least the last one. Throws as
@@ -71,10 +72,10 @@ WallSpan read_wall_span(const CaseFolder& folder, const WallCells& cells, long f
 
 /// The contacts of a run.
 struct ContactResults {
-  ContactOrder order;
-  std::vector<ContactBlock> blocks;
-  ContactSpan span;  ///< of the steady part
-  ContactBalance balance;
+  ContactOrder order;                    ///< of the run
+  std::vector<ContactBlock> blocks;      ///< in order of time
+  ContactSpan span;                      ///< of the steady part
+  ContactBalance balance;                ///< of `span`
   WallSpan walls;                        ///< of the steady part
   double time() const;                   ///< of `span`, s
   double collisions_per_second() const;  ///< in `span`
@@ -82,6 +83,9 @@ struct ContactResults {
 };
 
 /// Reads what millLiggghts has written. Throws as the functions above.
+/// @param folder  of the case
+/// @param order  of the run
+/// @param rows  of the drive, one for each record
 /// @param from  step from which the run is steady
 ContactResults gather_contacts(const CaseFolder& folder, const ContactOrder& order,
                                const std::vector<DriveRow>& rows, long from);

@@ -13,6 +13,7 @@ struct ContactWork {
   double rolling = 0;     ///< of the rest of the torque, rolling friction
   /// The sum of the three, J.
   double total() const { return normal + tangential + rolling; }
+  /// Adds the parts of another.
   ContactWork& operator+=(const ContactWork& other) {
     normal += other.normal;
     tangential += other.tangential;
@@ -46,6 +47,8 @@ std::array<double, 3> tangential_force(const ContactForce& contact);
 /// The work of one step, -(F . v + T . w) dt, in three parts. It is exact for the velocity Verlet method,
 /// whose force of step n changes the kinetic energy between the half steps before and after n, if the motion
 /// is that of the whole step n, and the force is the one that LIGGGHTS applied at n.
+/// @param contact  the force
+/// @param motion  of its bodies
 /// @param timestep  dt, s
 ContactWork work_of(const ContactForce& contact, const ContactMotion& motion, double timestep);
 

@@ -41,6 +41,7 @@ class FlowExchange final : public FluidForces {
   /// Waits for the flow, and makes its acquaintance.
   /// @param order  not without an `exchange`
   /// @param step  of the turning mill at which the run begins or resumes
+  /// @param ranks  of the run; must outlive this object
   /// Throws averaging::ExchangeError when the flow is of another version, begins at another time or has
   /// ended, and as averaging::set_up.
   FlowExchange(const FluidOrder& order, long step, RankGroup& ranks);

@@ -28,6 +28,8 @@ struct DragLimits {
 /// Throws averaging::SlurryFileError where the drag stops the smallest ball within too few steps; the message
 /// names `source`, the place and what to change.
 /// @param fields  on the grid
+/// @param grid  of the voxels
+/// @param source  of the fields
 /// @param limits  of the mill: density and smallest diameter of its balls
 void require_slow_drag(const averaging::BallFields& fields, const averaging::BoxGrid& grid,
                        const DragLimits& limits, const std::string& source);

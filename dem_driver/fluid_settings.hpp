@@ -73,7 +73,9 @@ struct FluidOrder {
 };
 
 /// The exchange of a run of this mill with a flow.
+/// @param mill  whose section `averages` is taken
 /// @param walls  STL files, as found from dem/
+/// @param begin, end  first and last step of the run
 ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<std::filesystem::path>& walls,
                           long begin, long end);
 

@@ -31,6 +31,7 @@ class VoxelField {
  public:
   /// No fluid anywhere.
   explicit VoxelField(const averaging::BoxGrid& grid);
+  /// @param grid  of the voxels
   /// @param fields  on the grid
   VoxelField(const averaging::BoxGrid& grid, const averaging::BallFields& fields);
 

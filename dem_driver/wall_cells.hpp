@@ -32,16 +32,20 @@ class WallCells {
  public:
   /// One part of the walls.
   struct Part {
-    std::string name;
+    std::string name;                 ///< of its file, without .stl
     std::vector<Triangle> triangles;  ///< in the order of the file
     std::vector<int> divisions;       ///< n of each
     std::vector<std::size_t> first;   ///< the first cell of each
   };
   /// Reads `<folder>/<part>.stl` of each part. Throws std::runtime_error naming a file that cannot be read.
+  /// @param folder  of the files
+  /// @param parts  their names
   /// @param longest  of the cells' edges, m; a triangle is cut into `most_divisions`^2 cells at most
   WallCells(const std::filesystem::path& folder, const std::vector<std::string>& parts, double longest);
-  static constexpr int most_divisions = 32;
+  static constexpr int most_divisions = 32;  ///< largest n
+  /// In the order in which they were named.
   const std::vector<Part>& parts() const { return parts_; }
+  /// Number of all cells.
   std::size_t size() const { return size_; }
   /// The cell of a point on a triangle; of a point beside it, a cell near by.
   /// @param part, triangle  from 0
@@ -66,16 +70,21 @@ inline constexpr std::size_t numbers_per_wall_cell = 9;
 /// Sums of all cells as one row of numbers, for MPI and files.
 class WallSums {
  public:
+  /// Sums of nothing.
   explicit WallSums(std::size_t cells) : numbers(cells * numbers_per_wall_cell) {}
   /// Adds a contact of one step.
+  /// @param cell  its number
   /// @param contact  the force on the ball, in the frame of the mill
   /// @param moment  of the force on the wall, N m
+  /// @param work  of the contact in the step, J
   void add(std::size_t cell, const ContactForce& contact, double moment, const ContactWork& work);
   /// Adds numbers of a cell.
   void add(std::size_t cell, const double* values);
+  /// Of one cell.
   WallCellSums of(std::size_t cell) const;
+  /// Back to sums of nothing.
   void clear();
-  std::vector<double> numbers;
+  std::vector<double> numbers;  ///< [cells][numbers_per_wall_cell]
 };
 
 }  // namespace millfoam::dem_driver

@@ -23,6 +23,7 @@ struct FlowOffer {
   double time = 0;              ///< at which it begins
   std::string program;          ///< with its version
 
+  /// Of its message.
   static constexpr char kind[] = "flow";
 };
 
@@ -34,6 +35,7 @@ struct BallsOffer {
   std::string program;                     ///< with its version
   std::string mill;                        ///< fingerprint of the mill's averages
 
+  /// Of its message.
   static constexpr char kind[] = "balls";
 };
 
@@ -42,6 +44,7 @@ struct ForcesUntil {
   double time = 0;    ///< until which they act
   BallFields fields;  ///< on the balls' grid
 
+  /// Of its message.
   static constexpr char kind[] = "forces";
 };
 
@@ -51,6 +54,7 @@ struct SolidsAt {
   double deposited = 0;  ///< volume of the balls in the grid, m^3
   SolidsWindow fields;   ///< on the balls' grid
 
+  /// Of its message.
   static constexpr char kind[] = "solids";
 };
 

@@ -36,6 +36,7 @@ class BallReaction {
 
   /// What balls of the voxels feel over their volume. Voxels without solids, and without any cell, have
   /// inside 0.
+  /// @param grid  of the voxels
   /// @param window  the balls' averages from which the shares are
   BallFields fields(const BoxGrid& grid, const SolidsWindow& window) const;
 

@@ -28,6 +28,7 @@ struct BallFields {
 
 /// The first voxel with fluid in which a field is not finite.
 /// @param values  [n][width]
+/// @param width  numbers of a voxel
 /// @param inside  [n] as in BallFields
 std::optional<std::size_t> not_finite(const std::vector<double>& values, std::size_t width,
                                       const std::vector<double>& inside);

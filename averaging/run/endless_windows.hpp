@@ -12,6 +12,7 @@ namespace millfoam::averaging {
 /// `plan_windows` cuts them.
 class EndlessWindows {
  public:
+  /// @param request  of the averages: their start and end
   /// @param windows  of the request: the series' length
   /// @param timestep  of the DEM run, s
   /// @param begin  time-step of the run's first record

@@ -22,7 +22,10 @@ std::string misfit(const CellSetup& setup, const ParticleRecord& record, double 
                    double largest_outside);
 
 /// The same where only the sums over the balls are known: the sentence has the grid's extents alone.
+/// @param setup  of the grid
 /// @param ledger  of the record, m^3
+/// @param name  of the record, for the sentence
+/// @param largest_outside  share of the balls' volume, 0 to 1
 std::string misfit(const CellSetup& setup, const Ledger& ledger, const std::string& name,
                    double largest_outside);
 

@@ -50,6 +50,8 @@ class LiveAverages {
  public:
   /// For a run from its begin (`resumed` is nothing), or after the record of the step from which it resumes.
   /// @param request  its dumps, time-step, angular velocity, threads and outputs are not used
+  /// @param run  whose balls are averaged
+  /// @param files  in which windows and states are kept
   /// @param id  differs between requests that could give different results
   /// @param communicator  of all ranks; must outlive this object
   /// Throws as `set_up`, SolidsFileError where there is no such state, WindowError.

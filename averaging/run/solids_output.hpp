@@ -17,7 +17,11 @@ namespace millfoam::averaging {
 std::vector<OutputLock> lock_outputs(const AverageRequest& request);
 
 /// What holds for a whole solids file.
+/// @param request  of the averages
 /// @param windows  of the request: the file's
+/// @param settings  of the DEM run
+/// @param setup  of the cells
+/// @param metadata  of run.json, if it is there
 /// @param time0  DEM time at which its first window begins, s
 /// @param program  that writes it, with its version
 SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& windows,
@@ -27,6 +31,8 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
 
 /// Writes a solids file, its .xdmf and its summary in JSON, which it returns. Throws SolidsFileError.
 /// @param output  the solids file
+/// @param grid  of the cells
+/// @param header  of the file
 /// @param windows  their number, at least one
 /// @param window  reads each of them, from 0
 SolidsSummary write_solids(const std::filesystem::path& output, const Grid& grid, const SolidsHeader& header,

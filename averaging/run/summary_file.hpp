@@ -17,6 +17,7 @@ void require_summary_or_nothing(const std::filesystem::path& path);
 
 /// The summary as JSON, see FORMATS.md: what `report` prints, as numbers with units in their keys.
 /// What is not known is null.
+/// @param summary  of a solids file
 /// @param writer  the program that writes it, with its version
 std::string as_json(const SolidsSummary& summary, const std::string& writer);
 

@@ -37,9 +37,11 @@ struct WindowSpan {
 /// A time in whole time-steps. Throws WindowError that names it as `what` where it cannot be counted.
 /// @param time  s
 /// @param timestep  of the DEM run, s
+/// @param what  name of the time, for the message
 long long whole_steps(double time, double timestep, const char* what);
 
 /// The times and marks of a window; its number of records is left 0.
+/// @param span  of the window
 /// @param timestep  of the DEM run, s
 TimeWindow time_of(const WindowSpan& span, double timestep);
 
