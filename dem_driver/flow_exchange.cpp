@@ -112,7 +112,8 @@ SolidsAt FlowExchange::average(const ParticleRecord& record) {
 
 void FlowExchange::check(const BallFields& fields) const {
   const std::string source = folder_ + ": the flow's forces";
-  const std::array<std::pair<const std::vector<double>*, std::size_t>, 5> all{{{&fields.pressure_force, 3},
+  const std::array<std::pair<const std::vector<double>*, std::size_t>, 6> all{{{&fields.inside, 1},
+                                                                               {&fields.pressure_force, 3},
                                                                                {&fields.exchange, 1},
                                                                                {&fields.drag_force, 3},
                                                                                {&fields.solidity, 1},
@@ -135,6 +136,9 @@ std::vector<double> FlowExchange::ask(const SolidsAt& solids, long step) {
                           " s, expected " + exact(flow_time(order_.end)) + " s; its log says why");
     return {};
   }
+  if (answer.kind != ForcesUntil::kind)
+    throw ExchangeError(folder_ + ": the flow sends '" + answer.kind + "', expected '" + ForcesUntil::kind +
+                        "': both programs must be of the same version");
   check(unpack_forces(answer, order_.grid.size()).fields);
   return std::move(answer.numbers);
 }

@@ -61,8 +61,6 @@ class FlowExchange final : public FluidForces {
   FluidForce on(const BallInFluid& ball) const override;
 
  private:
-  struct Flow;
-
   double flow_time(long step) const;
   void greet(long step);
   averaging::SolidsAt average(const averaging::ParticleRecord& record);

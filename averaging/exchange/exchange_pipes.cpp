@@ -58,17 +58,31 @@ ExchangePipes::ExchangePipes(const fs::path& folder, ExchangeSide side) : folder
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw ExchangeError(folder.string() + ": cannot be made: " + failed.message());
-  // An open waits for the other end, so both sides open the pipes in the same order
-  if (side == ExchangeSide::balls) {
-    in_ = open_pipe(folder / "to_balls", O_RDONLY);
-    out_ = open_pipe(folder / "to_flow", O_WRONLY);
-  } else {
-    out_ = open_pipe(folder / "to_balls", O_WRONLY);
-    in_ = open_pipe(folder / "to_flow", O_RDONLY);
+  try {
+    open_both();
+  } catch (...) {
+    // The other side must not wait for a reader of this end
+    close_both();
+    throw;
   }
 }
 
 ExchangePipes::~ExchangePipes() {
+  close_both();
+}
+
+void ExchangePipes::open_both() {
+  // An open waits for the other end, so both sides open the pipes in the same order
+  if (side_ == ExchangeSide::balls) {
+    in_ = open_pipe(folder_ / "to_balls", O_RDONLY);
+    out_ = open_pipe(folder_ / "to_flow", O_WRONLY);
+  } else {
+    out_ = open_pipe(folder_ / "to_balls", O_WRONLY);
+    in_ = open_pipe(folder_ / "to_flow", O_RDONLY);
+  }
+}
+
+void ExchangePipes::close_both() noexcept {
   for (const int pipe : {in_, out_})
     if (pipe >= 0) close(pipe);
 }

@@ -54,6 +54,8 @@ class ExchangePipes {
   void refuse(const std::string& reason) noexcept;
 
  private:
+  void open_both();
+  void close_both() noexcept;
   void write_all(const void* data, std::size_t bytes);
   void read_all(void* data, std::size_t bytes);
   std::string other() const;

@@ -53,6 +53,7 @@ class LiveAverages {
   /// @param run  whose balls are averaged
   /// @param files  in which windows and states are kept
   /// @param id  differs between requests that could give different results
+  /// @param resumed  the step from which it resumes, if it does
   /// @param communicator  of all ranks; must outlive this object
   /// Throws as `set_up`, SolidsFileError where there is no such state, WindowError.
   LiveAverages(const AverageRequest& request, const LiveRun& run, LiveFiles files, std::string id,

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <future>
@@ -51,8 +52,10 @@ TEST(VoxelField, is_over_a_ball_the_mean_of_its_voxels) {
   EXPECT_NEAR(field.over({0.02 - edge / 4, 0.005, 0.005}, diameter).exchange, 1.25, 1e-12);
   // The next period's first layer has the numbers 0 to 15, the last one 16 to 31
   EXPECT_NEAR(field.over({0.005, 0.005, 0.02}, diameter).exchange, 8, 1e-12);
-  // Beyond the box there is nothing, and what is inside counts whole
-  EXPECT_DOUBLE_EQ(field.over({0, 0.005, 0.005}, diameter).exchange, 0);
+  // A quarter beyond the face along x and along y: 1, 2, 5 and 6 with 9, 3, 3 and 1 sixteenths
+  EXPECT_NEAR(field.over({0.02 - edge / 4, 0.01 - edge / 4, 0.005}, diameter).exchange, 2.25, 1e-12);
+  // Beyond the box there is nothing, and what is inside counts whole: the last voxel of a row
+  EXPECT_DOUBLE_EQ(field.over({0.04, 0.005, 0.005}, diameter).exchange, 3);
   EXPECT_FALSE(field.over({-0.01, 0.005, 0.005}, diameter).known);
   EXPECT_TRUE(field.over({0, 0.005, 0.005}, diameter).known);
   fields.inside.assign(box.size(), 0);
@@ -131,6 +134,94 @@ TEST_F(FlowExchangeTest, gives_the_balls_and_gets_their_forces) {
   flow_.get();
 }
 
+TEST_F(FlowExchangeTest, gives_all_of_the_balls_where_walls_cut_the_voxels) {
+  const auto mill = tests::small_mill();
+  const CaseFolder drum{folder_.path() / "case"};
+  tests::write_drum(drum, mill.geometry);
+  const BoxGrid around({-0.022, -0.022, 0}, {0.022, 0.022, 0.012}, {11, 11, 3}, {false, false, true});
+  FluidOrder in_the_drum = order();
+  const ExchangeOrder still = *in_the_drum.exchange;
+  in_the_drum.exchange = ExchangeOrder{around};
+  in_the_drum.exchange->walls = {drum.walls() / "shell.stl"};
+  in_the_drum.exchange->angular_velocity = mill.angular_velocity;
+  in_the_drum.exchange->ball_density = still.ball_density;
+  in_the_drum.exchange->smallest_ball = still.smallest_ball;
+  in_the_drum.exchange->begin = still.begin;
+  in_the_drum.exchange->end = still.end;
+  // Along the wall, one behind the other
+  averaging::ParticleRecord balls{first_step, {}, {}};
+  double volume = 0;
+  for (int i = 0; i < 30; ++i) {
+    const double angle = 2 * pi * i / 30, radius = i % 3 == 0 ? 0.0015 : 0.001;
+    balls.particles.push_back(
+        {i, {0.0186 * std::cos(angle), 0.0186 * std::sin(angle), 0.0004 * i}, {0, 0, 0.1}, radius});
+    volume += 4 * pi / 3 * radius * radius * radius;
+  }
+  start([&](ExchangePipes& pipes) {
+    pipes.send(pack(averaging::FlowOffer{true, 0, version()}));
+    pipes.receive(averaging::BallsOffer::kind);
+    const auto solids = averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), around.size());
+    ASSERT_EQ(solids.fields.inside_fraction.size(), around.size());
+    double all = 0, inside = 0, along = 0;
+    for (std::size_t n = 0; n < around.size(); ++n) {
+      const double room = solids.fields.inside_fraction[n] * around.voxel_volume();
+      inside += room;
+      all += solids.fields.solidity[n] * room;
+      along += solids.fields.solidity[n] * room * solids.fields.velocity[3 * n + 2];
+    }
+    // A prism of 60 sides
+    EXPECT_NEAR(inside / (30 * std::sin(2 * pi / 60) * 0.02 * 0.02 * 0.012), 1, 1e-9);
+    EXPECT_NEAR(all / volume, 1, 1e-12);
+    EXPECT_NEAR(along / (0.1 * volume), 1, 1e-12);
+    pipes.send({averaging::exchange_end, {}, {}});
+  });
+  in_the_drum.exchange->end = first_step;
+  FlowExchange exchange(in_the_drum, first_step, alone_);
+  exchange.meet(balls);
+  flow_.get();
+}
+
+TEST_F(FlowExchangeTest, of_a_mixture_gives_each_size_its_own_drag) {
+  start([&](ExchangePipes& pipes) {
+    pipes.send(pack(averaging::FlowOffer{true, 0, version()}));
+    pipes.receive(averaging::BallsOffer::kind);
+    pipes.receive(averaging::SolidsAt::kind);
+    pipes.send(pack(averaging::ForcesUntil{0.001, uniform(0, 1000, 0.8)}));
+  });
+  FlowExchange exchange(order(), first_step, alone_);
+  exchange.meet(ball(first_step));
+  flow_.get();
+  const BallInFluid large{{0.015, 0.02, 0.01}, {0, 0, 0}, 2 * diameter};
+  EXPECT_NEAR(exchange.on(large).drag[0] / (large.volume() * mixture_factor(2, 0.3) * 800), 1, 1e-12);
+}
+
+TEST_F(FlowExchangeTest, lets_the_flow_end_within_the_last_record) {
+  for (const long before : {100L, 101L}) {
+    start([&](ExchangePipes& pipes) {
+      greet(pipes, static_cast<double>(1000 - before) * dem_step);
+      pipes.send({averaging::exchange_end, {}, {}});
+    });
+    const long step = first_step + 1000 - before;
+    FlowExchange exchange(order(), step, alone_);
+    const std::string message = message_of([&] { exchange.meet(ball(step)); });
+    flow_.get();
+    EXPECT_EQ(message.empty(), before == 100) << message;
+  }
+}
+
+TEST_F(FlowExchangeTest, refuses_another_message_in_the_place_of_forces) {
+  start([&](ExchangePipes& pipes) {
+    greet(pipes);
+    auto message = pack(averaging::ForcesUntil{0.001, uniform(0, 0, 0)});
+    message.kind = "other";
+    pipes.send(message);
+  });
+  FlowExchange exchange(order(), first_step, alone_);
+  const std::string message = message_of([&] { exchange.meet(ball(first_step)); });
+  EXPECT_NE(message.find("the flow sends 'other', expected 'forces'"), std::string::npos) << message;
+  flow_.get();
+}
+
 TEST_F(FlowExchangeTest, refuses_a_flow_that_ends_early) {
   start([&](ExchangePipes& pipes) {
     greet(pipes);
@@ -166,12 +257,16 @@ TEST_F(FlowExchangeTest, refuses_another_version_and_another_time_and_tells_the_
             }).find("the flow begins at its time 0.05 s, the balls at 0.04 s"),
             std::string::npos);
   flow_.get();
+  EXPECT_NE(told.find("cannot go on: the flow begins at its time 0.05 s"), std::string::npos) << told;
 }
 
 TEST_F(FlowExchangeTest, refuses_forces_that_are_not_finite_or_too_strong) {
   BallFields broken = uniform(0, 0, 0);
   broken.pressure_force[3 * box.offset({2, 1, 0})] = std::numeric_limits<double>::quiet_NaN();
+  BallFields nowhere = uniform(0, 0, 0);
+  nowhere.inside[box.offset({3, 1, 0})] = std::numeric_limits<double>::quiet_NaN();
   for (const auto& [fields, words] : {std::pair{broken, "not finite in voxel x y z = (2, 1, 0)"},
+                                      std::pair{nowhere, "not finite in voxel x y z = (3, 1, 0)"},
                                       std::pair{uniform(0, 2e7, 0), "takes 0.08 of"}}) {
     std::string told;
     start([&, given = fields](ExchangePipes& pipes) {
@@ -193,7 +288,11 @@ TEST(FluidOrderOfAFlow, comes_back_from_its_file) {
   meshing::Mill mill = tests::small_mill();
   mill.flow.write_interval = 3.2 * mill.dem.record_interval;
   mill.averages.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, mill.geometry.length}, {4, 4, 2}};
+  mill.averages.method = "sample";
+  mill.averages.template_points = 9;
+  mill.fingerprint.averages = "00000000000000aa";
   DemPlan plan = plan_dem(mill);
+  continue_from(2 * plan.turning_steps, plan);
   meet_flow(folder.path() / "exchange", mill, plan);
   EXPECT_EQ(plan.restart_steps, 3 * plan.step.steps_per_record);
   FluidOrder order{plan.fluid, plan.step.value, plan.step.steps_per_record, std::nullopt};
@@ -209,9 +308,27 @@ TEST(FluidOrderOfAFlow, comes_back_from_its_file) {
   EXPECT_EQ(found.exchange->grid.shape(), mill.averages.voxels.shape);
   EXPECT_EQ(found.exchange->walls,
             std::vector<std::filesystem::path>{file.parent_path() / "../walls/shell.stl"});
+  EXPECT_EQ(found.exchange->grid.lower(), mill.averages.voxels.lower);
+  EXPECT_EQ(found.exchange->grid.upper(), mill.averages.voxels.upper);
+  EXPECT_EQ(found.exchange->grid.periodic(), (std::array<bool, 3>{false, false, true}));
+  EXPECT_FALSE(found.exchange->exact);
+  EXPECT_EQ(found.exchange->template_points, 9);
+  EXPECT_EQ(found.exchange->mill, "00000000000000aa");
+  EXPECT_EQ(found.exchange->smallest_ball, 0.002);
+  EXPECT_EQ(found.exchange->rayleigh_fraction, 0.2);
+  EXPECT_EQ(found.exchange->begin, plan.begin);
   EXPECT_EQ(found.exchange->angular_velocity, mill.angular_velocity);
   EXPECT_EQ(found.exchange->ball_density, mill.ball.density);
   EXPECT_EQ(found.exchange->end, plan.end_step());
+}
+
+TEST(FluidOrderOfAFlow, has_a_restart_file_at_least_at_every_record) {
+  meshing::Mill mill = tests::small_mill();
+  mill.flow.write_interval = 0.1 * mill.dem.record_interval;
+  DemPlan plan = plan_dem(mill);
+  meet_flow("exchange", mill, plan);
+  EXPECT_EQ(plan.restart_steps, plan.step.steps_per_record);
+  EXPECT_TRUE(plan.fluid.file.is_absolute());
 }
 
 }  // namespace

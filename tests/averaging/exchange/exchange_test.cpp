@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
+#include <functional>
 #include <future>
 #include <string>
 
@@ -74,7 +76,8 @@ TEST_F(Exchange, refuses_another_kind_and_what_is_no_message) {
   flow_->send({"one", "", {}});
   EXPECT_NE(refusal_of([&] { balls_->receive("two"); }).find("sends 'one', expected 'two'"),
             std::string::npos);
-  std::ofstream(folder_ / "pipes" / "to_balls") << std::string(100, 'x') << std::flush;
+  // Lengths of 0, so that only the mark gives it away
+  std::ofstream(folder_ / "pipes" / "to_balls") << std::string(8, 'x') << std::string(92, '\0') << std::flush;
   EXPECT_NE(refusal_of([&] { balls_->receive(); }).find("no message of millFoam"), std::string::npos);
 }
 
@@ -83,6 +86,20 @@ TEST(ExchangePipes, refuses_a_file_in_the_place_of_a_pipe) {
   folder.write("to_balls", "text");
   EXPECT_NE(refusal_of([&] { ExchangePipes(folder / ".", ExchangeSide::flow); }).find("is no named pipe"),
             std::string::npos);
+}
+
+TEST(ExchangePipes, that_fail_half_way_let_the_other_side_end) {
+  const TemporaryFolder folder;
+  folder.write("to_flow", "text");
+  auto flow = std::async(std::launch::async, [&] {
+    return refusal_of([&] { ExchangePipes(folder / ".", ExchangeSide::flow); });
+  });
+  expect_named(refusal_of([&] { ExchangePipes(folder / ".", ExchangeSide::balls); }), {"is no named pipe"});
+  expect_named(flow.get(), {"is no named pipe"});
+  for (const auto& open : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code closed;
+    EXPECT_NE(std::filesystem::read_symlink(open.path(), closed).filename(), "to_balls");
+  }
 }
 
 const BoxGrid grid({0, -1, 0}, {0.5, 1, 2}, {2, 1, 3}, {false, false, true});
@@ -114,8 +131,11 @@ TEST(ExchangeFields, come_back_from_their_messages) {
   forces.fields.diameter.assign(n, 6);
   const ForcesUntil felt = unpack_forces(pack(forces), n);
   EXPECT_EQ(felt.time, 2.5);
+  EXPECT_EQ(felt.fields.inside, forces.fields.inside);
   EXPECT_EQ(felt.fields.pressure_force, forces.fields.pressure_force);
+  EXPECT_EQ(felt.fields.exchange, forces.fields.exchange);
   EXPECT_EQ(felt.fields.drag_force, forces.fields.drag_force);
+  EXPECT_EQ(felt.fields.solidity, forces.fields.solidity);
   EXPECT_EQ(felt.fields.diameter, forces.fields.diameter);
 
   SolidsAt solids{0.5, 1e-5, {}};
@@ -126,7 +146,11 @@ TEST(ExchangeFields, come_back_from_their_messages) {
   EXPECT_TRUE(unpack_solids(pack(solids), n).fields.inside_fraction.empty());
   solids.fields.inside_fraction.assign(n, 0.5);
   const SolidsAt seen = unpack_solids(pack(solids), n);
+  EXPECT_EQ(seen.time, 0.5);
   EXPECT_EQ(seen.deposited, 1e-5);
+  EXPECT_EQ(seen.fields.solidity, solids.fields.solidity);
+  EXPECT_EQ(seen.fields.diameter, solids.fields.diameter);
+  EXPECT_EQ(seen.fields.diameter43, solids.fields.diameter43);
   EXPECT_EQ(seen.fields.velocity, solids.fields.velocity);
   EXPECT_EQ(seen.fields.inside_fraction, solids.fields.inside_fraction);
 }
@@ -139,6 +163,30 @@ TEST(ExchangeFields, of_another_grid_are_refused) {
               unpack_forces({ForcesUntil::kind, "", {}}, 6);
             }).find("another length"),
             std::string::npos);
+}
+
+TEST(ExchangeFields, with_a_number_too_many_or_too_few_are_refused) {
+  const auto longer = [](ExchangeMessage message) {
+    message.numbers.push_back(0);
+    return message;
+  };
+  const auto shorter = [](ExchangeMessage message) {
+    message.numbers.pop_back();
+    return message;
+  };
+  const std::size_t n = grid.size();
+  const ExchangeMessage flow = pack(FlowOffer{}), balls = pack(BallsOffer{grid, 0, {}, "", ""});
+  const ExchangeMessage forces{ForcesUntil::kind, "", std::vector<double>(1 + 10 * n)};
+  const ExchangeMessage solids{SolidsAt::kind, "", std::vector<double>(2 + 7 * n)};
+  EXPECT_EQ(refusal_of([&] { unpack_forces(forces, n); }), "");
+  EXPECT_EQ(refusal_of([&] { unpack_solids(solids, n); }), "");
+  for (const auto& change : {std::function<ExchangeMessage(ExchangeMessage)>(longer),
+                             std::function<ExchangeMessage(ExchangeMessage)>(shorter)}) {
+    expect_named(refusal_of([&] { unpack_flow_offer(change(flow)); }), {"'flow'", "another length"});
+    expect_named(refusal_of([&] { unpack_balls_offer(change(balls)); }), {"'balls'", "another length"});
+    expect_named(refusal_of([&] { unpack_forces(change(forces), n); }), {"'forces'", "another length"});
+    expect_named(refusal_of([&] { unpack_solids(change(solids), n); }), {"'solids'", "another length"});
+  }
 }
 
 }  // namespace

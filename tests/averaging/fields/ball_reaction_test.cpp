@@ -68,7 +68,8 @@ TEST(BallReaction, leaves_out_voxels_without_balls_or_cells) {
   const Vector3 centre = box.centre({1, 0, 0});
   reaction.add(solids_shares(box, window, centre), 1e-9, {1, 2, 3}, 1, {});
   const BallFields felt = reaction.fields(box, window);
-  for (std::size_t n = 0; n < box.size(); ++n) EXPECT_EQ(felt.inside[n] > 0, n == box.offset({1, 0, 0}));
+  for (std::size_t n = 0; n < box.size(); ++n)
+    EXPECT_EQ(felt.inside[n], n == box.offset({1, 0, 0}) ? window.inside_fraction[n] : 0);
 }
 
 TEST(SolidsShares, add_up_to_one_or_are_none) {
