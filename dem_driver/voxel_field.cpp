@@ -83,14 +83,17 @@ FeltFluid VoxelField::over(const Vector& centre, double diameter) const {
     first[axis] = (centre[axis] - edge / 2 - grid_.lower()[axis]) / grid_.spacing()[axis];
     last[axis] = first[axis] + edge / grid_.spacing()[axis];
   }
-  const auto share = [&](double voxel, std::size_t axis) {
-    return (std::min(last[axis], voxel + 1) - std::max(first[axis], voxel)) / (last[axis] - first[axis]);
+  const auto share = [&](int voxel, std::size_t axis) {
+    const double lower = voxel;
+    return (std::min(last[axis], lower + 1) - std::max(first[axis], lower)) / (last[axis] - first[axis]);
   };
+  const auto from = [&](std::size_t axis) { return static_cast<int>(std::floor(first[axis])); };
+  const auto to = [&](std::size_t axis) { return static_cast<int>(std::ceil(last[axis])); };
   FeltFluid sum;
   double weights = 0;
-  for (double z = std::floor(first[2]); z < last[2]; ++z)
-    for (double y = std::floor(first[1]); y < last[1]; ++y)
-      for (double x = std::floor(first[0]); x < last[0]; ++x) {
+  for (int z = from(2); z < to(2); ++z)
+    for (int y = from(1); y < to(1); ++y)
+      for (int x = from(0); x < to(0); ++x) {
         const averaging::VoxelIndex index{wrapped(x, 0), wrapped(y, 1), wrapped(z, 2)};
         if (index[0] < 0 || index[1] < 0 || index[2] < 0) continue;
         const FeltFluid& voxel = voxels_[grid_.offset(index)];
