@@ -230,10 +230,11 @@ void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& p
 }
 
 /// Torque of the charge on all walls about the axis, mean over every step of a record; kinetic and potential
-/// energy and the largest overlap at every record; histograms of the overlaps.
+/// energy at every record; histograms of the overlaps, for which LIGGGHTS computes all contacts once more.
 void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
                    long start) {
   const long record = plan.step.steps_per_record;
+  const long sample = plan.overlap_steps();
   const double range = overlap_range * largest_diameter(plan);
   out << "variable torque equal 0";
   for (const auto& part : parts) out << "+f_" << part << "[6]";
@@ -242,10 +243,10 @@ void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std
       << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity
       << "*y\ncompute potential all reduce sum v_height\n"
       << "fix energy all ave/time " << record << " 1 " << record
-      << " c_kinetic c_potential c_overlap file energy." << start << ".txt\n";
+      << " c_kinetic c_potential file energy." << start << ".txt\n";
   for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
-    out << "fix " << table.compute << "Histogram all ave/histo " << record << ' '
-        << plan.restart_steps / record << ' ' << plan.restart_steps << " 0 " << range << ' ' << overlap_bins
+    out << "fix " << table.compute << "Histogram all ave/histo " << sample << ' '
+        << plan.restart_steps / sample << ' ' << plan.restart_steps << " 0 " << range << ' ' << overlap_bins
         << " " << overlap_column(table) << " mode vector file " << table.compute << '.' << start << ".txt\n";
 }
 

@@ -41,6 +41,7 @@ struct DemPlan {
   long insertions() const;     ///< single insertions of all rounds; each takes one step
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
   long total_steps() const;    ///< of insertions, settling and turning mill together
+  long overlap_steps() const;  ///< between two records whose overlaps are counted
   double begin_time() const;   ///< DEM time at `begin`, s
   double duration() const;     ///< s of turning mill, from `begin` on
 };

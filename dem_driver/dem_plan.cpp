@@ -14,6 +14,7 @@ namespace {
 constexpr double longest_time_step = 1;  // s, above that of any ball
 constexpr long restarts = 50;            // of a run, unless it is short
 constexpr long fewest_records_per_restart = 10;
+constexpr long most_records_per_overlaps = 10;
 
 /// About a fiftieth of all records, so that the run, and what was before its begin, are whole numbers of such
 /// parts wherever they can be: the histograms of the overlaps are written one for each part.
@@ -85,6 +86,13 @@ long DemPlan::resting_steps() const {
 
 long DemPlan::total_steps() const {
   return resting_steps() + turning_steps;
+}
+
+long DemPlan::overlap_steps() const {
+  const long records = restart_steps / step.steps_per_record;
+  long part = std::min(records, most_records_per_overlaps);
+  while (records % part != 0) --part;
+  return part * step.steps_per_record;
 }
 
 double DemPlan::begin_time() const {

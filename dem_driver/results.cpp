@@ -140,12 +140,10 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder) {
     rows[step_of(line)].torque = line.values[1];
   }
   for (const auto& line : read_segments(folder, "energy")) {
-    expect_columns(line, 4);
+    expect_columns(line, 3);
     const auto row = rows.find(step_of(line));
     if (row == rows.end()) continue;  // step 0, before which there is no torque
-    // Without any contact LIGGGHTS prints -1e20
-    row->second = {row->first, row->second.torque, line.values[1], line.values[2],
-                   std::max(0.0, line.values[3])};
+    row->second = {row->first, row->second.torque, line.values[1], line.values[2]};
   }
   std::vector<HistoryRow> history;
   std::transform(rows.begin(), rows.end(), std::back_inserter(history),
@@ -221,19 +219,17 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   const double largest = plan.charge.classes.front().diameter;
   results.ball_overlaps = read_overlaps(folder, "ballOverlaps", largest);
   results.wall_overlaps = read_overlaps(folder, "wallOverlaps", largest);
-  for (const HistoryRow& row : results.history)
-    results.ball_overlaps.largest = std::max(results.ball_overlaps.largest, row.overlap);
   return results;
 }
 
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results) {
   replace_file(folder.energy(), [&](std::ostream& out) {
-    out << "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n" << std::setprecision(8);
+    out << "time_s,torque_Nm,power_W,kinetic_J,potential_J\n" << std::setprecision(8);
     for (std::size_t i = 0; i < results.history.size(); ++i) {
       const HistoryRow& row = results.history[i];
       out << results.time[i] << ',' << row.torque << ',' << results.power[i] << ',' << row.kinetic << ','
-          << row.potential << ',' << row.overlap << '\n';
+          << row.potential << '\n';
     }
   });
   if (plan.fluid.kind != FluidKind::none)

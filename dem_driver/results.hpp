@@ -22,14 +22,13 @@ struct HistoryRow {
   double torque = 0;     ///< of the charge on the mill about +z, mean over the record's steps, N m
   double kinetic = 0;    ///< energy of translation, J
   double potential = 0;  ///< against the mill's axis, J
-  double overlap = 0;    ///< largest of two balls, m
 };
 
 /// What LIGGGHTS has written of the turning mill, one row per record after step 0. Throws std::runtime_error
 /// naming file and line where it cannot be read.
 std::vector<HistoryRow> read_history(const CaseFolder& folder);
 
-/// All overlaps of one kind at all records.
+/// All overlaps of one kind at the records at which they are counted.
 struct OverlapStatistics {
   std::vector<double> counts;  ///< contacts in bins of equal width from 0 on
   double bin_width = 0;        ///< m
@@ -58,8 +57,7 @@ struct Results {
   Steadiness power_steadiness;      ///< of `power`, W
   Steadiness kinetic_steadiness;    ///< of the energy of translation, J
   Steadiness potential_steadiness;  ///< of the potential energy, J
-  /// Of two balls; the largest is that of all records too, not only of the histograms.
-  OverlapStatistics ball_overlaps;
+  OverlapStatistics ball_overlaps;         ///< of two balls
   OverlapStatistics wall_overlaps;         ///< of balls and walls
   std::optional<ContactResults> contacts;  ///< of a run that follows its contacts
   bool steady() const;                     ///< whether power and both energies are

@@ -289,6 +289,22 @@ TEST(Deck, ContactsAndTheirBallsAreDumpedAtTheNearestWholeNumberOfSteps) {
   EXPECT_LT(deck.find("dump pairs"), deck.find("upto every"));
 }
 
+TEST(Deck, OverlapsAreCountedAtEveryTenthRecordOrAtTheNearestThatDividesTheRestarts) {
+  DemPlan plan = plan_dem(tests::small_mill());
+  const long record = plan.step.steps_per_record;
+  for (const auto& [restart, expected] : {std::pair{20L, 10L}, {25L, 5L}, {7L, 7L}, {13L, 1L}, {1L, 1L}}) {
+    plan.restart_steps = restart * record;
+    EXPECT_EQ(plan.overlap_steps(), expected * record) << restart;
+    std::ostringstream deck;
+    write_deck(deck, tests::small_mill(), plan, {"shell"}, 1);
+    const std::string histogram = "fix ballOverlapsHistogram all ave/histo " +
+                                  std::to_string(expected * record) + ' ' +
+                                  std::to_string(restart / expected) + ' ' +
+                                  std::to_string(restart * record) + " 0 ";
+    EXPECT_NE(deck.str().find(histogram), std::string::npos) << restart;
+  }
+}
+
 TEST(Deck, ContactsShareTheComputeOfTheOverlapsWhichAreItsLastColumn) {
   const std::string deck = deck_of(mill_with_contacts(0.01));
   EXPECT_EQ(after(deck, "compute").front(), "ballOverlaps");

@@ -43,8 +43,8 @@ class ResultsTest : public ::testing::Test {
 TEST_F(ResultsTest, TheHistoryIsWithoutWhatTheKilledRunWroteAfterItsLastRestartFile) {
   write("dem/torque.0.txt", "# comment\n10 1\n20 2\n30 99\n");
   write("dem/torque.20.txt", "30 3\n40 4\n");
-  write("dem/energy.0.txt", "0 0.5 0 0\n10 1 -1 0.1\n20 2 -2 0.2\n30 99 99 99\n");
-  write("dem/energy.20.txt", "20 2 -2 0.2\n30 3 -3 0.3\n40 4 -4 0.4\n");
+  write("dem/energy.0.txt", "0 0.5 0\n10 1 -1\n20 2 -2\n30 99 99\n");
+  write("dem/energy.20.txt", "20 2 -2\n30 3 -3\n40 4 -4\n");
   const auto history = read_history(folder_);
   ASSERT_EQ(history.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -53,7 +53,6 @@ TEST_F(ResultsTest, TheHistoryIsWithoutWhatTheKilledRunWroteAfterItsLastRestartF
     EXPECT_EQ(history[i].torque, n);
     EXPECT_EQ(history[i].kinetic, n);
     EXPECT_EQ(history[i].potential, -n);
-    EXPECT_EQ(history[i].overlap, n / 10);
   }
 }
 

@@ -195,8 +195,8 @@ class Spectra(Case):
         self.assertEqual((found.dumps, round(found.interval, 9)), (3, 0.001))
         self.assertAlmostEqual(found.dissipation().sum(), 0.2, places=6)
         (self.case / "dumps" / "energy.csv").write_text(
-            "time_s,torque_Nm,power_W,kinetic_J,potential_J,largest_overlap_m\n"
-            "0.1,1,9,1,2,0\n0.2,1,5,1.1,2,0\n0.3,1,7,1.1,2.3,0\n")
+            "time_s,torque_Nm,power_W,kinetic_J,potential_J\n"
+            "0.1,1,9,1,2\n0.2,1,5,1.1,2\n0.3,1,7,1.1,2.3\n")
         self.assertAlmostEqual(power_to_dissipate(self.case), 6 - 0.4 / 0.2)
         with self.assertRaisesRegex(RuntimeError, "1 records from 0.25"):
             power_to_dissipate(self.case, 0.25)
