@@ -66,6 +66,15 @@ DumpBox read_box(TextLines& lines) {
   return box;
 }
 
+/// LAMMPS writes the units on request (`dump_modify units yes`).
+void require_si(TextLines& lines) {
+  const std::string_view line = next_line(lines, "the units");
+  std::string_view rest = line;
+  if (take_word(rest) != "si" || !take_word(rest).empty()) {
+    throw DumpError(lines.place() + "the units are " + quoted(line) + ", expected si (m, s)");
+  }
+}
+
 /// Reads an item other than the particles. `title` is what follows "ITEM: ".
 void read_item(TextLines& lines, std::string_view title, DumpHeader& header) {
   if (title == "TIMESTEP") {
@@ -77,6 +86,8 @@ void read_item(TextLines& lines, std::string_view title, DumpHeader& header) {
   } else if (starts_with(title, "BOX BOUNDS")) {
     require_once(lines, header.box, "BOX BOUNDS");
     header.box = read_box(lines);
+  } else if (title == "UNITS") {
+    require_si(lines);
   } else {
     while (!lines.at_end() && !starts_with(lines.peek(), "ITEM:")) next_line(lines, "a whole line");
   }

@@ -26,8 +26,8 @@ struct DumpHeader {
 };
 
 /// Reads up to and with the line 'ITEM: ATOMS ...'. Items of other names are passed over. Throws DumpError
-/// for text that is not a dump, an item that appears twice, an impossible value, or a missing time-step or
-/// number of atoms.
+/// for text that is not a dump, an item that appears twice, an impossible value, units other than si, or a
+/// missing time-step or number of atoms.
 DumpHeader read_header(TextLines& lines);
 
 /// Reads as far as the time-step only. Throws DumpError as `read_header`.

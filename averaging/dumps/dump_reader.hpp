@@ -17,7 +17,7 @@ class DumpError : public std::runtime_error {
 
 /// Parses one record in the text layout of LIGGGHTS' and LAMMPS' `dump custom`: the items TIMESTEP, NUMBER OF
 /// ATOMS, BOX BOUNDS and ATOMS. Lines end with LF or CR LF, the last one too: without it a cut number would
-/// look like a whole one. Items of other names are passed over.
+/// look like a whole one. The item UNITS must be si. Items of other names are passed over.
 ///
 /// The columns are found by name, in any order and among any others:
 ///
@@ -33,10 +33,10 @@ class DumpError : public std::runtime_error {
 /// @param text  the whole file
 /// @param name  the file's name, for messages
 ///
-/// Throws DumpError for fewer or more lines than the header says, a missing column, more than one kind of
-/// position, scaled positions in a tilted box, shapes that are not complete, a value that is not a finite
-/// number, a radius or half axis that is not positive, a blockiness below 2, a quaternion that is not of
-/// length 1 (it may be off by a half, and is normalised), two particles of one id, or a second record.
+/// Throws DumpError for fewer or more lines than the header says, units other than si, a missing column, more
+/// than one kind of position, scaled positions in a tilted box, shapes that are not complete, a value that is
+/// not a finite number, a radius or half axis that is not positive, a blockiness below 2, a quaternion that is
+/// not of length 1 (it may be off by a half, and is normalised), two particles of one id, or a second record.
 ParticleRecord parse_dump(std::string_view text, const std::string& name);
 
 /// Reads one record from a file, plain or gzip. Throws DumpError as `parse_dump`, for a file that cannot be
