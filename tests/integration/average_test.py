@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 
 RECORDS, BALLS = 60, 400
+LAMMPS = Path(__file__).resolve().parents[1] / "averaging" / "dumps" / "data" / "lammps"
 # Open MPI leaves memory behind in libraries that it has unloaded by then, for which a build with sanitizers would fail.
 MPIRUN = ("mpirun", "--oversubscribe", "-x", "ASAN_OPTIONS=detect_leaks=0", "-np")
 RUN = {"format": "millfoam-dumps", "mill": {"charge": "00c0ffee00c0ffee"}, "timestep_s": 1e-4, "interval": 100,
@@ -266,6 +267,26 @@ class MillAverage(unittest.TestCase):
                      "a mesh has its own")
         self.refused(self.command(grid=["--cylinder", "0.5", "0.2", "0", "1", "--shape", "3", "8", "1"]), "0.5", "0.2")
         self.refused(self.command(grid=BOX[:7]), "--shape is missing", "nx ny nz")
+
+    def average_of_lammps(self, dumps, *periodic):
+        """The ledger of averages of dumps that LAMMPS wrote: {name: m^3}."""
+        self.run_in_folder(["millAverage", "--dumps", LAMMPS / dumps, "--dt", "2e-6", "--box", "-0.05", "-0.05", "0",
+                            "0.05", "0.05", "0.04", "--shape", "5", "5", "2", *periodic, "--window", "whole",
+                            "-o", "solids.h5"], check=True)
+        with h5py.File(self.folder / "solids.h5") as solids:
+            volume = solids["solidity"][0].sum() * 0.02**3
+            self.assertAlmostEqual(volume / solids["ledger/deposited"][0], 1, places=12)
+            return {name: values[0] for name, values in solids["ledger"].items()}
+
+    def test_dumps_of_lammps_keep_all_their_volume(self):
+        """41 balls of 10 mm and 22 of 6 mm, of which some lie across the periodic ends."""
+        volume = np.pi / 6 * (41 * 0.010**3 + 22 * 0.006**3)
+        for dumps in ("drum.*.txt", "sorted.*.gz", "scaled.*.txt", "unwrapped.*.txt"):
+            ledger = self.average_of_lammps(dumps, "--periodic", "z")
+            self.assertAlmostEqual(ledger["volume_in"] / volume, 1, places=12, msg=dumps)
+            self.assertAlmostEqual(ledger["deposited"] / volume, 1, places=12, msg=dumps)
+        closed = self.average_of_lammps("drum.*.txt")
+        self.assertGreater(closed["outside"], 0.01 * volume)
 
 
 if __name__ == "__main__":
