@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the benchmarks of averaging, meshing and the flow and writes what they say as a table (results/benchmarks.md)
-and a plot (results/location.png) in the folder above the benchmark programs. Figures are medians over repetitions; the
-flow runs once.
+"""Runs the benchmarks of averaging, meshing, the flow and the balls and writes what they say as a table
+(results/benchmarks.md) and a plot (results/location.png) in the folder above the benchmark programs. Figures are
+medians over repetitions; flow and scale run once.
 
-    run_benchmarks.py [PART...]     parts: overlap mesh assembly dumps location cores memory flow; all unless given
+    run_benchmarks.py [PART...]
+
+Parts are overlap mesh assembly dumps location cores memory flow scale; all unless given.
 """
 import json
 import os
@@ -21,6 +23,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from flow_benchmark import flow_lines
+from scale_benchmark import scale_lines
 
 matplotlib.use("Agg")
 
@@ -190,7 +193,11 @@ def flow(results):
     return flow_lines()
 
 
-PARTS = {part.__name__: part for part in (overlap, mesh, assembly, dumps, location, cores, memory, flow)}
+def scale(results):
+    return scale_lines()
+
+
+PARTS = {part.__name__: part for part in (overlap, mesh, assembly, dumps, location, cores, memory, flow, scale)}
 
 
 def main(names):
