@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares one-way, buoyant, iterated and direct coupling of the 12 cm mill's slice: a table on the screen,
+"""Compares one-way, buoyant, iterated and direct coupling of mills: a table on the screen,
 mill_coupling.txt, mill_coupling.csv and mill_coupling.png."""
 import argparse
 import csv
@@ -19,6 +19,10 @@ from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 HERE = Path(__file__).parent.resolve()
 EDGE = 0.3  # solidity of the charge's outline in the picture
 HALF = 0.5  # share of the slurry's outline
+
+
+def title(mill):
+    return "30 cm mill" if mill == "30cm" else mill.replace("_", " % of critical speed, ")
 
 
 def passes_of(mill):
@@ -78,7 +82,7 @@ def draw(mills):
             sx, sy = (1e3 * at for at in slurry.centres())
             axis.contour(sx, sy, np.nan_to_num(slurry.share), [HALF], colors="#0072B2")
             draw_outline(axis, case.outline, case.radius, case.omega)
-            axis.set(title=f"{mill.replace('_', ' % of critical speed, ')}: {name}", aspect="equal", xlabel="x, mm",
+            axis.set(title=f"{title(mill)}: {name}", aspect="equal", xlabel="x, mm",
                      ylabel="y, mm")
             axis.title.set_fontsize(9)
         figure.colorbar(mesh, ax=line, label="solidity, –")

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balls and flow at the same time: two programs that exchange forces and averages, and resume at the same time."""
+import os
 import shutil
 import signal
 import subprocess
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import IO
 
 from ..files.data_files import read_json
 
@@ -74,18 +76,22 @@ def remove_pipes(case: Path) -> None:
         pipe.unlink()
 
 
-def run_together(balls: Sequence[str], flow: Sequence[str], case: Path) -> None:
-    """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to the
-    output of this program. Each ends when this program is killed. If one fails, the other is ended. TogetherError
-    with the last lines of the balls' log if they fail, or with the flow's exit code."""
+def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log: IO[str] | None = None) -> None:
+    """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to flow_log
+    or, without it, to the output of this program. Each ends when this program is killed. If one fails, the other is
+    ended. TogetherError with the last lines of the balls' log if they fail, or with the flow's exit code."""
     remove_pipes(case)
+    balls_name = Path(balls[0]).name
+    # OpenFOAM takes its folder's name from PWD
+    environment = {**os.environ, "PWD": str(case.resolve())}
 
     def start(command: Sequence[str], out: int | None) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, stdout=out,
+        return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, env=environment, stdout=out,
                                 stderr=subprocess.STDOUT if out else None)
     log = case / BALLS_LOG
     with open(log, "wb") as out:
-        programs = {"millDem": start(balls, out.fileno()), Path(flow[0]).name: start(flow, None)}
+        programs = {balls_name: start(balls, out.fileno()),
+                    Path(flow[0]).name: start(flow, flow_log.fileno() if flow_log else None)}
     try:
         while any(program.poll() is None for program in programs.values()):
             if any(program.poll() for program in programs.values()):
@@ -99,9 +105,9 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path) -> None:
                 program.send_signal(signal.SIGTERM)
                 program.wait()
         remove_pipes(case)
-    if programs["millDem"].returncode > 0:
+    if programs[balls_name].returncode > 0:
         lines = log.read_text(errors="replace").splitlines()
-        raise TogetherError(f"millDem failed; {log} ends with:\n" + "\n".join(lines[-15:]))
+        raise TogetherError(f"{balls_name} failed; {log} ends with:\n" + "\n".join(lines[-15:]))
     failed = [f"{name} ended with {program.returncode}" for name, program in programs.items() if program.returncode]
     if failed:
         raise TogetherError(", ".join(failed))
