@@ -22,11 +22,11 @@ HERE = Path(__file__).parent.resolve()
 GRAVITY = 9.81
 WATER, VISCOSITY = 1000.0, 1e-3  # kg/m3, Pa s
 BALL = 2700.0  # kg/m3
-TIMESTEP = 1.25e-5  # s, of the balls: 0.14 of the Rayleigh time of 2 mm at 1e7 Pa
+TIMESTEP = 2e-5  # s, of the balls: 0.16 of the Rayleigh time of 2 mm at 5e6 Pa
 RELAXATION = 0.7  # of the forces from pass to pass, as a mill's flow.relaxation
-RECORD = 80  # steps, 1 ms
+RECORD = 50  # steps, 1 ms
 CONTACTS = "gran model hertz tangential history rolling_friction cdt"
-PROPERTIES = {"youngsModulus": ("peratomtype", 1e7), "poissonsRatio": ("peratomtype", 0.23),
+PROPERTIES = {"youngsModulus": ("peratomtype", 5e6), "poissonsRatio": ("peratomtype", 0.23),
               "coefficientRestitution": ("peratomtypepair 1", 0.5),
               "coefficientRollingFriction": ("peratomtypepair 1", 0.01)}
 
@@ -184,7 +184,7 @@ def exchange_order(column, balls):
         "lower_m": [0, 0, 0], "upper_m": [column.width, column.width, column.height], "shape": column.shape,
         "periodic": [True, True, column.periodic], "exact": True, "template_points": 12, "walls": [],
         "angular_velocity_rad_s": 0, "averages": "", "ball_density_kg_m3": BALL,
-        "smallest_ball_m": balls.diameter.min(), "rayleigh_fraction": 0.14, "begin": 0,
+        "smallest_ball_m": balls.diameter.min(), "rayleigh_fraction": 0.16, "begin": 0,
         "end": round(column.end / TIMESTEP)})
 
 

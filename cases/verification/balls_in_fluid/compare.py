@@ -23,15 +23,16 @@ PANELS = {"terminal velocity": ("time, s", "velocity, m/s"),
 
 def experiments(work, quick):
     """Experiments as functions of the folder of their runs."""
-    bed = settled_bed(work, 0.024 if quick else 0.048)
+    width = 0.01 if quick else 0.016  # m
+    bed = settled_bed(work, width, 0.02 if quick else 0.048)
     found = [partial(terminal, law="DiFelice", upflow=0.0, ways=("direct", "iterated")),
              partial(terminal, law="WenYu", upflow=0.1),
              partial(pool, bed=bed), partial(upflow, bed=bed),
              partial(fluidisation, bed=bed, rise=2.0 if quick else 4.0),
-             partial(settling, solidity=0.3)]
+             partial(settling, width=width, solidity=0.3)]
     if not quick:
-        found += [partial(settling, solidity=0.05), partial(settling, solidity=0.45)]
-    return [*found, partial(segregation, end=1.0 if quick else 3.0)]
+        found += [partial(settling, width=width, solidity=solidity) for solidity in (0.05, 0.45)]
+    return [*found, partial(segregation, end=1.2 if quick else 3.0)]
 
 
 def print_table(findings, out):

@@ -11,7 +11,7 @@ from laws import ergun_gradient, minimum_fluidisation, terminal_slip
 
 DIAMETER = 2e-3  # m
 FINE = 4e-3  # m, of a bed's cells
-COARSE = 8e-3  # m, of a suspension's: a cell has 12 balls at solidity 0.05
+COARSE = 8e-3  # m, of a suspension's: a cell has 24 balls at solidity 0.05 and width 16 mm
 
 
 @dataclass
@@ -78,10 +78,10 @@ class Bed:
         return self.balls.buoyant_weight / self.column.area
 
 
-def settled_bed(work, depth):
-    """Bed of a depth (m), settled dry. It settles a little more when an experiment begins."""
+def settled_bed(work, width, depth):
+    """Bed of a width and depth (m), settled dry. It settles a little more when an experiment begins."""
     height = FINE * round((depth + 0.06) / FINE)
-    column = Column(0.016, height, round(height / FINE), "Ergun", end=0.8, settle=0.1)
+    column = Column(width, height, round(height / FINE), "Ergun", end=0.8, settle=0.1)
     return Bed(column, settled(work / "bed", column, scattered(column, 0.45, 1e-4, depth / 0.75, (DIAMETER,))))
 
 
@@ -159,11 +159,11 @@ def upflow(work, bed):
     return findings, []
 
 
-def settling(work, solidity):
+def settling(work, width, solidity):
     """A suspension settles in a closed column: speed of its balls before the sediment reaches them, against e w of the
     law's balance with the solidity found there."""
     top = 0.16
-    column = Column(0.016, 0.2, round(0.2 / COARSE), "DiFelice", end=0.5, write_interval=0.01)
+    column = Column(width, 0.2, round(0.2 / COARSE), "DiFelice", end=0.5, write_interval=0.01)
     balls = scattered(column, solidity, 1e-3, top, (DIAMETER,))
     motion, fields = run_direct(work / f"settling_{solidity:g}", column, balls)
 
@@ -188,15 +188,15 @@ def settling(work, solidity):
 
 
 def segregation(work, end):
-    """Two sizes under an upflow that carries both: the smaller ones rise above the larger ones. Without the drag of
-    their own sizes both have the same force per volume."""
+    """Two sizes with little friction, so that they can pass each other, under an upflow that carries both: the smaller
+    ones rise above the larger ones. Without the drag of their own sizes both have the same force per volume."""
     small, large = DIAMETER, 1.5 * DIAMETER
-    speed = 1.2 * minimum_fluidisation(0.6, large)
+    speed = 2.2 * minimum_fluidisation(0.6, large)
     findings, curves = [], []
     for own in (True, False):
-        column = Column(0.018, 0.12, 20, "DiFelice", end, feed=((0.0, 0.0), (0.3, speed)), settle=0.35,
-                        polydispersity=own)
-        balls = scattered(column, 0.3, 1e-4, 0.08, (small,) * 3 + (large,))
+        column = Column(0.02, 0.161, 23, "ErgunWenYu", end, feed=((0.0, 0.0), (0.3, speed)), settle=0.3,
+                        polydispersity=own, friction=0.05)
+        balls = scattered(column, 0.18, 1e-4, 0.1, (small,) * 3 + (large,))
         motion, _ = run_direct(work / f"segregation{'' if own else '_mean_size'}", column, balls)
         is_large = balls.diameter > small
         apart = motion.place[:, ~is_large, 2].mean(axis=1) - motion.place[:, is_large, 2].mean(axis=1)
