@@ -242,8 +242,8 @@ void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std
       << ".txt\n"
       << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity
       << "*y\ncompute potential all reduce sum v_height\n"
-      << "fix energy all ave/time " << record << " 1 " << record
-      << " c_kinetic c_potential file energy." << start << ".txt\n";
+      << "fix energy all ave/time " << record << " 1 " << record << " c_kinetic c_potential file energy."
+      << start << ".txt\n";
   for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
     out << "fix " << table.compute << "Histogram all ave/histo " << sample << ' '
         << plan.restart_steps / sample << ' ' << plan.restart_steps << " 0 " << range << ' ' << overlap_bins

@@ -47,16 +47,16 @@ OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kin
 
 /// The results of a dry run.
 struct Results {
-  RunResult run;                    ///< what LIGGGHTS did
-  long balls = 0;                   ///< put into the mill; `run.balls` are left at the end
-  double resting_speed = 0;         ///< m/s, root mean square by mass of the charge at the run's begin
-  std::vector<HistoryRow> history;  ///< one row for each record after the run's begin
-  std::vector<FluidRow> fluid;      ///< one row for each of them, with a fluid
-  std::vector<double> time;         ///< s, of each row
-  std::vector<double> power;        ///< that the drive gives to the charge, W, of each row
-  Steadiness power_steadiness;      ///< of `power`, W
-  Steadiness kinetic_steadiness;    ///< of the energy of translation, J
-  Steadiness potential_steadiness;  ///< of the potential energy, J
+  RunResult run;                           ///< what LIGGGHTS did
+  long balls = 0;                          ///< put into the mill; `run.balls` are left at the end
+  double resting_speed = 0;                ///< m/s, root mean square by mass of the charge at the run's begin
+  std::vector<HistoryRow> history;         ///< one row for each record after the run's begin
+  std::vector<FluidRow> fluid;             ///< one row for each of them, with a fluid
+  std::vector<double> time;                ///< s, of each row
+  std::vector<double> power;               ///< that the drive gives to the charge, W, of each row
+  Steadiness power_steadiness;             ///< of `power`, W
+  Steadiness kinetic_steadiness;           ///< of the energy of translation, J
+  Steadiness potential_steadiness;         ///< of the potential energy, J
   OverlapStatistics ball_overlaps;         ///< of two balls
   OverlapStatistics wall_overlaps;         ///< of balls and walls
   std::optional<ContactResults> contacts;  ///< of a run that follows its contacts

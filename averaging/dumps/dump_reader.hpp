@@ -35,8 +35,9 @@ class DumpError : public std::runtime_error {
 ///
 /// Throws DumpError for fewer or more lines than the header says, units other than si, a missing column, more
 /// than one kind of position, scaled positions in a tilted box, shapes that are not complete, a value that is
-/// not a finite number, a radius or half axis that is not positive, a blockiness below 2, a quaternion that is
-/// not of length 1 (it may be off by a half, and is normalised), two particles of one id, or a second record.
+/// not a finite number, a radius or half axis that is not positive, a blockiness below 2, a quaternion that
+/// is not of length 1 (it may be off by a half, and is normalised), two particles of one id, or a second
+/// record.
 ParticleRecord parse_dump(std::string_view text, const std::string& name);
 
 /// Reads one record from a file, plain or gzip. Throws DumpError as `parse_dump`, for a file that cannot be

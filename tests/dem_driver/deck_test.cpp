@@ -297,10 +297,9 @@ TEST(Deck, OverlapsAreCountedAtEveryTenthRecordOrAtTheNearestThatDividesTheResta
     EXPECT_EQ(plan.overlap_steps(), expected * record) << restart;
     std::ostringstream deck;
     write_deck(deck, tests::small_mill(), plan, {"shell"}, 1);
-    const std::string histogram = "fix ballOverlapsHistogram all ave/histo " +
-                                  std::to_string(expected * record) + ' ' +
-                                  std::to_string(restart / expected) + ' ' +
-                                  std::to_string(restart * record) + " 0 ";
+    const std::string histogram =
+        "fix ballOverlapsHistogram all ave/histo " + std::to_string(expected * record) + ' ' +
+        std::to_string(restart / expected) + ' ' + std::to_string(restart * record) + " 0 ";
     EXPECT_NE(deck.str().find(histogram), std::string::npos) << restart;
   }
 }
