@@ -8,6 +8,7 @@
 #include <map>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
@@ -156,10 +157,14 @@ OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kin
   statistics.counts.assign(overlap_bins, 0);
   statistics.bin_width = overlap_range * largest_diameter / overlap_bins;
   const auto lines = read_segments(folder, kind, overlap_bins);
+  long counted = -1;  // the last step
   for (std::size_t first = 0; first < lines.size(); first += overlap_bins + 1) {
     // step, bins, contacts within the range, contacts beyond it, least, largest
     expect_columns(lines[first], 6);
     const auto& head = lines[first].values;
+    const long step = step_of(lines[first]);
+    // A run that resumes may count once more the contacts of the step from which it resumes
+    if (std::exchange(counted, step) == step) continue;
     if (head[2] + head[3] == 0) continue;
     statistics.samples += head[2] + head[3];
     statistics.largest = std::max(statistics.largest, head[5]);

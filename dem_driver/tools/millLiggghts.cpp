@@ -31,6 +31,7 @@
 #include "dem_driver/tools/averages_fix.hpp"
 #include "dem_driver/tools/contact_watch.hpp"
 #include "dem_driver/tools/stop.hpp"
+#include "dem_driver/tools/wall_velocities.hpp"
 #include "dem_driver/tools/watched_model.hpp"
 
 namespace {
@@ -183,18 +184,22 @@ std::string deck_name(int argc, char** argv) {
 }
 
 /// Feeds the deck to LIGGGHTS line by line, gives the fixes of fluid and averages their work as soon as they
-/// are there, and follows the contacts from the deck's `watch_command` on.
+/// are there, follows the contacts from the deck's `watch_command` on, and lets the walls of a deck that
+/// reads a restart file turn from its first forces on.
 void run(int argc, char** argv, int rank) {
   std::istringstream deck(read_deck(deck_name(argc, argv), rank));
   add_watched_model();
   LAMMPS liggghts(argc, argv, MPI_COMM_WORLD);
   std::unique_ptr<FluidFix> fluid;
+  bool resumes = false;
   for (std::string line; std::getline(deck, line);) {
     if (begins(line, watch_command)) {
       watch_contacts(liggghts, "contacts.json");
       continue;
     }
+    if (begins(line, "run ") && std::exchange(resumes, false)) set_wall_velocities(liggghts);
     liggghts.input->one(line.c_str());
+    if (begins(line, "read_restart ")) resumes = true;
     for (const char* name : {fluid_at_rest_fix, fluid_fix})
       if (begins(line, std::string("fix ") + name + ' '))
         fluid = std::make_unique<FluidFix>(liggghts, name, read_fluid_order("fluid.json"),

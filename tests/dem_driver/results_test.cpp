@@ -93,6 +93,12 @@ TEST_F(ResultsTest, OverlapsOfAllHistogramsAreAddedUp) {
   EXPECT_EQ(statistics.percentile(1), 9e-4);
 }
 
+TEST_F(ResultsTest, OverlapsOfTheStepFromWhichARunResumesAreCountedOnce) {
+  write("dem/ballOverlaps.0.txt", histogram(0, {1}, 0, 1e-6) + histogram(10, {60, 30}, 0, 3e-6));
+  write("dem/ballOverlaps.10.txt", histogram(10, {60, 30}, 0, 3e-6) + histogram(20, {0, 5}, 0, 4e-6));
+  EXPECT_EQ(read_overlaps(folder_, "ballOverlaps", 0.01).samples, 96);
+}
+
 TEST_F(ResultsTest, ARunWithoutContactsHasNoOverlap) {
   write("dem/wallOverlaps.0.txt", "10 1000 0 0 1e20 -1e20\n");
   EXPECT_EQ(read_overlaps(folder_, "wallOverlaps", 0.01).percentile(0.99), 0);

@@ -1,18 +1,28 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Balls and slurry in turn: two passes of a small mill by its stages, changes of its keys, and what is refused."""
+"""Balls and slurry in turn: two passes of a small mill by its stages, a pass that is killed, changes of its keys, and
+what is refused."""
+import fcntl
+import os
+import re
 import shutil
+import signal
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 import h5py
 import numpy as np
 
-from mill_case import run_mill
+from mill_case import SCRIPTS, STAGES, run_mill
 from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.flow_record import read_flow_record, starts
+from millfoam.files.foam import read_field
 from millfoam.readings.fluid_on_balls import fluid_on_balls
 from millfoam.run import RunError
+from waiting import wait_for
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -27,9 +37,49 @@ flow: {duration: 0.5, coupling: iterated, passes: 2, averages: {start: 0.2}}
 """
 
 
+def is_free(lock):
+    """Whether no process holds this file any more."""
+    with open(lock) as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+    return True
+
+
+def last_restart(folder):
+    """Step of a dry run's last restart file, 0 without one."""
+    return max((int(path.suffix[1:]) for path in folder.glob("dem/restart.*[0-9]")), default=0)
+
+
+def written_times(folder):
+    """[(s, folder)] of a flow on one process, without its start."""
+    return sorted((float(path.name), path) for path in folder.glob("0.*") if re.fullmatch(r"0\.\d+", path.name))
+
+
+def stages(word, output):
+    """The stages of which an Allrun said that they are `Running` or `Keeping`."""
+    return re.findall(rf"^{word} (\w+):", output, re.M)
+
+
+def numbers(path):
+    """All of an HDF5 file: name -> array."""
+    found = {}
+
+    def add(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = item[()]
+
+    with h5py.File(path) as file:
+        file.visititems(add)
+    return found
+
+
 class Passes(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        # On one process a resumed dry run has the numbers of one that was not killed, to the last digit
+        cls.enterClassContext(patch.dict(os.environ, MILLFOAM_NP="1"))
         cls.case = Path(tempfile.mkdtemp(prefix="coupling-"))
         cls.addClassCleanup(shutil.rmtree, cls.case)
         (cls.case / "mill.yaml").write_text(MILL)
@@ -79,10 +129,90 @@ class Passes(unittest.TestCase):
         self.assertNotIn("Running charge", again)
         self.assertNotIn("Running flow", again)
 
-    def test_one_way_coupling_keeps_the_first(self):
-        case = self.case.with_name(self.case.name + "-copy")
+    def copy(self, name):
+        case = self.case.with_name(self.case.name + name)
         shutil.copytree(self.case, case, symlinks=True)
         self.addCleanup(shutil.rmtree, case)
+        return case
+
+    def kill_when(self, case, condition):
+        """Starts or resumes all stages and kills every process when the condition comes true; what they said."""
+        with open(case / "output", "w+") as output:
+            process = subprocess.Popen(["bash", "-c", STAGES, "run_mill", case, SCRIPTS, ".", "mill.yaml"], cwd=case,
+                                       stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+            self.addCleanup(process.wait)
+            came = wait_for(lambda: condition() or process.poll() is not None, 120)
+            ended = process.poll() is not None
+            os.killpg(process.pid, signal.SIGKILL)
+            self.assertTrue(came and not ended, (case / "output").read_text())
+        locks = [case / ".stages" / "lock", *case.glob("pass_2/dem/lock")]
+        self.assertTrue(wait_for(lambda: all(map(is_free, locks)), 30), "a process outlives Allrun")
+        return (case / "output").read_text()
+
+    def assert_same_charge(self, found, expected):
+        """All records, windows and numbers of one run."""
+        for name in ("energy.csv", "fluid.csv", "overlaps.csv"):
+            self.assertEqual((found / "dumps" / name).read_bytes(), (expected / "dumps" / name).read_bytes(), name)
+        one, other = (numbers(folder / "solids.h5") for folder in (found, expected))
+        self.assertEqual(one.keys(), other.keys())
+        for name, values in other.items():
+            np.testing.assert_array_equal(one[name], values, err_msg=name)
+
+    def assert_same_flow(self, found, expected):
+        """The same steps, balls and windows. The name of the time at which a flow resumes has ten digits, so that its
+        walls and steps differ by 1e-11 from there on. A slurry that splashes makes more of it: its share differs by
+        2e-6 (mean over the cells) after ten steps, and its mean over time by 2 % in the end."""
+        one, other = (read_flow_record(folder) for folder in (found, expected))
+        self.assertTrue(one.complete)
+        np.testing.assert_allclose(one.steps["time_s"], other.steps["time_s"], rtol=0, atol=1e-9)
+        flows = [numbers(folder / "slurry.h5") for folder in (found, expected)]
+        self.assertEqual(*({name: values.shape for name, values in flow.items()} for flow in flows))
+        for name in ("balls/solidity", "balls/velocity", "voidage", "ledger/deposited"):
+            scale = np.abs(flows[1][name]).max()
+            np.testing.assert_allclose(flows[0][name], flows[1][name], rtol=0, atol=1e-8 * scale, err_msg=name)
+        shares = [flow["mean/slurry"] for flow in flows]
+        self.assertLess(np.abs(shares[0] - shares[1]).mean(), 0.1 * shares[1].mean())
+        times = [written_times(folder) for folder in (found, expected)]
+        np.testing.assert_allclose(*([time for time, _ in of_one] for of_one in times), rtol=0, atol=1e-9)
+        resumed = starts(found)[-1][0]
+        after = next(k for k, (time, _) in enumerate(times[0]) if time > resumed + 1e-6)
+        shares = [read_field(of_one[after][1] / "alpha.slurry") for of_one in times]
+        self.assertLess(np.abs(shares[0] - shares[1]).mean(), 1e-4)
+
+    def test_a_pass_that_is_killed_in_its_charge_and_in_its_flow_has_the_same_numbers(self):
+        case = self.copy("-killed")
+        second, expected = case / "pass_2", self.case / "pass_2"
+        shutil.rmtree(second)
+        for file in (*case.glob("coupling.*"), case / "report.html"):
+            file.unlink()
+
+        begin = last_restart(case)
+        output = self.kill_when(case, lambda: last_restart(second) > begin)
+        self.assertEqual(stages("Running", output), ["forces", "walls", "charge"])
+        self.assertFalse((second / "dumps" / "run.json").exists())
+
+        output = self.kill_when(case, lambda: len(written_times(second)) > 1)
+        self.assertEqual(stages("Running", output), ["charge", "average", "mesh", "check", "start", "flow"])
+        self.assertIn("resumed at step", (second / "log.charge").read_text())
+        self.assertFalse((second / "slurry.h5").exists())
+
+        output = run_mill(case, "mill.yaml")
+        self.assertEqual(stages("Running", output), ["flow", "coupling", "pictures", "report"])
+        before = ["walls", "charge", "average", "mesh", "check", "start"]
+        self.assertEqual(stages("Keeping", output), [*before, "flow", "forces", *before])
+        self.assertGreater(starts(second)[-1][0], 0)
+
+        self.assert_same_charge(second, expected)
+        self.assert_same_flow(second, expected)
+        tables = [read_csv(folder / "coupling.csv") for folder in (case, self.case)]
+        # Of what the flow changes; the rest is of the balls alone
+        limits = {"force_over_weight": 0.01, "force_disagreement": 0.05}
+        for name, values in tables[1].items():
+            np.testing.assert_allclose(tables[0][name], values, rtol=0, atol=limits.get(name, 0), err_msg=name)
+        self.assertTrue((case / "report.html").exists())
+
+    def test_one_way_coupling_keeps_the_first(self):
+        case = self.copy("-copy")
         output = run_mill(case, "mill.yaml", "flow.coupling=one_way")
         self.assertNotIn("Running flow", output)
         self.assertNotIn("Pass 2", output)
@@ -91,9 +221,7 @@ class Passes(unittest.TestCase):
         self.assertIn("The slurry would not move the balls", page)
 
     def test_relaxation_changes_the_passes_after_the_second_and_a_law_changes_all_flows(self):
-        case = self.case.with_name(self.case.name + "-law")
-        shutil.copytree(self.case, case, symlinks=True)
-        self.addCleanup(shutil.rmtree, case)
+        case = self.copy("-law")
         output = run_mill(case, "mill.yaml", "flow.relaxation=0.5")
         self.assertNotIn("Running charge", output)
         self.assertNotIn("Running flow", output)

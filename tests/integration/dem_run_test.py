@@ -40,6 +40,8 @@ slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16, level: -0
 resolution: {cell_size: 0.003, layers: 4}
 """
 RECORDS = 200  # of the whole run
+# The program liggghts, which is taken where millLiggghts is not built, computes the first forces with walls at rest
+EXACT = "MILLFOAM_LIGGGHTS" not in os.environ
 FORECAST = ("ranks", "rate_balls_steps_per_s", "wall_time_s", "disk_bytes", "memory_bytes")  # of a plan, not of a run
 
 
@@ -154,14 +156,34 @@ class DemRun(unittest.TestCase):
         if expected:
             _, ids, positions, _ = read_dump(case / "dumps" / f"dump.{expected[0]}.txt")
             np.testing.assert_array_equal(ids, expected[1])
-            moved = np.linalg.norm(positions - expected[2], axis=1)
-            self.assertLess(np.median(moved), 1e-7)
+            moved = positions - expected[2]
+            moved[:, 2] -= 0.03 * np.round(moved[:, 2] / 0.03)
+            # One and two ranks round sums differently
+            self.assertLess(np.linalg.norm(moved, axis=1).max(), 1e-9 if EXACT else 1e-4)
         self.assertGreater(self.last_restart(case), first)
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertIn("resumed at step", log)
         self.assert_whole(case)
 
         self.assertIn("nothing to do", run(case, "millDem", "mill.yaml", "--case", ".", "--resume"))
+
+    @unittest.skipUnless(EXACT, "the program liggghts resumes with walls at rest")
+    def test_a_killed_run_has_the_bytes_of_one_that_was_not_killed(self):
+        text = MILL.replace("duration: 1.0", "contact_statistics: true, duration: 0.2")
+        whole, killed = (self.make_case(text) for _ in range(2))
+        run(whole, "millDem", "mill.yaml", "--case", ".")
+        self.start_and_kill(killed, 1)
+        self.assertFalse((killed / "dumps" / "run.json").exists())
+        self.assertIn("resumed at step", run(killed, "millDem", "mill.yaml", "--case", ".", "--resume"))
+        names = [file.relative_to(whole) for pattern in ("dumps/*.txt", "dumps/*.csv", "dumps/*.vtp", "contacts/*")
+                 for file in whole.glob(pattern)]
+        self.assertGreater(len(names), 41 + 3 * 17)
+        resumed = int(next((killed / "dem").glob("torque.[1-9]*.txt")).name.split(".")[1])
+        for name in names:
+            expected, found = ((case / name).read_bytes() for case in (whole, killed))
+            if name.name == f"dump.{resumed}.txt":  # LIGGGHTS has sorted the balls and writes it again
+                expected, found = (sorted(text.split(b"\n")) for text in (expected, found))
+            self.assertEqual(expected, found, name)
 
     def test_a_file_without_room_stops_the_run_at_once_and_it_is_resumed_from_the_last_whole_restart_file(self):
         case = self.make_case()
