@@ -160,8 +160,8 @@ class Passes(unittest.TestCase):
 
     def assert_same_flow(self, found, expected):
         """The same steps, balls and windows. The name of the time at which a flow resumes has ten digits, so that its
-        walls and steps differ by 1e-11 from there on. A slurry that splashes makes more of it: its share differs by
-        2e-6 (mean over the cells) after ten steps, and its mean over time by 2 % in the end."""
+        walls and steps differ by 1e-11 from there on; other causes were not looked for. Splashing slurry makes more of
+        it. Found: the share differs by 2e-6 (mean over the cells) after ten steps, its mean over time by 2 %."""
         one, other = (read_flow_record(folder) for folder in (found, expected))
         self.assertTrue(one.complete)
         np.testing.assert_allclose(one.steps["time_s"], other.steps["time_s"], rtol=0, atol=1e-9)
