@@ -195,7 +195,7 @@ TEST_F(RealRun, EnergiesAreThoseOfTheDumpedBalls) {
 
 TEST_F(RealRun, OverlapsAreCountedAndStayBelowTheExpectedOne) {
   for (const auto* overlaps : {&result_->ball_overlaps, &result_->wall_overlaps}) {
-    EXPECT_GT(overlaps->samples, 1000);
+    EXPECT_GT(overlaps->samples, 100);  // at 3 of 30 records
     EXPECT_GT(overlaps->percentile(0.99), 0);
     EXPECT_LE(overlaps->percentile(0.99), overlaps->largest);
     EXPECT_LT(overlaps->largest, plan_->step.overlap.ratio * 0.003);
