@@ -89,9 +89,9 @@ long DemPlan::total_steps() const {
 }
 
 long DemPlan::overlap_steps() const {
-  const long records = restart_steps / step.steps_per_record;
-  long part = std::min(records, most_records_per_overlaps);
-  while (records % part != 0) --part;
+  const long restart = restart_steps / step.steps_per_record;
+  long part = std::min(restart, most_records_per_overlaps);
+  while (restart % part != 0) --part;
   return part * step.steps_per_record;
 }
 
