@@ -77,8 +77,9 @@ def charge_section(case: MillCase, readings: Readings) -> list[str]:
                                                         "energies. Dashed: begin of the steady time.",
                                   title="Dry run"))
     if case.overlaps is not None:
-        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts, at about every tenth record. Balls are stiff "
-                                                          "enough if few contacts are far to the right.",
+        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts, at about every tenth "
+                                                          "record. Balls are stiff enough if few contacts are far to "
+                                                          "the right.",
                                   title="Overlaps"))
     return cards
 
