@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-namespace LAMMPS_NS {
+namespace LAMMPS_NS {  // NOLINT: the library's name
 class LAMMPS;
 }
 
