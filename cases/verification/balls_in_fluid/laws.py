@@ -36,8 +36,8 @@ def di_felice_force(solidity, diameter, slip):
 
 
 def wen_yu_force(solidity, diameter, slip):
-    """The same after Wen & Yu 1966: C_D e^-2.7, C_D = 24/Re (1 + 0.15 Re^0.687) up to Re 1000, 0.44 beyond; its beta is
-    3/4 C_D rho phi e^-1.65 |u| u ... per volume, and the loss is 1/e of beta u."""
+    """The same after Wen & Yu 1966, who give drag only: beta/e slip, beta = 3/4 C_D rho phi e |slip|/d e^-2.65 with
+    C_D = 24/Re (1 + 0.15 Re^0.687) up to Re 1000, 0.44 beyond, and the superficial Re."""
     voidage = 1 - solidity
     reynolds = WATER * voidage * abs(slip) * diameter / VISCOSITY
     coefficient = 24 / reynolds * (1 + 0.15 * reynolds**0.687) if reynolds < 1000 else 0.44
