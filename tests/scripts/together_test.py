@@ -76,13 +76,13 @@ class Together(Case):
         self.assertEqual((self.case / "log.balls").read_text(), "balls\n")
 
     def test_balls_that_fail_end_the_flow_and_are_shown(self):
-        with self.assertRaisesRegex(TogetherError, "(?s)millDem failed.*a wall is missing"):
-            self.run_both("echo a wall is missing; exit 1", "sleep 60")
+        with self.assertRaisesRegex(TogetherError, "(?s)sh failed.*a wall is missing"):
+            self.run_both("echo a wall is missing; exit 1", "exec sleep 60")
         self.assertLess(self.took, 30)
 
     def test_a_flow_that_fails_ends_the_balls(self):
         with self.assertRaisesRegex(TogetherError, "sh ended with 3"):
-            self.run_both("sleep 60", "exit 3")
+            self.run_both("exec sleep 60", "exit 3")
         self.assertLess(self.took, 30)
 
 

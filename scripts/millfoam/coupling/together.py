@@ -81,33 +81,33 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     or, without it, to the output of this program. Each ends when this program is killed. If one fails, the other is
     ended. TogetherError with the last lines of the balls' log if they fail, or with the flow's exit code."""
     remove_pipes(case)
-    balls_name = Path(balls[0]).name
     # OpenFOAM takes its folder's name from PWD
     environment = {**os.environ, "PWD": str(case.resolve())}
 
-    def start(command: Sequence[str], out: int | None) -> subprocess.Popen[bytes]:
+    def start(command: Sequence[str], out: IO[str] | IO[bytes] | None) -> subprocess.Popen[bytes]:
         return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, env=environment, stdout=out,
                                 stderr=subprocess.STDOUT if out else None)
     log = case / BALLS_LOG
     with open(log, "wb") as out:
-        programs = {balls_name: start(balls, out.fileno()),
-                    Path(flow[0]).name: start(flow, flow_log.fileno() if flow_log else None)}
+        programs = [start(balls, out), start(flow, flow_log)]
     try:
-        while any(program.poll() is None for program in programs.values()):
-            if any(program.poll() for program in programs.values()):
+        while any(program.poll() is None for program in programs):
+            if any(program.poll() for program in programs):
                 # The other one notices that the pipe is closed, unless it waits for its opening
                 time.sleep(10 * WAIT)
                 break
             time.sleep(WAIT)
     finally:
-        for program in programs.values():
+        for program in programs:
             if program.poll() is None:
                 program.send_signal(signal.SIGTERM)
                 program.wait()
         remove_pipes(case)
-    if programs[balls_name].returncode > 0:
+    balls_end, flow_end = (program.returncode for program in programs)
+    balls_name, flow_name = Path(balls[0]).name, Path(flow[0]).name
+    if balls_end > 0:
         lines = log.read_text(errors="replace").splitlines()
         raise TogetherError(f"{balls_name} failed; {log} ends with:\n" + "\n".join(lines[-15:]))
-    failed = [f"{name} ended with {program.returncode}" for name, program in programs.items() if program.returncode]
+    failed = [f"{name} ended with {end}" for name, end in ((balls_name, balls_end), (flow_name, flow_end)) if end]
     if failed:
         raise TogetherError(", ".join(failed))
