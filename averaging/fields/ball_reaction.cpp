@@ -8,8 +8,8 @@ namespace millfoam::averaging {
 void BallReaction::add(const std::array<SolidsShare, 8>& shares, double volume, const Vector3& force,
                        double coefficient, const Vector3& velocity) {
   for (const SolidsShare& one : shares) {
-    if (!(one.share > 0)) continue;
-    const double part = one.share * volume;
+    if (!(one.solidity > 0)) continue;
+    const double part = one.solidity * volume;
     double* const sums = &sums_[one.voxel * columns];
     sums[solids] += part;
     sums[exchange] += part * coefficient;

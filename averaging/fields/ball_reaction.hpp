@@ -22,9 +22,9 @@ class BallReaction {
   /// @param voxels  of the grid of the balls' averages
   explicit BallReaction(std::size_t voxels) : sums_(voxels * columns, 0.0) {}
 
-  /// Adds a cell.
-  /// @param shares  of the voxels in its solids
-  /// @param volume  of its solids, m^3
+  /// Adds a point of a cell.
+  /// @param shares  of the voxels in the solids at the point
+  /// @param volume  that these solids are the shares of, m^3: their sum times this is the solids' volume
   /// @param pressure  force of the pressure on their volume, N/m^3
   /// @param exchange  K, kg/(m^3 s)
   /// @param velocity  of the fluid, m/s

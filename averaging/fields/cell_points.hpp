@@ -37,6 +37,20 @@ class CellPoints {
   void deposit(const BoxGrid& grid, const Eigen::Isometry3d& place, const std::vector<double>& values,
                VoxelSums& sums) const;
 
+  /// Calls take(point, volume) with each point of a cell, in m and m^3, where the mesh was given.
+  template <typename Take>
+  void for_points(std::size_t cell, const Take& take) const {
+    const Eigen::Vector3d& centroid = centroids_[cell];
+    for (std::size_t t = begin_[cell]; t < begin_[cell + 1]; ++t) {
+      const auto side = [&](std::size_t c) -> Eigen::Vector3d {
+        return points_[static_cast<std::size_t>(tetrahedra_[t].corners[c])] - centroid;
+      };
+      const Eigen::Vector3d a = side(0), b = side(1), c = side(2);
+      const double volume = tetrahedra_[t].volume / static_cast<double>(parts_.size());
+      for (const auto& [u, v, w] : parts_) take(Eigen::Vector3d(centroid + u * a + v * b + w * c), volume);
+    }
+  }
+
  private:
   struct Tetrahedron {
     std::array<int, 3> corners;  ///< in points_; the fourth is the cell's centroid

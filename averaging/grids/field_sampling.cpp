@@ -138,13 +138,13 @@ std::array<SolidsShare, 8> solids_shares(const BoxGrid& grid, const SolidsWindow
   std::array<SolidsShare, 8> shares{};
   if (!grid.locate(point)) return shares;
   std::size_t next = 0;
-  double sum = 0;
+  double weights = 0;
   for_voxels_around(grid, point, [&](std::size_t n, double weight) {
     if (!window.inside_fraction.empty()) weight *= window.inside_fraction[n];
-    shares[next] = {n, weight * window.solidity[n]};
-    sum += shares[next++].share;
+    shares[next++] = {n, weight * window.solidity[n]};
+    weights += weight;
   });
-  for (SolidsShare& one : shares) one.share = sum > 0 ? one.share / sum : 0;
+  for (SolidsShare& one : shares) one.solidity = weights > 0 ? one.solidity / weights : 0;
   return shares;
 }
 

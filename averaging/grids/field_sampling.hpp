@@ -42,10 +42,11 @@ LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const V
 /// How much of the solids that `sample` gives at a point is of a voxel.
 struct SolidsShare {
   std::size_t voxel = 0;  ///< its offset in the grid
-  double share = 0;       ///< of the solidity at the point; the shares of all voxels add up to 1
+  double solidity = 0;    ///< its part of the solidity at the point
 };
 
-/// The shares of `linear` interpolation on a box; all are 0 where there are no solids, and beyond the grid.
+/// The parts of `linear` interpolation on a box, which add up to the solidity at the point; all are 0 where
+/// there are no solids, and beyond the grid.
 std::array<SolidsShare, 8> solids_shares(const BoxGrid& grid, const SolidsWindow& window,
                                          const Vector3& point);
 

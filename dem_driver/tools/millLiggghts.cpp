@@ -11,6 +11,7 @@
 #include <liggghts/update.h>
 #include <mpi.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -21,6 +22,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -59,7 +61,13 @@ class MpiRanks final : public RankGroup {
   }
   void broadcast(std::vector<double>& numbers) override {
     auto length = static_cast<unsigned long>(numbers.size());
-    MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG, 0, ranks_);
+    MPI_Request request = nullptr;
+    MPI_Ibcast(&length, 1, MPI_UNSIGNED_LONG, 0, ranks_, &request);
+    // The first rank waits for a flow; the others leave their cores to it
+    for (int done = 0; done == 0;) {
+      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      if (done == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
     numbers.resize(length);
     MPI_Bcast(numbers.data(), static_cast<int>(length), MPI_DOUBLE, 0, ranks_);
   }

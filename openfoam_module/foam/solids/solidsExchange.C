@@ -7,6 +7,8 @@
 #include "ballForces.H"
 #include "cellsOnVoxels.H"
 #include "Pstream.H"
+#include "UIPstream.H"
+#include "UOPstream.H"
 #include "readableLog.H"
 #include "untrapped.H"
 #include "volFields.H"
@@ -15,10 +17,39 @@
 #include "millfoam_version.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 using namespace millfoam::averaging;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::solidsExchange::sleepUntilMaster()
+{
+    if (!Pstream::parRun())
+        return;
+
+    char sign = 0;
+    if (Pstream::master())
+    {
+        for (label rank = 1; rank < Pstream::nProcs(); ++rank)
+        {
+            UOPstream::write(
+                UPstream::commsTypes::scheduled, rank, &sign, sizeof(sign));
+        }
+        return;
+    }
+    const label request = UPstream::nRequests();
+    UIPstream::read(
+        UPstream::commsTypes::nonBlocking, UPstream::masterNo(), &sign,
+        sizeof(sign));
+    while (!UPstream::finishedRequest(request))
+    {
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    UPstream::resetRequests(request);
+}
+
 
 template <class Action>
 void Foam::solidsExchange::onMaster(const Action& action) const
@@ -28,6 +59,7 @@ void Foam::solidsExchange::onMaster(const Action& action) const
     {
         reason = untrapped(action);
     }
+    sleepUntilMaster();
     string text(reason ? reason->c_str() : "");
     Pstream::scatter(text);
     if (!text.empty())
@@ -120,20 +152,50 @@ void Foam::solidsExchange::receive(const scalar time)
 }
 
 
+Eigen::Isometry3d Foam::solidsExchange::locate()
+{
+    if (samples_)
+    {
+        if (const std::optional<Eigen::Isometry3d> motion = motion_.place())
+        {
+            return *motion;
+        }
+    }
+    const auto reason = untrapped(
+        [&]
+        {
+            samples_ = std::make_unique<const CellSamples>(
+                motion_.begin(), balls_->grid);
+        });
+    if (reason)
+    {
+        FatalErrorInFunction << reason->c_str() << exit(FatalError);
+    }
+    return Eigen::Isometry3d::Identity();
+}
+
+
 void Foam::solidsExchange::sampleState(state& one)
 {
     DynamicList<label> beyond;
+    const Eigen::Isometry3d place(locate());
     const vectorField& centres = mesh_.C().primitiveField();
     one.sums.clear(centres.size());
     forAll(centres, i)
     {
+        samples_->for_points(
+            std::size_t(i), place,
+            [&](const Vector3& at, const scalar share)
+            {
+                const LocalSolids local = millfoam::averaging::sample(
+                    balls_->grid, one.solids.fields, at, Interpolation::linear);
+                const Vector3& u = local.velocity;
+                one.sums.add(
+                    i, share * local.solidity, vector(u[0], u[1], u[2]),
+                    local.diameter, local.diameter43);
+            });
         const point& p = centres[i];
-        const LocalSolids local = millfoam::averaging::sample(
-            balls_->grid, one.solids.fields, {p.x(), p.y(), p.z()},
-            Interpolation::linear);
-        const vector u(local.velocity[0], local.velocity[1], local.velocity[2]);
-        one.sums.add(i, local.solidity, u, local.diameter, local.diameter43);
-        if (!local.inside)
+        if (!balls_->grid.locate({p.x(), p.y(), p.z()}))
         {
             beyond.append(i);
         }
@@ -149,7 +211,8 @@ Foam::solidsExchange::solidsExchange(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   mesh_(mesh),
   folder_(dict.get<fileName>("exchange").expand()),
-  present_(0)
+  present_(0),
+  motion_(mesh)
 {
     if (!folder_.isAbsolute())
     {
@@ -216,22 +279,30 @@ bool Foam::solidsExchange::sample(
 void Foam::solidsExchange::tell(const ballForces& feel, const vectorField& U)
 {
     const SolidsWindow& window = states_[present_].solids.fields;
-    const vectorField& centres = mesh_.C().primitiveField();
+    const scalarField& sampled = states_[present_].sums.solidity();
     const scalarField& volumes = mesh_.V();
+    const Eigen::Isometry3d place(locate());
     BallReaction reaction(balls_->grid.size());
     const auto vector3 = [](const vector& v) {
         return Vector3{v.x(), v.y(), v.z()};
     };
-    forAll(centres, celli)
+    forAll(volumes, celli)
     {
-        if (feel.solidity[celli] > 0)
-        {
-            reaction.add(
-                solids_shares(balls_->grid, window, vector3(centres[celli])),
-                feel.solidity[celli] * volumes[celli],
-                vector3(feel.pressure[celli]), feel.exchange[celli],
-                vector3(U[celli]));
-        }
+        if (!(feel.solidity[celli] > 0))
+            continue;
+
+        // The cell's volume, with the correction of its solids to the ledger's
+        const scalar volume =
+            volumes[celli] * feel.solidity[celli] / sampled[celli];
+        samples_->for_points(
+            std::size_t(celli), place,
+            [&](const Vector3& at, const scalar share)
+            {
+                reaction.add(
+                    solids_shares(balls_->grid, window, at), share * volume,
+                    vector3(feel.pressure[celli]), feel.exchange[celli],
+                    vector3(U[celli]));
+            });
     }
     sumOnMaster(reaction.sums());
     if (Pstream::master())

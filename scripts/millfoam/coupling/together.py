@@ -81,8 +81,9 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     or, without it, to the output of this program. Each ends when this program is killed. If one fails, the other is
     ended. TogetherError with the last lines of the balls' log if they fail, or with the flow's exit code."""
     remove_pipes(case)
-    # OpenFOAM takes its folder's name from PWD
-    environment = {**os.environ, "PWD": str(case.resolve())}
+    # OpenFOAM takes its folder's name from PWD. Open MPI: ranks of two programs share the cores
+    environment = {**os.environ, "PWD": str(case.resolve()), "OMPI_MCA_mpi_yield_when_idle": "1",
+                   "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
     def start(command: Sequence[str], out: IO[str] | IO[bytes] | None) -> subprocess.Popen[bytes]:
         return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, env=environment, stdout=out,

@@ -41,7 +41,7 @@ TEST(BallReaction, gives_the_balls_what_the_cells_give) {
     if (solids.solidity == 0) continue;
     const double volume = 1e-9 * positive(random), exchange = 1e4 * positive(random);
     const Vector3 pressure{any(random), any(random), any(random)}, u{any(random), any(random), any(random)};
-    reaction.add(solids_shares(box, window, centre), volume, pressure, exchange, u);
+    reaction.add(solids_shares(box, window, centre), volume / solids.solidity, pressure, exchange, u);
     for (std::size_t k = 0; k < 3; ++k) {
       given[k] += volume * pressure[k];
       given_by_drag[k] += volume * exchange * (u[k] - solids.velocity[k]);
@@ -72,18 +72,19 @@ TEST(BallReaction, leaves_out_voxels_without_balls_or_cells) {
     EXPECT_EQ(felt.inside[n], n == box.offset({1, 0, 0}) ? window.inside_fraction[n] : 0);
 }
 
-TEST(SolidsShares, add_up_to_one_or_are_none) {
+TEST(SolidsShares, add_up_to_the_solidity_or_are_none) {
   std::mt19937 random(7);
   SolidsWindow window = random_balls(random);
   const auto sum = [&](const Vector3& point) {
     double all = 0;
-    for (const SolidsShare& one : solids_shares(box, window, point)) all += one.share;
+    for (const SolidsShare& one : solids_shares(box, window, point)) all += one.solidity;
     return all;
   };
-  EXPECT_NEAR(sum({0.001, -0.012, 0.019}), 1, 1e-15);
+  const Vector3 point{0.001, -0.012, 0.019};
+  EXPECT_NEAR(sum(point), sample(box, window, point, Interpolation::linear).solidity, 1e-15);
   EXPECT_EQ(sum({0.04, 0, 0}), 0);
   window.solidity.assign(box.size(), 0);
-  EXPECT_EQ(sum({0.001, -0.012, 0.019}), 0);
+  EXPECT_EQ(sum(point), 0);
 }
 
 }  // namespace
