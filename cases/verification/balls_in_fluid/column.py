@@ -27,7 +27,6 @@ RELAXATION = 0.7  # of the forces from pass to pass, as a mill's flow.relaxation
 RECORD = 50  # steps, 1 ms
 CONTACTS = "gran model hertz tangential history rolling_friction cdt"
 PROPERTIES = {"youngsModulus": ("peratomtype", 5e6), "poissonsRatio": ("peratomtype", 0.23),
-              "coefficientRestitution": ("peratomtypepair 1", 0.5),
               "coefficientRollingFriction": ("peratomtypepair 1", 0.01)}
 
 
@@ -39,7 +38,7 @@ class Column:
     drag; feed: (time s, superficial velocity m/s) …, linear between; end: s; settle: s in which the balls fall dry
     before time 0; largest_step: of the flow, s; write_interval: of its fields, s; averages: s from which on the mean
     fields are taken; periodic: balls that leave at an end come back at the other one, and there is no floor;
-    friction: of two balls, and of a ball and the floor."""
+    friction, restitution: of two balls, and of a ball and the floor; gravity: m/s2."""
     width: float
     height: float
     cells: int
@@ -51,6 +50,8 @@ class Column:
     polydispersity: bool = False
     periodic: bool = False
     friction: float = 0.5
+    restitution: float = 0.5
+    gravity: float = GRAVITY
     largest_step: float = 1e-3
     write_interval: float = 0.02
     averages: float = 0.0
@@ -71,10 +72,11 @@ class Column:
 
 @dataclass
 class Balls:
-    """Balls at the start: places [n, 3] and diameters [n], m; upward velocity of all, m/s. They do not spin."""
+    """Balls at the start: places [n, 3] and diameters [n], m; velocities [n, 3], m/s, None at rest. They do not
+    spin."""
     place: np.ndarray
     diameter: np.ndarray
-    speed: float = 0.0
+    velocity: np.ndarray | None = None
 
     @property
     def volume(self):
@@ -122,22 +124,30 @@ class Motion:
 
 @dataclass
 class Fields:
-    """What slurryFoam wrote: time [t], s; height [c] of the cells' centres, m; at each time and cell p_rgh (Pa),
-    solidity and u (m/s, interstitial, upwards); drop [t]: p_rgh at the floor, Pa; at the top it is 0."""
+    """What slurryFoam wrote: time [t], s; height [c] of the cells' centres, m; at each time and cell the solidity and
+    the upward velocities of the water, interstitial, and of the balls, m/s; drop [t]: p_rgh at the floor, Pa; at the
+    top it is 0."""
     time: np.ndarray
     height: np.ndarray
-    p: np.ndarray
     solidity: np.ndarray
     u: np.ndarray
+    balls: np.ndarray
     drop: np.ndarray
+
+    @property
+    def cell(self):
+        """Height of a cell, m."""
+        return self.height[1] - self.height[0]
 
 
 def write_balls(path, column, balls):
     rows = "\n".join(f"{number} 1 {diameter:.17g} {BALL:g} {x:.17g} {y:.17g} {z:.17g}" for number, ((x, y, z), diameter)
                      in enumerate(zip(balls.place, balls.diameter), start=1))
+    velocity = np.zeros_like(balls.place) if balls.velocity is None else balls.velocity
+    speeds = "\n".join(f"{number} {u:.17g} {v:.17g} {w:.17g} 0 0 0" for number, (u, v, w) in enumerate(velocity, 1))
     low = 0 if column.periodic else balls.diameter.max()
     path.write_text(f"balls of a column\n\n{len(balls.place)} atoms\n1 atom types\n\n0 {column.width:.17g} xlo xhi\n"
-                    f"0 {column.width:.17g} ylo yhi\n{-low:.17g} {column.height:.17g} zlo zhi\n\nAtoms\n\n{rows}\n")
+                    f"0 {column.width:.17g} ylo yhi\n{-low:.17g} {column.height:.17g} zlo zhi\n\nAtoms\n\n{rows}\n\nVelocities\n\n{speeds}\n")
 
 
 def write_floor(path, width):
@@ -154,14 +164,15 @@ def deck(column, balls, fluid):
              f"boundary p p {'p' if column.periodic else 'f'}",
              "read_data balls.data", f"neighbor {0.4 * balls.diameter.min():g} bin",
              "neigh_modify delay 0"]
-    properties = {**PROPERTIES, "coefficientFriction": ("peratomtypepair 1", column.friction)}
+    properties = {**PROPERTIES, "coefficientFriction": ("peratomtypepair 1", column.friction),
+                  "coefficientRestitution": ("peratomtypepair 1", column.restitution)}
     lines += [f"fix {name} all property/global {name} {kind} {value:g}" for name, (kind, value) in properties.items()]
     lines += [f"pair_style {CONTACTS}", "pair_coeff * *", f"timestep {TIMESTEP:g}",
-              f"fix gravity all gravity {GRAVITY} vector 0 0 -1"]
+              f"fix gravity all gravity {column.gravity:g} vector 0 0 -1"]
     if not column.periodic:
         lines += ["fix floor all mesh/surface/stress file floor.stl type 1",
                   f"fix walls all wall/{CONTACTS} mesh n_meshes 1 meshes floor"]
-    lines += [f"velocity all set 0 0 {balls.speed:.17g}", "thermo 10000", "fix motion all nve/sphere",
+    lines += ["thermo 10000", "fix motion all nve/sphere",
               f"run {round(column.settle / TIMESTEP)}", "reset_timestep 0"]
     if fluid:
         lines.append("fix fluid all external pf/callback 1 1")
@@ -240,6 +251,15 @@ def settled(case, column, balls):
     return replace(balls, place=motion.place[-1])
 
 
+def mixed(case, column, balls, top):
+    """The balls between the floor and a height (m) in random places, at rest. They leave their lattice as a gas: without
+    gravity and friction, with nearly elastic collisions, periodic in all directions, for some fifty collisions each."""
+    gas = replace(column, height=top, end=0.2, periodic=True, friction=0.0, restitution=0.99, gravity=0.0)
+    velocity = np.random.default_rng(2).normal(scale=0.3, size=balls.place.shape)
+    motion = run_balls(case, gas, replace(balls, velocity=velocity - velocity.mean(axis=0)), None)
+    return replace(balls, place=motion.place[-1] % [column.width, column.width, top] + [0, 0, balls.diameter.max() / 2])
+
+
 def run_iterated(case, column, balls, passes, first=None):
     """Balls and flow in turn: a dry run (of the column `first`, if it is given), its flow, balls with its forces …,
     relaxed as those of a mill. [(Motion, Fields)] of each pass."""
@@ -301,5 +321,5 @@ def read_fields(case, column):
         return np.array([foam.read_field(folder / name, column.cells) for _, folder in rows])
     floor = np.loadtxt(case / "postProcessing" / "floorPressure" / "0" / "surfaceFieldValue.dat", ndmin=2)
     time = np.array([time for time, _ in rows])
-    return Fields(time, height, read("p_rgh"), read("solidity"), read("U")[..., 2],
+    return Fields(time, height, read("solidity"), read("U")[..., 2], read("solidsVelocity")[..., 2],
                   np.interp(time, floor[:, 0], floor[:, 1]))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from column import WATER, Balls, Column, run_direct, run_iterated, scattered, settled
+from column import WATER, Balls, Column, mixed, run_direct, run_iterated, scattered, settled
 from laws import ergun_gradient, minimum_fluidisation, terminal_slip
 
 DIAMETER = 2e-3  # m
@@ -59,7 +59,7 @@ def terminal(work, law, upflow, ways=("direct",)):
     findings.append(Finding(title, "direct", motion.velocity[-1, 0, 2], expected, 1e-3, "m/s"))
     curves.append(Curve("terminal velocity", name.replace("_", ", "), motion.time, motion.velocity[:, 0, 2], expected))
     if "iterated" in ways:
-        begun = replace(ball, speed=0.8 * expected)
+        begun = replace(ball, velocity=np.array([[0, 0, 0.8 * expected]]))
         passes = run_iterated(work / f"{name}_iterated", replace(column, averages=0.4), begun, 6,
                               first=replace(column, end=0.001))
         findings.append(Finding(title, "iterated", passes[-1][0].velocity[-1, 0, 2], expected, 1e-3, "m/s"))
@@ -97,16 +97,21 @@ def pool(work, bed):
     return findings, []
 
 
-def lost_by_law(fields, feed):
-    """Ergun's loss over the column, Pa, at each time, of the cells' solidities, with a superficial velocity of each."""
-    cell = fields.height[1] - fields.height[0]
-    return cell * ergun_gradient(fields.solidity, DIAMETER, np.reshape(feed, (-1, 1))).sum(axis=1)
+def lost_by_law(fields):
+    """Ergun's loss over the column, Pa, at each time: of the cells' solidities and the water's superficial velocity
+    past their balls. A bed of soft balls that is relieved expands, and its balls rise by up to 2 % of that."""
+    past = (1 - fields.solidity) * (fields.u - fields.balls)
+    return fields.cell * ergun_gradient(fields.solidity, DIAMETER, past).sum(axis=1)
+
+
+def lost_at_rest(fields, at, superficial):
+    """Ergun's loss, Pa, if balls of the solidities of time number `at` rested, at each superficial velocity (m/s)."""
+    return fields.cell * ergun_gradient(fields.solidity[at], DIAMETER, np.reshape(superficial, (-1, 1))).sum(axis=1)
 
 
 def pressure_of_acceleration(fields, rate):
     """Pressure, Pa, at each time, that speeds up the water in the column: rate of the superficial velocity, m/s2."""
-    cell = fields.height[1] - fields.height[0]
-    return WATER * rate * (cell / (1 - fields.solidity)).sum(axis=1)
+    return WATER * rate * fields.cell * (1 / (1 - fields.solidity)).sum(axis=1)
 
 
 def fluidisation(work, bed, rise):
@@ -120,26 +125,21 @@ def fluidisation(work, bed, rise):
     feed = column.feed_at(fields.time)
     drop = fields.drop - pressure_of_acceleration(fields, most / rise)
     packed = (feed > 0.4 * least) & (feed < 0.8 * least)
-    before = replace_solidity(fields, fields.solidity[packed][-1])
-    expected = brentq(lambda u: lost_by_law(before, u)[0] - bed.carried, 0.1 * most, 2 * most)
+    before = np.flatnonzero(packed)[-1]
+    expected = brentq(lambda u: lost_at_rest(fields, before, u)[0] - bed.carried, 0.1 * most, 2 * most)
     by_floor = np.interp(fields.time, motion.time[1:], motion.floor[1:]) / column.area
     together = (drop + by_floor)[feed > 1.1 * expected].mean()
     plateau = drop[feed > 1.5 * expected].mean()
     linear, square = np.linalg.lstsq(np.column_stack([feed[packed], feed[packed]**2]), drop[packed], rcond=None)[0]
     found = (-linear + np.sqrt(linear**2 + 4 * square * plateau)) / (2 * square)
-    lost = (drop / lost_by_law(fields, feed))[packed].mean()
+    lost = (drop / lost_by_law(fields))[packed].mean()
     name = "fluidisation"
     findings = [Finding(name, "packed: loss over the law's", lost, 1, 0.01, ""),
                 Finding(name, "pressure of the bed and of the floor", together, bed.carried, 0.02, "Pa"),
                 Finding(name, "carried: pressure of the bed", plateau, bed.carried, 0.02, "Pa"),
                 Finding(name, "minimum fluidisation", found, expected, 0.05, "m/s")]
-    law = np.minimum(lost_by_law(before, feed), bed.carried)
+    law = np.minimum(lost_at_rest(fields, before, feed), bed.carried)
     return findings, [Curve("fluidisation", "slurryFoam", feed, drop, law)]
-
-
-def replace_solidity(fields, solidity):
-    """Fields of one time with these solidities."""
-    return replace(fields, solidity=solidity[None])
 
 
 def upflow(work, bed):
@@ -150,7 +150,7 @@ def upflow(work, bed):
     for name, (motion, fields) in (("direct", run_direct(work / "upflow", column, bed.balls)),
                                    ("iterated", run_iterated(work / "upflow_iterated", column, bed.balls, 3)[-1])):
         late = fields.time > 0.2
-        lost = lost_by_law(fields, column.feed_at(fields.time))[late].mean()
+        lost = lost_by_law(fields)[late].mean()
         carried = bed.balls.buoyant_weight - lost * column.area
         force = motion.floor[motion.time > 0.2].mean()
         findings += [Finding("upflow, bed at rest", f"{name}: loss of pressure", fields.drop[late].mean(), lost, 0.01,
@@ -164,7 +164,7 @@ def settling(work, width, solidity):
     law's balance with the solidity found there."""
     top = 0.16
     column = Column(width, 0.2, round(0.2 / COARSE), "DiFelice", end=0.5, write_interval=0.01)
-    balls = scattered(column, solidity, 1e-3, top, (DIAMETER,))
+    balls = mixed(work / f"mixing_{solidity:g}", column, scattered(column, solidity, 0, top, (DIAMETER,)), top)
     motion, fields = run_direct(work / f"settling_{solidity:g}", column, balls)
 
     def law(phi):
@@ -179,12 +179,14 @@ def settling(work, width, solidity):
     during = (motion.time > begin) & (motion.time < last)
     found = motion.velocity[..., 2][inside & during[:, None]].mean()
     cells = (fields.height > band[0]) & (fields.height < band[1])
-    seen = fields.solidity[np.ix_((fields.time > begin) & (fields.time < last), np.flatnonzero(cells))].mean()
-    findings = [Finding(f"settling of {solidity:g}", "speed", found, law(seen), 0.05, "m/s")]
+    seen = fields.solidity[np.ix_((fields.time > begin) & (fields.time < last), np.flatnonzero(cells))]
+    # Of all balls: denser cells are slower, and have more of them
+    expected = np.average([[law(phi) for phi in row] for row in seen], weights=seen)
+    findings = [Finding(f"settling of {solidity:g}", "speed", found, expected, 0.05, "m/s")]
     mean = np.array([speed[one].mean() if one.any() else np.nan
                      for speed, one in zip(motion.velocity[..., 2], inside)])
     shown = motion.time < last
-    return findings, [Curve("settling", f"solidity {solidity:g}", motion.time[shown], mean[shown], law(seen))]
+    return findings, [Curve("settling", f"solidity {solidity:g}", motion.time[shown], mean[shown], expected)]
 
 
 def segregation(work, end):
