@@ -57,11 +57,12 @@ def write_mill(folder, title="A mill", diameter=2 * RADIUS, **derived):
         "speed": {"angular_velocity_rad_s": OMEGA, "sense": "clockwise", "critical_speed_rad_s": 8.09,
                   "fraction_of_critical": -OMEGA / 8.09, "turn_s": -2 * np.pi / OMEGA},
         "charge": {"balls": 1000, "mass_kg": 2.0, "volume_m3": 8e-4, "load": 0.3, "load_asked": 0.3,
-                   "fines_mass_kg": 0.0,
+                   "resting_solidity": 0.6, "pore_volume_m3": 8e-4 * 0.4 / 0.6, "fines_mass_kg": 0.0,
                    "fines_share": 0.0, "sauter_diameter_m": DIAMETER, "smallest_diameter_m": DIAMETER,
                    "largest_diameter_m": DIAMETER,
                    "classes": [{"diameter_m": DIAMETER, "count": 1000, "mass_asked_kg": 2.0, "mass_kg": 2.0,
                                 "simulated": True}]},
+        "materials": {"ball": {"density_kg_m3": 2500.0}},
         "slurry": {"density_kg_m3": 1500.0, "plastic_viscosity_Pa_s": 0.01, "yield_stress_Pa": 1.0},
         "flow": {"duration_s": DURATION, "law": "Beetstra", "averages_start_s": DURATION / 2, "feed_m3_s": 0.0}}
     for section, entries in derived.items():

@@ -20,12 +20,13 @@ from millfoam.files.outline import circle, lifter_outline
 from millfoam.readings.axial import Humps
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
 from millfoam.readings.means import Mean, angle_mean
+from millfoam.readings.power_models import hogg_fuerstenau
 from millfoam.readings.slurry_over_time import Way, slurry_blocks, slurry_way
 from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.case_readings import Readings, humps_words
-from report_cases import (OMEGA, TIME0, make_slice, write_dry, write_flow, write_fluid_only, write_mill, write_slurry,
-                          write_solids, write_steps)
+from report_cases import (OMEGA, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only, write_mill,
+                          write_slurry, write_solids, write_steps)
 
 REPORT = Path(__file__).resolve().parents[2] / "scripts" / "report"
 VOID = {"meta", "link", "img", "input", "br"}
@@ -120,6 +121,17 @@ class OneCase(Case):
         self.assertFalse({"slurry", "axis", "balance", "contacts"} & set(found.ids))
         self.assertIn("3.210 ± 0.012 W", found.text)
         self.assertNotIn("✗ fails", found.text)
+
+    def test_power_is_shown_for_length_and_balls_and_among_the_models(self):
+        self.undrawn()
+        words = re.sub(r"\s+", " ", self.assert_whole(report_case(write_dry(self.folder / "dry"))).text)
+        self.assertIn("charge 3.210 ± 0.012 W 53.50 ± 0.21 W/m 1.605 ± 0.006 W/kg", words)
+        model = hogg_fuerstenau(0.3, 0.06, 6 / 8.09, 0.3, 0.6 * 2500)
+        self.assertIn(f"Hogg & Fuerstenau, 35°, dry {model:.3g} W {3.21 / model:.2f}", words)
+        fast = write_dry(self.folder / "fast")
+        change_json(fast / "mill.json", "derived", "speed", "fraction_of_critical", to=1.1)
+        self.assertIn("speed is 1.1; expected a share above 0 and at most 1",
+                      self.assert_whole(report_case(fast)).text)
 
     def test_a_dry_run_beside_the_mesh_of_a_flow_to_come_is_no_failed_flow(self):
         self.undrawn()

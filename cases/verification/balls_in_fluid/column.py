@@ -147,7 +147,8 @@ def write_balls(path, column, balls):
     speeds = "\n".join(f"{number} {u:.17g} {v:.17g} {w:.17g} 0 0 0" for number, (u, v, w) in enumerate(velocity, 1))
     low = 0 if column.periodic else balls.diameter.max()
     path.write_text(f"balls of a column\n\n{len(balls.place)} atoms\n1 atom types\n\n0 {column.width:.17g} xlo xhi\n"
-                    f"0 {column.width:.17g} ylo yhi\n{-low:.17g} {column.height:.17g} zlo zhi\n\nAtoms\n\n{rows}\n\nVelocities\n\n{speeds}\n")
+                    f"0 {column.width:.17g} ylo yhi\n{-low:.17g} {column.height:.17g} zlo zhi\n\n"
+                    f"Atoms\n\n{rows}\n\nVelocities\n\n{speeds}\n")
 
 
 def write_floor(path, width):
@@ -257,7 +258,8 @@ def mixed(case, column, balls, top):
     gas = replace(column, height=top, end=0.2, periodic=True, friction=0.0, restitution=0.99, gravity=0.0)
     velocity = np.random.default_rng(2).normal(scale=0.3, size=balls.place.shape)
     motion = run_balls(case, gas, replace(balls, velocity=velocity - velocity.mean(axis=0)), None)
-    return replace(balls, place=motion.place[-1] % [column.width, column.width, top] + [0, 0, balls.diameter.max() / 2])
+    place = motion.place[-1] % [column.width, column.width, top]
+    return replace(balls, place=place + [0, 0, balls.diameter.max() / 2])
 
 
 def run_iterated(case, column, balls, passes, first=None):

@@ -14,6 +14,7 @@ from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
 from .coupling_section import coupling_section
+from .power_section import power_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
 from .words import quantity, span_of_time
@@ -202,5 +203,5 @@ SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_sect
             ("coupling", "Balls and slurry in turn", coupling_section),
             ("contacts", "Contacts", contact_section), ("slurry", "Slurry", slurry_section),
             ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
-            ("models", "Models", models_section), ("ledger", "Ledger and mesh", ledger_section),
-            ("run", "How it was run", run_section))
+            ("power", "Power", power_section), ("models", "Models", models_section),
+            ("ledger", "Ledger and mesh", ledger_section), ("run", "How it was run", run_section))

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section of the report about the mill's power: net, specific, and among the classical models."""
+from collections.abc import Callable
+
+import numpy as np
+
+from ..coupling.passes import drive_power, feels_slurry, slurry_quantities
+from ..files.mill_case import MillCase
+from ..readings import power_models
+from ..readings.means import Mean, time_mean
+from . import page
+from .case_readings import Readings
+from .words import uncertain
+
+
+def power_section(case: MillCase, _readings: Readings) -> list[str]:
+    """Cards of the net power and of the models; none without a dry run's results."""
+    if not case.results:
+        return []
+    found = powers(case)
+    return [page.table(["", "power", "for each metre of the mill", "for each kilogram of balls"],
+                       [specific(case, name, power) for name, power in found.items()], title="Net power",
+                       note=net_note(case)), models_table(case, found)]
+
+
+def powers(case: MillCase) -> dict[str, Mean]:
+    """Name -> Mean (W) of the charge's power, and with a flow of enough turns the slurry's and the drive's."""
+    charge = Mean(case.result("power_W"), case.result("power_error_W"))
+    found = {"charge": charge}
+    slurry = slurry_quantities(case)["slurry_power"]
+    if np.isfinite(slurry.value):
+        found |= {"slurry": slurry, "drive": drive_power(case, {"charge_power": charge})}
+    return found
+
+
+def specific(case: MillCase, name: str, power: Mean) -> tuple[str, ...]:
+    """Row of a power: name, W, W/m and W/kg with their errors."""
+    mass = case.mill.derived("charge", "mass_kg")
+    return (name, *(uncertain(power.value / over, power.error / over, unit)
+                    for over, unit in ((1.0, "W"), (case.length, "W/m"), (mass, "W/kg"))))
+
+
+def net_note(case: MillCase) -> str:
+    """What the powers are."""
+    words = "Charge: what the walls give to the balls."
+    if case.flow:
+        words += (" Slurry: what walls and balls give to it. Drive: "
+                  + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
+                     if feels_slurry(case) else
+                     "both together; the balls do not feel the slurry, and keep what they give to it.")
+                  + " A mean over fewer than two turns of the flow is not shown.")
+    return words + " ±: standard errors over time."
+
+
+def models_table(case: MillCase, found: dict[str, Mean]) -> str:
+    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores."""
+    mill = case.mill
+    solidity, pores = (mill.derived("charge", key) for key in ("resting_solidity", "pore_volume_m3"))
+    kinds = [] if "drive" in found and feels_slurry(case) else [
+        (", dry", found["charge"], power_models.bulk_density(mill.ball_density, solidity))]
+    if "drive" in found:
+        held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
+        filled = power_models.pores_filled(held, pores)
+        kinds.append((f", pores filled to {100 * filled:.0f} %", found["drive"], power_models.bulk_density(
+            mill.ball_density, solidity, mill.slurry("density_kg_m3"), filled)))
+    size = 2 * case.radius, case.length, mill.critical_share, mill.load
+    rows = []
+    for words, simulated, density in kinds:
+        rows += [(f"Hogg & Fuerstenau, {power_models.REPOSE:g}°{words}",
+                  *against(lambda: power_models.hogg_fuerstenau(*size, density), simulated)),
+                 (f"Morrell, C-model{words}",
+                  *against(lambda: power_models.morrell(*size, density).net, simulated))]
+    rows.append(("Bond", *against(lambda: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg")),
+                                  kinds[-1][1])))
+    return page.table(["", "power by the model", "simulated over it"], rows, title="Power among the models",
+                      note="The models were fitted to mills of metres with steel balls and their lifters. For a "
+                           "laboratory mill they give the order of size. Morrell's is without the losses that he adds "
+                           "(26 %); Bond's is at the pinion of a wet mill. Filled pores: the slurry in the mill over "
+                           "the pores of the resting charge, at most 100 %.")
+
+
+def against(model: Callable[[], float], simulated: Mean) -> tuple[str, str]:
+    """A model's power in words, and the simulated power over it; why, if the model cannot have this mill."""
+    try:
+        power = model()
+    except ValueError as error:
+        return str(error), "–"
+    return f"{power:.3g} W", f"{simulated.value / power:.2f}"
