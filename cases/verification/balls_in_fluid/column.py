@@ -253,8 +253,8 @@ def settled(case, column, balls):
 
 
 def mixed(case, column, balls, top):
-    """The balls between the floor and a height (m) in random places, at rest. They leave their lattice as a gas: without
-    gravity and friction, with nearly elastic collisions, periodic in all directions, for some fifty collisions each."""
+    """The balls between the floor and a height (m) in random places, at rest. They leave their lattice as a gas, with
+    some fifty nearly elastic collisions each, without gravity and friction, periodic in all directions."""
     gas = replace(column, height=top, end=0.2, periodic=True, friction=0.0, restitution=0.99, gravity=0.0)
     velocity = np.random.default_rng(2).normal(scale=0.3, size=balls.place.shape)
     motion = run_balls(case, gas, replace(balls, velocity=velocity - velocity.mean(axis=0)), None)
