@@ -14,6 +14,7 @@ import numpy as np
 from millfoam.files import foam
 from millfoam.files.tables import read_columns, read_table
 from millfoam.files.written_times import MillFlow
+from millfoam.readings.residence import read_tracer, residence
 from millfoam.run import RunError, run
 from mill_case import replace, run_mill
 from slurry_case import SLURRY, SlurryTest
@@ -30,6 +31,7 @@ OBJECTS = f"""
 functions
 {{
     slurryBalance {{ type slurryBalance; libs ("libmillFoam.so"); writePrecision 14; }}
+    tracer {{ type slurryTracer; libs ("libmillFoam.so"); begin 0.004; length 0.004; writePrecision 14; }}
     axialProfiles {{ type axialProfiles; libs ("libmillFoam.so"); slices 13; ends (0 0.338); writePrecision 14; }}
     voxelAverages
     {{
@@ -60,6 +62,7 @@ class FedMill(unittest.TestCase):
         shutil.copytree(cls.case, cls.split)
         run(cls.case, "slurryFoam")
         cls.columns = read_columns(cls.case, "slurryBalance")
+        cls.tracer = read_tracer(cls.case)
 
     def test_slurry_is_balanced(self):
         columns = self.columns
@@ -67,6 +70,16 @@ class FedMill(unittest.TestCase):
         np.testing.assert_allclose(columns["feed"], FEED, rtol=1e-4)
         np.testing.assert_allclose(columns["fed"], FEED * columns["Time"], rtol=1e-4)
         self.assertLess(np.abs(columns["missing"]).max(), 1e-9 * columns["holdUp"][0])
+
+    def test_a_tracer_in_the_feed_is_conserved_and_bounded(self):
+        found = self.tracer
+        self.assertTrue(found.pulse)
+        self.assertAlmostEqual(found.tracer[-1] / (FEED * 0.004), 1, delta=1e-4)
+        self.assertLess(found.missing, 1e-10)
+        self.assertGreater(found.lowest, -1e-10)
+        self.assertLess(found.highest, 1 + 1e-10)
+        with self.assertRaisesRegex(RuntimeError, "100 % of the tracer has not left"):
+            residence(found)
 
     def test_hold_up_is_that_of_the_written_fields(self):
         flow = MillFlow(self.case)
@@ -105,6 +118,9 @@ class FedMill(unittest.TestCase):
 
     def assert_same(self, case, rtol):
         """Tables and averages of a case are those of the whole run; velocities on the scale of the mill's speed."""
+        found = read_tracer(case)
+        np.testing.assert_allclose(found.tracer[-1], self.tracer.tracer[-1], rtol=rtol)
+        self.assertLess(found.missing, 1e-10)
         columns = read_columns(case, "slurryBalance")
         for name in ("holdUp", "fed", "x", "y", "z"):
             expected = np.interp(columns["Time"], self.columns["Time"], self.columns[name])
@@ -189,6 +205,8 @@ class FedMill(unittest.TestCase):
                 (r"window 0.008;", "window 0;", "above 0"),
                 (r"shape \(30 30 13\)", "shape (30 0 13)", "shape"),
                 (r"slices 13;", "slices 0;", "one or more"),
+                (r"length 0.004;", "length -1;", "length is -1 s; expected 0 or more"),
+                (r"begin 0.004;", "beginn 0.004;", "beginn"),
                 (r"type slurryBalance;", "type slurryBalance; phase mud;", "alpha.mud"),
                 (r"type slurryBalance;", "type slurryBalance; walls (shel);", "shel"),
                 (r"shape \(30 30 13\)", "shape (20 30 13)", "another grid")):

@@ -212,6 +212,23 @@ class OneCase(Case):
         self.assertIn("shell −0.01 0.06 lifters −0.07 0.42 all −0.08 0.5", words)
         self.assertIn("largest slip past the balls at any time 1.25 m/s", words)
 
+    def test_a_tracer_shows_the_time_in_the_mill(self):
+        self.undrawn()
+        flow = write_flow(self.folder / "flow")
+        table = flow / "postProcessing" / "tracer" / "0" / "slurryTracer.dat"
+        table.parent.mkdir(parents=True)
+        time = np.arange(1, 1001) * 0.02
+        into, out = np.where(time < 0.03, 1e-3, 0.0), 1e-3 * 0.02 / 4 * np.exp(-time / 4)
+        rows = np.column_stack([time, 2e-5 - 0.02 * np.cumsum(out), into, out, *[0 * time + 1e-3] * 2,
+                                0 * time + 2e-5, 0.02 * np.cumsum(out), *[0 * time] * 3])
+        np.savetxt(table, rows, "%.12g", "\t", header="Time_s\ttracer_m3\tin_m3/s\tout_m3/s\tslurryIn_m3/s\t"
+                   "slurryOut_m3/s\tallIn_m3\tallOut_m3\tmissing_m3\tsmallest\tlargest", comments="# ")
+        words = re.sub(r"\s+", " ", self.assert_whole(report_case(flow)).text)
+        self.assertRegex(words, r"mean time in the mill (3\.9|4\.0)\d* s")
+        self.assertRegex(words, r"stirred tanks in series (0\.9|1\.0)\d*")
+        np.savetxt(table, rows[:20], "%.12g", "\t", header=table.read_text().splitlines()[0][2:], comments="# ")
+        self.assertIn("of the tracer has not left at the end", self.assert_whole(report_case(flow)).text)
+
     def test_of_a_dry_run_the_lifters_stand_where_they_have_turned_to(self):
         case = MillCase(write_dry(self.folder / "dry"))
         angle = OMEGA * case.charge_span[1]

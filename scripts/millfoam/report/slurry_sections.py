@@ -14,6 +14,7 @@ from ..readings.means import time_mean
 from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
 from .case_readings import Readings
+from .residence_cards import residence_cards
 from .words import millilitres, uncertain
 
 AIR = "air between the balls where slurry is ¹"
@@ -129,7 +130,7 @@ def balance_section(case: MillCase, _readings: Readings) -> list[str]:
         cards.append(page.table(head, rows, title="Torque and power",
                                 note=f"About +z on the slurry, means from {case.begin:.3g} s on. Walls: from pressure "
                                      "and friction there. All: from the balance of angular momentum."))
-    return cards
+    return cards + residence_cards(case)
 
 
 def wall_table(case: MillCase) -> tuple[list[str] | None, list[tuple]]:

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cards of the report about the time that slurry stays in the mill, for each tracer of the flow."""
+import numpy as np
+from scipy.special import gammaln
+
+from ..files.mill_case import MillCase
+from ..files.tables import TableError
+from ..readings.means import time_mean
+from ..readings.residence import Residence, TracerTable, read_tracer, residence
+from . import figures, page
+
+SHOWN = 4.0  # mean times in the picture
+
+
+def residence_cards(case: MillCase) -> list[str]:
+    """A picture and a table for each slurryTracer; none without one."""
+    cards = []
+    for path in sorted({table.parent.parent for table in case.folder.glob("postProcessing/*/*/slurryTracer*.dat")}):
+        title = f"Residence time: {path.name}"
+        try:
+            table = read_tracer(case.folder, path.name)
+            found = residence(table)
+        except (TableError, RuntimeError) as error:
+            cards.append(page.table(None, [("not known", str(error))], title=title))
+            continue
+        cards += [page.picture(distribution(found), "E(t): share of the feed that leaves so long after it entered, for "
+                               "each second. Second curve: stirred tanks in series with the same mean and variance.",
+                               title=title),
+                  page.table(None, rows(case, table, found), title=f"{title}, numbers",
+                             note="What has not left is taken to leave as an exponential.")]
+    return cards
+
+
+def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str, str]]:
+    """Rows (name, text) of a Residence."""
+    peclet = "above 10⁶" if np.isinf(found.peclet) else f"{found.peclet:.3g}" if found.peclet else "0: a stirred tank"
+    numbers = [("mean time in the mill", f"{found.mean:.4g} s")]
+    if case.balance is not None:
+        times = case.balance["Time"]
+        held, fed = (time_mean(times, case.balance[name], table.begin) for name in ("holdUp", "feed"))
+        numbers.append(("hold-up over feed, from the tracer's begin on",
+                        f"{held / fed:.4g} s, {100 * (found.mean / (held / fed) - 1):+.2g} %"))
+    return numbers + [("standard deviation", f"{np.sqrt(max(found.variance, 0)):.4g} s"),
+                      ("stirred tanks in series", f"{found.tanks:.3g}"),
+                      ("Péclet number of axial dispersion, both ends closed", peclet),
+                      ("tracer that has not left", f"{100 * found.left:.3g} %"),
+                      ("missing in the tracer's balance", f"{table.missing:.1g}")]
+
+
+def distribution(found: Residence) -> figures.Figure:
+    """E(t), and that of tanks in series."""
+    shown = found.time < SHOWN * found.mean
+    time = found.time[shown]
+    curves = [("simulation", time, found.density[shown])]
+    if 0.1 < found.tanks < 1e3:
+        curves.append(("tanks in series", time, tanks_in_series(found, time)))
+    return figures.lines_against(curves, "time in the mill, s", "E, 1/s")
+
+
+def tanks_in_series(found: Residence, time: np.ndarray) -> np.ndarray:
+    """E(t), 1/s, of tanks in series with the mean and variance of a Residence, at times (s)."""
+    one = found.mean / found.tanks
+    age = np.maximum(time, 1e-12 * found.mean)
+    logs = (found.tanks - 1) * np.log(age / one) - age / one - gammaln(found.tanks) - np.log(one)
+    return np.where(time > 0, np.exp(logs), 0.0)
