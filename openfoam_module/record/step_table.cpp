@@ -19,9 +19,13 @@ std::string written(const Value& value) {
   return {text.data(), end.ptr};
 }
 
+Value component(const std::optional<std::array<double, 3>>& vector, std::size_t axis) {
+  return vector ? Value((*vector)[axis]) : std::nullopt;
+}
+
 }  // namespace
 
-const std::array<StepColumn, 28> step_columns{{
+const std::array<StepColumn, 31> step_columns{{
     {"time_s", [](const StepRow& r) -> Value { return r.time; }},
     {"deltaT_s", [](const StepRow& r) -> Value { return r.delta_t; }},
     {"courant", [](const StepRow& r) -> Value { return r.courant; }},
@@ -46,6 +50,9 @@ const std::array<StepColumn, 28> step_columns{{
     {"reynolds_above", [](const StepRow& r) { return r.reynolds_above; }},
     {"force_mean", [](const StepRow& r) { return r.force_mean; }},
     {"force_95", [](const StepRow& r) { return r.force_95; }},
+    {"given_force_x_N", [](const StepRow& r) { return component(r.given_force, 0); }},
+    {"given_force_y_N", [](const StepRow& r) { return component(r.given_force, 1); }},
+    {"given_force_z_N", [](const StepRow& r) { return component(r.given_force, 2); }},
     {"continuity_residual_per_s", [](const StepRow& r) { return r.continuity_residual; }},
     {"continuity_speed_m_per_s", [](const StepRow& r) { return r.continuity_speed; }},
     {"slip_m_per_s", [](const StepRow& r) { return r.slip; }},

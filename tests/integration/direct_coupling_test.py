@@ -14,7 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from mill_case import SCRIPTS, STAGES, run_mill
+from millfoam.coupling.passes import given_force
 from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.mill_case import MillCase
 from millfoam.files.solids_file import read_windows
 from millfoam.readings.fluid_on_balls import fluid_on_balls
 from millfoam.run import RunError
@@ -48,11 +50,14 @@ class Direct(unittest.TestCase):
         return case
 
     def test_the_balls_take_what_the_flow_gives(self):
-        given = fluid_on_balls(self.direct / "slurry.h5", 2500.0).force
+        given = given_force(MillCase(self.direct))
         rows = read_csv(self.direct / "dumps" / "fluid.csv")
         within = rows["time_s"] > 0.4 + 0.1
         taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
-        self.assertLess(np.linalg.norm(given - taken) / np.linalg.norm(given), 0.02)
+        self.assertLess(np.linalg.norm(given - taken) / np.linalg.norm(given), 0.01)
+        # Of single steps
+        sampled = fluid_on_balls(self.direct / "slurry.h5", 2500.0).force
+        self.assertLess(np.linalg.norm(given - sampled) / np.linalg.norm(given), 0.05)
         self.assertEqual(np.max(rows["balls_without_field"]), 0)
         content = read_json(self.case / "coupling.json", "coupling")
         self.assertEqual(content["folders"], [".", "direct"])
@@ -69,8 +74,9 @@ class Direct(unittest.TestCase):
     def test_the_flow_sees_the_volume_of_the_balls(self):
         steps = read_csv(self.direct / "postProcessing" / "flow" / "0" / "steps.csv")
         volume = read_json(self.case / "mill.json", "mill")["derived"]["charge"]["volume_m3"]
-        # Fluid that found no room has taken that of balls
-        np.testing.assert_allclose(steps["solids_m3"] - steps["without_room_m3"], volume, rtol=1e-9)
+        # Averages cut balls where walls leave next to nothing of a voxel; the fluid of the mesh is then more by that
+        np.testing.assert_allclose(steps["solids_m3"], volume, rtol=1e-6)
+        np.testing.assert_allclose(steps["solids_m3"] + steps["without_room_m3"], volume, rtol=1e-9)
 
     def test_the_report_says_how_they_agree(self):
         page = (self.case / "report.html").read_text()

@@ -217,7 +217,8 @@ Foam::slurryFlow::slurryFlow(
       "slurryFlow", mesh.time().timeName(), "uniform", mesh,
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
   misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
-  voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0))
+  voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
+  givenForce_(Zero)
 {
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
@@ -355,6 +356,10 @@ millfoam::record::StepRow Foam::slurryFlow::report()
         row.force_mean = load_->mean();
         row.force_95 = load_->high();
     }
+    if (bed_.feelsFlow())
+    {
+        row.given_force = {givenForce_.x(), givenForce_.y(), givenForce_.z()};
+    }
     return row;
 }
 
@@ -364,7 +369,12 @@ void Foam::slurryFlow::tellBalls()
     if (bed_.feelsFlow())
     {
         clock_.begin("balls");
-        bed_.tell(onBalls_->present(), U_.primitiveField());
+        const ballForces feel(onBalls_->present());
+        givenForce_ = gSum(
+            (feel.solidity * mesh_.V() *
+             (feel.pressure +
+              feel.exchange * (U_.primitiveField() - feel.velocity)))());
+        bed_.tell(feel, U_.primitiveField());
     }
 }
 

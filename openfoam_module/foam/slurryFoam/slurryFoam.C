@@ -115,6 +115,7 @@ int main(int argc, char* argv[])
             }
         }
         flow.transport();
+        flow.tellBalls();
         clock.begin("output");
         const millfoam::record::StepRow row(flow.report());
         courant = flow.bounds();
@@ -122,7 +123,6 @@ int main(int argc, char* argv[])
         runTime.write();
         recorder.setStages(clock);
         recorder.add(row, courant);
-        flow.tellBalls();
         runTime.printExecutionTime(Info);
     }
 

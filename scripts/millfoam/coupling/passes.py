@@ -13,7 +13,6 @@ from ..files.solids_file import SolidsMap, mean_map
 from ..readings.batches import error_over_turns
 from ..readings.charge import charge_with_errors, circulation_centre
 from ..readings.compare import difference
-from ..readings.fluid_on_balls import fluid_on_balls
 from ..readings.free_surface import WALL, toe_and_shoulder
 from ..readings.means import Mean, time_mean
 from . import ball_forces
@@ -161,18 +160,31 @@ def forces_apart(folder: Path) -> float | None:
 
 @dataclass(frozen=True)
 class Exchanged:
-    """Mean force of a flow on all balls over its averaged time, N: size by the flow (slurry.h5) and by the balls
+    """Mean force of a flow on all balls over its averaged time, N: size by the flow (steps.csv) and by the balls
     (fluid.csv), and size of the difference over that of the flow's."""
     given: float
     taken: float
     disagreement: float
 
 
+def given_force(case: MillCase) -> np.ndarray:
+    """Mean force [3], N, that the flow of a MillCase gave to balls that moved at the same time, over its averaged time.
+    RuntimeError without steps.csv."""
+    steps = case.record.steps
+    if steps is None:
+        raise RuntimeError(f"{case.folder}: no postProcessing/flow/*/steps.csv, which slurryFoam writes")
+    begin, end = steps["time_s"], np.append(steps["time_s"][1:], case.last)
+    length = np.clip(np.minimum(end, case.last) - np.maximum(begin, case.begin), 0, None)
+    return np.array([np.average(steps[f"given_force_{axis}_N"], weights=length) for axis in "xyz"])
+
+
 def exchanged_forces(folder: Path) -> Exchanged:
-    """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without slurry.h5 or fluid.csv."""
+    """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without steps.csv or fluid.csv.
+
+    Both forces are means over all time-steps: one of the flow acts on the balls until the next one."""
     case = MillCase(folder)
     assert case.flow is not None
-    given = fluid_on_balls(folder / "slurry.h5", case.mill.ball_density).force
+    given = given_force(case)
     rows = read_csv(folder / "dumps" / "fluid.csv")
     begin, end = (case.flow.time0 + at for at in (case.begin, case.last))
     within = (rows["time_s"] > begin) & (rows["time_s"] <= end)
