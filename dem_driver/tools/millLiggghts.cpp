@@ -68,6 +68,7 @@ class MpiRanks final : public RankGroup {
       MPI_Test(&request, &done, MPI_STATUS_IGNORE);
       if (done == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
+    MPI_Wait(&request, MPI_STATUS_IGNORE);
     numbers.resize(length);
     MPI_Bcast(numbers.data(), static_cast<int>(length), MPI_DOUBLE, 0, ranks_);
   }

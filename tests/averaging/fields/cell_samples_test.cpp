@@ -5,6 +5,8 @@
 
 #include <set>
 
+#include "averaging/grids/field_sampling.hpp"
+#include "averaging/values/solids_window.hpp"
 #include "tests/averaging/mesh_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
