@@ -158,8 +158,9 @@ class DemRun(unittest.TestCase):
             np.testing.assert_array_equal(ids, expected[1])
             moved = positions - expected[2]
             moved[:, 2] -= 0.03 * np.round(moved[:, 2] / 0.03)
-            # One and two ranks round sums differently
-            self.assertLess(np.linalg.norm(moved, axis=1).max(), 1e-9 if EXACT else 1e-4)
+            # Two ranks add up forces in another order than the one before, and collisions multiply what differs: 1e-9
+            # is usual, 1e-5 was seen. In a record balls move by up to 1e-3; one rank is exact, see the next test
+            self.assertLess(np.linalg.norm(moved, axis=1).max(), 1e-4)
         self.assertGreater(self.last_restart(case), first)
         log = run(case, "millDem", "mill.yaml", "--case", ".", "--resume")
         self.assertIn("resumed at step", log)
