@@ -128,10 +128,9 @@ Foam::functionObjects::slurryTracer::dispersion() const
         IOobject("tracerDispersion", mesh_.time().timeName(), mesh_), mesh_,
         dimensionedScalar(dimArea / dimTime, Zero));
     surfaceScalarField& result = tresult.ref();
-    const volScalarField share(
+    volScalarField slurry(
         IOobject("slurryShare", mesh_.time().timeName(), mesh_), mesh_,
         dimensionedScalar(dimless, Zero));
-    volScalarField slurry(share);
     slurry.primitiveFieldRef() =
         fields_.voidage() * fields_.alpha().primitiveField();
     slurry.correctBoundaryConditions();
@@ -170,7 +169,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::functionObjects::slurryTracer::move(
     before.field() = content_ / mesh_.V() +
                      (share.field() - slurry / mesh_.V()) * C_.primitiveField();
 
-    const surfaceScalarField conductance(dispersion());
+    const tmp<surfaceScalarField> conductance(D_ > 0 ? dispersion() : nullptr);
     const upwind<scalar> upstream(mesh_, F);
     fv::gaussConvectionScheme<scalar> convection(
         mesh_, F,
@@ -178,7 +177,6 @@ Foam::tmp<Foam::surfaceScalarField> Foam::functionObjects::slurryTracer::move(
     fvScalarMatrix equation(
         fvm::Sp(share / deltaT, C_) + convection.fvmDiv(F, C_) ==
         before / deltaT);
-    tmp<surfaceScalarField> tflux;
     if (D_ > 0)
     {
         fv::gaussLaplacianScheme<scalar, scalar> diffusion(
@@ -186,14 +184,14 @@ Foam::tmp<Foam::surfaceScalarField> Foam::functionObjects::slurryTracer::move(
             tmp<surfaceInterpolationScheme<scalar>>(new linear<scalar>(mesh_)),
             tmp<fv::snGradScheme<scalar>>(
                 new fv::uncorrectedSnGrad<scalar>(mesh_)));
-        equation -= diffusion.fvmLaplacian(conductance, C_);
+        equation -= diffusion.fvmLaplacian(conductance(), C_);
     }
     equation.solve(mesh_.solver(name()));
 
     surfaceScalarField flux(F * upstream.interpolate(C_));
     if (D_ > 0)
     {
-        flux -= conductance * mesh_.magSf() *
+        flux -= conductance() * mesh_.magSf() *
                 fv::uncorrectedSnGrad<scalar>(mesh_).snGrad(C_);
     }
     surfaceScalarField better(
