@@ -16,6 +16,7 @@ namespace millfoam::averaging {
 class CellSamples {
  public:
   /// @param mesh  at any time; nothing of it is kept
+  /// @param grid  of the lab frame
   CellSamples(const MeshGeometry& mesh, const BoxGrid& grid);
 
   std::size_t cells() const { return begin_.size() - 1; }  ///< number of cells of the mesh
@@ -23,7 +24,9 @@ class CellSamples {
 
   /// Calls take(point, share) with each point of a cell, in m, and the share of the cell's volume that it
   /// stands for.
+  /// @param cell   its number
   /// @param place  carries the mesh into the lab frame
+  /// @param take   called with (Vector3, double)
   template <typename Take>
   void for_points(std::size_t cell, const Eigen::Isometry3d& place, const Take& take) const {
     for (std::size_t n = begin_[cell]; n < begin_[cell + 1]; ++n) {
