@@ -13,12 +13,12 @@ STEEL = bulk_density(7800, 0.6)  # kg/m3, dry
 
 class Morrell(unittest.TestCase):
     def test_reproduces_the_two_chambers_of_a_dry_cement_mill(self):
-        # O. Erdem, S. L. Ergun & H. Benzer, Physicochem. Probl. Miner. Process. 38 (2004) 221, kW. Their steel is
-        # 0.1 % denser than 7800 kg/m3 with 40 % pores: both chambers say so alike
+        # O. Erdem, S. L. Ergun & H. Benzer, Physicochem. Probl. Miner. Process. 38 (2004) 221, kW. With steel of 7800
+        # kg/m3 and 40 % pores both are 0.1 % lower than printed; why is not known
         for length, filling, no_load, net in ((3.6, 0.2748, 41.94, 341.97), (7.0, 0.2663, 72.35, 650.69)):
             found = morrell(3.27, length, 0.7267, filling, STEEL)
             self.assertAlmostEqual(found.no_load / 1e3, no_load, delta=0.005)
-            self.assertAlmostEqual(found.net / 1e3 / net, 1 / 1.001, delta=1e-4)
+            self.assertAlmostEqual(found.net / 1e3 / net, 1, delta=1.5e-3)
 
     def test_toe_and_shoulder_part_with_the_speed(self):
         slow, fast = (morrell(3, 4, speed, 0.3, STEEL) for speed in (0.6, 0.8))
@@ -79,6 +79,10 @@ class Inputs(unittest.TestCase):
                 model(0.7, 30)
             with self.assertRaisesRegex(ValueError, "speed is 0;"):
                 model(0, 0.3)
+
+    def test_more_than_fits_between_toe_and_shoulder_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "filling is 0.45 at a speed of 0.3; expected at most 0.4"):
+            morrell(3, 4, 0.3, 0.45, 5000)
 
     def test_densities_of_a_charge(self):
         self.assertEqual(bulk_density(2500, 0.6), 1500)

@@ -71,7 +71,8 @@ def morrell(diameter: float, length: float, speed: float, filling: float, densit
     diameter, length: inside the liners, m; speed: over the critical speed; filling: share of the mill that the bulk of
     the charge fills; density: of the bulk with what is in its pores, kg/m3; pool: density of the slurry, kg/m3, which
     counts only with overflow: there a pool reaches to an angle of 3.395 rad on the falling side. ValueError for a
-    filling that is not above 0 and at most 0.6, or a speed that is not above 0 and at most 1."""
+    filling that is not above 0 and at most 0.6, or a speed that is not above 0 and at most 1, or a
+    filling that does not fit between the model's toe and shoulder."""
     require_share("filling", filling, 0.6)
     require_share("speed", speed, 1.0)
     radius = diameter / 2
@@ -81,6 +82,9 @@ def morrell(diameter: float, length: float, speed: float, filling: float, densit
     toe = of_filling * (full - filling) * (1 - np.exp(-steep * (centrifuged - speed))) + np.pi / 2
     shoulder = np.pi / 2 - (toe - np.pi / 2) * (0.3386 + 0.1041 * speed + (1.54 - 2.5673 * speed) * filling)
     arc = 2 * np.pi + shoulder - toe
+    if not 2 * np.pi * filling < arc:
+        raise ValueError(f"filling is {filling:g} at a speed of {speed:g}; expected at most {arc / (2 * np.pi):.2g}, "
+                         "the share between the model's toe and shoulder")
     lift = np.sin(shoulder) - np.sin(toe)
     # Part of the charge that is in contact: its time in the charge over that of a whole way with its free fall
     middle = radius / 2 * (1 + np.sqrt(1 - 2 * np.pi * filling / arc))

@@ -6,17 +6,19 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import brentq
 
-from ..files.tables import read_table
+from ..files.tables import TableError, read_table
 
-LEFT = 0.5  # of the tracer that may still be in the mill; above it no tail can be fitted
+LEFT = 0.4  # of the tracer that may still be in the mill; above it no tail can be fitted
 
 
 @dataclass(frozen=True)
 class TracerTable:
-    """A slurryTracer's table: time [n] of the ends of its steps, s; tracer in the mill [n], m3; rates of tracer and
-    slurry in and out [n], m3/s; whether the feed was a pulse or a step; begin: of its tracer, s; missing: largest
-    volume that the balance misses, over all tracer; lowest and highest concentration."""
+    """A slurryTracer's table: time [n] of the ends of its rows, and their lengths [n], s; tracer in the mill [n], m3;
+    tracer that came in and left in a row's time [n], m3; rates of slurry in and out [n], m3/s; whether the feed was a
+    pulse or a step; begin: of its tracer, s; missing: largest volume that the balance misses, over all tracer; lowest
+    and highest concentration."""
     time: np.ndarray
+    length: np.ndarray
     tracer: np.ndarray
     into: np.ndarray
     out: np.ndarray
@@ -71,24 +73,28 @@ def closed_spread(peclet: float) -> float:
 
 
 def read_tracer(case: Path | str, name: str = "tracer") -> TracerTable:
-    """TracerTable of a case's function object of this name. TableError if it has no table."""
+    """TracerTable of a case's function object of this name. TableError if it has no table of two rows
+    or more."""
     columns, rows = read_table(case, name, "slurryTracer")
     values = dict(zip([column.split("_")[0] for column in columns], rows.T))
-    # After a pulse the feed has less than round-off
-    time, fed = values["Time"], values["in"] > 1e-9 * values["slurryIn"]
-    step = np.diff(time, prepend=time[0])
-    begin = float(time[fed][0] - step[fed][0]) if fed.any() else np.nan
+    time = values["Time"]
+    if len(time) < 2:
+        raise TableError(f"{case}: the table of {name} has {len(time)} rows; expected 2 or more")
+    # By the integrals, which have every time-step: a table may have fewer rows. The first row's length is not known
+    length = np.diff(time, prepend=2 * time[0] - time[1])
+    into, out = (np.diff(values[key], prepend=0.0) for key in ("allIn", "allOut"))
+    fed = into > 1e-9 * values["slurryIn"] * length  # after a pulse less than round-off
+    begin = float((time - length)[fed][0]) if fed.any() else np.nan
     all_tracer = max(values["tracer"].max(), values["allIn"].max())
     missing = float(np.abs(values["missing"]).max() / all_tracer) if all_tracer > 0 else 0.0
-    return TracerTable(time, values["tracer"], values["in"], values["out"], values["slurryIn"], values["slurryOut"],
-                       bool(not fed[-1]), begin, missing,
-                       float(values["smallest"].min()), float(values["largest"].max()))
+    return TracerTable(time, length, values["tracer"], into, out, values["slurryIn"], values["slurryOut"],
+                       bool(not fed[-1]), begin, missing, float(values["smallest"].min()),
+                       float(values["largest"].max()))
 
 
 def residence(table: TracerTable) -> Residence:
     """Residence of a pulse or a step in the feed of a mill through which slurry flows. RuntimeError without tracer in
-    the feed, or if more than half of a pulse is still in the mill, or the outflow of a step has less than half of the
-    feed's concentration."""
+    the feed, and as end_of."""
     if not table.into.any():
         raise RuntimeError("no tracer was fed; expected feed, and a tracer whose begin is before the flow's end")
     return of_pulse(table) if table.pulse else of_step(table)
@@ -96,45 +102,51 @@ def residence(table: TracerTable) -> Residence:
 
 def of_pulse(table: TracerTable) -> Residence:
     """Residence of a pulse: what leaves, over all that was fed."""
-    length = np.diff(table.time, prepend=2 * table.time[0] - table.time[1])
-    middle = table.time - length / 2
-    fed = float((table.into * length).sum())
-    begin = float((table.into * length * middle).sum() / fed)
-    wide = float((table.into * length * (middle - begin)**2).sum() / fed)
-    time, share = middle - begin, table.out * length / fed
-    left, tail = end_of(time, share)
-    end = time[-1] + length[-1] / 2
-    mean = float((share * time).sum() + left * (end + tail))
-    square = float((share * time**2).sum() + left * ((end + tail)**2 + tail**2))
-    return Residence(time, share / length, mean, square - mean**2 - wide, left, tail)
+    middle = table.time - table.length / 2
+    fed = float(table.into.sum())
+    begin = float((table.into * middle).sum() / fed)
+    wide = float((table.into * (middle - begin)**2).sum() / fed)
+    share = table.out / fed
+    return of_shares(middle - begin, share, table.length, float(table.time[-1]) - begin, wide)
 
 
 def of_step(table: TracerTable) -> Residence:
     """Residence of a step: the feed's concentration is 1, that of the outflow the share F(t) of slurry that is younger
     than t."""
     after = (table.time > table.begin) & (table.slurry_out > 0)
-    time = np.concatenate([[0.0], table.time[after] - table.begin])
-    younger = np.concatenate([[0.0], table.out[after] / table.slurry_out[after]])
-    middle, length, share = (time[1:] + time[:-1]) / 2, np.diff(time), np.diff(younger)
-    left, tail = end_of(middle, share)
-    mean = float((share * middle).sum() + left * (time[-1] + tail))
-    square = float((share * middle**2).sum() + left * ((time[-1] + tail)**2 + tail**2))
-    return Residence(middle, share / length, mean, square - mean**2, left, tail)
+    length = table.length[after]
+    # The outflow of a row is a mean over its time
+    middle = table.time[after] - length / 2 - table.begin
+    younger = np.concatenate([[0.0], table.out[after] / (table.slurry_out[after] * length)])
+    age = np.concatenate([[0.0], middle])
+    return of_shares((age[1:] + age[:-1]) / 2, np.diff(younger), np.diff(age), float(middle[-1]), 0.0)
+
+
+def of_shares(time: np.ndarray, share: np.ndarray, length: np.ndarray, end: float, wide: float) -> Residence:
+    """Residence of shares of the tracer that left around these times [n] (s), over lengths [n] (s); end: of the record,
+    s; wide: variance of the feed, s2."""
+    left, tail = end_of(time, share)
+    mean = float((share * time).sum() + left * (end + tail))
+    square = float((share * time**2).sum() + left * ((end + tail)**2 + tail**2))
+    return Residence(time, share / length, mean, square - mean**2 - wide, left, tail)
 
 
 def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float]:
-    """Share that has not left, and the time (s) of its exponential tail: that with which the last half of what has
-    left after the median came out. RuntimeError if more than LEFT has not left."""
-    left = float(max(0.0, 1 - share.sum()))
+    """Share that has not left, and the time (s) of its exponential tail: that with which the last of what has left came
+    out. RuntimeError if more than LEFT has not left, if more left than was fed, or if what leaves does not decay."""
+    left = float(1 - share.sum())
+    if left < -1e-3:
+        raise RuntimeError(f"{-100 * left:.3g} % more tracer left than was fed; expected at most 0.1 %")
     if left > LEFT:
         raise RuntimeError(f"{100 * left:.0f} % of the tracer has not left at the end; expected at most "
                            f"{100 * LEFT:.0f} %: let the flow run longer")
     if left < 1e-6:
-        return left, 0.0
+        return max(left, 0.0), 0.0
     # What is still to come at each time falls by the exponential
     to_come = 1 - np.cumsum(share)
-    late = (to_come < (0.5 + left) / 2) & (to_come > 0)
-    if late.sum() < 3:
-        return left, 0.0
-    slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0]
-    return left, float(-1 / slope) if slope < 0 else 0.0
+    late = (to_come < max(0.5, left + 0.2)) & (to_come > 0)
+    slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0
+    if not slope < 0:
+        raise RuntimeError(f"{100 * left:.2g} % of the tracer has not left at the end, and what leaves does not decay: "
+                           "let the flow run longer")
+    return left, float(-1 / slope)

@@ -48,7 +48,7 @@ def net_note(case: MillCase) -> str:
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
                      "both together; the balls do not feel the slurry, and keep what they give to it.")
-                  + " A mean over fewer than two turns of the flow is not shown.")
+                  + " A mean over fewer than three turns of the flow is not shown.")
     return words + " ±: standard errors over time."
 
 
@@ -56,7 +56,7 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
     """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores."""
     mill = case.mill
     solidity, pores = (mill.derived("charge", key) for key in ("resting_solidity", "pore_volume_m3"))
-    kinds = [] if "drive" in found and feels_slurry(case) else [
+    kinds = [] if feels_slurry(case) else [
         (", dry", found["charge"], power_models.bulk_density(mill.ball_density, solidity))]
     if "drive" in found:
         held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
@@ -70,6 +70,9 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
                   *against(lambda: power_models.hogg_fuerstenau(*size, density), simulated)),
                  (f"Morrell, C-model{words}",
                   *against(lambda: power_models.morrell(*size, density).net, simulated))]
+    if not kinds:
+        return page.paragraph("The power is not compared with models: the balls feel the slurry, and the flow was "
+                              "averaged over fewer than three turns.")
     rows.append(("Bond", *against(lambda: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg")),
                                   kinds[-1][1])))
     return page.table(["", "power by the model", "simulated over it"], rows, title="Power among the models",
