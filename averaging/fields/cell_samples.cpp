@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string>
 
 #include "averaging/fields/cell_points.hpp"
 
@@ -21,6 +24,11 @@ constexpr double tolerance = 1.05;
 constexpr double reach = 2.5;
 
 constexpr int most_divisions = 10;
+
+/// Divisions of a cell's tetrahedra for its length in voxels, 0 for a cell that is not divided.
+int divisions_of(double length) {
+  return length <= tolerance ? 0 : static_cast<int>(std::ceil(length / reach));
+}
 
 /// Length of a cell over a voxel's, the larger one of that across z, at any angle about z, and that along z.
 double length_in_voxels(const MeshGeometry& mesh, std::size_t cell, const Vector3& spacing) {
@@ -42,20 +50,23 @@ double length_in_voxels(const MeshGeometry& mesh, std::size_t cell, const Vector
 }  // namespace
 
 CellSamples::CellSamples(const MeshGeometry& mesh, const BoxGrid& grid) : begin_{0} {
-  std::vector<double> lengths;
-  lengths.reserve(mesh.cells());
-  for (std::size_t cell = 0; cell < mesh.cells(); ++cell)
-    lengths.push_back(length_in_voxels(mesh, cell, grid.spacing()));
-  const double longest = lengths.empty() ? 0 : *std::max_element(lengths.begin(), lengths.end());
-  const int divisions = std::clamp(static_cast<int>(std::ceil(longest / reach)), 1, most_divisions);
-  const CellPoints parts(mesh, divisions);
+  std::array<std::optional<CellPoints>, most_divisions + 1> points;  // by divisions
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell) {
-    if (lengths[cell] <= tolerance) {
+    const double length = length_in_voxels(mesh, cell, grid.spacing());
+    const int divisions = divisions_of(length);
+    if (divisions == 0) {
       points_.push_back(mesh.centres()[cell]);
       shares_.push_back(1);
     } else {
+      if (divisions > most_divisions)
+        throw std::invalid_argument("a cell of the flow's mesh is " + std::to_string(std::lround(length)) +
+                                    " voxels of the balls' averages long; expected at most " +
+                                    std::to_string(std::lround(reach * most_divisions)) +
+                                    ": make more layers of cells, or larger voxels");
+      std::optional<CellPoints>& parts = points[static_cast<std::size_t>(divisions)];
+      if (!parts) parts.emplace(mesh, divisions);
       double volume = 0;
-      parts.for_points(cell, [&](const Vector3d& point, double part) {
+      parts->for_points(cell, [&](const Vector3d& point, double part) {
         // A part outside the cell counts negative, and has no solids of its own
         if (!(part > 0)) return;
         points_.push_back(point);

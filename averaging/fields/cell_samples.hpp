@@ -15,12 +15,12 @@ namespace millfoam::averaging {
 /// has those of CellPoints, so many that no voxel in it is passed over.
 class CellSamples {
  public:
+  /// Throws std::invalid_argument for a cell that is longer than 25 voxels.
   /// @param mesh  at any time; nothing of it is kept
   /// @param grid  of the lab frame
   CellSamples(const MeshGeometry& mesh, const BoxGrid& grid);
 
-  std::size_t cells() const { return begin_.size() - 1; }  ///< number of cells of the mesh
-  std::size_t size() const { return points_.size(); }      ///< number of points
+  std::size_t size() const { return points_.size(); }  ///< number of points
 
   /// Calls take(point, share) with each point of a cell, in m, and the share of the cell's volume that it
   /// stands for.

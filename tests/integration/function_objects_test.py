@@ -17,6 +17,7 @@ from millfoam.files.written_times import MillFlow
 from millfoam.readings.residence import read_tracer, residence
 from millfoam.run import RunError, run
 from mill_case import replace, run_mill
+from openfoam_case import rotating_mesh
 from slurry_case import SLURRY, SlurryTest
 
 MILL = Path(__file__).resolve().parents[2] / "cases" / "mills" / "mill_30cm" / "mill.yaml"
@@ -27,6 +28,8 @@ CHANGES = ("flow.max_time_step=0.001",
            "geometry.pulp_lifters.layers=2", "flow.balls=no", f"flow.feed={FEED}", f"flow.duration={END}",
            f"flow.write_interval={HALF}", f"flow.averages={{start: 0, window: {WINDOW}}}")
 SPEED = -2.5  # of the balance in a box, rad/s
+MOVING_BALLS = ("block { box (0.02 0.01 -1) (0.06 0.05 1); edge 0.01; edgeAxes (1 1 0); solidity 0.5; diameter 0.005; "
+                "velocity (0.3 0.3 0); moves yes; }")
 OBJECTS = f"""
 functions
 {{
@@ -143,6 +146,13 @@ class FedMill(unittest.TestCase):
             values = values * (share[..., None] if field == "velocity" else share)
         return values
 
+    def assert_same_tracer(self, case, rtol):
+        """Tracer in the cells at the end, over their volume, is that of the whole run to a share of the largest."""
+        found, expected = (foam.read_field(flow.frames[-1][1] / "tracerHeld", flow.mesh.cells)
+                           for flow in (MillFlow(case), MillFlow(self.case)))
+        self.assertGreater(expected.max(), 1e-3)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=rtol * expected.max())
+
     def test_a_restart_changes_nothing(self):
         case = self.folder / "restart"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*"))
@@ -158,6 +168,24 @@ class FedMill(unittest.TestCase):
         for name in self.columns.keys() - {"missing"}:  # which is round-off
             values = self.columns[name]
             np.testing.assert_allclose(columns[name], values, rtol=0, atol=1e-7 * np.abs(values).max(), err_msg=name)
+        self.assert_same_tracer(case, 1e-7)
+
+    def test_a_tracer_whose_past_is_not_known_is_refused(self):
+        for removed, words in (("tracerHeld", "was written with the tracer tracer, but has not its fields"),
+                               ("uniform/functionObjects", "was written without the tracer tracer, whose feed begins "
+                                                           "at 0.004 s; expected begin at this time or later")):
+            with self.subTest(removed):
+                case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
+                shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", f"{END:g}"))
+                half = case / f"{HALF:g}"
+                for path in (half / removed).parent.glob(f"{(half / removed).name}*"):
+                    shutil.rmtree(path) if path.is_dir() else path.unlink()
+                if removed != "tracerHeld":
+                    for path in half.glob("tracer*"):
+                        path.unlink()
+                with self.assertRaises(RunError) as caught:
+                    run(case, "slurryFoam")
+                self.assertIn(words, " ".join(str(caught.exception).split()))
 
     def test_a_run_that_was_killed_at_its_end_puts_the_file_together_when_run_again(self):
         case = self.folder / "killed"
@@ -187,6 +215,8 @@ class FedMill(unittest.TestCase):
         run(self.split, "decomposePar")
         run(self.split, "mpirun", "-np", 2, "slurryFoam", "-parallel")
         self.assert_same(self.split, 1e-3)
+        run(self.split, "reconstructPar", "-latestTime")
+        self.assert_same_tracer(self.split, 1e-3)
 
     def refused(self, pattern, new):
         case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
@@ -205,7 +235,9 @@ class FedMill(unittest.TestCase):
                 (r"window 0.008;", "window 0;", "above 0"),
                 (r"shape \(30 30 13\)", "shape (30 0 13)", "shape"),
                 (r"slices 13;", "slices 0;", "one or more"),
-                (r"length 0.004;", "length -1;", "length is -1 s; expected 0 or more"),
+                (r"length 0.004;", "length -1;", "length is -1; expected more than 0 s"),
+                (r"length 0.004;", "length 0;", "length is 0; expected more than 0 s"),
+                (r"length 0.004;", "D -1;", "D is -1; expected 0 m2/s or more"),
                 (r"begin 0.004;", "beginn 0.004;", "beginn"),
                 (r"type slurryBalance;", "type slurryBalance; phase mud;", "alpha.mud"),
                 (r"type slurryBalance;", "type slurryBalance; walls (shel);", "shel"),
@@ -233,7 +265,7 @@ class FedMill(unittest.TestCase):
         case = self.folder / "sub-cycles"
         shutil.copytree(self.case, case, ignore=shutil.ignore_patterns(f"{END:g}"))
         replace(case / "system" / "fvSolution", (r"nLimiterIter +10;", "nLimiterIter 10; nAlphaSubCycles 3;"))
-        with self.assertRaisesRegex(RunError, "nAlphaSubCycles is 3; the balance of alpha.slurry expects 1"):
+        with self.assertRaisesRegex(RunError, "nAlphaSubCycles is 3; a balance of alpha.slurry expects 1"):
             run(case, "slurryFoam")
 
 
@@ -296,6 +328,35 @@ class InABox(SlurryTest):
         for words in ("voxelAverages: no part of the mesh", "(0.14 0.1 0.02)", "(0.2 0.2 0) to (0.3 0.3 0.02) m"):
             self.assertIn(words, log)
         self.assertNotIn("\nTime = ", result.log)
+
+    def tracer_in_a_bed(self, entries=""):
+        """A case with balls that move on a turning mesh, whose slurry has the concentration 0.5, and its run."""
+        case = self.slurry_case(end_time=0.02, motion=rotating_mesh(0.5))
+        case.bed(MOVING_BALLS, entries=entries)
+        case.field_file("tracer", "volScalarField", "0 0 0 0 0 0 0", 0.5, '".*" { type zeroGradient; }')
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text() + """
+            functions { tracer { type slurryTracer; libs ("libmillFoam.so"); writePrecision 14; } }""")
+        for name, entry in (("fvSchemes", "divSchemes { div(alphaPhi,tracer) Gauss vanLeer; }"),
+                            ("fvSolution", "solvers { tracer { solver PBiCGStab; preconditioner DILU; tolerance 1e-12; "
+                                           "relTol 0; nLimiterIter 3; } }")):
+            file = case.path / "system" / name
+            file.write_text(file.read_text() + entry)
+        return case, case.run("slurryFoam")
+
+    def test_a_uniform_tracer_stays_uniform_between_moving_balls(self):
+        case, result = self.tracer_in_a_bed()
+        self.assertEqual(result.code, 0, result.tail())
+        found = read_tracer(case.path)
+        self.assertAlmostEqual(found.lowest, 0.5, delta=1e-10)
+        self.assertAlmostEqual(found.highest, 0.5, delta=1e-10)
+        self.assertLess(found.missing, 1e-10)
+        self.assertGreater(case.steps()["voidage_change"].max(), 0.01)
+
+    def test_a_tracer_without_the_displacement_by_balls_is_refused(self):
+        _, result = self.tracer_in_a_bed("voidageRate no;")
+        self.assertNotEqual(result.code, 0)
+        self.assertIn("voidageRate is no; the tracer tracer expects yes", " ".join(result.log.split()))
 
     def test_slip_is_that_of_the_written_fields(self):
         case = self.slurry_case(end_time=0.01)

@@ -12,6 +12,7 @@ from millfoam.files.tables import TableError
 from millfoam.readings.residence import closed_spread, read_tracer, residence
 
 MEAN, STEP, FEED = 4.0, 0.01, 2e-3  # s, s, m3/s
+BEGIN = 1.0  # of the feed, s
 
 
 def left_after(number, time):
@@ -37,18 +38,19 @@ class Tables(unittest.TestCase):
         np.savetxt(path, rows[every - 1::every], "%.15g", "\t", header=head, comments="# ")
         return read_tracer(self.case)
 
-    def pulse(self, number, end, begin=1.0, every=1):
-        """A short pulse at `begin` through tanks."""
+    def pulse(self, number, end, every=1):
+        """A short pulse at BEGIN through tanks."""
         time = np.arange(1, round(end / STEP) + 1) * STEP
-        into = np.where(np.isclose(time, begin), FEED, 0.0)
-        age = time - begin
+        into = np.where(np.isclose(time, BEGIN), FEED, 0.0)
+        age = time - BEGIN
         out = FEED * (left_after(number, age) - left_after(number, age - STEP))
         return self.write(time, into, out, every)
 
-    def step(self, number, end, begin=1.0):
-        table = self.pulse(number, end, begin)
+    def step(self, number, end):
+        """From BEGIN on, through tanks."""
+        table = self.pulse(number, end)
         younger = np.cumsum(table.out) / (FEED * STEP)
-        into = np.where(table.time > begin - STEP / 2, FEED, 0.0)
+        into = np.where(table.time > BEGIN - STEP / 2, FEED, 0.0)
         return self.write(table.time, into, FEED * younger)
 
 
@@ -61,7 +63,7 @@ class Moments(Tables):
                 self.assertAlmostEqual(found.tanks / number, 1, delta=2e-2)
                 self.assertLess(found.left, 1e-3)
 
-    def test_a_record_that_ends_early_goes_on_as_an_exponential(self):
+    def test_a_record_that_ends_early_continues_as_an_exponential(self):
         for number, end in ((1, 9.0), (1, 5.0), (3, 8.0)):
             found = residence(self.pulse(number, end))
             self.assertGreater(found.left, 0.05)
@@ -85,7 +87,7 @@ class Moments(Tables):
         pulse, step = self.pulse(3, 30.0), self.step(3, 30.0)
         self.assertTrue(pulse.pulse)
         self.assertFalse(step.pulse)
-        self.assertAlmostEqual(step.begin, 1.0 - STEP, delta=1e-9)
+        self.assertAlmostEqual(step.begin, BEGIN - STEP, delta=1e-9)
 
     def test_dispersion_has_the_spread_of_its_peclet_number(self):
         self.assertAlmostEqual(closed_spread(1e-4), 1, delta=1e-4)

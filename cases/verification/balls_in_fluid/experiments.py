@@ -161,7 +161,7 @@ def upflow(work, bed):
 
 def settling(work, width, solidity):
     """A suspension settles in a closed column: speed of its balls before the sediment reaches them, against e w of the
-    law's balance with the solidity found there."""
+    law's balance, in the mean over the balls with the solidity of their cells."""
     top = 0.16
     column = Column(width, 0.2, round(0.2 / COARSE), "DiFelice", end=0.5, write_interval=0.01)
     balls = mixed(work / f"mixing_{solidity:g}", column, scattered(column, solidity, 0, top, (DIAMETER,)), top)

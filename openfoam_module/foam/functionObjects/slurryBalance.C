@@ -25,23 +25,6 @@ addToRunTimeSelectionTable(functionObject, slurryBalance, dictionary);
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::functionObjects::slurryBalance::refuseSubCycles() const
-{
-    const dictionary* solvers = mesh_.solutionDict().findDict("solvers");
-    const dictionary* controls =
-        solvers ? solvers->findDict(fields_.alpha().name()) : nullptr;
-    const label cycles =
-        controls ? controls->lookupOrDefault<label>("nAlphaSubCycles", 1) : 1;
-    if (cycles > 1)
-    {
-        FatalIOErrorInFunction(*controls)
-            << "nAlphaSubCycles is " << cycles << "; the balance of "
-            << fields_.alpha().name() << " expects 1: of sub-cycles only the"
-            << " last one's flux is kept" << exit(FatalIOError);
-    }
-}
-
-
 void Foam::functionObjects::slurryBalance::begin()
 {
     writeHeader(file(), "Slurry: balance, centre, torque about +z, slip");
@@ -136,7 +119,7 @@ Foam::functionObjects::slurryBalance::slurryBalance(
   torqueAll_(0)
 {
     slurryFields::refuseOthers(dict, {"walls", "speed"});
-    refuseSubCycles();
+    fields_.requireWholeFlux();
     if (runTime.timeIndex() > 0 && !foundProperty("fed"))
     {
         WarningInFunction << "time " << runTime.timeName()

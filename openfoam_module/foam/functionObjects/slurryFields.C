@@ -92,6 +92,23 @@ const Foam::surfaceScalarField& Foam::slurryFields::flux() const
 }
 
 
+void Foam::slurryFields::requireWholeFlux() const
+{
+    const dictionary* solvers = mesh_.solutionDict().findDict("solvers");
+    const dictionary* controls =
+        solvers ? solvers->findDict(alpha().name()) : nullptr;
+    const label cycles =
+        controls ? controls->lookupOrDefault<label>("nAlphaSubCycles", 1) : 1;
+    if (cycles > 1)
+    {
+        FatalIOErrorInFunction(*controls)
+            << "nAlphaSubCycles is " << cycles << "; a balance of "
+            << alpha().name() << " expects 1: of sub-cycles only the"
+            << " last one's flux is kept" << exit(FatalIOError);
+    }
+}
+
+
 bool Foam::slurryFields::displaced() const
 {
     return mesh_.foundObject<volScalarField>("flowVoidage");

@@ -12,9 +12,11 @@
 #include "fvmSup.H"
 #include "gaussConvectionScheme.H"
 #include "gaussLaplacianScheme.H"
+#include "IOdictionary.H"
 #include "linear.H"
 #include "mixedFvPatchFields.H"
 #include "oneField.H"
+#include "Switch.H"
 #include "uncorrectedSnGrad.H"
 #include "upwind.H"
 #include "zeroField.H"
@@ -62,18 +64,36 @@ static wordList tracerPatches(const fvMesh& mesh)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::functionObjects::slurryTracer::notNegative(
-    const dictionary& dict, const word& key, const char* unit,
-    const scalar none)
+void Foam::functionObjects::slurryTracer::check(const dictionary& dict) const
 {
-    const scalar value = dict.lookupOrDefault<scalar>(key, none);
-    if (!(value >= 0))
+    slurryFields::refuseOthers(dict, {"begin", "length", "D"});
+    const auto refuse =
+        [&dict](const char* key, const scalar value, const char* expected)
     {
-        FatalIOErrorInFunction(dict)
-            << key << " is " << value << ' ' << unit << "; expected 0 or more"
-            << exit(FatalIOError);
+        FatalIOErrorInFunction(dict) << key << " is " << value << "; expected "
+                                     << expected << exit(FatalIOError);
+    };
+    if (!(begin_ >= 0))
+    {
+        refuse("begin", begin_, "0 s or more");
     }
-    return value;
+    if (!(length_ > 0))
+    {
+        refuse("length", length_, "more than 0 s");
+    }
+    if (!(D_ >= 0))
+    {
+        refuse("D", D_, "0 m2/s or more");
+    }
+    fields_.requireWholeFlux();
+    const auto* bed = mesh_.findObject<IOdictionary>("bedProperties");
+    if (bed && !bed->lookupOrDefault<Switch>("voidageRate", true))
+    {
+        FatalIOErrorInFunction(*bed)
+            << "voidageRate is no; the tracer " << name()
+            << " expects yes: without it slurry in a cell changes without a"
+            << " flux" << exit(FatalIOError);
+    }
 }
 
 
@@ -89,6 +109,67 @@ Foam::functionObjects::slurryTracer::begun(const word& field) const
     }
     const volScalarField found(io, mesh_);
     return tmp<scalarField>::New(found.primitiveField());
+}
+
+
+void Foam::functionObjects::slurryTracer::begin()
+{
+    const Time& runTime = mesh_.time();
+    const word time(runTime.timeName());
+    const tmp<scalarField> start = begun(name());
+    const tmp<scalarField> held = begun(heldName());
+    if (foundProperty("in") && !(start.valid() && held.valid()))
+    {
+        FatalErrorInFunction
+            << "time " << time << " was written with the tracer " << name()
+            << ", but has not its fields " << name() << " and " << heldName()
+            << "; expected both" << exit(FatalError);
+    }
+    if (!foundProperty("in") && runTime.timeIndex() > 0 && !start.valid() &&
+        begin_ < runTime.value())
+    {
+        FatalErrorInFunction
+            << "time " << time << " was written without the tracer " << name()
+            << ", whose feed begins at " << begin_
+            << " s; expected begin at this time or later" << exit(FatalError);
+    }
+    if (start.valid())
+    {
+        C_.primitiveFieldRef() = start();
+    }
+    if (gMin(C_.primitiveField()) < 0 || gMax(C_.primitiveField()) > 1)
+    {
+        FatalErrorInFunction
+            << "the field " << name() << " of time " << time << " reaches from "
+            << gMin(C_.primitiveField()) << " to " << gMax(C_.primitiveField())
+            << "; expected a concentration from 0 to 1" << exit(FatalError);
+    }
+    if (held.valid())
+    {
+        content_ = held() * mesh_.V();
+    }
+    else
+    {
+        content_ = C_.primitiveField() * fields_.volumes();
+    }
+    first_ = getProperty<scalar>("first", gSum(content_));
+}
+
+
+void Foam::functionObjects::slurryTracer::writeColumns()
+{
+    writeHeader(file(), "Tracer in the slurry");
+    writeHeaderValue(file(), "Begun", label(clock::getTime()));
+    writeHeaderValue(file(), "Begin_s", begin_);
+    writeHeaderValue(file(), "Length_s", length_);
+    writeCommented(file(), "Time_s");
+    for (const char* column :
+         {"tracer_m3", "in_m3/s", "out_m3/s", "slurryIn_m3/s", "slurryOut_m3/s",
+          "allIn_m3", "allOut_m3", "missing_m3", "smallest", "largest"})
+    {
+        writeTabbed(file(), column);
+    }
+    file() << endl;
 }
 
 
@@ -238,9 +319,9 @@ Foam::functionObjects::slurryTracer::slurryTracer(
 : fvMeshFunctionObject(name, runTime, dict),
   writeFile(mesh_, name, typeName, dict),
   fields_(mesh_, dict),
-  begin_(notNegative(dict, "begin", "s", 0)),
-  length_(notNegative(dict, "length", "s", GREAT)),
-  D_(notNegative(dict, "D", "m2/s", 0)),
+  begin_(dict.lookupOrDefault<scalar>("begin", 0)),
+  length_(dict.lookupOrDefault<scalar>("length", GREAT)),
+  D_(dict.lookupOrDefault<scalar>("D", 0)),
   C_(IOobject(
          name, runTime.timeName(), mesh_, IOobject::NO_READ,
          IOobject::NO_WRITE),
@@ -254,40 +335,9 @@ Foam::functionObjects::slurryTracer::slurryTracer(
   allIn_(getProperty<scalar>("in")),
   allOut_(getProperty<scalar>("out"))
 {
-    slurryFields::refuseOthers(dict, {"begin", "length", "D"});
-    if (const tmp<scalarField> start = begun(name); start.valid())
-    {
-        C_.primitiveFieldRef() = start();
-    }
-    if (gMin(C_.primitiveField()) < 0 || gMax(C_.primitiveField()) > 1)
-    {
-        FatalErrorInFunction
-            << "the field " << name << " of time " << runTime.timeName()
-            << " reaches from " << gMin(C_.primitiveField()) << " to "
-            << gMax(C_.primitiveField())
-            << "; expected a concentration from 0 to 1" << exit(FatalError);
-    }
-    if (const tmp<scalarField> held = begun(heldName()); held.valid())
-    {
-        content_ = held() * mesh_.V();
-    }
-    else
-    {
-        content_ = C_.primitiveField() * fields_.volumes();
-    }
-    first_ = getProperty<scalar>("first", gSum(content_));
-    writeHeader(file(), "Tracer in the slurry");
-    writeHeaderValue(file(), "Begun", label(clock::getTime()));
-    writeHeaderValue(file(), "Begin_s", begin_);
-    writeHeaderValue(file(), "Length_s", length_);
-    writeCommented(file(), "Time_s");
-    for (const char* column :
-         {"tracer_m3", "in_m3/s", "out_m3/s", "slurryIn_m3/s", "slurryOut_m3/s",
-          "allIn_m3", "allOut_m3", "missing_m3", "smallest", "largest"})
-    {
-        writeTabbed(file(), column);
-    }
-    file() << endl;
+    check(dict);
+    begin();
+    writeColumns();
     strict_.relax();
 }
 
@@ -335,8 +385,8 @@ bool Foam::functionObjects::slurryTracer::execute()
 bool Foam::functionObjects::slurryTracer::write()
 {
     const scalarField slurry(fields_.volumes());
-    scalar smallest = 1;
-    scalar largest = 0;
+    scalar smallest = GREAT;
+    scalar largest = -GREAT;
     forAll(slurry, celli)
     {
         if (slurry[celli] > judged_ * mesh_.V()[celli])
@@ -352,11 +402,18 @@ bool Foam::functionObjects::slurryTracer::write()
     writeCurrentTime(file());
     for (const scalar value :
          {tracer, in_, out_, slurryIn_, slurryOut_, allIn_, allOut_,
-          tracer - first_ - allIn_ + allOut_, smallest, largest})
+          tracer - first_ - allIn_ + allOut_})
     {
         file() << tab << value;
     }
-    file() << endl;
+    if (smallest <= largest)
+    {
+        file() << tab << smallest << tab << largest << endl;
+    }
+    else
+    {
+        file() << tab << "nan" << tab << "nan" << endl;
+    }
     return true;
 }
 

@@ -183,10 +183,12 @@ void Foam::solidsExchange::sampleState(state& one)
     one.sums.clear(centres.size());
     forAll(centres, i)
     {
+        bool within = true;
         samples_->for_points(
             std::size_t(i), place,
             [&](const Vector3& at, const scalar share)
             {
+                within = within && balls_->grid.locate(at);
                 const LocalSolids local = millfoam::averaging::sample(
                     balls_->grid, one.solids.fields, at, Interpolation::linear);
                 const Vector3& u = local.velocity;
@@ -194,8 +196,7 @@ void Foam::solidsExchange::sampleState(state& one)
                     i, share * local.solidity, vector(u[0], u[1], u[2]),
                     local.diameter, local.diameter43);
             });
-        const point& p = centres[i];
-        if (!balls_->grid.locate({p.x(), p.y(), p.z()}))
+        if (!within)
         {
             beyond.append(i);
         }

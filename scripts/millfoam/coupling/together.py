@@ -14,6 +14,8 @@ from ..files.data_files import read_json
 EXCHANGE = "exchange"  # folder of the pipes, in the case
 BALLS_LOG = "log.balls"
 WAIT = 0.2  # s, between two looks at the programs
+# Settings of Open MPI with which the ranks of two programs share the cores
+SHARED_CORES = {"OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
 
 class TogetherError(RuntimeError):
@@ -78,12 +80,12 @@ def remove_pipes(case: Path) -> None:
 
 def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log: IO[str] | None = None) -> None:
     """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to flow_log
-    or, without it, to the output of this program. Each ends when this program is killed. If one fails, the other is
-    ended. TogetherError with the last lines of the balls' log if they fail, or with the flow's exit code."""
+    or, without it, to the output of this program. Each ends when this program is killed. SHARED_CORES are set unless the
+    environment has them. If one program fails, the other is ended. TogetherError with the last lines of the balls' log
+    if they fail, or with the flow's exit code."""
     remove_pipes(case)
-    # OpenFOAM takes its folder's name from PWD. Open MPI: ranks of two programs share the cores
-    environment = {**os.environ, "PWD": str(case.resolve()), "OMPI_MCA_mpi_yield_when_idle": "1",
-                   "OMPI_MCA_hwloc_base_binding_policy": "none"}
+    # OpenFOAM takes its folder's name from PWD
+    environment = {**SHARED_CORES, **os.environ, "PWD": str(case.resolve())}
 
     def start(command: Sequence[str], out: IO[str] | IO[bytes] | None) -> subprocess.Popen[bytes]:
         return subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *command], cwd=case, env=environment, stdout=out,

@@ -16,7 +16,7 @@ class TracerTable:
     """A slurryTracer's table: time [n] of the ends of its rows, and their lengths [n], s; tracer in the mill [n], m3;
     tracer that came in and left in a row's time [n], m3; rates of slurry in and out [n], m3/s; whether the feed was a
     pulse or a step; begin: of its tracer, s; missing: largest volume that the balance misses, over all tracer; lowest
-    and highest concentration."""
+    and highest concentration, nan if no cell ever held slurry."""
     time: np.ndarray
     length: np.ndarray
     tracer: np.ndarray
@@ -88,8 +88,8 @@ def read_tracer(case: Path | str, name: str = "tracer") -> TracerTable:
     all_tracer = max(values["tracer"].max(), values["allIn"].max())
     missing = float(np.abs(values["missing"]).max() / all_tracer) if all_tracer > 0 else 0.0
     return TracerTable(time, length, values["tracer"], into, out, values["slurryIn"], values["slurryOut"],
-                       bool(not fed[-1]), begin, missing, float(values["smallest"].min()),
-                       float(values["largest"].max()))
+                       bool(not fed[-1]), begin, missing, float(np.fmin.reduce(values["smallest"])),
+                       float(np.fmax.reduce(values["largest"])))
 
 
 def residence(table: TracerTable) -> Residence:

@@ -44,6 +44,7 @@ def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str
                       ("stirred tanks in series", f"{found.tanks:.3g}"),
                       ("Péclet number of axial dispersion, both ends closed", peclet),
                       ("tracer that has not left", f"{100 * found.left:.3g} %"),
+                      ("time of its exponential", f"{found.tail:.3g} s" if found.left else "–"),
                       ("missing in the tracer's balance", f"{table.missing:.1g}")]
 
 

@@ -50,7 +50,7 @@ TEST(CellSamples, ThePointsOfACellHaveItsVolumeAndCentroid) {
   }
 }
 
-/// Voxels that have weight in the trilinear interpolation at any point of any cell.
+/// Voxels that have a twentieth of a voxel or more in the trilinear interpolation at a point of a cell.
 std::set<std::size_t> voxels_met(const MeshGeometry& mesh, const BoxGrid& grid, double angle) {
   SolidsWindow window;
   window.solidity.assign(grid.size(), 0.5);
@@ -59,15 +59,15 @@ std::set<std::size_t> voxels_met(const MeshGeometry& mesh, const BoxGrid& grid, 
   for (std::size_t cell = 0; cell < mesh.cells(); ++cell)
     samples.for_points(cell, turned_by(angle), [&](const Vector3& point, double) {
       for (const SolidsShare& one : solids_shares(grid, window, point))
-        if (one.solidity > 0) met.insert(one.voxel);
+        if (one.solidity > 0.05 * 0.5) met.insert(one.voxel);
     });
   return met;
 }
 
 TEST(CellSamples, NoVoxelInAThickerCellIsPassedOver) {
-  // 2 to 11 voxels along a cell, at offsets that change from cell to cell
+  // 2 to 25 voxels along a cell, at offsets that change from cell to cell
   const MeshGeometry mesh = shape_of(box_mesh({-1, -1, 0}, {1, 1, 1}, {4, 4, 3}));
-  for (const int along : {7, 8, 13, 21, 34}) {
+  for (const int along : {7, 8, 13, 21, 34, 75}) {
     const BoxGrid grid({-1, -1, 0}, {1, 1, 1}, {4, 4, along});
     EXPECT_EQ(voxels_met(mesh, grid, 0).size(), grid.size()) << along;
   }
@@ -85,6 +85,33 @@ TEST(CellSamples, OnlyTheLargerCellsOfAMeshAreDivided) {
   // Voxels as wide as the mesh, and thicker than a cell
   EXPECT_EQ(CellSamples(mesh, BoxGrid({0, 0, 0}, {1, 1, 1}, {1, 1, 3})).size(), mesh.cells());
   EXPECT_GT(CellSamples(mesh, BoxGrid({0, 0, 0}, {1, 1, 1}, {1, 1, 5})).size(), 10 * mesh.cells());
+}
+
+TEST(CellSamples, CellsAreDividedByTheirOwnLength) {
+  // Layers of 1, 1 and 8 voxels
+  TestMesh mesh = box_mesh({0, 0, 0}, {1, 1, 3}, {1, 1, 3});
+  for (auto& point : mesh.points)
+    if (point[2] > 2.5) point[2] = 10;
+  const CellSamples samples(shape_of(mesh), BoxGrid({0, 0, 0}, {1, 1, 10}, {1, 1, 10}));
+  std::vector<int> points(3, 0);
+  for (std::size_t cell = 0; cell < 3; ++cell)
+    samples.for_points(cell, turned_by(0), [&](const Vector3&, double) { ++points[cell]; });
+  EXPECT_EQ(points[0], 1);
+  EXPECT_EQ(points[1], 1);
+  EXPECT_GT(points[2], 8);
+}
+
+TEST(CellSamples, ACellLongerThan25VoxelsIsRefused) {
+  const MeshGeometry mesh = shape_of(box_mesh({0, 0, 0}, {1, 1, 1}, {1, 1, 1}));
+  EXPECT_NO_THROW(CellSamples(mesh, BoxGrid({0, 0, 0}, {1, 1, 1}, {1, 1, 25})));
+  try {
+    CellSamples(mesh, BoxGrid({0, 0, 0}, {1, 1, 1}, {1, 1, 40}));
+    FAIL() << "40 voxels were taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("40 voxels of the balls' averages long; expected at most 25"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
