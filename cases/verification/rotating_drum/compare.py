@@ -41,7 +41,7 @@ THIN = ("geometry.slice=0.009", "dem.duration=5")
 # Friction and rolling friction of two beads, and of a bead and the wall
 SCAN = {"r03w2": (0.3, 0.03, 0.35, 0.2), "r05w2": (0.3, 0.05, 0.35, 0.2), "base": (0.3, 0.1, 0.35, 0.1),
         "r05": (0.3, 0.05, 0.35, 0.05), "r02": (0.3, 0.02, 0.35, 0.02), "f15": (0.15, 0.1, 0.35, 0.1),
-        "f5r02": (0.5, 0.02, 0.5, 0.02), "f5r03w2": (0.5, 0.03, 0.5, 0.2)}
+        "f5r02": (0.5, 0.02, 0.5, 0.02), "f5r03w2": (0.5, 0.03, 0.5, 0.2), "f5r02w2": (0.5, 0.02, 0.5, 0.2)}
 VARIANTS = {"fit": {"slice": ()},
             "scan": {name: (*THIN, f"materials.ball_ball.friction={f}", f"materials.ball_ball.rolling_friction={r}",
                             f"materials.ball_wall.friction={fw}", f"materials.ball_wall.rolling_friction={rw}")
@@ -49,6 +49,10 @@ VARIANTS = {"fit": {"slice": ()},
             # Its dumps would take some 15 GB
             "full": {"full": ("geometry.slice=~", "resolution.layers=2", "averages.live=yes", "dem.dumps=no"),
                      "slice": ()},
+            "ends": {"short": ("geometry.slice=~", "geometry.length=0.048", "charge.start_length=0.046",
+                               "charge.classes=[{diameter: 0.003, mass: 1.06535}]", "resolution.layers=2",
+                               "dem.duration=5"),
+                     "thin": THIN},
             "quick": {"thin": THIN}}
 
 
@@ -304,7 +308,8 @@ def plot(runs, measured, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("variant", nargs="?", choices=[name for name in VARIANTS if name != "quick"], default="fit",
-                        help="fit: the slice of mill.yaml; scan: frictions; full: the whole length and the slice")
+                        help="fit: the slice of mill.yaml; scan: frictions; full: the whole length and the slice; ends: a "
+                             "drum of sixteen beads with ends, and a slice of three")
     parser.add_argument("--quick", action="store_true", help="the friction of mill.yaml in a slice of three beads")
     parser.add_argument("--read", nargs="+", type=Path, metavar="RUN", help="read these complete runs instead")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")
