@@ -177,7 +177,8 @@ class FedMill(unittest.TestCase):
                                                            "at 0.004 s; expected begin at this time or later")):
             with self.subTest(removed):
                 case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
-                shutil.copytree(self.case, case, ignore=shutil.ignore_patterns("slurry.*", "postProcessing", f"{END:g}"))
+                shutil.copytree(self.case, case,
+                                ignore=shutil.ignore_patterns("slurry.*", "postProcessing", f"{END:g}"))
                 half = case / f"{HALF:g}"
                 for path in (half / removed).parent.glob(f"{(half / removed).name}*"):
                     shutil.rmtree(path) if path.is_dir() else path.unlink()

@@ -308,8 +308,8 @@ def plot(runs, measured, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("variant", nargs="?", choices=[name for name in VARIANTS if name != "quick"], default="fit",
-                        help="fit: the slice of mill.yaml; scan: frictions; full: the whole length and the slice; ends: a "
-                             "drum of sixteen beads with ends, and a slice of three")
+                        help="fit: the slice of mill.yaml; scan: frictions; ends: a drum of sixteen beads with ends, "
+                             "and a slice of three; full: the whole length and the slice")
     parser.add_argument("--quick", action="store_true", help="the friction of mill.yaml in a slice of three beads")
     parser.add_argument("--read", nargs="+", type=Path, metavar="RUN", help="read these complete runs instead")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")

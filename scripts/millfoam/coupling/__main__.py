@@ -7,8 +7,8 @@
     python3 -m millfoam.coupling judge CASE N         compares N passes of CASE (CASE itself, CASE/pass_2, …): writes
                                                       coupling.csv, coupling.json and coupling.png
     python3 -m millfoam.coupling together CASE BEFORE -np N [--resume]
-                                                      runs the balls of CASE, which resume from the last state of the dry
-                                                      run in BEFORE, and the flow of CASE at the same time
+                                                      runs the balls of CASE, from the last state of the dry run in
+                                                      BEFORE on, and the flow of CASE at the same time
     python3 -m millfoam.coupling direct CASE          writes coupling.json of a CASE whose balls and flow in CASE/direct
                                                       ran at the same time"""
 import argparse

@@ -80,9 +80,9 @@ def remove_pipes(case: Path) -> None:
 
 def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log: IO[str] | None = None) -> None:
     """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to flow_log
-    or, without it, to the output of this program. Each ends when this program is killed. SHARED_CORES are set unless the
-    environment has them. If one program fails, the other is ended. TogetherError with the last lines of the balls' log
-    if they fail, or with the flow's exit code."""
+    or, without it, to the output of this program. Each ends when this program is killed. SHARED_CORES are set unless
+    the environment has them. If one program fails, the other is ended. TogetherError with the last lines of the balls'
+    log if they fail, or with the flow's exit code."""
     remove_pipes(case)
     # OpenFOAM takes its folder's name from PWD
     environment = {**SHARED_CORES, **os.environ, "PWD": str(case.resolve())}

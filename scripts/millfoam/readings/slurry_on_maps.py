@@ -10,6 +10,8 @@ import numpy as np
 from scipy.ndimage import label, map_coordinates
 
 from ..files.slurry_file import SlurryMap
+from ..files.solids_file import SolidsMap
+from .free_surface import at_points
 from .means import weighted_percentile
 from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
 from .slurry_in_cells import BED as PACKED
@@ -36,6 +38,12 @@ def slurry_ends(slurry: SlurryMap, radius: float, wall: float) -> tuple[float, .
     share, weight = (map_coordinates(values, place, order=1, mode="nearest")
                      for values in (np.nan_to_num(slurry.share), known))
     return tuple(float(end) for end in toe_and_shoulder(np.where(weight > 0, share / np.maximum(weight, 1e-9), 0)))
+
+
+def solidity_at_pixels(charge: SolidsMap, slurry: SlurryMap) -> np.ndarray:
+    """Solidity of a charge at the pixels of a SlurryMap [ny, nx]."""
+    points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
+    return at_points(charge, charge.solidity, points).reshape(slurry.share.shape)
 
 
 @dataclass

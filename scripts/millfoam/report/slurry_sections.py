@@ -9,7 +9,6 @@ from ..files.mill_case import MillCase
 from ..plots import mill_plots
 from ..readings import axial, charge, models, slurry_on_maps
 from ..readings.axial import humps_at_ends
-from ..readings.free_surface import at_points
 from ..readings.means import time_mean
 from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
@@ -61,8 +60,7 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
         rows = [(f"{name} of the slurry", "none") for name in ("shoulder", "toe")]
     solidity = np.zeros_like(slurry.share)
     if case.solids and case.law:
-        points = np.stack(np.meshgrid(*slurry.centres()), axis=-1).reshape(-1, 2)
-        solidity = at_points(case.charge, case.charge.solidity, points).reshape(slurry.share.shape)
+        solidity = slurry_on_maps.solidity_at_pixels(case.charge, slurry)
     pool = slurry_on_maps.pool(slurry, solidity)
     rows.append(("pool clear of the charge" if case.has_balls else "pool",
                  f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0

@@ -1,0 +1,202 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Power of mills against the share of the resting charge's pores that slurry fills: a table on the screen,
+power_filling.txt, power_filling.csv, power_filling.png (power, beside the classical models) and power_filling_maps.png
+(charge and slurry). Runs that are not complete are listed."""
+import argparse
+import csv
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+
+from millfoam.coupling.passes import Pass, read_pass
+from millfoam.files.mill import Mill
+from millfoam.files.mill_case import MillCase
+from millfoam.files.slurry_file import SlurryMap
+from millfoam.plots.mill_plots import draw_outline
+from millfoam.readings import power_models
+from millfoam.readings.means import Mean
+from millfoam.readings.slurry_on_maps import pool, solidity_at_pixels
+from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
+from millfoam.report.steadiness import flow_steadiness
+
+HERE = Path(__file__).parent.resolve()
+WAYS = {"one_way": "one way", "direct": "direct"}
+POWERS = {"drive_power": "drive", "charge_power": "charge", "slurry_power": "slurry"}
+READINGS = ("toe", "shoulder", "slurry_x", "slurry_y")  # further columns of the CSV, in SI units and degrees
+HALF = 0.5  # share of the slurry's outline
+
+
+@dataclass(frozen=True)
+class Run:
+    """A complete run: way, a key of WAYS; fill: volume of slurry over that of the pores; its numbers; its map of the
+    slurry; pooled: share of the slurry that is in the pool clear of the charge; steady: verdict on the flow."""
+    way: str
+    fill: float
+    case: MillCase
+    numbers: Pass
+    slurry: SlurryMap
+    pooled: float
+    steady: str
+
+
+@dataclass(frozen=True)
+class Study:
+    """A mill: its name; power of its dry charge, W; its runs, and the names of those that are not complete."""
+    name: str
+    mill: Mill
+    dry: Mean
+    runs: list[Run]
+    missing: list[str]
+
+
+def read_run(folder: Path) -> Run:
+    """Run of a folder WAY_FILL. RuntimeError if it is not complete."""
+    way, _, fill = folder.name.rpartition("_")
+    place = folder / "direct" if way == "direct" else folder
+    numbers, case = read_pass(2 if way == "direct" else 1, place), MillCase(place)
+    slurry = mean_slurry(case, list(slurry_blocks(case)))
+    area = pool(slurry, solidity_at_pixels(numbers.charge, slurry)).area
+    whole = float(fill) * case.mill.derived("charge", "pore_volume_m3")
+    return Run(way, float(fill), case, numbers, slurry, area * case.length / whole, flow_steadiness(case).state)
+
+
+def read_study(folder: Path) -> Study:
+    """Study of a folder with the runs of a mill. RuntimeError without its dry run."""
+    dry = MillCase(folder / "dry")
+    if dry.results is None:
+        raise RuntimeError(f"{folder / 'dry'}: the dry run has no results; run Allrun")
+    runs, missing = [], []
+    for way in WAYS:
+        for one in sorted(folder.glob(f"{way}_*[0-9]"), key=lambda path: float(path.name.rpartition("_")[2])):
+            try:
+                runs.append(read_run(one))
+            except (RuntimeError, OSError) as error:
+                missing.append(f"{one.name}: {error}")
+    return Study(folder.name, dry.mill, Mean(dry.result("power_W"), dry.result("power_error_W")), runs, missing)
+
+
+def models(mill: Mill) -> dict[str, Callable[[float], float]]:
+    """Name of a model -> power (W) at a filling of the pores. Pores are filled up to their whole; what is beyond is a
+    pool, which Morrell's model of an overflow mill has."""
+    size = 2 * mill.radius, mill.length, mill.critical_share, mill.load
+    solidity, slurry = mill.derived("charge", "resting_solidity"), mill.slurry("density_kg_m3")
+
+    def density(fill: float) -> float:
+        return power_models.bulk_density(mill.ball_density, solidity, slurry, min(fill, 1.0))
+
+    return {f"Hogg & Fuerstenau, {power_models.REPOSE:g}°":
+            lambda fill: power_models.hogg_fuerstenau(*size, density(fill)),
+            "Morrell, C-model": lambda fill: power_models.morrell(*size, density(fill)).net,
+            "Morrell, with its pool": lambda fill: power_models.morrell(*size, density(fill), slurry, True).net,
+            "Bond, wet": lambda fill: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg"))}
+
+
+def rows_of(study: Study):
+    """Rows of the table: column -> text or number."""
+    yield {"mill": study.name, "coupling": "dry", "filling": 0.0, "drive, W": study.dry.value,
+           "drive, W ±": study.dry.error, "charge, W": study.dry.value, "charge, W ±": study.dry.error}
+    for run in study.runs:
+        row = {"mill": study.name, "coupling": WAYS[run.way], "filling": run.fill}
+        for key, name in POWERS.items():
+            one = run.numbers.quantities[key]
+            row |= {f"{name}, W": one.value, f"{name}, W ±": one.error}
+        row |= {"pool, share of the slurry": run.pooled, "force over weight": run.numbers.load, "steady": run.steady}
+        for key in READINGS:
+            one = run.numbers.quantities[key]
+            row |= {key: one.value, f"{key} ±": one.error}
+        yield row
+
+
+def lines_of(rows):
+    """The table as text, a block for each mill."""
+    heads = [f"{name}, W" for name in POWERS.values()]
+    for mill in dict.fromkeys(row["mill"] for row in rows):
+        yield f"{mill:<12}{'filling':>8}" + "".join(f"{head:>20}" for head in heads) + f"{'pool':>8}  flow is steady"
+        for row in (row for row in rows if row["mill"] == mill):
+            powers = "".join(f"{row[head]:12.4f} ± {row[f'{head} ±']:.4f}" if np.isfinite(row.get(head, np.nan))
+                             else f"{'–':>20}" for head in heads)
+            share = row.get("pool, share of the slurry")
+            yield (f"{row['coupling']:<12}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
+                   + f"  {row.get('steady', '')}")
+        yield ""
+
+
+def draw_power(studies):
+    """Figure with a panel for each mill: power of drive and charge over the filling, and the models."""
+    figure, axes = plt.subplots(1, len(studies), figsize=(6.4 * len(studies), 5), squeeze=False, layout="constrained")
+    fills = np.linspace(0, 1.5, 61)
+    for axis, study in zip(axes[0], studies):
+        axis.errorbar(0, study.dry.value, study.dry.error, fmt="ks", label="dry charge")
+        for way, marker, colour in (("one_way", "o", "#D55E00"), ("direct", "D", "#0072B2")):
+            runs = [run for run in study.runs if run.way == way]
+            for key, line, fill in (("drive_power", "-", "full"), ("charge_power", ":", "none")):
+                # Of a flow of fewer turns than three the power is not known
+                found = [(run.fill, one.value, one.error) for run in runs
+                         if np.isfinite((one := run.numbers.quantities[key]).value)]
+                if found:
+                    axis.errorbar(*zip(*found), ls=line, marker=marker, color=colour, fillstyle=fill, capsize=2,
+                                  label=f"{POWERS[key]}, {WAYS[way]}")
+        for (name, model), line in zip(models(study.mill).items(), ("-", "--", "-.", ":")):
+            try:
+                axis.plot(fills, [model(fill) for fill in fills], line, color="0.5", lw=1, label=name)
+            except ValueError as error:
+                print(f"{study.name}: {name}: {error}")
+        axis.set(xlabel="volume of slurry over that of the resting charge's pores", ylabel="power, W", ylim=(0, None),
+                 title=f"{study.mill.title}: {100 * study.mill.critical_share:.0f} % of critical")
+        axis.title.set_fontsize(9)
+        axis.grid(alpha=0.3)
+        axis.legend(fontsize=7, ncols=2)
+    return figure
+
+
+def draw_maps(studies):
+    """Figure with a row for each mill and a panel for each filling with direct coupling: solidity and slurry."""
+    most = max(sum(run.way == "direct" for run in study.runs) for study in studies)
+    figure, axes = plt.subplots(len(studies), max(most, 1), figsize=(2.9 * most + 1, 3.2 * len(studies)),
+                                squeeze=False, layout="constrained")
+    for line, study in zip(axes, studies):
+        for axis in line:
+            axis.set_axis_off()
+        for axis, run in zip(line, (run for run in study.runs if run.way == "direct")):
+            axis.set_axis_on()
+            charge = run.numbers.charge
+            mesh = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(charge.inside > 0, charge.solidity, np.nan),
+                                   vmin=0, vmax=0.65, cmap="YlOrBr")
+            x, y = (1e3 * at for at in run.slurry.centres())
+            axis.contour(x, y, np.nan_to_num(run.slurry.share), [HALF], colors="#0072B2")
+            draw_outline(axis, run.case.outline, run.case.radius, run.case.omega)
+            axis.set(title=f"{study.name}: filling {run.fill:g}", aspect="equal", xlabel="x, mm")
+            axis.title.set_fontsize(9)
+            figure.colorbar(mesh, ax=axis, label="solidity, –", shrink=0.7)
+    figure.suptitle("Solidity; blue: half slurry. Balls and slurry at the same time", fontsize=10)
+    return figure
+
+
+def main():
+    matplotlib.use("Agg")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", type=Path, help="folder with the folders of the mills")
+    parser.add_argument("mills", nargs="+", metavar="MILL")
+    options = parser.parse_args()
+    studies = [read_study(options.runs / mill) for mill in options.mills if (options.runs / mill).is_dir()]
+    if not studies:
+        parser.error(f"{options.runs}: none of {', '.join(options.mills)} is there; run Allrun without --read")
+    rows = [row for study in studies for row in rows_of(study)]
+    with open(HERE / "power_filling.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
+        writer.writeheader()
+        writer.writerows(rows)
+    lines = [*lines_of(rows), *(f"not complete: {study.name}/{text}" for study in studies for text in study.missing)]
+    (HERE / "power_filling.txt").write_text("\n".join(lines) + "\n")
+    print("\n".join(lines))
+    draw_power(studies).savefig(HERE / "power_filling.png", dpi=130)
+    draw_maps(studies).savefig(HERE / "power_filling_maps.png", dpi=130)
+
+
+if __name__ == "__main__":
+    main()
