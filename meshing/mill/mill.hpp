@@ -191,20 +191,27 @@ struct Coupling {
 /// "one_way", "iterated" or "direct".
 std::string name_of(CouplingKind kind);
 
+/// When a flow ends before its duration.
+struct SteadyEnd {
+  int turns = 0;                ///< of the mill, over which its slurry must be steady
+  std::optional<double> hours;  ///< of wall time, after which it ends anyway
+};
+
 /// How the slurry's flow is done.
 struct Flow {
-  std::string solver;           ///< slurryFoam, or interFoam with the balls as a source of momentum
-  double duration = 0;          ///< s
-  bool balls = true;            ///< false: the mill without its charge
-  std::string law;              ///< drag law, a name of the table in openfoam_module/drag
-  double multiplier = 1;        ///< on the drag
-  std::string viscosity;        ///< of the slurry that the drag feels: plastic or pore
-  std::string mixed_drag;       ///< of cells with slurry and air: weights or permeability
-  bool polydispersity = false;  ///< factor on the drag for a mixture of sizes
-  std::string out_of_range;     ///< beyond the recorded charge: error, hold or repeat
-  FlowStart start;              ///< slurry at time 0
-  double feed = 0;              ///< m^3/s, through the inlet
-  double max_courant = 0;       ///< limit of the time-step: largest Courant number
+  std::string solver;               ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;              ///< s; with a steady end, at most
+  std::optional<SteadyEnd> steady;  ///< the flow ends by itself
+  bool balls = true;                ///< false: the mill without its charge
+  std::string law;                  ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;            ///< on the drag
+  std::string viscosity;            ///< of the slurry that the drag feels: plastic or pore
+  std::string mixed_drag;           ///< of cells with slurry and air: weights or permeability
+  bool polydispersity = false;      ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;         ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;                  ///< slurry at time 0
+  double feed = 0;                  ///< m^3/s, through the inlet
+  double max_courant = 0;           ///< limit of the time-step: largest Courant number
   /// The same of cells at the slurry's surface.
   double max_surface_courant = 0;
   /// The same of cells with air alone.

@@ -23,6 +23,7 @@ constexpr double usual_voxels_of_radius = 4;
 constexpr double windows_per_turn = 20;
 constexpr double usual_flow_turns = 3;
 constexpr int usual_passes = 6;
+constexpr int usual_steady_turns = 6;
 constexpr double usual_relaxation = 0.7;
 constexpr double share_averaged = 2.0 / 3;
 constexpr double fields_per_turn = 24;
@@ -152,6 +153,24 @@ void read_duration(Section& in, const Mill& mill, Flow& flow) {
   }
 }
 
+std::optional<SteadyEnd> read_steady_end(const Section& flow_section, const Flow& flow, double turn) {
+  if (!flow_section.has("steady")) return std::nullopt;
+  const Section in = flow_section.section("steady", {"turns", "hours"});
+  // Half as many turns before them are the flow's start
+  const double fit = flow.duration / turn / 1.5 * (1 + 1e-9);
+  SteadyEnd end;
+  end.turns = in.integer("turns",
+                         {"an even whole number of turns from 4 to " + shown(std::floor(fit)) +
+                              ", two thirds of the flow's longest duration",
+                          [=](double v) { return v >= 4 && v <= fit && std::fmod(v, 2) == 0; }},
+                         usual_steady_turns);
+  if (in.has("hours"))
+    end.hours = in.number("hours", {"hours of wall time above 0", [](double v) { return v > 0; }});
+  if (flow.coupling.both_ways())
+    in.refuse("turns", "flow.coupling one_way: balls that feel the slurry run for a given time");
+  return end;
+}
+
 void read_drag(const Section& in, Flow& flow) {
   Section::Keys names;
   for (const drag::Law& law : drag::laws()) names.emplace_back(law.name);
@@ -230,11 +249,11 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
   const int along = std::max(1, static_cast<int>(std::lround(reach(mill.geometry) / layer)));
   FlowAverages averages;
   averages.voxels = read_voxels(in, mill.geometry, std::min(size, radius), along);
-  averages.start =
-      in.number("start",
-                {"a flow time in s of 0 or more and below the duration, " + shown(flow.duration) + " s",
-                 [&](double v) { return v >= 0 && v < flow.duration; }},
-                usual_averages_start(flow, mill.turn()));
+  const Rule begin = {
+      flow.steady ? "0, because with flow.steady the last turns are averaged"
+                  : "a flow time in s of 0 or more and below the duration, " + shown(flow.duration) + " s",
+      [&](double v) { return v == 0 || (!flow.steady && v > 0 && v < flow.duration); }};
+  averages.start = in.number("start", begin, flow.steady ? 0 : usual_averages_start(flow, mill.turn()));
   const double rest = flow.duration - averages.start;
   averages.window = in.number("window", part_of("time after flow.averages.start", rest),
                               std::min(mill.turn() / windows_per_turn, rest));
@@ -289,6 +308,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
                                               "out_of_range",
                                               "coupling",
                                               "passes",
+                                              "steady",
                                               "relaxation",
                                               "start",
                                               "feed",
@@ -308,6 +328,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   read_drag(in, flow);
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
   flow.coupling = read_coupling(in, flow);
+  flow.steady = read_steady_end(in, flow, mill.turn());
   flow.start = read_start(in, slurry, mill);
   check_room(in, flow, mill);
   const double feed = in.number(

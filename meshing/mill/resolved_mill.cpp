@@ -106,6 +106,11 @@ Json start_numbers(const FlowStart& start) {
   return {{"volume_m3", start.volume}, {"fill", start.fill}};
 }
 
+Json steady_numbers(const std::optional<SteadyEnd>& end) {
+  if (!end) return nullptr;
+  return {{"turns", end->turns}, {"hours", end->hours ? Json(*end->hours) : Json()}};
+}
+
 Json flow_numbers(const Mill& mill) {
   const Flow& flow = mill.flow;
   Json averages = voxel_numbers(flow.averages.voxels);
@@ -115,6 +120,7 @@ Json flow_numbers(const Mill& mill) {
   return {{"solver", flow.solver},
           {"duration_s", flow.duration},
           {"turns", flow.duration / mill.turn()},
+          {"steady", steady_numbers(flow.steady)},
           {"balls", flow.balls},
           {"law", flow.law},
           {"multiplier", flow.multiplier},

@@ -24,9 +24,10 @@ LIMITS = {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxAirCo": 3, "maxVoidageChange": 0.
 def case(**parts):
     """What checks read of a MillCase; steps: column -> values; limits: of the last start; files: name -> content."""
     steps, limits, files = (parts.pop(key, None) for key in ("steps", "limits", "files"))
+    feed = parts.pop("feed", 0.0)
     record = FlowRecord(steps, [(Path("flow.json"), {"limits": limits})] if limits else [])
     results = parts.get("results") or {}
-    mill = SimpleNamespace(fingerprint={})
+    mill = SimpleNamespace(fingerprint={}, flow=lambda key, default=None: {"feed_m3_s": feed}.get(key, default))
     return SimpleNamespace(**{"begin": 2.0, "radius": 0.15, "turn": 9.0, "mill": mill, "unusable": [], "results": None,
                               "averages": None,
                               "solids": None, "slurry": None, "flow": None, "law": None, "balance": None,
@@ -100,6 +101,17 @@ class Flow(Verdicts):
         self.check(checks.flow_steadiness(case(balance={"Time": time, "holdUp": 1 + time, "x": time, "y": time})),
                    "unknown")
         self.check(checks.flow_steadiness(case()), "unknown")
+
+    def test_a_discharge_that_is_not_the_feed(self):
+        time = np.linspace(0, 30, 3001)
+        of_turns = np.random.default_rng(3).normal(0, 1, 10)
+        noise = np.append(np.repeat(of_turns - of_turns.mean(), 300), 0)
+        for gap, wobble, state in ((0.01, 0, "holds"), (0.03, 0, "look"), (-0.03, 0, "look"), (0.2, 0, "fails"),
+                                   (0.03, 0.3, "holds")):
+            rate = 1e-5 * (1 - gap + wobble * noise)
+            columns = {"Time": time, "holdUp": 1e-3 + 0 * time, "x": 0 * time, "y": 0 * time, "fed": 1e-5 * time,
+                       "discharged": np.cumsum(rate) * 0.01, "discharge": rate}
+            self.check(checks.flow_steadiness(case(balance=columns, feed=1e-5, turn=3.0)), state)
 
     def turns(self, count, part=0.0, drift=0.0, wobble=0.0, turn=1.0):
         """flow_steadiness of a hold-up of 1 l over so many turns and a part of one, that drifts by a share of itself

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import matplotlib
 
+from ..files.data_files import write_json
 from ..files.mill import read_mill
 from ..files.slurry_file import read_ball_forces
 from . import ball_forces, passes, table, together
@@ -47,7 +48,7 @@ def judge(case: Path, count: int) -> None:
     means = {key: [one.quantities[key] for one in found] for key in passes.QUANTITIES}
     table.passes_figure([one.number for one in found], means).savefig(case / "coupling.png", dpi=140)
     content = table.result(mill, found, changes, settled, int(mill.flow("passes") or 0))
-    table.write_json(case / "coupling.json", content)
+    write_json(case / "coupling.json", content)
     print("\n".join(table.lines(found, changes)))
     if settled:
         print("settled: in the last two passes nothing changed by more than its statistical error")
@@ -73,7 +74,7 @@ def judge_direct(case: Path) -> None:
     folder = case / "direct"
     found = passes.read_pass(2, folder)
     exchanged = passes.exchanged_forces(folder)
-    table.write_json(case / "coupling.json", table.direct_result(read_mill(folder), found, exchanged))
+    write_json(case / "coupling.json", table.direct_result(read_mill(folder), found, exchanged))
     print(f"mean force of the flow on the balls: {exchanged.given:.4g} N by the flow, {exchanged.taken:.4g} N by the "
           f"balls; they differ by {exchanged.disagreement:.2%}")
 

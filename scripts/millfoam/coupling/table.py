@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Table, file of results and picture of the passes of a coupled mill."""
 import csv
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -61,12 +60,6 @@ def direct_result(mill: Mill, one: Pass, exchanged: Exchanged) -> dict[str, Any]
             "coupling": "direct", "folders": [".", one.folder.name], "force_over_weight": known(one.load),
             "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
             "force_disagreement": known(exchanged.disagreement)}
-
-
-def write_json(path: Path, content: dict[str, Any]) -> None:
-    part = path.with_name(path.name + ".part")
-    part.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-    part.replace(path)
 
 
 def lines(passes: Sequence[Pass], changes: Sequence[Change]) -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the stages' files of numbers: JSON with a format's name, and CSV with a unit in each column's name."""
+"""The stages' files of numbers: JSON with a format's name, and CSV with a unit in each column's name."""
 import json
 import math
 from pathlib import Path
@@ -35,6 +35,13 @@ def read_json(path: Path | str, kind: str) -> dict[str, Any]:
     if found != f"millfoam-{kind}":
         raise DataError(f"{path}: format {found!r}; expected 'millfoam-{kind}'")
     return content
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Writes a JSON file, under another name until it is whole."""
+    part = path.with_name(path.name + ".part")
+    part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    part.replace(path)
 
 
 def entry(content: Any, path: Path | str, *keys: str) -> Any:

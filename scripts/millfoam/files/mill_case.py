@@ -261,8 +261,16 @@ class MillCase:
         return self.flow.frames[-1][0]
 
     @cached_property
+    def own_end(self) -> dict[str, Any] | None:
+        """steady.json of a flow that ended by itself."""
+        found = self.json(self.folder / "steady.json", "steady")
+        return found if found and found["mill"]["flow"] == self.mill.fingerprint["flow"] else None
+
+    @cached_property
     def duration(self) -> float:
-        """Duration of the flow by the mill, s; NaN if the mill has none."""
+        """Duration of the flow by the mill, or by its own end, s; NaN if the mill has none."""
+        if self.own_end:
+            return number(self.own_end, self.folder / "steady.json", "end_s")
         return float(self.mill.flow("duration_s") or np.nan)
 
     @cached_property
@@ -276,6 +284,8 @@ class MillCase:
         half of its time."""
         if self.asked_begin is not None:
             return self.asked_begin
+        if self.own_end:
+            return number(self.own_end, self.folder / "steady.json", "begin_s")
         start = self.mill.flow("averages_start_s")
         if start is None:
             return self.last / 2

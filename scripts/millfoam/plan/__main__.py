@@ -6,14 +6,13 @@
 FOLDER contains mill.json. Prints a table and writes FOLDER/plan.json. scripts/README.md, "What it will cost", says what
 is measured here and what is calibrated on earlier runs."""
 import argparse
-import json
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ..files.data_files import DataError
+from ..files.data_files import DataError, write_json
 from ..files.mill import Mill, NoMill, read_mill
 from ..run import RunError
 from .stages import FlowPlan, Stage, make_stages, total
@@ -57,9 +56,7 @@ def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: S
                "flow_steps": plan.steps, "flow_time_step_s": plan.time_step, "written_times": plan.written_times,
                "stages": [{"stage": one.name, **numbers(one), "from": one.source} for one in stages],
                "total": numbers(total(stages))}
-    part = path.with_name(path.name + ".part")
-    part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n")
-    os.replace(part, path)
+    write_json(path, content)
 
 
 def main() -> None:

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the averaged flow drifts: its second half compared with its first."""
+"""Whether the averaged flow drifts: its second half compared with its first, and its discharge with its feed."""
 import numpy as np
 
 from ..files.mill_case import MillCase
-from ..readings.batches import batch_means, batches_of
+from ..readings.batches import batch_means, batches_of, error_over_turns
 from .verdict import Check, judged
 from .words import decimals
 
+NAME = "The flow is steady"
+GAP = 0.02  # of the feed that may stay in the mill
 DRIFT = 3.0  # standard errors between the two halves of the averages
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
 
@@ -40,21 +42,43 @@ def difference_with_error(value: float, error: float) -> str:
     return f"{value:+.{digits}f} ± {error:.{digits}f}"
 
 
-def flow_steadiness(case: MillCase) -> Check:
-    """Whether hold-up and centre of the slurry agree between the two halves of the averaged time."""
-    name = "The flow is steady"
-    columns = case.balance
-    if columns is None or (columns["Time"] >= case.begin).sum() < 20:
-        return Check(name, "unknown", "the time series of slurryBalance is missing or too short",
-                     "Add slurryBalance to controlDict, or run longer.")
+def discharge_gap(columns: dict[str, np.ndarray], begin: float, turn: float) -> tuple[float, float]:
+    """Slurry that does not leave, over the feed, from `begin` (s) on, and its standard error over whole turns."""
+    times = columns["Time"]
+    late = times >= begin
+    fed, gone = (columns[key][late][-1] - columns[key][late][0] for key in ("fed", "discharged"))
+    rate = fed / (times[late][-1] - times[late][0])
+    return 1 - gone / fed, error_over_turns(times, columns["discharge"], begin, turn) / rate
+
+
+def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float) -> Check:
+    """Whether hold-up and centre of the slurry agree between the two halves of the time from `begin` (s) on, and
+    whether, with a feed (m3/s), as much slurry leaves as enters. columns: of slurryBalance; turn: of the mill, its time
+    in s; radius: of the mill, m."""
     drifts, words = [], []
     for key, unit, scale in (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)):
-        difference, error = halves(columns["Time"], columns[key], case.begin, case.turn)
+        difference, error = halves(columns["Time"], columns[key], begin, turn)
         # A drift below 1 % of the hold-up or of the radius does not matter
-        floor = 0.01 * (columns[key].mean() if key == "holdUp" else case.radius)
+        floor = 0.01 * (columns[key].mean() if key == "holdUp" else radius)
         drifts.append(abs(difference) / np.maximum(error * DRIFT, floor))
         words.append(f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}")
-    turns = (columns["Time"][-1] - case.begin) / case.turn
-    return judged(name, np.max(drifts), 1, f"from {case.begin:g} s on ({turns:.2g} turns), second half minus first: "
-                  + ", ".join(words) + f" (limit {DRIFT:g} standard errors, or 1 % of the hold-up and of the radius)",
+    limits = f"limit {DRIFT:g} standard errors, or 1 % of the hold-up and of the radius"
+    gap = ""
+    if feed > 0:
+        share, error = discharge_gap(columns, begin, turn)
+        drifts.append(abs(share) / np.fmax(error * DRIFT, GAP))
+        gap = f"; {difference_with_error(100 * share, 100 * error)} % of the feed stays"
+        limits += f", or {100 * GAP:g} % of the feed"
+    turns = (columns["Time"][-1] - begin) / turn
+    return judged(NAME, np.max(drifts), 1, f"from {begin:g} s on ({turns:.2g} turns), second half minus first: "
+                  + ", ".join(words) + f"{gap} ({limits})",
                   "Run longer (flow.duration), or begin the averages later (--begin).", doubtful=2)
+
+
+def flow_steadiness(case: MillCase) -> Check:
+    """judge_steadiness of the averaged time of a MillCase."""
+    columns = case.balance
+    if columns is None or (columns["Time"] >= case.begin).sum() < 20:
+        return Check(NAME, "unknown", "the time series of slurryBalance is missing or too short",
+                     "Add slurryBalance to controlDict, or run longer.")
+    return judge_steadiness(columns, case.begin, case.turn, case.radius, case.mill.flow("feed_m3_s", 0.0))

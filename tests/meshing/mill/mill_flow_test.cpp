@@ -147,6 +147,38 @@ TEST(Flow, only_balls_in_slurryFoam_can_be_coupled_both_ways) {
   EXPECT_NE(refusal_of(text, {"flow.relaxation=0"}).find("a share above 0 and up to 1"), std::string::npos);
 }
 
+TEST(Flow, ends_by_itself_if_it_is_asked_for) {
+  EXPECT_FALSE(mill_of(bare_mill).flow.steady);
+  const Flow flow = mill_of(bare_mill + "flow: {turns: 20, steady: {hours: 2.5}}\n").flow;
+  ASSERT_TRUE(flow.steady);
+  EXPECT_EQ(flow.steady->turns, 6);
+  EXPECT_EQ(flow.steady->hours, 2.5);
+  EXPECT_EQ(flow.averages.start, 0);
+}
+
+TEST(Flow, a_steady_end_is_judged_over_whole_halves_within_its_duration) {
+  const std::string text = bare_mill + "flow: {turns: 12, steady: {turns: 8}}\n";
+  EXPECT_EQ(mill_of(text).flow.steady->turns, 8);
+  for (const char* turns : {"10", "5", "2"})
+    EXPECT_NE(
+        refusal_of(text, {std::string("flow.steady.turns=") + turns})
+            .find("an even whole number of turns from 4 to 8, two thirds of the flow's longest duration"),
+        std::string::npos)
+        << turns;
+  EXPECT_NE(refusal_of(text, {"flow.coupling=direct"}).find("expected flow.coupling one_way"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.averages.start=1"})
+                .find("expected 0, because with flow.steady the last turns are averaged"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.steady.hours=0"}).find("hours of wall time above 0"), std::string::npos);
+}
+
+TEST(Flow, more_hours_leave_a_flow_as_it_is) {
+  const std::string text = bare_mill + "flow: {turns: 10, steady: {hours: 1}}\n";
+  EXPECT_EQ(mill_of(text).fingerprint.flow, mill_of(text, {"flow.steady.hours=2"}).fingerprint.flow);
+  EXPECT_NE(mill_of(text).fingerprint.flow, mill_of(text, {"flow.steady.turns=4"}).fingerprint.flow);
+}
+
 TEST(Flow, change_of_the_voidage_and_air_limit_steps_of_slurryFoam_only) {
   const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
   EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""When a flow with flow.steady ends: at which times it is judged, and for which reason it ends."""
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.files.data_files import read_json
+from millfoam.files.mill import SECTIONS, Mill
+from millfoam.steady import End, main, next_time
+
+TURN, FEED = 2.0, 1e-5  # s, m3/s
+HEAD = "# Time_s\tholdUp_m3\tx_m\ty_m\tfed_m3\tdischarged_m3\tdischarge_m3/s\n"
+
+
+def mill(turns=4, hours=None, duration=40.0, feed=0.0):
+    """A mill whose flow ends by itself."""
+    sections = dict.fromkeys(SECTIONS, {})
+    return Mill(Path("mill.json"), {
+        "mill": sections, "derived": {
+            **sections, "geometry": {"radius_m": 0.1},
+            "speed": {"angular_velocity_rad_s": -2 * np.pi / TURN, "turn_s": TURN},
+            "flow": {"steady": {"turns": turns, "hours": hours}, "duration_s": duration, "feed_m3_s": feed}},
+        "fingerprint": {"flow": "ab"}, "program": "millMesh 1"})
+
+
+def balance(end, drift=0.0, feed=0.0, leaves=1.0):
+    """Columns of a hold-up of 1 l that drifts by a share of itself in a turn; leaves: discharge over feed."""
+    time = np.arange(0, end + 1e-9, 0.01)
+    noise = np.random.default_rng(3).normal(0, 1, (3, len(time)))
+    return {"Time": time, "holdUp": 1e-3 * (1 + drift * time / TURN + 1e-4 * noise[0]), "x": 1e-5 * noise[1],
+            "y": 1e-5 * noise[2], "fed": feed * time, "discharged": leaves * feed * time,
+            "discharge": np.full_like(time, leaves * feed)}
+
+
+class NextTime(unittest.TestCase):
+    def test_a_flow_first_runs_its_start_and_as_many_turns_as_are_judged(self):
+        self.assertEqual(next_time(mill(), None, 0), 12)
+        self.assertEqual(next_time(mill(), balance(9.0), 0), 12)
+        self.assertEqual(next_time(mill(duration=10), None, 0), 10)
+
+    def test_a_steady_flow_ends_with_its_last_turns(self):
+        found = next_time(mill(), balance(16.0), 0)
+        self.assertEqual((found.reason, found.begin, found.end), ("steady", 8.0, 16.0))
+        self.assertIn("from 8 s on (4 turns)", found.found)
+
+    def test_one_that_drifts_continues_by_half_of_them(self):
+        self.assertEqual(next_time(mill(), balance(12.0, drift=0.05), 0), 16)
+        self.assertEqual(next_time(mill(duration=13), balance(12.0, drift=0.05), 0), 13)
+
+    def test_it_ends_at_its_duration_and_after_its_hours(self):
+        self.assertEqual(next_time(mill(duration=12), balance(12.0, drift=0.05), 0).reason, "duration")
+        self.assertEqual(next_time(mill(hours=2), balance(12.0, drift=0.05), 2.5).reason, "hours")
+        self.assertEqual(next_time(mill(hours=2), balance(12.0, drift=0.05), 1.5), 16)
+
+    def test_discharge_must_be_the_feed(self):
+        for leaves, ends in ((1.0, True), (0.99, True), (0.9, False), (1.1, False)):
+            found = next_time(mill(feed=FEED), balance(12.0, feed=FEED, leaves=leaves), 0)
+            self.assertEqual(isinstance(found, End), ends, leaves)
+
+
+class Command(unittest.TestCase):
+    def test_writes_why_it_ends_and_where_the_averages_begin(self):
+        case = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (case / "mill.json").write_text(json.dumps({"format": "millfoam-mill", **mill().content}))
+        table = case / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
+        table.parent.mkdir(parents=True)
+        columns = balance(12.0)
+        with open(table, "w") as file:
+            file.write(HEAD)
+            np.savetxt(file, np.column_stack([columns[name] for name in (
+                "Time", "holdUp", "x", "y", "fed", "discharged", "discharge")]), "%.15g", "\t")
+        main(case)
+        found = read_json(case / "steady.json", "steady")
+        self.assertEqual((found["reason"], found["begin_s"], found["end_s"]), ("steady", 4, 12))
+        self.assertEqual(found["mill"], {"flow": "ab"})
+
+
+if __name__ == "__main__":
+    unittest.main()
