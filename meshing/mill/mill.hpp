@@ -35,6 +35,8 @@ struct Grates {
   int sectors = 0;           ///< number of them around the axis
   double sector_share = 1;   ///< share of each sector's angle that is grate
   double open_fraction = 1;  ///< share of holes in the grate's area
+  double pegged = 0;         ///< share of the holes that are plugged
+  double open() const { return open_fraction * (1 - pegged); }  ///< share of open holes in the grate's area
 };
 
 /// Compartments behind the grates, one for each of their sectors.

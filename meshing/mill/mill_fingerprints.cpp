@@ -63,6 +63,10 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   // Names of materials mean numbers
   const Json materials = materials_numbers(mill);
   Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
+  // Balls and mesh do not depend on the grates' holes
+  Json& geometry = of["geometry"];
+  if (geometry.contains("grates") && geometry["grates"].is_object())
+    for (const char* key : {"open_fraction", "pegged"}) geometry["grates"].erase(key);
   of["resolution"].erase("layers");
   MillFingerprints result;
   result.walls = fingerprint(of.dump());

@@ -127,6 +127,12 @@ Grates read_grates(const Section& in, double room) {
                                    {"a share of holes from " + shown(least_open) + " to 1",
                                     [](double v) { return v >= least_open && v <= 1; }},
                                    1);
+  const double most = 1 - least_open / grates.open_fraction;
+  grates.pegged = in.number("pegged",
+                            {"a share of the holes of 0 or more and up to " + shown(most) +
+                                 ", which leaves " + shown(least_open) + " of the grates' area open",
+                             [=](double v) { return v >= 0 && v <= most; }},
+                            0);
   return grates;
 }
 
@@ -151,9 +157,9 @@ void read_openings(const Section& in, Geometry& geometry) {
   const double room = geometry.radius() - geometry.lifters.height;
   if (in.has("inlet")) geometry.inlet = read_inlet(in.section("inlet", {"area", "radius"}), room);
   if (in.has("grates")) {
-    geometry.grates = read_grates(
-        in.section("grates", {"inner_radius", "outer_radius", "sectors", "sector_share", "open_fraction"}),
-        room);
+    geometry.grates = read_grates(in.section("grates", {"inner_radius", "outer_radius", "sectors",
+                                                        "sector_share", "open_fraction", "pegged"}),
+                                  room);
   }
   if (in.has("pulp_lifters")) {
     if (!geometry.grates) in.refuse("pulp_lifters", "this key with the key grates only");

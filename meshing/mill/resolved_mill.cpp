@@ -46,7 +46,8 @@ Json geometry_numbers(const Mill& mill) {
                          {"outer_radius_m", geometry.grates->outer_radius},
                          {"sectors", geometry.grates->sectors},
                          {"sector_share", geometry.grates->sector_share},
-                         {"open_fraction", geometry.grates->open_fraction}};
+                         {"open_fraction", geometry.grates->open_fraction},
+                         {"pegged", geometry.grates->pegged}};
   if (geometry.pulp_lifters)
     numbers["pulp_lifters"] = {{"depth_m", geometry.pulp_lifters->depth},
                                {"layers", geometry.pulp_lifters->layers},

@@ -70,7 +70,7 @@ void write_openings(Entries& out, const Mill& mill, const Openings& openings) {
     out.number("grateInnerRadius", geometry.grates->inner_radius);
     out.number("grateOuterRadius", geometry.grates->outer_radius);
     out.number("grateArea", openings.grate_area);
-    out.number("grateOpenFraction", geometry.grates->open_fraction);
+    out.number("grateOpenFraction", geometry.grates->open());
     out.number("grateLayerThickness", geometry.pulp_lifters
                                           ? geometry.pulp_lifters->depth / geometry.pulp_lifters->layers
                                           : geometry.length / mill.resolution.layers);

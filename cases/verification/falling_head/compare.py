@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slurry falls through a bed in a column: its surface compared with the equations of a rigid column.
+"""Slurry falls through a bed or a grate in a column: its surface compared with the equations of a rigid column.
 
 With superficial speed U and surface at z, both fluids in the column move as one:
 
     M dU/dt = G(z) - f(U) - b,   dz/dt = -U/e at the surface
 
-M is the inertia (density times length over voidage), G gravity's and the ends' pressure, f the drag law's, b the
-difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U this is, above the
-bed, an exponential of the head with the time K L/((rho - rho_air) g): of the level above the tailwater's, or, where the
-bed drains freely at its lower end, of h + L. Exit code 1 if a run exceeds the tolerance."""
+M is the inertia (density times length over voidage), G gravity's and the ends' pressure, f the drag law's or the
+grate's, b the difference of rho u^2/2 between the ends. With Darcy's law, a slow column and the drag's gradient K U
+this is, above the bed, an exponential of the head with the time K L/((rho - rho_air) g): of the level above the
+tailwater's, or, where the bed drains freely at its lower end, of h + L. A grate with the loss coefficient K, much above
+1, lets through sqrt(2 g h/K) of the head h: sqrt(h) falls by a straight line to the time sqrt(2 K h/g). Exit code 1 if
+a run exceeds the tolerance."""
 import shutil
 import sys
 from dataclasses import dataclass
@@ -32,7 +34,8 @@ SLURRY, AIR = 1000.0, 1.2  # kg/m3
 SLURRY_NU, AIR_NU = 1e-6, 1.5e-5  # m2/s
 HEIGHT, LAYERS, START = 0.5, 200, 0.45  # of the column, m; surface at the start, m
 TOLERANCE = 0.01  # of the first head; of the exponential's time, relative
-HEAD_LEFT = 0.1  # share of the first head down to which an exponential is fitted
+HEAD_LEFT = 0.1  # share of the first head down to which a closed form is fitted
+GRATES = Path(__file__).resolve().parents[3] / "scripts" / "mill_case" / "constant" / "grateProperties"
 
 
 @dataclass
@@ -48,26 +51,58 @@ class Column:
     tailwater: float
     end: float  # s
     largest_step: float  # s
+    open_fraction: float = 0.0  # of a grate
+    pegged: float = 0.0  # share of its holes
 
     @property
     def voidage(self):
         return 1 - self.solidity
 
+    @property
+    def is_grate(self):
+        return self.law == "grate"
+
+    @property
+    def loss(self):
+        """Loss coefficient K of the grate: Idelchik, diagram 8-1, sharp-edged holes."""
+        open_share = self.open_fraction * (1 - self.pegged)
+        return ((0.707 * np.sqrt(1 - open_share) + 1 - open_share) / open_share)**2
+
+    @property
+    def discharge_coefficient(self):
+        """Discharge of the grate over that of a lossless jet through its open holes."""
+        return 1 / (self.open_fraction * (1 - self.pegged) * np.sqrt(self.loss))
+
     def gradient(self, speed, density, nu):
-        """Pressure gradient (Pa/m) of the bed at a superficial speed (m/s): Ergun 1952, or its viscous part."""
+        """Pressure gradient (Pa/m) at a superficial speed (m/s), of the bed by Ergun 1952 or its viscous part, or of
+        the grate."""
+        if self.is_grate:
+            return self.loss / (self.top - self.bottom) * density * speed * abs(speed) / 2
         viscous = 150 * density * nu * self.solidity**2 / (self.voidage**3 * self.diameter**2) * speed
         inertial = 1.75 * density * self.solidity / (self.voidage**3 * self.diameter) * speed * abs(speed)
         return viscous + (inertial if self.law == "Ergun" else 0)
 
     @property
+    def has_closed_form(self):
+        return self.law != "Ergun"
+
+    @property
     def time_constant(self):
-        """Time of the exponential, s; Darcy's law only."""
+        """Time of the exponential, or at which the head above a grate is 0, s."""
+        if self.is_grate:
+            return np.sqrt(2 * self.loss * self.head / GRAVITY)
         return self.gradient(1.0, SLURRY, SLURRY_NU) * (self.top - self.bottom) / ((SLURRY - AIR) * GRAVITY)
 
     @property
     def head(self):
         """Head at the start, m."""
         return START - self.tailwater
+
+    def closed_form(self, time):
+        """Heads at times (s), m."""
+        if self.is_grate:
+            return self.head * np.maximum(1 - time / self.time_constant, 0)**2
+        return self.head * np.exp(-time / self.time_constant)
 
     def in_bed(self, z):
         return self.bottom < z < self.top
@@ -98,6 +133,8 @@ COLUMNS = [
     Column("tailwater", "Darcy", 0.6, 1e-3, 0.05, 0.15, 0.25, 20.0, 0.02),
     Column("draining", "Darcy", 0.6, 1e-3, 0.0, 0.1, 0.0, 16.0, 0.02),
     Column("Ergun", "Ergun", 0.5, 0.02, 0.05, 0.15, 0.0, 0.75, 1.5e-3),
+    Column("grate", "grate", 0.0, 0.02, 0.0, 0.005, 0.0, 4.4, 5e-3, 0.1),
+    Column("pegged", "grate", 0.0, 0.02, 0.0, 0.005, 0.0, 9.0, 1e-2, 0.1, 0.5),
 ]
 
 
@@ -118,27 +155,29 @@ class Fall:
         return np.abs(self.z - self.expected).max() / self.column.head
 
     @property
-    def exponential(self):
+    def late(self):
         """Times at which the surface is above the bed and more than HEAD_LEFT of the head is left."""
         return (self.z > self.column.top) & (self.z - self.column.tailwater > HEAD_LEFT * self.column.head)
 
     @property
     def fitted_time(self):
-        """Time of an exponential fitted to the heads, s."""
-        head = (self.z - self.column.tailwater)[self.exponential]
-        return -1 / np.polyfit(self.time[self.exponential], np.log(head), 1)[0]
+        """Time of the closed form fitted to the heads, s."""
+        time, head = self.time[self.late], (self.z - self.column.tailwater)[self.late]
+        if self.column.is_grate:
+            return -np.sqrt(self.column.head) / np.polyfit(time, np.sqrt(head), 1)[0]
+        return -1 / np.polyfit(time, np.log(head), 1)[0]
 
     @property
-    def exponential_error(self):
-        """Largest difference from the exponential, over the first head."""
-        expected = self.column.head * np.exp(-self.time / self.column.time_constant)
-        return np.abs(self.z - self.column.tailwater - expected)[self.exponential].max() / self.column.head
+    def closed_error(self):
+        """Largest difference from the closed form, over the first head."""
+        expected = self.column.closed_form(self.time)
+        return np.abs(self.z - self.column.tailwater - expected)[self.late].max() / self.column.head
 
     @property
     def errors(self):
         found = [self.error]
-        if self.column.law == "Darcy":
-            found += [self.exponential_error, abs(self.fitted_time / self.column.time_constant - 1)]
+        if self.column.has_closed_form:
+            found += [self.closed_error, abs(self.fitted_time / self.column.time_constant - 1)]
         return found
 
     def misses(self):
@@ -162,6 +201,15 @@ def run(column, case, template):
         writeInterval=column.end / 40)
     write_surface(case)
     run_program(case, "blockMesh")
+    if column.is_grate:
+        # The dictionary of a mill's case, with what it reads of the mill
+        (case / "constant" / "bedProperties").unlink()
+        shutil.copy(GRATES, case / "constant")
+        (case / "constant" / "millProperties").write_text(
+            "FoamFile { version 2; format ascii; class dictionary; object millProperties; }\n"
+            f"grates yes; grateOpenFraction {column.open_fraction * (1 - column.pegged)!r};"
+            f" grateLayerThickness {column.top - column.bottom!r}; slurryStart {{}} slurryVoxels {{}}\n")
+        run_program(case, "topoSet")
     run_program(case, "slurryFoam")
     rows = [(0.0, START)]
     for time, folder in foam.times(case)[1:]:
@@ -170,35 +218,37 @@ def run(column, case, template):
 
 
 def print_table(falls, out):
-    lines = [f"{'column':<10} {'law':<6} {'first head m':>12} {'off quadrature %':>16} {'off exponential %':>17} "
+    lines = [f"{'column':<10} {'law':<6} {'first head m':>12} {'off quadrature %':>16} {'off closed form %':>17} "
              f"{'time found s':>12} {'expected s':>10} {'error %':>8}"]
     for fall in falls:
         column = fall.column
         line = f"{column.name:<10} {column.law:<6} {column.head:12.3f} {100 * fall.error:16.4f}"
-        if column.law == "Darcy":
-            line += (f" {100 * fall.exponential_error:17.4f} {fall.fitted_time:12.5f} {column.time_constant:10.5f} "
+        if column.has_closed_form:
+            line += (f" {100 * fall.closed_error:17.4f} {fall.fitted_time:12.5f} {column.time_constant:10.5f} "
                      f"{100 * (fall.fitted_time / column.time_constant - 1):8.4f}")
         lines.append(line + ("  MISSED" if fall.misses() else ""))
-    lines.append(f"tolerance {100 * TOLERANCE:g} %: of the first head, and of the exponential's time, fitted down to "
+    lines.append(f"tolerance {100 * TOLERANCE:g} %: of the first head, and of the closed form's time, fitted down to "
                  f"{100 * HEAD_LEFT:g} % of the first head above the bed")
+    lines += [f"{column.name}: K = {column.loss:.1f}, discharge coefficient of the open holes "
+              f"{column.discharge_coefficient:.3f}" for column in COLUMNS if column.is_grate]
     print("\n".join(lines))
     out.write_text("\n".join(lines) + "\n")
 
 
 def plot(falls, out):
-    figure, axes = plt.subplots(2, len(falls), figsize=(14, 7), sharex="col", height_ratios=(2, 1),
+    figure, axes = plt.subplots(2, len(falls), figsize=(4.4 * len(falls), 7), sharex="col", height_ratios=(2, 1),
                                 constrained_layout=True)
     for fall, (levels, errors) in zip(falls, axes.T):
         column = fall.column
         time = np.linspace(0, column.end, 400)
-        levels.axhspan(column.bottom, column.top, color="tan", alpha=0.6, label="bed")
+        levels.axhspan(column.bottom, column.top, color="tan", alpha=0.6, label="grate" if column.is_grate else "bed")
         levels.plot(time, column.levels(time), "k-", label="quadrature")
-        if column.law == "Darcy":
-            levels.plot(time, column.tailwater + column.head * np.exp(-time / column.time_constant), "r--",
-                        label="exponential")
+        if column.has_closed_form:
+            levels.plot(time, column.tailwater + column.closed_form(time), "r--", label="closed form")
             levels.axhline(column.tailwater, color="b", ls=":", lw=1, label="tailwater")
         levels.plot(fall.time, fall.z, "o", ms=3, mfc="none", label="slurryFoam")
-        levels.set(title=f"{column.name}: {column.law}'s law", ylabel="surface, m")
+        levels.set(title=f"{column.name}, K = {column.loss:.0f}" if column.is_grate
+                   else f"{column.name}: {column.law}'s law", ylabel="surface, m")
         levels.legend(fontsize=8)
         errors.plot(fall.time, 100 * (fall.z - fall.expected) / column.head, "k.-")
         errors.axhspan(-100 * TOLERANCE, 100 * TOLERANCE, color="0.9")

@@ -27,13 +27,17 @@ Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
             << " (topoSet makes them before the flow begins)"
             << exit(FatalIOError);
     }
-    if (!(result.darcy >= 0 && result.forchheimer >= 0 &&
-          result.darcy + result.forchheimer > 0))
+    if (!dict.found("darcy") && !dict.found("forchheimer"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "neither darcy nor forchheimer is given; expected one of them"
+            << exit(FatalIOError);
+    }
+    if (!(result.darcy >= 0 && result.forchheimer >= 0))
     {
         FatalIOErrorInFunction(dict)
             << "darcy is " << result.darcy << " 1/m2 and forchheimer "
-            << result.forchheimer
-            << " 1/m; expected both 0 or above, and one above 0"
+            << result.forchheimer << " 1/m; expected both 0 or above"
             << exit(FatalIOError);
     }
     return result;

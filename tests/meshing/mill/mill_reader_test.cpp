@@ -226,9 +226,24 @@ TEST(ReadMill, takes_grates_that_are_whole_rings_unless_their_share_is_given) {
   EXPECT_EQ(mill.geometry.grates->sectors, 6);
   EXPECT_EQ(mill.geometry.grates->sector_share, 1);
   EXPECT_EQ(mill.geometry.grates->open_fraction, 1);
+  EXPECT_EQ(mill.geometry.grates->pegged, 0);
   EXPECT_EQ(mill.geometry.pulp_lifters->depth, 0.01);
   EXPECT_EQ(mill.geometry.pulp_lifters->layers, 2);
   EXPECT_EQ(mill.geometry.pulp_lifters->discharge_radius, 0.02);
+}
+
+TEST(ReadMill, holes_of_grates_may_be_plugged_without_other_balls_or_mesh) {
+  const auto pegged = [](const std::string& holes) {
+    return read(with(with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "speed:"), "sectors: 6",
+                     "sectors: 6, open_fraction: " + holes));
+  };
+  const Mill clean = pegged("0.4"), plugged = pegged("0.4, pegged: 0.25");
+  EXPECT_DOUBLE_EQ(clean.geometry.grates->open(), 0.4);
+  EXPECT_DOUBLE_EQ(plugged.geometry.grates->open(), 0.3);
+  EXPECT_EQ(clean.fingerprint.walls, plugged.fingerprint.walls);
+  EXPECT_EQ(clean.fingerprint.charge, plugged.fingerprint.charge);
+  EXPECT_NE(clean.fingerprint.flow, plugged.fingerprint.flow);
+  EXPECT_EQ(clean.fingerprint.walls, pegged("0.5").fingerprint.walls);
 }
 
 TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
@@ -260,6 +275,8 @@ TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
   refused("sectors: 6", "sectors: 0", "'geometry.grates.sectors' = 0: expected a whole number of sectors");
   refused("sectors: 6", "sectors: 6, sector_share: 1.1", "'geometry.grates.sector_share' = 1.1");
   refused("sectors: 6", "sectors: 6, open_fraction: 0", "'geometry.grates.open_fraction' = 0");
+  refused("sectors: 6", "sectors: 6, open_fraction: 0.1, pegged: 0.995",
+          "'geometry.grates.pegged' = 0.995: expected a share of the holes of 0 or more and up to 0.99");
   refused("layers: 2", "layers: 1",
           "'geometry.pulp_lifters.layers' = 1: expected a whole number of layers from 2");
   refused("discharge_radius: 0.02", "discharge_radius: 0.031",
