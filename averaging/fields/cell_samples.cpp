@@ -27,7 +27,7 @@ constexpr int most_divisions = 10;
 
 /// Divisions of a cell's tetrahedra for its length in voxels, 0 for a cell that is not divided.
 int divisions_of(double length) {
-  return length <= tolerance ? 0 : static_cast<int>(std::ceil(length / reach));
+  return length <= tolerance ? 0 : static_cast<int>(std::ceil(length / reach * (1 - 1e-6)));
 }
 
 /// Length of a cell over a voxel's, the larger one of that across z, at any angle about z, and that along z.

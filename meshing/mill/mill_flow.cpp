@@ -156,18 +156,25 @@ void read_duration(Section& in, const Mill& mill, Flow& flow) {
 std::optional<SteadyEnd> read_steady_end(const Section& flow_section, const Flow& flow, double turn) {
   if (!flow_section.has("steady")) return std::nullopt;
   const Section in = flow_section.section("steady", {"turns", "hours"});
-  // Half as many turns before them are the flow's start
-  const double fit = flow.duration / turn / 1.5 * (1 + 1e-9);
   SteadyEnd end;
   end.turns = in.integer("turns",
-                         {"an even whole number of turns from 4 to " + shown(std::floor(fit)) +
-                              ", two thirds of the flow's longest duration",
-                          [=](double v) { return v >= 4 && v <= fit && std::fmod(v, 2) == 0; }},
+                         {"an even whole number of turns from 4 to 1000",
+                          [](double v) { return v >= 4 && v <= 1000 && std::fmod(v, 2) == 0; }},
                          usual_steady_turns);
-  if (in.has("hours"))
+  // Half as many turns before them are the flow's start
+  const double least = 1.5 * end.turns, there = flow.duration / turn;
+  if (there < least * (1 - 1e-9))
+    flow_section.refuse("steady", "a longest duration of the flow of " + shown(least) +
+                                      " turns or more (flow.turns, flow.duration); it is " + shown(there) +
+                                      " turns");
+  if (in.has("hours")) {
+    if (flow.solver != "slurryFoam") in.refuse("hours", "this key with flow.solver slurryFoam only");
     end.hours = in.number("hours", {"hours of wall time above 0", [](double v) { return v > 0; }});
+  }
   if (flow.coupling.both_ways())
-    in.refuse("turns", "flow.coupling one_way: balls that feel the slurry run for a given time");
+    flow_section.refuse("steady", "flow.coupling one_way: balls that feel the slurry run for a given time");
+  if (flow.balls && flow.out_of_range != "repeat")
+    flow_section.refuse("steady", "flow.out_of_range repeat: the flow outlasts the record of the dry run");
   return end;
 }
 
@@ -250,7 +257,7 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
   FlowAverages averages;
   averages.voxels = read_voxels(in, mill.geometry, std::min(size, radius), along);
   const Rule begin = {
-      flow.steady ? "0, because with flow.steady the last turns are averaged"
+      flow.steady ? "0, or not this key: with flow.steady the last turns are averaged"
                   : "a flow time in s of 0 or more and below the duration, " + shown(flow.duration) + " s",
       [&](double v) { return v == 0 || (!flow.steady && v > 0 && v < flow.duration); }};
   averages.start = in.number("start", begin, flow.steady ? 0 : usual_averages_start(flow, mill.turn()));

@@ -113,6 +113,13 @@ class Flow(Verdicts):
                        "discharged": np.cumsum(rate) * 0.01, "discharge": rate}
             self.check(checks.flow_steadiness(case(balance=columns, feed=1e-5, turn=3.0)), state)
 
+    def test_a_discharge_that_still_grows_is_not_the_feed(self):
+        time = np.linspace(0, 20, 4001)
+        rate = 1e-5 * (1 - np.exp(-(time - 2) / 6))
+        columns = {"Time": time, "holdUp": 3e-3 + 0 * time, "x": 0 * time, "y": 0 * time, "fed": 1e-5 * time,
+                   "discharged": np.cumsum(rate) * 0.005, "discharge": rate}
+        self.check(checks.flow_steadiness(case(balance=columns, feed=1e-5, turn=3.0)), "fails")
+
     def turns(self, count, part=0.0, drift=0.0, wobble=0.0, turn=1.0):
         """flow_steadiness of a hold-up of 1 l over so many turns and a part of one, that drifts by a share of itself
         in all of that time and comes and goes with every turn."""

@@ -4,13 +4,15 @@
 import json
 import tempfile
 import unittest
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import numpy as np
 
 from millfoam.files.data_files import read_json
 from millfoam.files.mill import SECTIONS, Mill
-from millfoam.steady import End, main, next_time
+from millfoam.report.steady import End, main, next_time
 
 TURN, FEED = 2.0, 1e-5  # s, m3/s
 HEAD = "# Time_s\tholdUp_m3\tx_m\ty_m\tfed_m3\tdischarged_m3\tdischarge_m3/s\n"
@@ -63,20 +65,60 @@ class NextTime(unittest.TestCase):
 
 
 class Command(unittest.TestCase):
-    def test_writes_why_it_ends_and_where_the_averages_begin(self):
-        case = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (case / "mill.json").write_text(json.dumps({"format": "millfoam-mill", **mill().content}))
-        table = case / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
-        table.parent.mkdir(parents=True)
-        columns = balance(12.0)
+    def setUp(self):
+        self.case = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.asked = self.case / "asked"
+        self.write(mill(), 12.0)
+
+    def write(self, found, end, drift=0.0):
+        """A case of a Mill whose flow has come to a time (s)."""
+        (self.case / "mill.json").write_text(json.dumps({"format": "millfoam-mill", **found.content}))
+        table = self.case / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
+        table.parent.mkdir(parents=True, exist_ok=True)
+        columns = balance(end, drift)
         with open(table, "w") as file:
             file.write(HEAD)
             np.savetxt(file, np.column_stack([columns[name] for name in (
                 "Time", "holdUp", "x", "y", "fed", "discharged", "discharge")]), "%.15g", "\t")
-        main(case)
-        found = read_json(case / "steady.json", "steady")
+
+    def start(self, name, wall, complete=True):
+        """A start of the flow at a time, with the wall time (s) of two steps."""
+        folder = self.case / "postProcessing" / "flow" / name
+        folder.mkdir(parents=True)
+        rows = [f"{float(name) + step:g},{share * wall:g}" for step, share in ((1, 0.5), (2, 1))]
+        (folder / "steps.csv").write_text("\n".join(["time_s,wall_s", *rows, ""]))
+        (folder / "flow.json").write_text(json.dumps({"format": "millfoam-flow", "complete": complete}))
+
+    def said(self):
+        """What the command prints."""
+        with redirect_stdout(StringIO()) as out:
+            main(self.case, self.asked)
+        return out.getvalue().strip()
+
+    def test_writes_why_it_ends_and_where_the_averages_begin(self):
+        self.assertEqual(self.said(), "end")
+        found = read_json(self.case / "steady.json", "steady")
         self.assertEqual((found["reason"], found["begin_s"], found["end_s"]), ("steady", 4, 12))
         self.assertEqual(found["mill"], {"flow": "ab"})
+
+    def test_hours_are_those_of_all_starts(self):
+        self.write(mill(hours=2), 12.0, drift=0.05)
+        self.start("0", 3600)
+        self.start("6", 3500)
+        self.assertEqual(self.said(), "16")
+        self.start("9", 200)
+        self.assertEqual(self.said(), "end")
+        self.assertEqual(read_json(self.case / "steady.json", "steady")["reason"], "hours")
+
+    def test_an_interrupted_piece_is_computed_to_its_end(self):
+        self.write(mill(), 13.0)
+        self.asked.write_text("flowDuration 16.00000001;\n")
+        self.assertEqual(self.said(), "16.00000001")
+        self.write(mill(), 16.0)
+        self.start("0", 1, complete=False)
+        self.assertEqual(self.said(), "16.00000001")
+        self.start("12", 1)
+        self.assertEqual(self.said(), "end")
 
 
 if __name__ == "__main__":

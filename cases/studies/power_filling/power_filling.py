@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Power of mills against the share of the resting charge's pores that slurry fills: a table on the screen,
-power_filling.txt, power_filling.csv, power_filling.png (power, beside the classical models) and power_filling_maps.png
-(charge and slurry). Runs that are not complete are listed."""
+"""Power of mills against the share of the resting charge's pores that slurry fills: a table on the screen, and, in the
+folder of the runs, power_filling.txt, power_filling.csv, power_filling.png (power, with the classical models) and
+power_filling_maps.png (charge and slurry). Runs that are not complete are listed."""
 import argparse
 import csv
 from collections.abc import Callable
@@ -24,10 +24,10 @@ from millfoam.readings.slurry_on_maps import pool, solidity_at_pixels
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millfoam.report.steadiness import flow_steadiness
 
-HERE = Path(__file__).parent.resolve()
 WAYS = {"one_way": "one way", "direct": "direct"}
 POWERS = {"drive_power": "drive", "charge_power": "charge", "slurry_power": "slurry"}
-READINGS = ("toe", "shoulder", "slurry_x", "slurry_y")  # further columns of the CSV, in SI units and degrees
+READINGS = ("toe", "shoulder", "slurry_x", "slurry_y")
+UNITS = {"toe": "deg", "shoulder": "deg", "slurry_x": "m", "slurry_y": "m"}  # of readings that are not powers
 HALF = 0.5  # share of the slurry's outline
 
 
@@ -66,7 +66,7 @@ def read_run(folder: Path) -> Run:
 
 
 def read_study(folder: Path) -> Study:
-    """Study of a folder with the runs of a mill. RuntimeError without its dry run."""
+    """Study of a folder with the runs of a mill. RuntimeError without a complete dry run."""
     dry = MillCase(folder / "dry")
     if dry.results is None:
         raise RuntimeError(f"{folder / 'dry'}: the dry run has no results; run Allrun")
@@ -81,8 +81,8 @@ def read_study(folder: Path) -> Study:
 
 
 def models(mill: Mill) -> dict[str, Callable[[float], float]]:
-    """Name of a model -> power (W) at a filling of the pores. Pores are filled up to their whole; what is beyond is a
-    pool, which Morrell's model of an overflow mill has."""
+    """Name of a model -> power (W) at a filling of the pores, NaN where it does not apply. Pores are filled up to their
+    whole; with more, there is a pool, which Morrell's model of an overflow mill has."""
     size = 2 * mill.radius, mill.length, mill.critical_share, mill.load
     solidity, slurry = mill.derived("charge", "resting_solidity"), mill.slurry("density_kg_m3")
 
@@ -92,35 +92,38 @@ def models(mill: Mill) -> dict[str, Callable[[float], float]]:
     return {f"Hogg & Fuerstenau, {power_models.REPOSE:g}°":
             lambda fill: power_models.hogg_fuerstenau(*size, density(fill)),
             "Morrell, C-model": lambda fill: power_models.morrell(*size, density(fill)).net,
-            "Morrell, with its pool": lambda fill: power_models.morrell(*size, density(fill), slurry, True).net,
+            # Its pool is that of an overflow mill, whatever is beyond the pores
+            "Morrell, with its pool": lambda fill: power_models.morrell(
+                *size, density(fill), slurry, True).net if fill >= 1 else np.nan,
             "Bond, wet": lambda fill: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg"))}
+
+
+def columns_of(key: str, mean: Mean) -> list[tuple[str, float]]:
+    """(column, number) of one of the readings of a run and its error."""
+    unit = UNITS.get(key, "W")
+    return [(f"{key}_{unit}", mean.value), (f"{key}_error_{unit}", mean.error)]
 
 
 def rows_of(study: Study):
     """Rows of the table: column -> text or number."""
-    yield {"mill": study.name, "coupling": "dry", "filling": 0.0, "drive, W": study.dry.value,
-           "drive, W ±": study.dry.error, "charge, W": study.dry.value, "charge, W ±": study.dry.error}
+    yield {"mill": study.name, "coupling": "dry", "filling": 0.0,
+           **{name: value for key in ("drive_power", "charge_power") for name, value in columns_of(key, study.dry)}}
     for run in study.runs:
         row = {"mill": study.name, "coupling": WAYS[run.way], "filling": run.fill}
-        for key, name in POWERS.items():
-            one = run.numbers.quantities[key]
-            row |= {f"{name}, W": one.value, f"{name}, W ±": one.error}
-        row |= {"pool, share of the slurry": run.pooled, "force over weight": run.numbers.load, "steady": run.steady}
-        for key in READINGS:
-            one = run.numbers.quantities[key]
-            row |= {key: one.value, f"{key} ±": one.error}
-        yield row
+        for key in (*POWERS, *READINGS):
+            row |= dict(columns_of(key, run.numbers.quantities[key]))
+        yield row | {"slurry_in_pool": run.pooled, "force_over_weight": run.numbers.load, "steady": run.steady}
 
 
 def lines_of(rows):
     """The table as text, a block for each mill."""
-    heads = [f"{name}, W" for name in POWERS.values()]
     for mill in dict.fromkeys(row["mill"] for row in rows):
-        yield f"{mill:<12}{'filling':>8}" + "".join(f"{head:>20}" for head in heads) + f"{'pool':>8}  flow is steady"
+        yield (f"{mill:<12}{'filling':>8}" + "".join(f"{f'{name}, W':>20}" for name in POWERS.values())
+               + f"{'pool':>8}  flow is steady")
         for row in (row for row in rows if row["mill"] == mill):
-            powers = "".join(f"{row[head]:12.4f} ± {row[f'{head} ±']:.4f}" if np.isfinite(row.get(head, np.nan))
-                             else f"{'–':>20}" for head in heads)
-            share = row.get("pool, share of the slurry")
+            powers = "".join(f"{row[f'{key}_W']:11.4f} ± {row[f'{key}_error_W']:.4f}"
+                             if np.isfinite(row.get(f"{key}_W", np.nan)) else f"{'–':>20}" for key in POWERS)
+            share = row.get("slurry_in_pool")
             yield (f"{row['coupling']:<12}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
                    + f"  {row.get('steady', '')}")
         yield ""
@@ -183,19 +186,25 @@ def main():
     parser.add_argument("runs", type=Path, help="folder with the folders of the mills")
     parser.add_argument("mills", nargs="+", metavar="MILL")
     options = parser.parse_args()
-    studies = [read_study(options.runs / mill) for mill in options.mills if (options.runs / mill).is_dir()]
+    studies, failures = [], []
+    for mill in options.mills:
+        try:
+            studies.append(read_study(options.runs / mill))
+        except RuntimeError as error:
+            failures.append(f"not complete: {error}")
     if not studies:
-        parser.error(f"{options.runs}: none of {', '.join(options.mills)} is there; run Allrun without --read")
+        parser.exit(1, "\n".join(failures) + "\n")
     rows = [row for study in studies for row in rows_of(study)]
-    with open(HERE / "power_filling.csv", "w", newline="") as file:
+    with open(options.runs / "power_filling.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
         writer.writeheader()
         writer.writerows(rows)
-    lines = [*lines_of(rows), *(f"not complete: {study.name}/{text}" for study in studies for text in study.missing)]
-    (HERE / "power_filling.txt").write_text("\n".join(lines) + "\n")
+    lines = [*lines_of(rows), *(f"not complete: {study.name}/{text}" for study in studies for text in study.missing),
+             *failures]
+    (options.runs / "power_filling.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
-    draw_power(studies).savefig(HERE / "power_filling.png", dpi=130)
-    draw_maps(studies).savefig(HERE / "power_filling_maps.png", dpi=130)
+    draw_power(studies).savefig(options.runs / "power_filling.png", dpi=130)
+    draw_maps(studies).savefig(options.runs / "power_filling_maps.png", dpi=130)
 
 
 if __name__ == "__main__":

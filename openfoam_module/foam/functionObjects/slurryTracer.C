@@ -118,6 +118,14 @@ void Foam::functionObjects::slurryTracer::begin()
     const word time(runTime.timeName());
     const tmp<scalarField> start = begun(name());
     const tmp<scalarField> held = begun(heldName());
+    if (held.valid() && !foundProperty("in"))
+    {
+        FatalErrorInFunction
+            << "time " << time << " has the field " << heldName()
+            << " of a run with the tracer " << name() << ", but not its sums in"
+            << " uniform/functionObjects/functionObjectProperties; expected"
+            << " both" << exit(FatalError);
+    }
     if (foundProperty("in") && !(start.valid() && held.valid()))
     {
         FatalErrorInFunction

@@ -53,6 +53,12 @@ def joined(parts: list[tuple[float, dict[str, np.ndarray]]]) -> dict[str, np.nda
     return dict(zip(names, rows.T))
 
 
+def wall_time(folder: Path | str) -> float:
+    """Wall time of all starts of a flow, s; 0 if slurryFoam wrote no steps."""
+    tables = [read_csv(place / "steps.csv") for _, place in starts(folder) if (place / "steps.csv").is_file()]
+    return float(sum(columns["wall_s"][-1] for columns in tables if len(columns["wall_s"])))
+
+
 def read_flow_record(folder: Path | str) -> FlowRecord:
     """FlowRecord of a case's folder, empty if slurryFoam wrote none; DataError for a file that cannot be read."""
     found = starts(folder)

@@ -286,6 +286,8 @@ class MillCase:
             return self.asked_begin
         if self.own_end:
             return number(self.own_end, self.folder / "steady.json", "begin_s")
+        if steady := self.mill.flow("steady"):
+            return max(self.last - steady["turns"] * self.turn, self.last / 2)
         start = self.mill.flow("averages_start_s")
         if start is None:
             return self.last / 2

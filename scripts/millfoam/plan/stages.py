@@ -116,8 +116,10 @@ def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ra
     felt = balls and mill.flow("solver") == "slurryFoam"
     voxel_bytes = VOXEL_BYTES_WITH_BALLS if felt else VOXEL_BYTES_WITHOUT
     averages = voxel_bytes * voxels * (2 * plan.windows + plan.written_times)  # slurry.h5, and the parts it is made of
+    source = "trial of the flow's first steps" + ("; at most, less if it is steady before" if mill.flow("steady")
+                                                  else "")
     return Stage("flow", plan.steps * step + plan.written_times * rebuilt, fields + averages, ranks * trial.memory,
-                 "trial of the flow's first steps")
+                 source)
 
 
 def passes_stage(mill: Mill, stages: Sequence[Stage]) -> Stage | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib
 
 from ..files import solids_file
-from ..files.mill import read_mill
+from ..files.mill_case import MillCase
 from ..files.solids_file import SolidsMap
 from ..files.written_times import MillFlow
 from . import mill_plots
@@ -49,9 +49,8 @@ def main() -> None:
 
 
 def usual_begin(case: Path, last: float) -> float:
-    """Flow time (s) at which the averages begin: the mill's, or half of the time of a flow that ends before it."""
-    start = read_mill(case).flow("averages_start_s") if (case / "mill.json").is_file() else None
-    return start if start is not None and start < last else last / 2
+    """Flow time (s) at which the averages begin: that of MillCase, or half of a flow without a mill."""
+    return MillCase(case).begin if (case / "mill.json").is_file() else last / 2
 
 
 def read_charge(path: Path, flow: MillFlow, begin: float) -> SolidsMap | None:

@@ -33,6 +33,18 @@ def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: flo
         return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
 
 
+def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
+    """error_over_turns of what the turns' means differ from a straight line, so that a drift does not increase it; NaN
+    if fewer than three turns fit."""
+    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
+    if turns < 3:
+        return np.nan
+    means = batch_means(times, values, times[-1] - turns * turn, turn, turns)
+    place = np.arange(turns)
+    apart = means - np.polyval(np.polyfit(place, means, 1), place)
+    return float(np.sqrt(np.sum(apart**2) / (turns - 2) / turns))
+
+
 def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
     """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
     turn takes `turn` s; NaN if fewer than two fit."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..files.mill_case import MillCase
-from ..readings.batches import batch_means, batches_of, error_over_turns
+from ..readings.batches import batch_means, batches_of, error_about_line
 from .verdict import Check, judged
 from .words import decimals
 
@@ -37,18 +37,22 @@ def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> 
 
 
 def difference_with_error(value: float, error: float) -> str:
-    """A difference with as many digits as its error allows, at most three after the point."""
-    digits = min(decimals(error), 3) if np.isfinite(error) and error > 0 else 3
+    """A difference with as many digits as its error allows, at most three after the point; alone if its error is
+    not known."""
+    if not np.isfinite(error):
+        return f"{value:+.3g}"
+    digits = min(decimals(error), 3) if error > 0 else 3
     return f"{value:+.{digits}f} ± {error:.{digits}f}"
 
 
 def discharge_gap(columns: dict[str, np.ndarray], begin: float, turn: float) -> tuple[float, float]:
-    """Slurry that does not leave, over the feed, from `begin` (s) on, and its standard error over whole turns."""
+    """Slurry that does not leave, over the feed, from `begin` (s) on, and its standard error over whole turns, which a
+    drift of the discharge does not increase."""
     times = columns["Time"]
     late = times >= begin
     fed, gone = (columns[key][late][-1] - columns[key][late][0] for key in ("fed", "discharged"))
     rate = fed / (times[late][-1] - times[late][0])
-    return 1 - gone / fed, error_over_turns(times, columns["discharge"], begin, turn) / rate
+    return 1 - gone / fed, error_about_line(times, columns["discharge"], begin, turn) / rate
 
 
 def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float) -> Check:

@@ -156,21 +156,35 @@ TEST(Flow, ends_by_itself_if_it_is_asked_for) {
   EXPECT_EQ(flow.averages.start, 0);
 }
 
-TEST(Flow, a_steady_end_is_judged_over_whole_halves_within_its_duration) {
+TEST(Flow, a_steady_end_is_judged_over_whole_halves_after_a_start) {
   const std::string text = bare_mill + "flow: {turns: 12, steady: {turns: 8}}\n";
   EXPECT_EQ(mill_of(text).flow.steady->turns, 8);
-  for (const char* turns : {"10", "5", "2"})
-    EXPECT_NE(
-        refusal_of(text, {std::string("flow.steady.turns=") + turns})
-            .find("an even whole number of turns from 4 to 8, two thirds of the flow's longest duration"),
-        std::string::npos)
+  for (const char* turns : {"5", "2"})
+    EXPECT_NE(refusal_of(text, {std::string("flow.steady.turns=") + turns})
+                  .find("an even whole number of turns from 4 to 1000"),
+              std::string::npos)
         << turns;
-  EXPECT_NE(refusal_of(text, {"flow.coupling=direct"}).find("expected flow.coupling one_way"),
+  // Also the usual number of turns must fit
+  const std::string longer = "expected a longest duration of the flow of ";
+  EXPECT_NE(refusal_of(text, {"flow.steady.turns=10"}).find(longer + "15 turns or more"), std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill + "flow: {steady: {hours: 2}}\n").find(longer + "9 turns or more"),
             std::string::npos);
-  EXPECT_NE(refusal_of(text, {"flow.averages.start=1"})
-                .find("expected 0, because with flow.steady the last turns are averaged"),
+}
+
+TEST(Flow, a_steady_end_needs_a_flow_that_may_take_any_time) {
+  const std::string text = bare_mill + "flow: {turns: 12, steady: {turns: 8}}\n";
+  EXPECT_NE(
+      refusal_of(text, {"flow.coupling=direct"}).find("'flow.steady' = {…}: expected flow.coupling one_way"),
+      std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.out_of_range=hold"}).find("expected flow.out_of_range repeat"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of(text, {"flow.out_of_range=hold", "flow.balls=no"}), "accepted");
+  EXPECT_NE(refusal_of(text, {"flow.averages.start=1"}).find("expected 0, or not this key: with flow.steady"),
             std::string::npos);
   EXPECT_NE(refusal_of(text, {"flow.steady.hours=0"}).find("hours of wall time above 0"), std::string::npos);
+  EXPECT_NE(refusal_of(text, {"flow.steady.hours=1", "flow.solver=interFoam"})
+                .find("expected this key with flow.solver slurryFoam only"),
+            std::string::npos);
 }
 
 TEST(Flow, more_hours_leave_a_flow_as_it_is) {
