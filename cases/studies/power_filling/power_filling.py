@@ -115,6 +115,14 @@ def rows_of(study: Study):
         yield row | {"slurry_in_pool": run.pooled, "force_over_weight": run.numbers.load, "steady": run.steady}
 
 
+def write_csv(rows, path):
+    """Writes the rows; a run without a reading has an empty place."""
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def lines_of(rows):
     """The table as text, a block for each mill."""
     for mill in dict.fromkeys(row["mill"] for row in rows):
@@ -195,10 +203,7 @@ def main():
     if not studies:
         parser.exit(1, "\n".join(failures) + "\n")
     rows = [row for study in studies for row in rows_of(study)]
-    with open(options.runs / "power_filling.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(rows, options.runs / "power_filling.csv")
     lines = [*lines_of(rows), *(f"not complete: {study.name}/{text}" for study in studies for text in study.missing),
              *failures]
     (options.runs / "power_filling.txt").write_text("\n".join(lines) + "\n")

@@ -49,10 +49,10 @@ VARIANTS = {"fit": {"slice": ()},
             # Its dumps would take some 15 GB
             "full": {"full": ("geometry.slice=~", "resolution.layers=2", "averages.live=yes", "dem.dumps=no"),
                      "slice": ()},
-            "ends": {"short": ("geometry.slice=~", "geometry.length=0.048", "charge.start_length=0.046",
-                               "charge.classes=[{diameter: 0.003, mass: 1.06535}]", "resolution.layers=2",
-                               "dem.duration=5"),
-                     "thin": THIN},
+            "ends": {"with_ends": ("geometry.slice=~", "geometry.length=0.024", "charge.start_length=0.023",
+                                   "charge.classes=[{diameter: 0.003, mass: 0.532673}]", "resolution.layers=2",
+                                   "dem.duration=4.5"),
+                     "slice": ()},
             "quick": {"thin": THIN}}
 
 
@@ -308,8 +308,8 @@ def plot(runs, measured, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("variant", nargs="?", choices=[name for name in VARIANTS if name != "quick"], default="fit",
-                        help="fit: the slice of mill.yaml; scan: frictions; ends: a drum of sixteen beads with ends, "
-                             "and a slice of three; full: the whole length and the slice")
+                        help="fit: the slice of mill.yaml; scan: frictions; ends: a drum as thick as the slice, with "
+                             "ends, and the slice; full: the whole length and the slice")
     parser.add_argument("--quick", action="store_true", help="the friction of mill.yaml in a slice of three beads")
     parser.add_argument("--read", nargs="+", type=Path, metavar="RUN", help="read these complete runs instead")
     parser.add_argument("--jobs", type=int, default=2, help="runs at a time")

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..files.mill import Mill
 from ..files.mill_case import MillCase
+from .steadiness import NAME as FLOW_IS_STEADY
 from .verdict import Check
 
 
@@ -33,7 +34,7 @@ def start_words(case: MillCase, checks: Sequence[Check]) -> str:
         asked = f" of {case.duration:.3g} s" if np.isfinite(case.duration) else ""
         return (f"The flow was cut short: it ends at {case.last:.3g} s{asked}. Its numbers describe the start of the "
                 "flow.")
-    steady = next((check.state for check in checks if check.name == "The flow is steady"), "unknown")
+    steady = next((check.state for check in checks if check.name == FLOW_IS_STEADY), "unknown")
     words = {"fails": "The flow is not steady: its numbers describe the start of the flow. A longer run changes them "
                       "(flow.duration).",
              "look": "It is doubtful whether the flow is steady: its numbers may describe the start of the flow."}

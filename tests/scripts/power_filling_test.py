@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The study power_filling: the models' curves, the table, and runs that are not complete."""
+import importlib.util
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+from millfoam.files.data_files import read_csv
+from millfoam.files.mill import Mill
+from millfoam.readings import power_models
+from millfoam.readings.means import Mean
+
+ROOT = Path(__file__).resolve().parents[2]
+PLACE = ROOT / "cases" / "studies" / "power_filling" / "power_filling.py"
+SPEC = importlib.util.spec_from_file_location("power_filling", PLACE)
+study = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(study)
+
+
+def mill():
+    """What the models read of a mill of 3 m."""
+    derived = {"resting_solidity": 0.6, "mass_kg": 5e4}
+    found = SimpleNamespace(radius=1.5, length=4.0, critical_share=0.7, load=0.35, ball_density=7800.0,
+                            derived=lambda section, key: derived[key], slurry=lambda key: 1600.0)
+    assert set(vars(found)) - {"derived", "slurry"} <= set(dir(Mill))
+    return found
+
+
+class Models(unittest.TestCase):
+    def test_pores_fill_up_and_then_there_is_a_pool(self):
+        found = study.models(mill())
+        for name in ("Hogg & Fuerstenau, 35°", "Morrell, C-model"):
+            dry, half, full, over = map(found[name], (0.0, 0.5, 1.0, 1.5))
+            self.assertAlmostEqual(half, (dry + full) / 2, delta=1e-9 * full)
+            self.assertGreater(full, dry)
+            self.assertEqual(over, full)
+        pooled = found["Morrell, with its pool"]
+        self.assertTrue(np.isnan(pooled(0.99)))
+        self.assertLess(pooled(1.0), found["Morrell, C-model"](1.0))
+
+    def test_bond_does_not_know_the_filling(self):
+        bond = study.models(mill())["Bond, wet"]
+        self.assertEqual(bond(0.0), bond(1.5))
+        self.assertEqual(bond(1.0), power_models.bond(3.0, 0.7, 0.35, 5e4))
+
+
+class Table(unittest.TestCase):
+    def rows(self):
+        quantities = {key: Mean(0.2, 0.001) for key in (*study.POWERS, *study.READINGS)}
+        quantities["drive_power"] = Mean(np.nan, np.nan)
+        runs = [study.Run(way, fill, None, SimpleNamespace(quantities=quantities, load=0.4), None, 0.1, "holds")
+                for way in study.WAYS for fill in (0.5, 1.0)]
+        return list(study.rows_of(study.Study("12cm_50", None, Mean(0.21, 0.002), runs, [])))
+
+    def test_has_a_row_for_each_run_and_the_dry_charge(self):
+        lines = list(study.lines_of(self.rows()))
+        self.assertEqual([line.split()[0] for line in lines if line],
+                         ["12cm_50", "dry", "one", "one", "direct", "direct"])
+        self.assertIn("0.2100 ± 0.0020", lines[1])
+        # A drive that is not known leaves its place
+        places = {line.rindex("0.2000 ± 0.0010") for line in lines[2:] if line}
+        self.assertEqual(len(places), 1)
+
+    def test_columns_have_units_and_are_read_by_the_projects_reader(self):
+        rows = self.rows()
+        path = Path(self.enterContext(tempfile.TemporaryDirectory())) / "power_filling.csv"
+        study.write_csv(rows, path)
+        head = path.read_text().splitlines()[0].split(",")
+        for name in ("drive_power_W", "drive_power_error_W", "toe_deg", "slurry_x_error_m", "slurry_in_pool"):
+            self.assertIn(name, head)
+        numbers = path.with_name("numbers.csv")
+        chosen = [head.index(name) for name in ("filling", "charge_power_W")]
+        numbers.write_text("".join(",".join(line.split(",")[k] for k in chosen) + "\n"
+                                   for line in path.read_text().splitlines()))
+        self.assertEqual(list(read_csv(numbers)["filling"]), [0, 0.5, 1, 0.5, 1])
+
+
+class Missing(unittest.TestCase):
+    def test_a_mill_without_a_dry_run_is_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        with self.assertRaisesRegex(RuntimeError, "dry"):
+            study.read_study(folder)
+
+
+if __name__ == "__main__":
+    unittest.main()
