@@ -59,6 +59,8 @@ def read_run(folder: Path) -> Run:
     way, _, fill = folder.name.rpartition("_")
     place = folder / "direct" if way == "direct" else folder
     numbers, case = read_pass(2 if way == "direct" else 1, place), MillCase(place)
+    if case.is_cut_short:
+        raise RuntimeError(f"{place}: the flow ends at {case.last:.3g} s; expected {case.duration:.3g} s")
     slurry = mean_slurry(case, list(slurry_blocks(case)))
     area = pool(slurry, solidity_at_pixels(numbers.charge, slurry)).area
     whole = float(fill) * case.mill.derived("charge", "pore_volume_m3")
