@@ -6,6 +6,7 @@
 #include "slurryBalance.H"
 #include "addToRunTimeSelectionTable.H"
 #include "clock.H"
+#include "fixedValueFvPatchFields.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
@@ -142,13 +143,19 @@ bool Foam::functionObjects::slurryBalance::execute()
     {
         if (!mesh_.boundary()[patchi].coupled())
         {
-            const scalarField& flux = fields_.flux().boundaryField()[patchi];
-            feed_ -= sum(min(flux, scalar(0)));
-            discharge_ += sum(max(flux, scalar(0)));
+            const scalar out = gSum(fields_.flux().boundaryField()[patchi]);
+            // fixesValue() holds for inletOutlet, too
+            if (isA<fixedValueFvPatchScalarField>(
+                    fields_.alpha().boundaryField()[patchi]))
+            {
+                feed_ -= out;
+            }
+            else
+            {
+                discharge_ += out;
+            }
         }
     }
-    reduce(feed_, sumOp<scalar>());
-    reduce(discharge_, sumOp<scalar>());
 
     const scalar deltaT = mesh_.time().deltaTValue();
     fed_ += deltaT * feed_;
