@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The numbers of one flow of the study."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.files.mill_case import MillCase
+from millfoam.files.slurry_file import SlurryMap
+from millfoam.files.solids_file import SolidsMap
+from millfoam.readings.batches import batch_means
+from millfoam.readings.charge import circulation_centre
+from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.slurry_on_maps import axial_velocity
+from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
+from millfoam.report.steadiness import flow_steadiness
+from millstudies.axial_slices import PRESSURES, Profile, Slices, pressure_drop, read_profile, read_slices
+from millstudies.run_readings import RunReadings
+from millstudies.statements import read
+
+from runs import Run
+
+TOP = 0.1  # share of the slurry, by height, that is the top of its shoulder
+NEAR = 2  # pixels about the centre of circulation
+
+
+@dataclass(frozen=True)
+class Flow:
+    """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m); discharge (m3/s, by
+    the outlet's own flux) and net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed
+    volume over what was asked for; its Slices; Profile of the published slices, which
+    reach over the pulp lifters, and of those in front of the grates; drops of the pressure by PRESSURES (Pa); what is read for
+    published statements; map of the slurry; velocity along the axis at the top of the shoulder (m/s); slurry's share of
+    the fluid at the charge's centre of circulation (NaN without balls); verdict on its steadiness."""
+    run: Run
+    case: MillCase
+    turns: int
+    height: Mean
+    discharge: Mean
+    net: Mean
+    missing: float
+    feed_error: float
+    slices: Slices
+    profile: Profile
+    chamber: Profile
+    drops: dict[str, Mean]
+    readings: RunReadings
+    slurry: SlurryMap
+    top_velocity: Mean
+    centre_share: float
+    steady: str
+
+    @property
+    def holdup(self) -> tuple[float, float]:
+        """Slurry in the mill at the first and at the last step, m3."""
+        volumes = self.case.balance["holdUp"]
+        return float(volumes[0]), float(volumes[-1])
+
+
+def over_turns(case: MillCase, column: str, turns: int) -> Mean:
+    """Mean of a column of slurryBalance over a MillCase's last whole turns."""
+    columns = case.balance
+    return block_mean(batch_means(columns["Time"], columns[column], case.last - turns * case.turn, case.turn, turns))
+
+
+def net_rate(case: MillCase, turns: int) -> Mean:
+    """Growth of the hold-up over each of the last turns, m3/s."""
+    columns = case.balance
+    ends = case.last - case.turn * np.arange(turns, -1, -1)
+    return block_mean(np.diff(np.interp(ends, columns["Time"], columns["holdUp"])) / case.turn)
+
+
+def top_velocity(slurry: SlurryMap) -> float:
+    """Mean velocity along the axis (m/s) of the highest TOP of a SlurryMap's slurry on the rising side, where its share
+    is above a half; NaN without slurry."""
+    velocity = axial_velocity(slurry)
+    x, y = np.meshgrid(*slurry.centres())
+    # The rising side is the left one of a mill that turns clockwise
+    chosen = np.isfinite(velocity) & (x * slurry.sense > 0)
+    if not chosen.any():
+        return np.nan
+    lowest = np.quantile(y[chosen], 1 - TOP)
+    top = chosen & (y >= lowest)
+    return float(np.average(velocity[top], weights=slurry.share[top]))
+
+
+def share_at_centre(charge: SolidsMap, radius: float, slurry: SlurryMap) -> float:
+    """Mean share of slurry in the fluid about a charge's centre of circulation."""
+    centre = circulation_centre(charge, radius)
+    column, row = (int(np.argmin(np.abs(at - place))) for at, place in zip(slurry.centres(), centre))
+    about = slurry.share[row - NEAR:row + NEAR + 1, column - NEAR:column + NEAR + 1]
+    return float(np.nanmean(about))
+
+
+def read_flow(run: Run, folder: Path) -> Flow:
+    """Flow of a run's folder. RuntimeError if it is not complete."""
+    case = MillCase(folder)
+    if case.flow is None or case.is_cut_short:
+        last = 0 if case.flow is None else case.last
+        raise RuntimeError(f"the flow ends at {last:.3g} s; expected {case.mill.flow('duration_s', np.nan):.3g} s")
+    if case.balance is None:
+        raise RuntimeError("no table of slurryBalance; expected one in postProcessing")
+    slices, blocks = read_slices(case), list(slurry_blocks(case))
+    humps = 3 if run.law else 2
+    turns, slurry, columns = len(slices.holdup), mean_slurry(case, blocks), case.balance
+    heights = np.nansum(slices.holdup * slices.height, axis=1) / slices.holdup.sum(axis=1)
+    return Flow(run, case, turns, block_mean(heights), over_turns(case, "discharge", turns), net_rate(case, turns),
+                float(np.abs(columns["missing"]).max() / columns["holdUp"].max()),
+                float(abs(columns["fed"][-1] / (case.feed * columns["Time"][-1]) - 1)) if case.feed else np.nan,
+                slices, read_profile(slices, humps), read_profile(slices, humps, case.length),
+                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, read(case), slurry,
+                block_mean([top_velocity(one) for one in blocks]),
+                share_at_centre(case.charge, case.radius, slurry) if run.law else np.nan, flow_steadiness(case).state)

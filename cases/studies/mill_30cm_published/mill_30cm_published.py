@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads the complete runs of the study: tables on the screen and, in the folder of the runs, charges.csv, flows.csv,
+statements.csv, costs.csv, mill_30cm_published.txt with all of them, profiles.png, axial_flow.png, holdup.png, and
+comparison.html, one page of all flows. Runs that are not complete are listed."""
+import argparse
+import csv
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+
+from millfoam.files.data_files import read_json
+from millfoam.files.mill_case import MillCase
+from millfoam.readings.charge import charge_with_errors
+from millfoam.readings.means import Mean
+from millfoam.report.build import compare_cases
+from millstudies.axial_slices import PRESSURES, Profile
+from millstudies.compared_runs import NOT_TESTED, SLICE, Verdict
+from millstudies.statements import verdicts
+
+import drawings
+from flow_numbers import Flow, read_flow
+from own_statements import own_verdicts
+from runs import RUNS, Run, is_published
+
+Row = dict[str, Any]
+
+
+def place_of(root: Path, run: Run) -> Path:
+    """The folder with a run's results: balls and slurry at the same time have one of their own."""
+    direct = root / run.name / "direct"
+    return direct if "flow.coupling=direct" in run.changes else root / run.name
+
+
+def pair(name: str, unit: str, mean: Mean, scale: float = 1.0) -> Row:
+    """Two columns of a table: a number and its error."""
+    return {f"{name}, {unit}": scale * mean.value, f"{name}, {unit} ±": scale * mean.error}
+
+
+def charge_row(run: Run, case: MillCase) -> Row:
+    """A dry run's line of the table."""
+    found = charge_with_errors(case.charge_windows, case.radius)
+
+    def mean(name: str, k: int = 0) -> Mean:
+        return Mean(float(np.atleast_1d(found[name].value)[k]), float(np.atleast_1d(found[name].error)[k]))
+    return {"run": run.name, "speed, %": run.speed, "steady from, s": case.result("steady_from_s"),
+            **pair("power", "W", Mean(case.result("power_W"), case.result("power_error_W"))),
+            **pair("centre of circulation x", "mm", mean("centre", 0), 1e3),
+            **pair("centre of circulation y", "mm", mean("centre", 1), 1e3),
+            **pair("toe", "deg", mean("ends", 0)), **pair("shoulder", "deg", mean("ends", 1)),
+            **pair("RMSD of the cubic", "m/s", mean("tangential_rmsd")),
+            **pair("RMSD of the logistic", "mm", mean("surface_rmsd"), 1e3)}
+
+
+def profile_columns(words: str, profile: Profile) -> Row:
+    """A profile's columns of the table, after these words."""
+    return {**pair(f"{words}amplitude", "mm", profile.amplitude, 1e3),
+            f"{words}peaks, mm": " ".join(f"{1e3 * one:.0f}" for one in profile.humps.places),
+            f"{words}peaks at ends": profile.at_ends,
+            **pair(f"{words}first distance", "mm", profile.distances[0], 1e3),
+            **pair(f"{words}last distance", "mm", profile.distances[-1], 1e3),
+            f"{words}RMSD of the fit, mm": 1e3 * profile.humps.rmsd}
+
+
+def flow_row(flow: Flow) -> Row:
+    """A flow's line of the table."""
+    run, readings = flow.run, flow.readings
+    unknown = Mean(np.nan, np.nan)
+    first, last = flow.holdup
+    return {"run": run.name, "speed, %": run.speed, "solids, %": run.solids, "law": run.law or "–",
+            "turns": flow.turns, "steady": flow.steady, "hold-up at first, l": 1e3 * first,
+            "hold-up at last, l": 1e3 * last, "feed, ml/s": 1e6 * (flow.case.feed or 0),
+            **pair("discharge", "ml/s", flow.discharge, 1e6), **pair("net", "ml/s", flow.net, 1e6),
+            **pair("height", "mm", flow.height, 1e3),
+            **profile_columns("", flow.profile), **profile_columns("in front of the grates: ", flow.chamber),
+            **pair("velocity at the toe", "mm/s", readings.toe or unknown, 1e3),
+            **pair("velocity at the shoulder", "mm/s", readings.shoulder or unknown, 1e3),
+            **pair("velocity at the shoulder's top", "mm/s", flow.top_velocity, 1e3),
+            **{key: value for name, words in PRESSURES.items()
+               for key, value in pair(f"drop of {words}", "Pa", flow.drops[name]).items()},
+            "slurry at the centre of circulation": flow.centre_share,
+            "force over weight": flow.case.load[0] if flow.case.load else np.nan,
+            "missing over hold-up": flow.missing, "error of the feed": flow.feed_error}
+
+
+def cost_row(run: Run, root: Path) -> Row:
+    """What a run took, and what Allrun --plan foretold where it was asked."""
+    folder = place_of(root, run)
+    case = MillCase(folder)
+    summaries = [one for _, one in case.record.summaries] if case.flow else []
+    row: Row = {"run": run.name, "cells": case.flow.mesh.cells if case.flow else None,
+                "steps": sum(one["steps"] for one in summaries) or None,
+                "flow, min": sum(one["wall_s"] for one in summaries) / 60 or None,
+                "dry run, min": case.result("wall_time_s") / 60 if run.way == "dry" else None,
+                "disk, GB": sum(one.stat().st_size for one in (root / run.name).rglob("*")
+                                if one.is_file() and not one.is_symlink()) / 1e9}
+    plan = root / run.name / "plan.json"
+    if plan.is_file():
+        content = read_json(plan, "plan")
+        planned = {one["stage"]: one for one in content["stages"]}
+        for stage in ("charge", "flow"):
+            row[f"planned {stage}, min"] = planned[stage]["time_s"] / 60 if stage in planned else None
+        row["planned memory, GB"] = content["total"]["memory_bytes"] / 1e9
+        row["planned disk, GB"] = content["total"]["disk_bytes"] / 1e9
+    return row
+
+
+def write_csv(rows: Sequence[Row], path: Path) -> None:
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def cell(row: Row, key: str) -> str:
+    """A row's entry in the printed table, with its error."""
+    value = row.get(key)
+    if value is None or value == "" or isinstance(value, float) and np.isnan(value):
+        return "–"
+    if not isinstance(value, float):
+        return str(value)
+    error = row.get(f"{key} ±", np.nan)
+    if np.isnan(error):
+        return f"{value:.4g}"
+    return f"{value:.2f} ± {error:.2f}" if abs(value) < 1000 else f"{value:.0f} ± {error:.0f}"
+
+
+def lines_of(rows: Sequence[Row]) -> Iterator[str]:
+    """The table as text: a line for each quantity and a column for each run, in blocks of six runs."""
+    for begin in range(0, len(rows), 6):
+        block = rows[begin:begin + 6]
+        for key in (one for row in block[:1] for one in row if not one.endswith(" ±")):
+            yield key.ljust(46) + "".join(cell(row, key).rjust(21) for row in block)
+        yield ""
+
+
+def read_each(root: Path, chosen: Sequence[Run], read: Callable[[Run, Path], Any]) -> tuple[dict[str, Any], list[str]]:
+    """Run -> what is read of its folder; and why the others are not complete."""
+    found, missing = {}, []
+    for run in chosen:
+        try:
+            found[run.name] = read(run, place_of(root, run))
+        except (RuntimeError, OSError) as error:
+            missing.append(f"{run.name}: {error}" if (root / run.name).is_dir() else f"{run.name}: not begun")
+    return found, missing
+
+
+def dry_case(_: Run, folder: Path) -> MillCase:
+    """The case of a dry run. RuntimeError if it is not complete."""
+    case = MillCase(folder)
+    if case.results is None or case.solids is None:
+        raise RuntimeError("; ".join(["the dry run has no results or no averages", *case.unusable]))
+    return case
+
+
+def write_all(root: Path, dry: dict[str, MillCase], flows: dict[str, Flow], missing: list[str]) -> list[str]:
+    """Writes tables, pictures and the page; the lines of the text."""
+    charges = [charge_row(RUNS[name], case) for name, case in dry.items()]
+    rows = [flow_row(flow) for flow in flows.values()]
+    costs = [cost_row(RUNS[name], root) for name in (*dry, *flows)]
+    published = [flow.readings for flow in flows.values() if is_published(flow.run)]
+    found = [*(one for one in verdicts(published) if SLICE not in one.runs + one.figure), *own_verdicts(flows, dry)]
+    for name, table in (("charges", charges), ("flows", rows), ("costs", costs),
+                        ("statements", [asdict(one) for one in found])):
+        if table:
+            write_csv(table, root / f"{name}.csv")
+    drawings.draw_all(root, flows)
+    if flows:
+        (root / "comparison.html").write_text(compare_cases([flow.case.folder for flow in flows.values()]))
+    return [*lines_of(charges), *lines_of(rows), *lines_of(costs), *map(line_of, found), "",
+            *(f"not finished: {text}" for text in missing)]
+
+
+def line_of(one: Verdict) -> str:
+    """A verdict as a line of the text."""
+    where = one.runs if one.verdict != NOT_TESTED or one.runs else "–"
+    return f"{one.verdict:<13} {one.statement}; {where}: {one.figure}"
+
+
+def main() -> None:
+    matplotlib.use("Agg")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("runs", type=Path, help="folder with the folders of the runs")
+    root = parser.parse_args().runs
+    dry, missing = read_each(root, [run for run in RUNS.values() if run.way == "dry"], dry_case)
+    flows, lacking = read_each(root, [run for run in RUNS.values() if run.way != "dry"], read_flow)
+    if not dry and not flows:
+        parser.exit(1, "\n".join(["no run is complete:", *missing, *lacking]) + "\n")
+    lines = write_all(root, dry, flows, missing + lacking)
+    (root / "mill_30cm_published.txt").write_text("\n".join(lines) + "\n")
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

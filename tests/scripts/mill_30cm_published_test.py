@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The study mill_30cm_published: its runs are mills that can be made, and what it reads of a slurry whose answers are
+known."""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import h5py
+import numpy as np
+
+from millfoam.readings.axial import gaussians
+from millfoam.readings.means import Mean
+from millfoam.run import set_options
+from millstudies.axial_slices import jackknife, pressure_drop, read_profile, read_slices
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED
+from slurry_on_maps_test import slurry_map
+
+ROOT = Path(__file__).resolve().parents[2]
+STUDY = ROOT / "cases" / "studies" / "mill_30cm_published"
+sys.path.insert(0, str(STUDY))
+
+import flow_numbers  # noqa: E402, in the study's folder
+import mill_30cm_published as study  # noqa: E402
+import own_statements  # noqa: E402
+from runs import RUNS, is_published  # noqa: E402
+
+TURN, WINDOW, TIME0, BEGIN, LAST = 1.0, 0.05, 0.4, 1.9, 5.0
+LOWER, UPPER, SHAPE = np.array([-0.15, -0.15, 0.0]), np.array([0.15, 0.15, 0.338]), (33, 33, 33)
+LENGTH = 0.305
+PEAKS, HIGH, WIDE, BASE = (0.09, 0.21), (0.02, 0.015), (0.03, 0.03), -0.09
+FALL = 300.0  # of the pressure along the axis, Pa/m
+
+
+class Runs(unittest.TestCase):
+    def test_each_is_a_mill_in_both_forms(self):
+        for run in RUNS.values():
+            for quick in (False, True):
+                with self.subTest(run=run.name, quick=quick):
+                    done = subprocess.run(["millMesh", ROOT / "cases/mills/mill_30cm/mill.yaml",
+                                           *set_options(run.settings(quick)), "--resolved", "-"], capture_output=True,
+                                          text=True)
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_charges_come_from_dry_runs_of_the_same_speed(self):
+        for run in RUNS.values():
+            self.assertEqual(run.dry is None, run.way in ("dry", "alone"))
+            if run.dry:
+                self.assertEqual((RUNS[run.dry].way, RUNS[run.dry].speed), ("dry", run.speed))
+
+    def test_published_are_six_without_balls_and_nine_with(self):
+        flows = [run for run in RUNS.values() if is_published(run) and run.way != "dry"]
+        self.assertEqual(sum(run.law is None for run in flows), 6)
+        self.assertEqual(sum(run.law is not None for run in flows), 9)
+        self.assertEqual(RUNS["direct_75_20"].way, "copies")
+
+
+def heights(turn):
+    """Mean heights of the slurry (m) at the slices' middles in a turn: the second hump moves by 4 mm a turn."""
+    z = (np.arange(SHAPE[0]) + 0.5) * UPPER[2] / SHAPE[0]
+    return z, gaussians(z, BASE, HIGH[0], PEAKS[0], WIDE[0], HIGH[1], PEAKS[1] + 0.004 * (turn - 1), WIDE[1])
+
+
+def write_slurry(path):
+    """slurry.h5 of three turns: a column of voxels in the middle of the mill, with as much slurry in the rows above and
+    below as gives the slices' heights; a pressure that falls along the axis and with the height."""
+    begins = TIME0 + np.arange(BEGIN + 0.1, LAST - 1e-9, WINDOW)
+    step = (UPPER[1] - LOWER[1]) / SHAPE[1]
+    y = LOWER[1] + (np.arange(SHAPE[1]) + 0.5) * step
+    shape = (len(begins), *SHAPE)
+    slurry, pressure = np.zeros(shape), np.zeros(shape)
+    for window, begin in enumerate(begins):
+        z, height = heights(int((begin - TIME0 - BEGIN - 0.1 + 1e-9) / TURN))
+        row = np.searchsorted(y, height) - 1
+        above = (height - y[row]) / step
+        slurry[window, np.arange(SHAPE[0]), row, 16] = 1 - above
+        slurry[window, np.arange(SHAPE[0]), row + 1, 16] = above
+        slurry[window, :, np.argmin(np.abs(y + 0.03)), 16] += 1e-9
+        pressure[window] = 1000 - FALL * z[:, None, None] - 9810 * y[None, :, None]
+    with h5py.File(path, "w") as file:
+        grid = file.create_group("grid")
+        grid.attrs.update(lower=LOWER, upper=UPPER, shape=SHAPE)
+        grid["insideFraction"] = np.ones(shape)
+        file["window/begin"], file["window/end"] = begins, begins + WINDOW
+        file["slurry"], file["voidage"] = slurry, np.where(slurry > 0, slurry, 1.0)
+        file["pressure"], file["p_rgh"] = pressure, pressure + 9810 * y[None, None, :, None]
+
+
+def case_of(path):
+    """What read_slices reads of a MillCase."""
+    return SimpleNamespace(slurry=path, flow=SimpleNamespace(time0=TIME0), turn=TURN, begin=BEGIN + 0.1, last=LAST,
+                           folder=path.parent, unusable=[])
+
+
+class Slices(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.path = folder / "slurry.h5"
+        write_slurry(cls.path)
+        cls.slices = read_slices(case_of(cls.path))
+
+    def test_heights_are_those_of_the_turns(self):
+        self.assertEqual(self.slices.height.shape, (3, 33))
+        for turn in range(3):
+            np.testing.assert_allclose(self.slices.height[turn], heights(turn)[1], atol=1e-8)
+        np.testing.assert_allclose(self.slices.holdup, np.prod((UPPER - LOWER) / SHAPE), rtol=1e-8)
+
+    def test_profile_leaves_out_three_slices_and_one(self):
+        self.assertEqual(len(read_profile(self.slices, 2).z), 29)
+        inside = read_profile(self.slices, 2, LENGTH).z
+        self.assertEqual(len(inside), 25)  # 29 of the 33 slices end in front of the grates
+        np.testing.assert_allclose(inside[0], 3.5 * 0.338 / 33)
+
+    def test_distance_has_the_error_of_the_turns(self):
+        found = read_profile(self.slices, 2, LENGTH)
+        self.assertAlmostEqual(found.distances[0].value, PEAKS[1] - PEAKS[0], delta=1e-3)
+        # 116, 120 and 124 mm
+        self.assertAlmostEqual(found.distances[0].error, 0.004 / np.sqrt(3), delta=4e-4)
+        self.assertEqual(found.at_ends, 0)
+        self.assertAlmostEqual(found.humps.rmsd, 0, delta=2e-4)
+
+    def test_pressure_falls_over_the_mill(self):
+        for name in ("p_rgh", "level"):
+            drop = pressure_drop(self.slices, name, LENGTH)
+            self.assertAlmostEqual(drop.value, FALL * LENGTH, delta=1e-3)
+            self.assertAlmostEqual(drop.error, 0, delta=1e-3)
+        # Where slurry stands higher, its own pressure is lower
+        self.assertNotAlmostEqual(pressure_drop(self.slices, "pressure", LENGTH).value, FALL * LENGTH, delta=10)
+
+    def test_less_than_a_turn_is_refused(self):
+        case = case_of(self.path)
+        case.begin = LAST - 0.9 * TURN
+        with self.assertRaisesRegex(RuntimeError, "averaged over 0.9 s; expected a turn of 1 s"):
+            read_slices(case)
+
+    def test_a_run_without_voxels_is_named(self):
+        case = case_of(self.path)
+        case.slurry, case.unusable = None, ["slurry.h5: not complete"]
+        with self.assertRaisesRegex(RuntimeError, "no slurry.h5; slurry.h5: not complete"):
+            read_slices(case)
+
+    def test_jackknife_of_a_mean_is_its_standard_error(self):
+        values = np.array([1.0, 4.0, 2.5, 3.0])
+        value, error = jackknife(lambda turns: np.array([values[turns].mean()]), 4)
+        self.assertAlmostEqual(value[0], values.mean())
+        self.assertAlmostEqual(error[0], values.std(ddof=1) / 2)
+
+
+class Bed(unittest.TestCase):
+    def test_top_of_the_shoulder_is_on_the_rising_side(self):
+        # Clockwise: the left side rises
+        slurry = slurry_map(lambda x, y: np.where(y < 0.05, 1.0, 0.0),
+                            lambda x, y: np.where(x > 0, 5.0, np.where(y > 0.02, -0.3, 1.0)))
+        self.assertAlmostEqual(flow_numbers.top_velocity(slurry), -0.3)
+
+
+class Statements(unittest.TestCase):
+    def flow(self, **numbers):
+        run = SimpleNamespace(series=SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)),
+                                                     height=np.full((60, 2), -0.05)), speed=75, diameter=0.3, name="run")
+        drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(10.0, 1.0))
+        return SimpleNamespace(readings=run, **{"drops": drops, **numbers})
+
+    def test_none_is_tested_without_runs(self):
+        found = own_statements.own_verdicts({}, {})
+        self.assertGreater(len(found), 20)
+        self.assertEqual({one.verdict for one in found}, {NOT_TESTED})
+
+    def test_pressure_must_drop_clearly_more(self):
+        def judged(more):
+            flows = {"Beetstra_75_20": self.flow(), "ErgunWenYu_75_20": self.flow(
+                drops=dict.fromkeys(("p_rgh", "pressure", "level"), Mean(more, 1.0)))}
+            return {one.verdict for one in own_statements.drops(flows) if one.verdict != NOT_TESTED}
+        self.assertEqual(judged(15.0), {CONFIRMED})
+        self.assertEqual(judged(5.0), {CONTRADICTED})
+
+    def test_patch_and_return(self):
+        flows = {"Beetstra_75_20": self.flow(centre_share=0.3, top_velocity=Mean(-0.01, 0.001))}
+        found = [one.verdict for one in own_statements.bed(flows) if one.verdict != NOT_TESTED]
+        self.assertEqual(found, [CONFIRMED, CONFIRMED])
+
+
+class Tables(unittest.TestCase):
+    def test_runs_that_are_not_there_are_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (folder / "dry_75").mkdir()
+        found, missing = study.read_each(folder, [RUNS["dry_75"], RUNS["dry_60"]], study.dry_case)
+        self.assertEqual(found, {})
+        self.assertRegex(missing[0], "dry_75: .*mill.json")
+        self.assertEqual(missing[1], "dry_60: not begun")
+
+    def test_cells_have_errors_where_they_are_known(self):
+        rows = [{"run": "a", **study.pair("drop", "Pa", Mean(1.234, 0.056))},
+                {"run": "b", **study.pair("drop", "Pa", Mean(np.nan, np.nan))}]
+        self.assertEqual([line.split() for line in study.lines_of(rows)],
+                         [["run", "a", "b"], ["drop,", "Pa", "1.23", "±", "0.06", "–"], []])
+
+
+if __name__ == "__main__":
+    unittest.main()
