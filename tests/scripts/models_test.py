@@ -6,8 +6,8 @@ import unittest
 import numpy as np
 from scipy.integrate import quad
 
-from millfoam.readings.models import (Charge, describes, fit_free_surface, free_surface, slurry_depth, slurry_hold_up,
-                                      surface_number)
+from millfoam.readings.models import (Charge, describes, fit_free_surface, free_surface, grate_hold_up,
+                                      mean_grate_radius, slurry_depth, slurry_hold_up, surface_number)
 
 CHARGE = Charge(radius=0.15, length=0.3, porosity=0.4, diameter=0.005)
 SLURRY = {"viscosity": 0.01, "density": 1300.0}
@@ -113,6 +113,35 @@ class HoldUp(unittest.TestCase):
     def test_negative_flow_is_refused(self):
         with self.assertRaisesRegex(ValueError, "flow -1"):
             slurry_hold_up(CHARGE, -1.0, 0.02, **SLURRY)
+
+
+class GrateHoldUp(unittest.TestCase):
+    # A mill of 1 m, at critical speed, whose holes are all at its shell: factors of 1 but for the area
+    MILL = {"diameter": 1.0, "grate_radius": 0.5, "critical_share": 1.0}
+
+    def test_is_the_root_of_the_flow_through_the_charge(self):
+        self.assertAlmostEqual(grate_hold_up(61 / 3600, open_area=0.04, **self.MILL), 0.5, places=12)
+
+    def test_a_pool_takes_what_the_charge_cannot(self):
+        # 24.4 m3/h fill a tenth of 1 m2 up to the pores' share of 0.2; 93.5 m3/h more a pool of a whole mill
+        flow = (24.4 + 93.5) / 3600
+        self.assertAlmostEqual(grate_hold_up(flow, open_area=0.1, most=0.2, **self.MILL), 1.2, places=12)
+        self.assertAlmostEqual(grate_hold_up(24.4 / 3600, open_area=0.1, most=0.2, **self.MILL), 0.2, places=12)
+
+    def test_radius_speed_and_diameter_have_their_powers(self):
+        whole = grate_hold_up(1e-3, 1.0, 0.5, 0.1, 1.0)
+        for change, power in (({"grate_radius": 0.25}, 2 ** 1.25), ({"critical_share": 0.5}, 2 ** -0.69),
+                              ({"diameter": 4.0, "grate_radius": 2.0}, 4 ** -0.25), ({"open_area": 0.2}, 2 ** -0.5)):
+            found = grate_hold_up(1e-3, **{**self.MILL, "open_area": 0.1, **change})
+            self.assertAlmostEqual(found / whole, power, places=12)
+
+    def test_holes_lie_farther_out_than_the_middle(self):
+        self.assertAlmostEqual(mean_grate_radius(0.0, 0.3), 0.2)
+        self.assertAlmostEqual(mean_grate_radius(0.2999, 0.3001), 0.3, places=6)
+
+    def test_holes_outside_the_mill_are_refused(self):
+        with self.assertRaisesRegex(ValueError, "grates at 0.6 m"):
+            grate_hold_up(1e-3, 1.0, 0.6, 0.1, 1.0)
 
 
 if __name__ == "__main__":

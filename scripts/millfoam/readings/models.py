@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mechanistic models to compare with a simulated mill: the charge's free surface and the slurry's hold-up."""
+"""Models to compare with a simulated mill: the charge's free surface, and the slurry's hold-up."""
 from dataclasses import dataclass
 from typing import Any
 
@@ -167,6 +167,33 @@ def slurry_hold_up(charge: Charge, flow: float, discharge_depth: float, viscosit
     else:
         mean = ((least + drop) ** 1.6 - least ** 1.6) / drop
     return charge.porosity * np.pi * np.sqrt(charge.radius) * 2.5 * charge.length / 8 * mean
+
+
+def mean_grate_radius(inner: float, outer: float) -> float:
+    """Mean distance (m) from the axis of the holes of a ring of grates from `inner` to `outer` (m)."""
+    return 2 / 3 * (outer ** 3 - inner ** 3) / (outer ** 2 - inner ** 2)
+
+
+def grate_hold_up(flow: float, diameter: float, grate_radius: float, open_area: float, critical_share: float,
+                  most: float = 1.0) -> float:
+    """Slurry in a mill with grates over the mill's volume, by Morrell & Stephenson, Int. J. Miner. Process. 46 (1996)
+    53-72: flow (m3/s), diameter of the mill (m), mean radius of the holes (m), their whole area (m2), speed over the
+    critical one; most: share of the mill's volume that the pores of the charge hold.
+
+    Q = 6100 J^2 g^2.5 A p^-1.38 sqrt(D) through the charge, up to J = most; what is beyond flows as a pool of the share
+    J', Q' = 935 J' g^2 A sqrt(D). Q is in m3/h, g the holes' radius over the mill's. It is of grates
+    without pulp lifters. ValueError for values below 0, or a radius beyond the mill's."""
+    share = 2 * grate_radius / diameter
+    if not (flow >= 0 and diameter > 0 and 0 < share <= 1 and open_area > 0 and critical_share > 0 and most > 0):
+        raise ValueError(f"flow {flow} m3/s, diameter {diameter} m, grates at {grate_radius} m, {open_area} m2, speed "
+                         f"{critical_share}, pores {most}; expected a flow of 0 or more, grates inside the mill, and "
+                         "other values above 0")
+    hourly = 3600 * flow
+    through_charge = 6100 * share ** 2.5 * open_area * critical_share ** -1.38 * np.sqrt(diameter)
+    within = np.sqrt(hourly / through_charge)
+    if within <= most:
+        return float(within)
+    return float(most + (hourly - through_charge * most ** 2) / (935 * share ** 2 * open_area * np.sqrt(diameter)))
 
 
 def _check(flow: float, discharge_depth: float) -> None:

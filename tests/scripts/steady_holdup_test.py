@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The study steady_holdup: exponents, models, groups of flows, and its table."""
+import importlib.util
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+
+from millfoam.readings import models
+from millfoam.readings.means import Mean
+
+ROOT = Path(__file__).resolve().parents[2]
+PLACE = ROOT / "cases" / "studies" / "steady_holdup" / "steady_holdup.py"
+SPEC = importlib.util.spec_from_file_location("steady_holdup", PLACE)
+study = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(study)
+
+FEEDS = (33e-6, 65e-6, 131e-6)
+
+
+def mill(speed=0.75):
+    """What the study reads of the 30 cm mill."""
+    grates = {"inner_radius_m": 0.09, "outer_radius_m": 0.13, "sector_share": 0.8, "open_fraction": 0.3, "pegged": 0.5}
+    derived = {("charge", "resting_solidity"): 0.55, ("charge", "pore_volume_m3"): 3e-3,
+               **{("geometry", "grates", key): value for key, value in grates.items()}}
+    return SimpleNamespace(radius=0.15, length=0.305, sauter_diameter=0.005, discharge_radius=0.0467,
+                           critical_share=speed, derived=lambda *keys: derived[keys],
+                           slurry={"plastic_viscosity_Pa_s": 0.0013, "density_kg_m3": 1148}.__getitem__)
+
+
+def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5):
+    case = SimpleNamespace(mill=mill(), law=law, flow=SimpleNamespace(mesh=SimpleNamespace(cells=9515)))
+    one = Mean(volume, error)
+    return study.Held(mesh, name, case, feed, Mean(1.1 * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
+                      "steady", "holds")
+
+
+class Exponents(unittest.TestCase):
+    def test_a_power_is_found_with_the_error_of_its_points(self):
+        volumes = [Mean(2e-3 * (feed / 65e-6)**0.4, 2e-5) for feed in FEEDS]
+        slope, offset = study.exponent(FEEDS, volumes)
+        self.assertAlmostEqual(slope.value, 0.4, places=9)
+        self.assertAlmostEqual(np.exp(offset) * (65e-6)**slope.value, 2e-3, places=9)
+        # Errors of 1 % at both ends of a factor of four, about
+        self.assertAlmostEqual(slope.error, 0.01 * np.sqrt(2) / np.log(131 / 33), delta=0.003)
+
+    def test_points_off_the_line_make_it_less_certain(self):
+        exact = [Mean(2e-3 * (feed / 65e-6)**0.4, 1e-6) for feed in FEEDS]
+        bent = [exact[0], Mean(1.1 * exact[1].value, 1e-6), exact[2]]
+        self.assertGreater(study.exponent(FEEDS, bent)[0].error, 50 * study.exponent(FEEDS, exact)[0].error)
+
+    def test_one_feed_has_none(self):
+        with self.assertRaisesRegex(ValueError, "1 feeds"):
+            study.exponent(FEEDS[:1], [Mean(1e-3, 1e-6)])
+
+
+class Models(unittest.TestCase):
+    def test_pegged_holes_do_not_count(self):
+        volume = np.pi * 0.15**2 * 0.305
+        area = np.pi * (0.13**2 - 0.09**2) * 0.8 * 0.3 * 0.5
+        expected = models.grate_hold_up(65e-6, 0.3, models.mean_grate_radius(0.09, 0.13), area, 0.75, 3e-3 / volume)
+        self.assertAlmostEqual(study.model_holdups(mill(), 65e-6)["Morrell & Stephenson"] / volume, expected, places=12)
+
+    def test_hold_more_with_more_feed(self):
+        less, more = (study.model_holdups(mill(), feed) for feed in FEEDS[::2])
+        for name in less:
+            self.assertGreater(more[name], less[name])
+
+
+class Table(unittest.TestCase):
+    def test_groups_have_their_exponent_and_starts_are_compared(self):
+        flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (feed / 65e-6)**0.5) for feed in FEEDS]
+        flows += [held("high", 65e-6, 2.002e-3), held("fluid_75_65", 65e-6, 5e-3, law=None)]
+        text = "\n".join(study.lines_of(flows))
+        self.assertIn("coarse, 75 %, with balls: hold-up in front of the grates ~ feed^0.500", text)
+        self.assertIn("(3 feeds)", text)
+        self.assertNotIn("without balls: hold-up", text)  # a single feed
+        self.assertRegex(text, r"from the high start: hold-up \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+
+    def test_flows_that_have_not_ended_are_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (folder / "own" / "fluid_60_33").mkdir(parents=True)
+        self.assertEqual(study.read_all(folder), ([], ["own/fluid_60_33: the flow has not come to its end"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
