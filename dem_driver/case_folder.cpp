@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dem_driver/deck.hpp"
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_check.hpp"
@@ -54,6 +55,12 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
     throw std::runtime_error((folder.walls() / (part + ".stl")).string() + ": no such wall" + and_more +
                              ", run millMesh first");
   };
+  if (mill.machine() == meshing::Machine::stirred) {
+    for (const char* part : {impeller_part, "shell", "base", "lid"})
+      if (!take(part)) refuse(part, "");
+    require_fit(walls, mill.geometry);
+    return parts;
+  }
   if (!take("shell")) refuse("shell", "");
   if (mill.geometry.lifters.count > 0 && !take("lifters")) refuse("lifters", "");
   if (mill.geometry.ends == meshing::Ends::plain) {
@@ -95,9 +102,9 @@ FolderLock::~FolderLock() {
 }
 
 void remove_results(const CaseFolder& folder) {
-  for (const auto& file :
-       {folder.run_file(), folder.results(), folder.energy(), folder.fluid(), folder.contact_power(),
-        folder.contact_spectra(), folder.wall_forces(), folder.overlaps(), folder.charge()})
+  for (const auto& file : {folder.run_file(), folder.results(), folder.energy(), folder.torques(),
+                           folder.fluid(), folder.contact_power(), folder.contact_spectra(),
+                           folder.wall_forces(), folder.overlaps(), folder.charge()})
     fs::remove(file);
 }
 

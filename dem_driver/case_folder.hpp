@@ -46,6 +46,8 @@ struct CaseFolder {
   std::filesystem::path results() const { return dumps() / "results.json"; }
   /// Torque, power, energies and largest overlap, a row for each record.
   std::filesystem::path energy() const { return dumps() / "energy.csv"; }
+  /// Torque on each wall of a stirred mill.
+  std::filesystem::path torques() const { return dumps() / "torques.csv"; }
   /// What the fluid did to the balls, a row for each record; only with one.
   std::filesystem::path fluid() const { return dumps() / "fluid.csv"; }
   /// Power that the contacts dissipate, by their kinds; only with their statistics.

@@ -76,7 +76,8 @@ void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classe
 
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.
 std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
-  const double cylinder = pi * mill.charge.start_radius * mill.charge.start_radius * start_length(mill);
+  const double radius = mill.charge.start_radius, core = mill.charge.start_core;
+  const double cylinder = pi * (radius * radius - core * core) * start_length(mill);
   std::vector<Round> rounds;
   double inside = 0;
   double room = round_solidity * cylinder;

@@ -52,6 +52,15 @@ bool is_periodic(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic;
 }
 
+bool is_stirred(const meshing::Mill& mill) {
+  return mill.machine() == meshing::Machine::stirred;
+}
+
+/// The walls that turn: all of a tumbling mill's; of a stirred mill's the impeller alone.
+std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts) {
+  return is_stirred(mill) ? std::vector<std::string>{impeller_part} : parts;
+}
+
 /// The atom types of LIGGGHTS: balls of equal modulus share one, the wall has the last.
 class AtomTypes {
  public:
@@ -133,7 +142,8 @@ void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
                mill.ball_wall.rolling_friction);
   out << "pair_style " << model_of(plan) << "\npair_coeff * *\n"
       << "timestep " << plan.step.value << '\n'
-      << "fix gravity all gravity " << meshing::gravity << " vector 0 -1 0\n";
+      << "fix gravity all gravity " << meshing::gravity << " vector "
+      << (is_stirred(mill) ? "0 0 -1" : "0 -1 0") << '\n';
 }
 
 void write_walls(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
@@ -188,11 +198,16 @@ void write_insertion(std::ostream& out, const meshing::Mill& mill, const AtomTyp
                      const Insertion& insertion, int number, Primes& primes) {
   const double radius = insertion.diameter / 2;
   const double length = is_periodic(mill) ? mill.geometry.length : mill.charge.start_length;
-  const double z0 = (mill.geometry.length - length) / 2 + radius;
+  const double z0 = (is_periodic(mill) ? 0 : mill.charge.start_bottom) + radius;
   const std::string id = std::to_string(number);
-  out << "region start" << id << " cylinder z 0 0 " << mill.charge.start_radius - radius << ' ' << z0 << ' '
-      << z0 + length - 2 * radius << " units box\n"
-      << "variable wanted equal count(all,start" << id << ")+" << insertion.count << '\n'
+  const double core = mill.charge.start_core;
+  out << "region " << (core > 0 ? "around" : "start") << id << " cylinder z 0 0 "
+      << mill.charge.start_radius - radius << ' ' << z0 << ' ' << z0 + length - 2 * radius << " units box\n";
+  if (core > 0)
+    out << "region core" << id << " cylinder z 0 0 " << core + radius << ' ' << z0 - radius << ' '
+        << z0 + length << " side out units box\n"
+        << "region start" << id << " intersect 2 around" << id << " core" << id << '\n';
+  out << "variable wanted equal count(all,start" << id << ")+" << insertion.count << '\n'
       << "fix ball" << id << " all particletemplate/sphere " << primes.next() << " atom_type "
       << types.of_ball(insertion.diameter) << " density constant " << mill.ball.density << " radius constant "
       << radius << '\n'
@@ -229,19 +244,25 @@ void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& p
   }
 }
 
-/// Torque of the charge on all walls about the axis, mean over every step of a record; kinetic and potential
-/// energy at every record; histograms of the overlaps, for which LIGGGHTS computes all contacts once more.
-void write_results(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
-                   long start) {
+/// Torque of the charge on the walls that turn about the axis, and in a stirred mill also on each part, mean
+/// over every step of a record; kinetic and potential energy at every record; histograms of the overlaps, for
+/// which LIGGGHTS computes all contacts once more.
+void write_results(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
+                   const std::vector<std::string>& parts, long start) {
   const long record = plan.step.steps_per_record;
   const long sample = plan.overlap_steps();
   const double range = overlap_range * largest_diameter(plan);
   out << "variable torque equal 0";
-  for (const auto& part : parts) out << "+f_" << part << "[6]";
+  for (const auto& part : turning_parts(mill, parts)) out << "+f_" << part << "[6]";
   out << "\nfix torque all ave/time 1 " << record << ' ' << record << " v_torque file torque." << start
-      << ".txt\n"
-      << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity
-      << "*y\ncompute potential all reduce sum v_height\n"
+      << ".txt\n";
+  if (is_stirred(mill)) {
+    out << "fix " << part_torques_kind << " all ave/time 1 " << record << ' ' << record;
+    for (const auto& part : parts) out << " f_" << part << "[6]";
+    out << " file " << part_torques_kind << '.' << start << ".txt\n";
+  }
+  out << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity << '*'
+      << (is_stirred(mill) ? 'z' : 'y') << "\ncompute potential all reduce sum v_height\n"
       << "fix energy all ave/time " << record << " 1 " << record << " c_kinetic c_potential file energy."
       << start << ".txt\n";
   for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
@@ -285,11 +306,11 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
   write_fluid(out, plan, fluid_fix);
   if (mill.angular_velocity != 0) {
     const double period = 2 * pi / std::abs(mill.angular_velocity);
-    for (const auto& part : parts)
+    for (const auto& part : turning_parts(mill, parts))
       out << "fix turn_" << part << " all move/mesh mesh " << part << " rotate origin 0 0 0 axis 0 0 "
           << (mill.angular_velocity > 0 ? 1 : -1) << " period " << period << '\n';
   }
-  write_results(out, plan, parts, start);
+  write_results(out, mill, plan, parts, start);
   write_averages(out, plan);
   if (plan.dumps > 0)
     out << "dump balls all custom " << plan.step.steps_per_record

@@ -111,6 +111,11 @@ inline constexpr char watch_command[] = "watch_contacts";
 /// Name of the deck's fix through which the balls' averages are made. Only millLiggghts makes them.
 inline constexpr char averages_fix[] = "averages";
 
+/// Wall of a stirred mill that turns.
+inline constexpr char impeller_part[] = "impeller";
+/// Name of the deck's fix that writes the torque on each wall of a stirred mill, and of its files.
+inline constexpr char part_torques_kind[] = "partTorques";
+
 /// Number of bins of the overlaps' histograms, of equal width from 0 on.
 inline constexpr int overlap_bins = 1000;
 /// Upper end of these histograms over the largest ball's diameter.
@@ -121,10 +126,11 @@ long contact_dumps_until(const DemPlan& plan, long step);
 
 /// Writes the LIGGGHTS 3.8 input deck. LIGGGHTS runs in DIR/dem; the deck refers to `../walls/<part>.stl` for
 /// each of `parts`, dumps to `../dumps/dump.<step>.txt` unless the plan has none, and writes into its own
-/// folder, from step 0 on, `torque.0.txt`, `energy.0.txt`, `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and
-/// `restart.<step>`; with contacts, `../contacts/<kind>.<step>.txt` for each of `contact_kinds`
-/// (segments.hpp). Balls are the first atom types, one for each modulus, the wall is the last. Of a plan that
-/// continues another run, it is the deck that resumes from the restart file of `plan.begin`.
+/// folder, from step 0 on, `torque.0.txt`, of a stirred mill also `partTorques.0.txt`, `energy.0.txt`,
+/// `ballOverlaps.0.txt`, `wallOverlaps.0.txt` and `restart.<step>`; with contacts,
+/// `../contacts/<kind>.<step>.txt` for each of `contact_kinds` (segments.hpp). Balls are the first atom
+/// types, one for each modulus, the wall is the last. Of a plan that continues another run, it is the deck
+/// that resumes from the restart file of `plan.begin`.
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                 const std::vector<std::string>& parts, int ranks);
 

@@ -21,6 +21,7 @@
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/walls/stirred_walls.hpp"
 #include "meshing/walls/wall_files.hpp"
 #include "meshing/walls/wall_surface.hpp"
 
@@ -118,18 +119,8 @@ double work_of(const DemPlan& plan) {
   return work + inserted * static_cast<double>(plan.turning_steps);
 }
 
-}  // namespace
-
-meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
-  meshing::Mill trial = mill;
-  const long steps_between_contacts = plan_dem(mill).contact_steps;
-  trial.dem.contact_interval = 0;
-  trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
-  trial.dem.largest_overlap = 0;
-  trial.dem.soften_below = 0;
-  trial.dem.pool_level.reset();
-
-  const DemPlan whole = plan_dem(trial);
+/// A periodic slice of the mill with some balls.
+void take_trial_slice(const meshing::Mill& mill, const DemPlan& whole, int ranks, meshing::Mill& trial) {
   const double largest = whole.charge.classes.front().diameter;
   const double shortest = std::min(mill.geometry.length, std::max(2.5, 1.6 * ranks) * largest);
   const double wanted = mill.geometry.length * trial_balls / static_cast<double>(whole.charge.balls());
@@ -142,6 +133,28 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   for (auto& size : trial.charge.classes)
     size.mass = std::max(size.mass * trial.geometry.length / mill.geometry.length,
                          meshing::ball_mass(trial, size.diameter));
+}
+
+meshing::WallSurface walls_of(const meshing::Mill& mill) {
+  if (mill.machine() == meshing::Machine::stirred) return meshing::make_stirred_walls(mill.geometry);
+  const auto section = meshing::make_cross_section(mill.geometry, mill.resolution);
+  return meshing::make_wall_surface(section, mill.geometry.length);
+}
+
+}  // namespace
+
+meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
+  meshing::Mill trial = mill;
+  const long steps_between_contacts = plan_dem(mill).contact_steps;
+  trial.dem.contact_interval = 0;
+  trial.dem.youngs_modulus = std::max(smallest_modulus, std::min(1e7, mill.ball.youngs_modulus));
+  trial.dem.largest_overlap = 0;
+  trial.dem.soften_below = 0;
+  trial.dem.pool_level.reset();
+
+  const DemPlan whole = plan_dem(trial);
+  // A stirred mill has no slice: its trial is the whole mill
+  if (mill.machine() == meshing::Machine::tumbling) take_trial_slice(mill, whole, ranks, trial);
 
   trial.dem.settle_time = 0.1;
   trial.dem.record_interval = trial_steps / 10 * whole.step.value;
@@ -160,9 +173,7 @@ namespace {
 /// Runs the trial mill in an empty folder.
 Cost measure_in(const CaseFolder& folder, const meshing::Mill& mill, int ranks) {
   const meshing::Mill trial = trial_mill(mill, ranks);
-  const auto section = meshing::make_cross_section(trial.geometry, trial.resolution);
-  meshing::write_walls(meshing::make_wall_surface(section, trial.geometry.length), trial.geometry.ends,
-                       folder.walls());
+  meshing::write_walls(walls_of(trial), trial.geometry.ends, folder.walls());
   const DemPlan plan = plan_dem(trial);
   prepare_folders(folder);
   const auto parts = find_walls(folder, trial);

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "dem_driver/json_file.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -68,8 +69,13 @@ const char* sense_of_rotation(double angular_velocity) {
 
 void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan) {
   out << std::setprecision(3) << "mill: " << mill.geometry.diameter << " m in diameter, "
-      << mill.geometry.length << " m long, ";
-  if (mill.angular_velocity == 0)
+      << mill.geometry.length << (mill.geometry.impeller ? " m high, " : " m long, ");
+  if (mill.geometry.impeller)
+    out << "stirred " << sense_of_rotation(mill.angular_velocity) << " seen from above, "
+        << mill.angular_velocity << " rad/s ("
+        << std::abs(mill.angular_velocity) * meshing::impeller_radius(*mill.geometry.impeller)
+        << " m/s at the tips)\n";
+  else if (mill.angular_velocity == 0)
     out << "at rest\n";
   else
     out << "turns " << sense_of_rotation(mill.angular_velocity) << " seen with x to the right and y up, "

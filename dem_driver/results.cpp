@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <ostream>
 #include <stdexcept>
 #include <utility>
@@ -75,6 +76,31 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
   return fluid;
 }
 
+/// Means of the parts' torques over the steady part of the run.
+Json part_torques_of(const Results& results) {
+  if (!results.part_torques) return nullptr;
+  const PartTorques& found = *results.part_torques;
+  const auto first = static_cast<std::size_t>(
+      std::lower_bound(results.time.begin(), results.time.end(), results.steady_from()) -
+      results.time.begin());
+  Json json = Json::object();
+  for (std::size_t part = 0; part < found.parts.size(); ++part)
+    json[found.parts[part]] = found.mean(part, first);
+  return json;
+}
+
+void write_part_torques(std::ostream& out, const Results& results) {
+  const PartTorques& found = *results.part_torques;
+  out << "time_s" << std::setprecision(8);
+  for (const std::string& part : found.parts) out << ',' << part << "_Nm";
+  out << '\n';
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    out << results.time[i];
+    for (const auto& torques : found.torques) out << ',' << torques[i];
+    out << '\n';
+  }
+}
+
 Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& results) {
   Json json = begin_result("charge", mill);
   json["liggghts"] = results.run.liggghts;
@@ -93,6 +119,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"steady_from_s", results.steady_from()},
                {"power_W", results.power_steadiness.mean},
                {"power_error_W", results.power_steadiness.standard_error},
+               {"part_torques_Nm", part_torques_of(results)},
                {"kinetic_energy_J", results.kinetic_steadiness.mean},
                {"potential_energy_J", results.potential_steadiness.mean},
                {"ball_overlap_largest_m", results.ball_overlaps.largest},
@@ -152,6 +179,23 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder) {
   return history;
 }
 
+double PartTorques::mean(std::size_t part, std::size_t first) const {
+  const auto& all = torques[part];
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size()));
+  return std::accumulate(begin, all.end(), 0.0) /
+         static_cast<double>(std::max(all.end() - begin, std::ptrdiff_t{1}));
+}
+
+PartTorques read_part_torques(const CaseFolder& folder, const std::vector<std::string>& parts) {
+  PartTorques found{parts, std::vector<std::vector<double>>(parts.size())};
+  for (const auto& line : read_segments(folder, part_torques_kind)) {
+    expect_columns(line, parts.size() + 1);
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      found.torques[part].push_back(line.values[part + 1]);
+  }
+  return found;
+}
+
 OverlapStatistics read_overlaps(const CaseFolder& folder, const std::string& kind, double largest_diameter) {
   OverlapStatistics statistics;
   statistics.counts.assign(overlap_bins, 0);
@@ -206,6 +250,13 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   if (static_cast<long>(results.history.size()) + 1 != plan.records)
     throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
                    " records of torque and energy, expected " + std::to_string(plan.records - 1));
+  if (mill.machine() == meshing::Machine::stirred) {
+    results.part_torques = read_part_torques(folder, find_walls(folder, mill));
+    if (results.part_torques->torques.front().size() != results.history.size())
+      throw RunError(folder.dem().string() + ": " +
+                     std::to_string(results.part_torques->torques.front().size()) +
+                     " records of the parts' torques, expected " + std::to_string(results.history.size()));
+  }
   results.fluid = read_fluid_ledger(folder);
   if (plan.fluid.kind != FluidKind::none && results.fluid.size() != results.history.size())
     throw RunError(folder.dem().string() + ": " + std::to_string(results.fluid.size()) +
@@ -237,6 +288,8 @@ void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, co
           << row.potential << '\n';
     }
   });
+  if (results.part_torques)
+    replace_file(folder.torques(), [&](std::ostream& out) { write_part_torques(out, results); });
   if (plan.fluid.kind != FluidKind::none)
     replace_file(folder.fluid(), [&](std::ostream& out) { write_fluid(out, results); });
   if (results.contacts) write_contact_files(folder, *results.contacts);

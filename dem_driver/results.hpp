@@ -18,15 +18,29 @@ namespace millfoam::dem_driver {
 
 /// The mill at one record.
 struct HistoryRow {
-  long step = 0;         ///< of the turning mill, from DEM time 0
-  double torque = 0;     ///< of the charge on the mill about +z, mean over the record's steps, N m
+  long step = 0;  ///< of the turning mill, from DEM time 0
+  /// Of the charge on the walls that turn about +z, mean over the record's steps, N m.
+  double torque = 0;
   double kinetic = 0;    ///< energy of translation, J
-  double potential = 0;  ///< against the mill's axis, J
+  double potential = 0;  ///< against the mill's axis, or a stirred mill's base, J
 };
 
 /// What LIGGGHTS has written of the turning mill, one row per record after step 0. Throws std::runtime_error
 /// naming file and line where it cannot be read.
 std::vector<HistoryRow> read_history(const CaseFolder& folder);
+
+/// Torque of the charge on each wall of a stirred mill.
+struct PartTorques {
+  std::vector<std::string> parts;            ///< their names
+  std::vector<std::vector<double>> torques;  ///< about +z, N m, of each part at each record
+  /// Mean over the records from a number on, N m.
+  double mean(std::size_t part, std::size_t first) const;
+};
+
+/// What LIGGGHTS has written of the parts' torques, a row for each record after step 0. Throws
+/// std::runtime_error naming file and line where it cannot be read.
+/// @param parts  the walls in the order of the deck
+PartTorques read_part_torques(const CaseFolder& folder, const std::vector<std::string>& parts);
 
 /// All overlaps of one kind at the records at which they are counted.
 struct OverlapStatistics {
@@ -60,8 +74,9 @@ struct Results {
   OverlapStatistics ball_overlaps;         ///< of two balls
   OverlapStatistics wall_overlaps;         ///< of balls and walls
   std::optional<ContactResults> contacts;  ///< of a run that follows its contacts
-  bool steady() const;                     ///< whether power and both energies are
-  double steady_from() const;              ///< s, the latest of the three
+  std::optional<PartTorques> part_torques;  ///< of a stirred mill
+  bool steady() const;                      ///< whether power and both energies are
+  double steady_from() const;               ///< s, the latest of the three
 };
 
 /// Reads what LIGGGHTS has written and judges it. Throws as read_history, read_overlaps and gather_contacts
@@ -70,8 +85,9 @@ struct Results {
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 
-/// Writes `dumps/results.json`, `dumps/energy.csv`, `dumps/overlaps.csv`, `dumps/charge.csv` and, with a
-/// fluid, `dumps/fluid.csv`; with contacts also what write_contact_files writes. Layout: FORMATS.md.
+/// Writes `dumps/results.json`, `dumps/energy.csv`, of a stirred mill `dumps/torques.csv`,
+/// `dumps/overlaps.csv`, `dumps/charge.csv` and, with a fluid, `dumps/fluid.csv`; with contacts also what
+/// write_contact_files writes. Layout: FORMATS.md.
 void write_results_files(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                          const Results& results);
 

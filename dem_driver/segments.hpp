@@ -17,8 +17,9 @@ struct NumberedFile {
 };
 
 /// What a run writes in segments: every resumed run begins its own files.
-inline constexpr const char* segment_kinds[] = {"torque",       "energy",      "fluid",       "ballOverlaps",
-                                                "wallOverlaps", "contactWork", "contactBins", "wallCells"};
+inline constexpr const char* segment_kinds[] = {"torque",      "partTorques",  "energy",
+                                                "fluid",       "ballOverlaps", "wallOverlaps",
+                                                "contactWork", "contactBins",  "wallCells"};
 
 /// Every `dem/<kind>.<step>.txt`, by step.
 std::vector<NumberedFile> find_segments(const CaseFolder& folder, const std::string& kind);

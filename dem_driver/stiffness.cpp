@@ -8,6 +8,7 @@
 #include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -45,6 +46,10 @@ double Stiffness::of_ball(double diameter) const {
 }
 
 double expected_impact_speed(const meshing::Mill& mill) {
+  if (mill.geometry.impeller) {
+    const double tip = std::abs(mill.angular_velocity) * meshing::impeller_radius(*mill.geometry.impeller);
+    return std::sqrt(2 * meshing::gravity * mill.geometry.length) + tip;
+  }
   return std::sqrt(2 * meshing::gravity * mill.geometry.diameter) +
          std::abs(mill.angular_velocity) * mill.geometry.radius();
 }

@@ -46,7 +46,25 @@ struct PulpLifters {
   double discharge_radius = 0;  ///< m, inside of which there are no radial walls, and the end is open
 };
 
-/// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up.
+/// Arms of a stirred mill's impeller at one height: round pins with flat ends, equally spaced around the
+/// shaft.
+struct PinLevel {
+  double height = 0;     ///< z of their axes, m
+  double length = 0;     ///< from the tip of an arm to that of the opposite one, m: twice an arm's reach
+  double thickness = 0;  ///< diameter of a pin, m
+  double angle = 0;      ///< of the first arm from +x, right-handed about +z, degrees
+  int arms = 2;          ///< number of them
+};
+
+/// The impeller of a stirred mill: a round shaft on the axis that comes through the lid, with pins.
+struct Impeller {
+  double shaft_diameter = 0;   ///< m
+  double shaft_end = 0;        ///< z of its lower end, m
+  std::vector<PinLevel> pins;  ///< in the order of the file
+};
+
+/// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up. Of a
+/// stirred mill, z runs from 0 at the base to the lid and is up; the shell is at rest and the impeller turns.
 struct Geometry {
   double diameter = 0;      ///< inside the shell, m
   double length = 0;        ///< along the axis, without the pulp lifters, m
@@ -61,6 +79,8 @@ struct Geometry {
   /// Of a periodic slice: the openings' circles of the whole mill, m, ascending; the slice has no openings,
   /// but the whole mill's cross-section.
   std::vector<double> circles_of_whole = {};
+  /// Of a stirred mill; a tumbling mill has none.
+  std::optional<Impeller> impeller = std::nullopt;
   /// Inside the shell, m.
   double radius() const { return diameter / 2; }
 };
@@ -79,7 +99,9 @@ struct Charge {
   double packing = 0.6;     ///< solidity at rest, of which the volumes of the bulk and of its pores follow
   double fines_below = 0;   ///< m: smaller balls are kept in the books, not simulated; 0 for none
   double start_radius = 0;  ///< m
-  double start_length = 0;  ///< m, centred on the mill's length; ignored for a periodic slice
+  double start_length = 0;  ///< m; ignored for a periodic slice
+  double start_bottom = 0;  ///< z of the cylinder's lower end, m; ignored for a periodic slice
+  double start_core = 0;    ///< m, radius of the cylinder's core that is left out: the shaft; 0 for none
 };
 
 /// Elastic solid. The modulus used by the simulation may be softer than the real one; see
@@ -238,6 +260,9 @@ struct MillFingerprints {
   std::string flow;      ///< everything but the title and how often balls and flow are computed in turn
 };
 
+/// What turns: the mill about its horizontal axis, or an impeller in a vertical shell at rest.
+enum class Machine { tumbling, stirred };
+
 /// One mill, its charge, its slurry and how finely they are computed: what `mill.yaml` says, in SI units.
 struct Mill {
   std::string title;        ///< for people and pictures
@@ -257,11 +282,12 @@ struct Mill {
   Resolution resolution;         ///< of the flow's mesh
   Flow flow;                     ///< of slurry and air
   MillFingerprints fingerprint;  ///< of the keys that this mill was read from
-  double turn() const;           ///< time of one turn, s
-  const char* sense() const;     ///< clockwise or anticlockwise, seen with x to the right and y up
+  Machine machine() const { return geometry.impeller ? Machine::stirred : Machine::tumbling; }  ///< its kind
+  double turn() const;        ///< time of one turn, s
+  const char* sense() const;  ///< clockwise or anticlockwise, seen with x to the right and y up
 };
 
-/// Gravity's magnitude used by every stage, m/s^2; it points to -y.
+/// Gravity's magnitude used by every stage, m/s^2; it points to -y, in a stirred mill to -z.
 inline constexpr double gravity = 9.81;
 
 /// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.

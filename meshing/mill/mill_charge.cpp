@@ -7,6 +7,7 @@
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {
@@ -15,12 +16,21 @@ namespace {
 /// What a whole number can hold with all its digits in a double.
 constexpr double most_counted = 9e15;
 
+/// Share of the space up to a level that balls take where a stirred mill does not say it.
+constexpr double usual_share = 0.5;
+/// Distance of the space in which a stirred mill's balls are released from its walls, in diameters.
+constexpr double start_gap = 0.1;
+
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
 /// images.
 Rule ball_diameter(const Geometry& geometry) {
+  if (geometry.impeller) {
+    const double gap = geometry.radius() - impeller_radius(*geometry.impeller);
+    return positive_below("a ball's diameter", gap, " m", "the gap between the impeller and the shell");
+  }
   const double room = geometry.radius() - geometry.lifters.height;
   const bool slice_is_short = geometry.length < room;
   return positive_below("a ball's diameter", std::min(room, geometry.length), " m",
@@ -28,13 +38,39 @@ Rule ball_diameter(const Geometry& geometry) {
 }
 
 std::vector<Section> list_classes(const Section& in) {
-  return in.list("classes", {"diameter", "mass"});
+  return in.list("classes", {"diameter", "mass", "number"});
 }
 
 /// `share` of the mass lies in the mill.
 Rule class_mass(const Geometry& geometry, double density, double share) {
   return positive_up_to("a mass in kg (of the mill full of the balls' material at most)",
                         density * analytic_volume(geometry) / share);
+}
+
+double sphere_mass(double density, double diameter) {
+  return density * pi / 6 * std::pow(diameter, 3);
+}
+
+/// Mass of a class, by its mass or by its number of balls, kg.
+double read_mass(const Section& item, const Geometry& geometry, double density, double share,
+                 double diameter) {
+  const Rule mass = class_mass(geometry, density, share);
+  if (!item.has("number")) return item.number("mass", mass);
+  if (item.has("mass")) item.refuse("number", "either the mass or the number of the balls");
+  const double one = sphere_mass(density, diameter);
+  return one * item.number("number",
+                           {"a whole number of balls from 1 on, of which the mill has room",
+                            [&](double v) { return v >= 1 && v == std::floor(v) && mass.holds(v * one); }});
+}
+
+/// Classes of which `share` of the mass lies in the mill.
+std::vector<SizeClass> read_sizes(const Section& in, const Geometry& geometry, double density, double share) {
+  std::vector<SizeClass> classes;
+  for (const Section& item : list_classes(in)) {
+    const double diameter = item.number("diameter", ball_diameter(geometry));
+    classes.push_back({diameter, read_mass(item, geometry, density, share, diameter) * share});
+  }
+  return classes;
 }
 
 std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry, double density) {
@@ -45,12 +81,7 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry,
       geometry.length / in.number("reference_length",
                                   positive_up_to("the length in m that the masses fill,", longest),
                                   geometry.length);
-  std::vector<SizeClass> classes;
-  for (const Section& item : list_classes(in)) {
-    classes.push_back({item.number("diameter", ball_diameter(geometry)),
-                       item.number("mass", class_mass(geometry, density, share)) * share});
-  }
-  return classes;
+  return read_sizes(in, geometry, density, share);
 }
 
 /// Mass in kg of balls that fill the requested share of the mill in bulk.
@@ -68,8 +99,12 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density, do
   in.drop("fill");
   double mass = 0;
   for (const SizeClass& size : read_classes(in, geometry, density)) mass += size.mass;
-  for (Section& item : list_classes(in))
-    item.put("mass", item.number("mass", class_mass(geometry, density, 1)) * wanted / mass);
+  for (Section& item : list_classes(in)) {
+    const double diameter = item.number("diameter", ball_diameter(geometry));
+    const double own = read_mass(item, geometry, density, 1, diameter);
+    item.drop("number");
+    item.put("mass", own * wanted / mass);
+  }
 }
 
 /// What --set gives takes the place of the file's other way to say how much charge there is.
@@ -81,36 +116,65 @@ void choose_charge(Section& in, const Geometry& geometry, double density, double
     in.displace("fill", {"classes", "reference_length"});
 }
 
+double read_packing(const Section& in, double usual) {
+  return in.number("packing",
+                   {"the solidity of a resting charge, above 0 and up to 0.74",
+                    [](double v) { return v > 0 && v <= 0.74; }},
+                   usual);
+}
+
+/// Refuses balls that do not fit, by the key that gives them; returns the largest diameter, m.
+double require_room(const Section& in, const char* key, const std::vector<SizeClass>& classes,
+                    const Geometry& geometry, double density) {
+  double volume = 0;
+  double largest = 0;
+  for (const SizeClass& size : classes) {
+    volume += size.mass / density;
+    largest = std::max(largest, size.diameter);
+  }
+  if (volume > closest_packing * analytic_volume(geometry)) {
+    in.refuse(key, "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
+                       shown(closest_packing * analytic_volume(geometry)) + " m^3");
+  }
+  return largest;
+}
+
+double read_fines(const Section& in, double largest) {
+  return in.number("fines_below",
+                   {"a diameter in m of 0 or more and up to the largest ball's, " + shown(largest) + " m",
+                    [=](double v) { return v >= 0 && v <= largest; }},
+                   0);
+}
+
+/// Mass of balls that take a share of the space up to a level, outside of the impeller.
+double read_level_mass(const Section& in, const Geometry& geometry, double density) {
+  const double level = in.number(
+      "level", positive_up_to("a height in m, up to the mill's, of the space of which the balls take a share "
+                              "(or the key classes),",
+                              geometry.length));
+  const double share =
+      in.number("share",
+                {"a share of the space up to that level above 0 and up to " + shown(closest_packing),
+                 [](double v) { return v > 0 && v <= closest_packing; }},
+                usual_share);
+  const double section = pi * geometry.radius() * geometry.radius();
+  return share * density * (section * level - impeller_volume(geometry, level));
+}
+
 }  // namespace
 
 Charge read_charge(Section in, const Geometry& geometry, double density) {
   Charge charge;
-  charge.packing = in.number("packing",
-                             {"the solidity of a resting charge, above 0 and up to 0.74",
-                              [](double v) { return v > 0 && v <= 0.74; }},
-                             charge.packing);
+  charge.packing = read_packing(in, charge.packing);
   choose_charge(in, geometry, density, charge.packing);
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
   else
     charge.classes = {{in.number("diameter", ball_diameter(geometry)),
                        read_fill_mass(in, geometry, density, charge.packing)}};
-  double volume = 0;
-  double largest = 0;
-  for (const SizeClass& size : charge.classes) {
-    volume += size.mass / density;
-    largest = std::max(largest, size.diameter);
-  }
-  if (volume > closest_packing * analytic_volume(geometry)) {
-    in.refuse(in.has("classes") ? "classes" : "fill",
-              "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
-                  shown(closest_packing * analytic_volume(geometry)) + " m^3");
-  }
-  charge.fines_below =
-      in.number("fines_below",
-                {"a diameter in m of 0 or more and up to the largest ball's, " + shown(largest) + " m",
-                 [=](double v) { return v >= 0 && v <= largest; }},
-                0);
+  const double largest =
+      require_room(in, in.has("classes") ? "classes" : "fill", charge.classes, geometry, density);
+  charge.fines_below = read_fines(in, largest);
   const double room = geometry.radius() - geometry.lifters.height;
   charge.start_radius =
       in.number("start_radius",
@@ -126,11 +190,42 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
              : length_of_mill().expected,
        [=](double v) { return plain ? v > largest && v <= geometry.length : length_of_mill().holds(v); }},
       0.98 * geometry.length);
+  charge.start_bottom = (geometry.length - charge.start_length) / 2;
+  return charge;
+}
+
+Charge read_stirred_charge(Section in, const Geometry& geometry, double density) {
+  Charge charge;
+  charge.packing = read_packing(in, charge.packing);
+  in.displace("classes", {"level", "share", "diameter"});
+  in.displace("level", {"classes"});
+  const bool by_classes = in.has("classes");
+  if (by_classes) {
+    for (const char* other : {"level", "share", "diameter"})
+      if (in.has(other)) in.refuse(other, "either classes, or level, share and diameter");
+    charge.classes = read_sizes(in, geometry, density, 1);
+  } else {
+    charge.classes = {
+        {in.number("diameter", ball_diameter(geometry)), read_level_mass(in, geometry, density)}};
+  }
+  const double largest =
+      require_room(in, by_classes ? "classes" : "level", charge.classes, geometry, density);
+  charge.fines_below = read_fines(in, largest);
+  const Impeller& impeller = *geometry.impeller;
+  // Above the pins, around the shaft; a tenth of a ball more, so that none touches a wall
+  charge.start_radius = geometry.radius() - largest * start_gap;
+  charge.start_core = impeller.shaft_diameter / 2 + largest * start_gap;
+  charge.start_bottom = impeller_top(impeller) + largest * start_gap;
+  charge.start_length = geometry.length - charge.start_bottom - largest * start_gap;
+  if (charge.start_length < 2 * largest)
+    in.refuse(by_classes ? "classes" : "diameter",
+              "balls for which there is room above the impeller, where they are released: " +
+                  shown(geometry.length - impeller_top(impeller)) + " m");
   return charge;
 }
 
 double ball_mass(const Mill& mill, double diameter) {
-  return mill.ball.density * pi / 6 * std::pow(diameter, 3);
+  return sphere_mass(mill.ball.density, diameter);
 }
 
 ChargeNumbers count_charge(const Mill& mill) {

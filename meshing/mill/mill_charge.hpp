@@ -16,6 +16,9 @@ class Section;
 /// Throws MillError for an impossible value, for both ways, and for balls that do not fit.
 Charge read_charge(Section in, const Geometry& geometry, double density);
 
+/// The same of a stirred mill: by classes, or by the share of the space up to a level that the balls take.
+Charge read_stirred_charge(Section in, const Geometry& geometry, double density);
+
 /// The number of whole balls with the mass of a size class.
 struct BallCount {
   double diameter = 0;    ///< m

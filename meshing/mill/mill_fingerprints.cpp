@@ -62,7 +62,9 @@ Json materials_numbers(const Mill& mill) {
 MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   // Names of materials mean numbers
   const Json materials = materials_numbers(mill);
-  Json of = {{"geometry", keys.at("geometry")}, {"resolution", keys.at("resolution")}};
+  const bool stirred = mill.machine() == Machine::stirred;
+  Json of = {{"geometry", keys.at("geometry")}};
+  of["resolution"] = stirred ? Json::object() : keys.at("resolution");
   // Balls and mesh do not depend on the grates' holes
   Json& geometry = of["geometry"];
   if (geometry.contains("grates") && geometry["grates"].is_object())
@@ -78,7 +80,12 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["dem"] = dem_numbers(keys, mill);
   of["averages"] = averages_numbers(keys);
   result.averages = fingerprint(of.dump());
+  if (stirred) {
+    result.flow = "";
+    return result;
+  }
   of = keys;
+  of.erase("machine");
   of["averages"] = averages_numbers(keys);
   of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;

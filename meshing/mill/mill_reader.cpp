@@ -13,6 +13,7 @@
 #include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill/rules.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::meshing {
@@ -26,6 +27,11 @@ constexpr double usual_rayleigh_fraction = 0.2;
 constexpr double usual_settling = 1.6;
 constexpr double usual_dem_turns = 3;
 constexpr double records_per_turn = 500;
+
+/// The same of a stirred mill, whose impeller turns several times a second: turns of the dry run, about 4 s
+/// of a laboratory mill; records in a turn.
+constexpr double usual_stirred_turns = 15;
+constexpr double stirred_records_per_turn = 50;
 
 /// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
 constexpr double slowest_fraction = 0.001;
@@ -99,9 +105,9 @@ void read_softness(Section& in, const Geometry& geometry, Dem& dem) {
   dem.soften_below = in.number("soften_below", zero_up_to("a diameter in m", geometry.diameter), 0);
 }
 
-/// Time to fall through the mill's diameter, s.
+/// Time to fall through the mill's diameter, or through a stirred mill's height, s.
 double fall_time(const Geometry& geometry) {
-  return std::sqrt(2 * geometry.diameter / gravity);
+  return std::sqrt(2 * (geometry.impeller ? geometry.length : geometry.diameter) / gravity);
 }
 
 Dem read_dem(Section& in, const Geometry& geometry, double turn) {
@@ -112,9 +118,12 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
       {"a fraction of the Rayleigh time above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
       usual_rayleigh_fraction);
   dem.settle_time = in.number("settle_time", time_from_zero(), usual_settling * fall_time(geometry));
-  dem.duration = in.number("duration", time_above_zero(), usual_dem_turns * turn);
-  dem.record_interval = in.number("record_interval", part_of("duration", dem.duration),
-                                  std::min(turn / records_per_turn, dem.duration));
+  const bool stirred = geometry.impeller.has_value();
+  dem.duration =
+      in.number("duration", time_above_zero(), (stirred ? usual_stirred_turns : usual_dem_turns) * turn);
+  const double records = stirred ? stirred_records_per_turn : records_per_turn;
+  dem.record_interval =
+      in.number("record_interval", part_of("duration", dem.duration), std::min(turn / records, dem.duration));
   dem.dumps = in.boolean("dumps", true);
   const Rule interval = part_of("duration", dem.duration);
   dem.contact_interval = in.number(
@@ -200,9 +209,17 @@ void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
         "along the axis)");
 }
 
-Mill read_root(const Section& in, const std::string& usual_title) {
-  Mill mill;
-  mill.title = in.text("title", usual_title);
+/// Keys of `dem` that both machines have.
+const Section::Keys dem_keys = {
+    "youngs_modulus",  "largest_overlap", "soften_below",     "rayleigh_fraction",  "settle_time", "duration",
+    "record_interval", "dumps",           "contact_interval", "contact_statistics", "seed"};
+
+Section::Keys and_more(Section::Keys keys, const Section::Keys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+void read_tumbling(const Section& in, Mill& mill) {
   const Section geometry = in.section(
       "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
   mill.geometry = read_geometry(geometry);
@@ -212,10 +229,7 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
-  Section dem =
-      in.optional_section("dem", {"youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction",
-                                  "settle_time", "duration", "record_interval", "dumps", "contact_interval",
-                                  "contact_statistics", "seed", "fluid", "fluid_level"});
+  Section dem = in.optional_section("dem", and_more(dem_keys, {"fluid", "fluid_level"}));
   mill.dem = read_dem(dem, mill.geometry, mill.turn());
   Section slurry =
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
@@ -226,6 +240,35 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   mill.averages = read_averages(in, mill);
   mill.flow = read_flow(in, slurry, mill);
   mill.dem.pool_level = read_pool_level(dem, mill);
+}
+
+/// A stirred mill has a dry run alone: no slurry, no flow and no mesh.
+void read_stirred(const Section& in, Mill& mill) {
+  for (const char* key : {"slurry", "air", "resolution", "flow"}) {
+    if (in.has(key)) in.refuse(key, "not this key: of a stirred mill only the dry run is computed");
+  }
+  mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
+  mill.whole_length = mill.geometry.length;
+  Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
+  mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
+  read_materials(in, mill);
+  mill.charge = read_stirred_charge(
+      in.section("charge", {"classes", "level", "share", "diameter", "packing", "fines_below"}),
+      mill.geometry, mill.ball.density);
+  Section dem = in.optional_section("dem", dem_keys);
+  mill.dem = read_dem(dem, mill.geometry, mill.turn());
+  // Their wall cells turn with the mill
+  if (mill.dem.contact_statistics) dem.refuse("contact_statistics", "false for a stirred mill");
+  mill.averages = read_averages(in, mill);
+}
+
+Mill read_root(const Section& in, const std::string& usual_title) {
+  Mill mill;
+  mill.title = in.text("title", usual_title);
+  if (in.choice("machine", {"tumbling", "stirred"}, "tumbling") == "stirred")
+    read_stirred(in, mill);
+  else
+    read_tumbling(in, mill);
   return mill;
 }
 
@@ -233,8 +276,8 @@ Mill read_root(const Section& in, const std::string& usual_title) {
 
 MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
   const auto document = std::make_shared<MillDocument>(file, set);
-  const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
-                                "slurry", "air", "resolution", "flow"});
+  const Section root(document, {"title", "machine", "geometry", "speed", "charge", "materials", "dem",
+                                "averages", "slurry", "air", "resolution", "flow"});
   MillDescription description{read_root(root, file.stem().string()), document};
   description.mill.fingerprint = fingerprints(document->keys(), description.mill);
   return description;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {
@@ -22,6 +23,8 @@ double analytic_section(const Geometry& geometry) {
 }
 
 double analytic_volume(const Geometry& geometry) {
+  if (geometry.impeller)
+    return analytic_section(geometry) * geometry.length - impeller_volume(geometry, geometry.length);
   return analytic_section(geometry) * geometry.length;
 }
 

@@ -13,10 +13,10 @@ namespace millfoam::meshing {
 /// R² asin(w/2R) − w/2 · √(R²−w²/4) under it.
 double lifter_section(const Geometry& geometry);
 
-/// Area of the interior's cross-section, lifters taken out, m^2.
+/// Area of the interior's cross-section, lifters taken out, m^2; of a stirred mill that of the shell.
 double analytic_section(const Geometry& geometry);
 
-/// Volume of the interior, lifters taken out and without pulp lifters, m^3: where the balls are.
+/// Volume of the interior, lifters or impeller taken out and without pulp lifters, m^3: where the balls are.
 double analytic_volume(const Geometry& geometry);
 
 /// The same with the pulp lifters' compartments, m^3: where the slurry is.

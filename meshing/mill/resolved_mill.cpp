@@ -12,6 +12,7 @@
 #include "meshing/mill/mill_document.hpp"
 #include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::meshing {
@@ -24,6 +25,40 @@ Json lifters_numbers(const Lifters& lifters) {
           {"height_m", lifters.height},
           {"width_m", lifters.width},
           {"top_width_m", lifters.top_width}};
+}
+
+Json impeller_numbers(const Geometry& geometry) {
+  const Impeller& impeller = *geometry.impeller;
+  Json pins = Json::array();
+  for (const PinLevel& level : impeller.pins)
+    pins.push_back({{"height_m", level.height},
+                    {"length_m", level.length},
+                    {"thickness_m", level.thickness},
+                    {"angle_deg", level.angle},
+                    {"arms", level.arms}});
+  return {{"shaft_diameter_m", impeller.shaft_diameter},
+          {"shaft_end_m", impeller.shaft_end},
+          {"radius_m", impeller_radius(impeller)},
+          {"top_m", impeller_top(impeller)},
+          {"gap_m", geometry.radius() - impeller_radius(impeller)},
+          {"volume_below_top_m3", impeller_volume(geometry, impeller_top(impeller))},
+          {"pins", pins}};
+}
+
+/// Numbers of the inside of a stirred mill.
+Json stirred_geometry_numbers(const Geometry& geometry) {
+  return {{"radius_m", geometry.radius()},
+          {"length_m", geometry.length},
+          {"section_m2", analytic_section(geometry)},
+          {"volume_m3", analytic_volume(geometry)},
+          {"impeller", impeller_numbers(geometry)}};
+}
+
+Json stirred_speed_numbers(const Mill& mill) {
+  return {{"angular_velocity_rad_s", mill.angular_velocity},
+          {"sense", mill.sense()},
+          {"tip_speed_m_s", std::abs(mill.angular_velocity) * impeller_radius(*mill.geometry.impeller)},
+          {"turn_s", mill.turn()}};
 }
 
 Json geometry_numbers(const Mill& mill) {
@@ -146,8 +181,21 @@ Json flow_numbers(const Mill& mill) {
           {"averages", averages}};
 }
 
+/// A stirred mill has a dry run alone.
+Json stirred_numbers(const Mill& mill) {
+  return {{"machine", "stirred"},
+          {"geometry", stirred_geometry_numbers(mill.geometry)},
+          {"speed", stirred_speed_numbers(mill)},
+          {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
+          {"materials", materials_numbers(mill)},
+          {"averages", averages_numbers(mill)},
+          {"gravity_m_s2", gravity}};
+}
+
 Json derived_numbers(const Mill& mill) {
-  return {{"geometry", geometry_numbers(mill)},
+  if (mill.machine() == Machine::stirred) return stirred_numbers(mill);
+  return {{"machine", "tumbling"},
+          {"geometry", geometry_numbers(mill)},
           {"speed", speed_numbers(mill)},
           {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
           {"materials", materials_numbers(mill)},

@@ -10,7 +10,9 @@
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/opening_circles.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
+#include "meshing/walls/stirred_walls.hpp"
 #include "meshing/walls/surface_check.hpp"
 
 namespace millfoam::meshing {
@@ -87,6 +89,30 @@ std::string mill_lines(const MillDescription& description) {
         charge.fines_mass, 100 * charge.fines_mass / (charge.mass + charge.fines_mass),
         100 * charge.load_asked);
   return text + line("fingerprint              %s", description.mill.fingerprint.flow.c_str());
+}
+
+std::string stirred_lines(const MillDescription& description) {
+  const Mill& mill = description.mill;
+  const Impeller& impeller = *mill.geometry.impeller;
+  const ChargeNumbers charge = count_charge(mill);
+  return line("mill                     %s", mill.title.c_str()) +
+         line("impeller                 %zu levels of pins, %.4g mm from tip to tip, gap %.3g mm",
+              impeller.pins.size(), 2e3 * impeller_radius(impeller),
+              1e3 * (mill.geometry.radius() - impeller_radius(impeller))) +
+         line("speed                    %.4g rad/s, %.4g m/s at the tips, %s seen from above",
+              mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
+              mill.sense()) +
+         line("charge                   %ld balls, %.4g kg", charge.balls, charge.mass) +
+         line("fingerprint              %s", description.mill.fingerprint.charge.c_str());
+}
+
+std::string stirred_wall_report(const WallSurface& walls, double volume, double closed_form) {
+  std::size_t triangles = 0;
+  for (const WallPart& part : walls.parts) triangles += part.triangles.size();
+  return line(
+      "walls                    %zu triangles, the flattest %.3g (limit %g), volume error %.1e (limit %g)",
+      triangles, find_needles(walls).smallest_ratio, needle_ratio, std::abs(volume / closed_form - 1),
+      allowed_stirred_volume_error);
 }
 
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& q,

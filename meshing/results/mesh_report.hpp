@@ -14,6 +14,13 @@ namespace millfoam::meshing {
 /// What a tool prints of the mill first: its title, size, sense of rotation, charge and fingerprint.
 std::string mill_lines(const MillDescription& description);
 
+/// The same of a stirred mill.
+std::string stirred_lines(const MillDescription& description);
+
+/// The line on a stirred mill's walls: their triangles, and the difference between the volume that they
+/// enclose and the closed form, m^3.
+std::string stirred_wall_report(const WallSurface& walls, double volume, double closed_form);
+
 /// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
 /// openings compared with those of mill.yaml, and advice on averaging where cells are smaller than the
 /// largest ball. Lines end with '\n'.

@@ -19,6 +19,7 @@
 #include "meshing/tools/polygon_commands.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/volume/openfoam_files.hpp"
+#include "meshing/walls/stirred_walls.hpp"
 #include "meshing/walls/surface_check.hpp"
 #include "meshing/walls/wall_files.hpp"
 
@@ -71,9 +72,31 @@ double mesh_time(const Options& options, const Mill& mill) {
   return start.value_or(0);
 }
 
+/// The walls of a stirred mill, which has no mesh.
+void run_stirred(const Options& options, const MillDescription& description) {
+  if (!options.walls_only)
+    throw std::runtime_error("the mill is stirred: expected --walls, because it has no mesh of a flow");
+  const Mill& mill = description.mill;
+  const WallSurface surface = make_stirred_walls(mill.geometry);
+  const double volume = require_watertight(surface);
+  const double closed_form = analytic_volume(mill.geometry);
+  std::cout << stirred_lines(description) << stirred_wall_report(surface, volume, closed_form) << std::flush;
+  require_stirred_volume(volume, closed_form);
+  require_no_needles(surface);
+  if (options.case_folder.empty()) return;
+  const fs::path folder = options.case_folder;
+  replace_walls(surface, mill.geometry.ends, folder / "walls");
+  write_wall_results(description, surface, volume, folder / "walls");
+  write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
+}
+
 void run(const Options& options) {
   const MillDescription description = options.mill.read();
   const Mill& mill = description.mill;
+  if (mill.machine() == Machine::stirred) {
+    run_stirred(options, description);
+    return;
+  }
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const Openings openings = find_openings(section, mill.geometry);
   const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);

@@ -66,6 +66,8 @@ void run_faces(const FacesOptions& options) {
   if (!has_extension(options.file, ".obj"))
     throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
   const Mill mill = options.mill.read().mill;
+  if (mill.machine() == Machine::stirred)
+    throw std::runtime_error(options.mill.file + ": the mill is stirred, and has no mesh of a flow");
   if (mill.geometry.ends == Ends::periodic)
     throw std::runtime_error(
         options.mill.file +

@@ -53,6 +53,38 @@ TEST(Deck, AMillWithPlainEndsIsClosedAndItsBoxReachesBeyondTheEnds) {
   EXPECT_NE(deck.find(" -0.0008 0.0128 units box"), std::string::npos);
 }
 
+/// A stirred mill of the size of the small drum.
+meshing::Mill stirred_mill() {
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.length = 0.06;
+  mill.geometry.impeller = meshing::Impeller{0.008, 0.004, {{0.012, 0.03, 0.004, 0, 2}}};
+  mill.charge.start_radius = 0.0195;
+  mill.charge.start_core = 0.0045;
+  mill.charge.start_bottom = 0.0145;
+  mill.charge.start_length = 0.045;
+  return mill;
+}
+
+TEST(Deck, OfAStirredMillTheImpellerAloneTurnsUnderGravityAlongTheAxis) {
+  const std::string deck = deck_of(stirred_mill(), {"impeller", "shell", "base", "lid"});
+  EXPECT_NE(deck.find("gravity 9.81 vector 0 0 -1\n"), std::string::npos);
+  EXPECT_NE(deck.find("fix turn_impeller all move/mesh mesh impeller"), std::string::npos);
+  EXPECT_EQ(deck.find("turn_shell"), std::string::npos);
+  EXPECT_TRUE(has_line(deck, "variable height atom mass*9.81*z"));
+  EXPECT_TRUE(has_line(deck, "variable torque equal 0+f_impeller[6]"));
+  EXPECT_NE(deck.find(" f_impeller[6] f_shell[6] f_base[6] f_lid[6] file partTorques.0.txt\n"),
+            std::string::npos);
+}
+
+TEST(Deck, OfAStirredMillBallsAreReleasedAroundTheShaftAboveThePins) {
+  const std::string deck = deck_of(stirred_mill(), {"impeller", "shell", "base", "lid"});
+  // The largest balls have a diameter of 3 mm
+  EXPECT_TRUE(has_line(deck, "region around1 cylinder z 0 0 0.018 0.016 0.058 units box"));
+  EXPECT_TRUE(has_line(deck, "region core1 cylinder z 0 0 0.006 0.0145 0.061 side out units box"));
+  EXPECT_TRUE(has_line(deck, "region start1 intersect 2 around1 core1"));
+}
+
 TEST(Deck, EveryPartIsAWallAndEveryPartTurns) {
   const std::string deck = deck_of(small_mill(), {"shell", "lifters", "feedEnd"});
   EXPECT_EQ(after(deck, "n_meshes"), std::vector<std::string>{"3"});

@@ -10,7 +10,7 @@ from pathlib import Path
 from millfoam.run import run
 
 ROOT = Path(__file__).resolve().parents[2]
-MILLS = [ROOT / "cases" / "mills" / name / "mill.yaml" for name in ("mill_12cm", "mill_30cm")]
+MILLS = [ROOT / "cases" / "mills" / name / "mill.yaml" for name in ("mill_12cm", "mill_30cm", "stirred_A")]
 # A mill that is small and differs from those: its slurry starts from a level, it has one size of balls
 PLAIN = """geometry: {diameter: 0.12, length: 0.024, ends: periodic, lifters: {count: 0}}
 speed: {angular_velocity: 6}

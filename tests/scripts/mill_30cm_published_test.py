@@ -160,8 +160,8 @@ class Bed(unittest.TestCase):
 
 class Statements(unittest.TestCase):
     def flow(self, **numbers):
-        run = SimpleNamespace(series=SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)),
-                                                     height=np.full((60, 2), -0.05)), speed=75, diameter=0.3, name="run")
+        series = SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)), height=np.full((60, 2), -0.05))
+        run = SimpleNamespace(series=series, speed=75, diameter=0.3, name="run")
         drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(10.0, 1.0))
         return SimpleNamespace(readings=run, **{"drops": drops, **numbers})
 

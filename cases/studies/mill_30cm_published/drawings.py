@@ -23,8 +23,10 @@ LAW_LINES = {None: "-", "Beetstra": "-", "ErgunWenYu": "--"}
 def profiles(flows: Sequence[Flow]) -> Figure:
     """Height of the slurry's centre of mass along the axis: a panel for each speed without and with balls, and one for
     what changes the flow with 20 % slurry at 75 %."""
-    groups = [(f"{speed} % of critical, {words}", [one for one in flows if is_published(one.run)
-                                                  and one.run.speed == speed and bool(one.run.law) == balls])
+    def of(speed: int, balls: bool) -> list[Flow]:
+        return [one for one in flows
+                if is_published(one.run) and one.run.speed == speed and bool(one.run.law) == balls]
+    groups = [(f"{speed} % of critical, {words}", of(speed, balls))
               for balls, words in ((False, "without balls"), (True, "with balls")) for speed in (60, 75)]
     groups.append(("75 %, 20 % slurry, without balls: unknown parts", [
         one for one in flows if one.run.law is None and (not is_published(one.run) or one.run.name == "fluid_75_20")]))

@@ -26,12 +26,12 @@ NEAR = 2  # pixels about the centre of circulation
 
 @dataclass(frozen=True)
 class Flow:
-    """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m); discharge (m3/s, by
-    the outlet's own flux) and net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed
-    volume over what was asked for; its Slices; Profile of the published slices, which
-    reach over the pulp lifters, and of those in front of the grates; drops of the pressure by PRESSURES (Pa); what is read for
-    published statements; map of the slurry; velocity along the axis at the top of the shoulder (m/s); slurry's share of
-    the fluid at the charge's centre of circulation (NaN without balls); verdict on its steadiness."""
+    """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m); discharge (m3/s, by the
+    outlet's own flux) and net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed
+    volume over what was asked for; its Slices; Profile of the published slices, which reach over the pulp lifters, and
+    of those in front of the grates; drops of the pressure by PRESSURES (Pa); what is read for published statements; map
+    of the slurry; velocity along the axis at the top of the shoulder (m/s); slurry's share of the fluid at the charge's
+    centre of circulation (NaN without balls); verdict on its steadiness."""
     run: Run
     case: MillCase
     turns: int

@@ -33,7 +33,8 @@ def humps(flows: Flows, which: str, where: str) -> Iterator[Verdict]:
     def two(flow: Flow) -> tuple[str, str]:
         profile = getattr(flow, which)
         places = ", ".join(f"{1e3 * one:.0f}" for one in profile.humps.places)
-        return (CONTRADICTED if profile.at_ends else CONFIRMED,
+        known = profile.distances[0].value > 2 * profile.distances[0].error
+        return (CONTRADICTED if profile.at_ends else CONFIRMED if known else UNDECIDED,
                 f"two Gaussians at {places} mm ({profile.at_ends} at the profile's ends), "
                 f"{profile.distances[0].text('mm', 1e3)} apart, RMSD {1e3 * profile.humps.rmsd:.1f} mm, amplitude "
                 f"{profile.amplitude.text('mm', 1e3)}")
@@ -44,6 +45,8 @@ def humps(flows: Flows, which: str, where: str) -> Iterator[Verdict]:
         figure = f"{ratio:.2f} times"
         if any(one.at_ends for one in ends):
             return UNDECIDED, figure + "; not all peaks are maxima of the profile"
+        if not all(one.distances[0].value > 2 * one.distances[0].error for one in ends):
+            return UNDECIDED, figure + "; the peaks move from turn to turn"
         return CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED, figure
 
     for solids in (20, 30, 40):

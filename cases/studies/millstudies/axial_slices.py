@@ -3,7 +3,6 @@
 profile of the centre of mass with its humps, and the fall of the pressure along the axis by several definitions."""
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -42,8 +41,8 @@ class Slices:
 
 @dataclass(frozen=True)
 class Profile:
-    """What is read of a profile: z (m) of its slices; fit of Gaussians; distances (m) of successive peaks and amplitude (m), highest minus
-    lowest slice, with errors over the turns; number of peaks at the profile's ends."""
+    """What is read of a profile: z (m) of its slices; fit of Gaussians; distances (m) of successive peaks
+    and amplitude (m), highest minus lowest slice, with errors over the turns; number of peaks at the profile's ends."""
     z: np.ndarray
     humps: Humps
     distances: list[Mean]

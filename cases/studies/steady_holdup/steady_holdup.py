@@ -117,8 +117,8 @@ def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
     """Name of a model -> hold-up (m3) of a mill with balls at a feed (m3/s)."""
     solidity = mill.derived("charge", "resting_solidity")
     bed = models.Charge(mill.radius, mill.length, 1 - solidity, mill.sauter_diameter)
-    grates = {key: mill.derived("geometry", "grates", key) for key in ("inner_radius_m", "outer_radius_m",
-                                                                      "sector_share", "open_fraction", "pegged")}
+    names = "inner_radius_m", "outer_radius_m", "sector_share", "open_fraction", "pegged"
+    grates = {name: mill.derived("geometry", "grates", name) for name in names}
     area = np.pi * (grates["outer_radius_m"]**2 - grates["inner_radius_m"]**2) * (
         grates["sector_share"] * grates["open_fraction"] * (1 - grates["pegged"]))
     volume = np.pi * mill.radius**2 * mill.length

@@ -26,14 +26,19 @@ def fnv1a(content: bytes) -> str:
     return f"{value:016x}"
 
 
-def read_mill(folder: Path | str) -> "Mill":
-    """The Mill of a case's folder; NoMill if its mill.json is missing, not JSON, of another format or incomplete."""
+def read_mill(folder: Path | str, machine: str = "tumbling") -> "Mill":
+    """The Mill of a case's folder; NoMill if its mill.json is missing, not JSON, of another format or incomplete, or if
+    the mill is another machine (tumbling or stirred) than the reader knows."""
     path = Path(folder) / "mill.json"
     if not path.is_file():
         raise NoMill(f"{folder}: no mill.json; expected the folder of a mill's case that was run: run Allrun, or "
                      "millMesh mill.yaml --case DIR")
     try:
-        return Mill(path, read_json(path, "mill"))
+        content = read_json(path, "mill")
+        found = entry(content, path, "derived").get("machine", "tumbling")
+        if found != machine:
+            raise NoMill(f"{path}: the mill is {found}; expected a {machine} one")
+        return Mill(path, content)
     except DataError as error:
         raise NoMill(f"{error}; run Allrun, or millMesh mill.yaml --case DIR, to write it again") from None
 

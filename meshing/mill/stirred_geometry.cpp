@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "meshing/mill/stirred_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/rules.hpp"
+#include "meshing/surface/pi.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+/// Arms at one height: more leave no room for balls between them.
+constexpr int most_arms = 24;
+/// Pins above each other: more are a screw.
+constexpr std::size_t most_levels = 100;
+/// Largest speed of the pins' tips, m/s: grinding mills stay below 25.
+constexpr double fastest_tip = 50;
+constexpr double slowest_tip = 0.001;
+
+/// Lowest and highest points of a level's pins.
+std::pair<double, double> span_of(const PinLevel& level) {
+  return {level.height - level.thickness / 2, level.height + level.thickness / 2};
+}
+
+/// Neighbouring arms of one level must not meet outside of the shaft, where they would be cut.
+bool arms_are_apart(const PinLevel& level, double shaft_radius) {
+  if (level.arms < 2) return true;
+  const double half = level.thickness / 2;
+  // Two strips of this half-width meet at this distance from the axis
+  const double meeting = half / std::sin(pi / level.arms);
+  return meeting <= shaft_radius;
+}
+
+PinLevel read_level(const Section& in, const Geometry& geometry) {
+  const Impeller& impeller = *geometry.impeller;
+  PinLevel level;
+  level.thickness = in.number(
+      "thickness", positive_below("a pin's diameter", impeller.shaft_diameter, " m", "that of the shaft"));
+  const double low = impeller.shaft_end + level.thickness / 2;
+  const double high = geometry.length - level.thickness / 2;
+  level.height =
+      in.number("height", {"a height in m of the pins' axis, at which the pins lie on the shaft and below "
+                           "the lid, from " +
+                               shown(low) + " to " + shown(high) + " m",
+                           [=](double v) { return v >= low * (1 - 1e-12) && v <= high; }});
+  const double half = level.thickness / 2;
+  const double reach = std::sqrt(geometry.radius() * geometry.radius() - half * half);
+  level.length =
+      in.number("length", {"a length in m from tip to tip above the shaft's diameter, " +
+                               shown(impeller.shaft_diameter) + " m, and below " + shown(2 * reach) +
+                               " m, at which the pins would hit the shell",
+                           [&](double v) { return v > impeller.shaft_diameter && v < 2 * reach; }});
+  level.angle = in.number(
+      "angle", {"an angle in degrees from -360 to 360", [](double v) { return std::abs(v) <= 360; }}, 0);
+  level.arms = in.integer("arms", whole_number("arms", 1, most_arms), 2);
+  if (!arms_are_apart(level, impeller.shaft_diameter / 2))
+    in.refuse("arms", "fewer arms, or thinner ones: these meet outside of the shaft");
+  return level;
+}
+
+void refuse_pins_that_meet(const std::vector<Section>& items, const std::vector<PinLevel>& pins) {
+  for (std::size_t i = 0; i < pins.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto [low, high] = span_of(pins[i]);
+      const auto [other_low, other_high] = span_of(pins[k]);
+      if (low < other_high && high > other_low)
+        items[i].refuse("height", "a height at which these pins, from " + shown(low) + " to " + shown(high) +
+                                      " m, do not hit those from " + shown(other_low) + " to " +
+                                      shown(other_high) + " m");
+    }
+}
+
+Impeller read_impeller(const Section& in, Geometry& geometry) {
+  const Section shaft = in.section("shaft", {"diameter", "end"});
+  geometry.impeller = Impeller();
+  Impeller& impeller = *geometry.impeller;
+  impeller.shaft_diameter =
+      shaft.number("diameter", positive_below("a length", geometry.diameter, " m", "the shell's diameter"));
+  impeller.shaft_end = shaft.number(
+      "end", positive_below("the height in m of its lower end", geometry.length, " m", "the mill's height"));
+  if (in.has("pins")) {
+    const auto items = in.list("pins", {"height", "length", "thickness", "angle", "arms"});
+    if (items.size() > most_levels) in.refuse("pins", "at most " + std::to_string(most_levels) + " levels");
+    for (const Section& item : items) impeller.pins.push_back(read_level(item, geometry));
+    refuse_pins_that_meet(items, impeller.pins);
+  }
+  return impeller;
+}
+
+/// Area of an arm's section by the plane at a height, outside of the shaft: a strip from the shaft to the
+/// tip.
+double arm_section(const PinLevel& level, double shaft_radius, double half_width) {
+  const double r = shaft_radius, c = half_width;
+  return c * level.length - (c * std::sqrt(r * r - c * c) + r * r * std::asin(c / r));
+}
+
+/// Volume of a level's arms outside of the shaft and below a height.
+double arms_volume(const PinLevel& level, double shaft_radius, double height) {
+  const double half = level.thickness / 2;
+  // z = height of the axis + half sin(t), in which the section is smooth up to the pin's edges
+  const double end = std::asin(std::clamp((height - level.height) / half, -1.0, 1.0));
+  constexpr int steps = 200;
+  double sum = 0;
+  const double step = (end + pi / 2) / steps;
+  for (int i = 0; i <= steps; ++i) {
+    const double width = half * std::cos(-pi / 2 + step * i);
+    const double weight = i == 0 || i == steps ? 1 : i % 2 == 1 ? 4 : 2;  // Simpson's
+    sum += weight * arm_section(level, shaft_radius, width) * width;
+  }
+  return level.arms * sum * step / 3;
+}
+
+}  // namespace
+
+Geometry read_stirred_geometry(const Section& in) {
+  Geometry geometry;
+  geometry.diameter = in.number("diameter", length_of_mill());
+  geometry.length = in.number("height", length_of_mill());
+  geometry.ends = Ends::plain;
+  geometry.impeller = read_impeller(in.section("impeller", {"shaft", "pins"}), geometry);
+  return geometry;
+}
+
+double read_stirred_speed(Section& in, const Geometry& geometry) {
+  const double reach = impeller_radius(*geometry.impeller);
+  in.alternatives({"angular_velocity", "tip_speed"});
+  in.displace("angular_velocity", {"sense"});
+  if (in.has("angular_velocity")) {
+    for (const char* other : {"tip_speed", "sense"})
+      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or tip_speed and sense");
+    const double slowest = slowest_tip / reach, fastest = fastest_tip / reach;
+    return in.number("angular_velocity",
+                     {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
+                          ", positive for anticlockwise seen from above",
+                      [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }});
+  }
+  const double tip =
+      in.number("tip_speed", {"a speed of the pins' tips in m/s from " + shown(slowest_tip) + " to " +
+                                  shown(fastest_tip) + " (or the key angular_velocity)",
+                              [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
+  const double sign =
+      in.choice("sense", {"clockwise", "anticlockwise"}, "anticlockwise") == "clockwise" ? -1 : 1;
+  return sign * tip / reach;
+}
+
+double impeller_volume(const Geometry& geometry, double height) {
+  const Impeller& impeller = *geometry.impeller;
+  const double r = impeller.shaft_diameter / 2;
+  double volume = pi * r * r * std::max(height - impeller.shaft_end, 0.0);
+  for (const PinLevel& level : impeller.pins) volume += arms_volume(level, r, height);
+  return volume;
+}
+
+double impeller_radius(const Impeller& impeller) {
+  double reach = impeller.shaft_diameter / 2;
+  for (const PinLevel& level : impeller.pins) reach = std::max(reach, level.length / 2);
+  return reach;
+}
+
+double impeller_top(const Impeller& impeller) {
+  double top = impeller.shaft_end;
+  for (const PinLevel& level : impeller.pins) top = std::max(top, span_of(level).second);
+  return top;
+}
+
+}  // namespace millfoam::meshing

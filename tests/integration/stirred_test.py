@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A small stirred mill from its description to its averages: torques on its parts, a resumed run, and what is
+refused."""
+import json
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from mill_case import run_mill
+from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.mill import NoMill, read_mill
+from millfoam.run import RunError, run
+
+MILL = """
+title: small stirred mill
+machine: stirred
+geometry:
+  diameter: 0.06
+  height: 0.09
+  impeller:
+    shaft: {diameter: 0.012, end: 0.008}
+    pins:
+      - {height: 0.013, length: 0.050, thickness: 0.006}
+      - {height: 0.025, length: 0.050, thickness: 0.006, angle: 90}
+speed: {tip_speed: 0.8}
+charge: {level: 0.035, share: 0.5, diameter: 0.0045}
+materials:
+  ball: {density: 2700, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
+  wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
+  ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
+  ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
+dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
+averages: {start: 0.2, window: 0.3}
+"""
+PARTS = ("impeller", "shell", "base", "lid")
+
+
+class Stirred(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="stirred-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "mill.yaml").write_text(MILL)
+        cls.case = cls.folder / "case"
+        run_mill(cls.case, cls.folder / "mill.yaml")
+        cls.results = read_json(cls.case / "dumps" / "results.json", "charge")
+
+    def copy(self):
+        folder = Path(tempfile.mkdtemp(prefix="stirred-"))
+        self.addCleanup(shutil.rmtree, folder)
+        shutil.copytree(self.case, folder / "case")
+        return folder / "case"
+
+    def test_balls_stay_in_the_mill_around_the_impeller(self):
+        self.assertEqual(self.results["lost_balls"], 0)
+        self.assertEqual(self.results["balls"], read_mill(self.case, "stirred").derived("charge", "balls"))
+        last = max((self.case / "dumps").glob("dump.*.txt"), key=lambda path: int(path.name.split(".")[1]))
+        balls = np.loadtxt(last, skiprows=9)
+        x, y, z, radius = *balls[:, 2:5].T, balls[0, 8]
+        away = np.hypot(x, y)
+        slack = 0.3 * radius  # softened balls overlap the walls, by up to 15 % of their diameter
+        self.assertLess(away.max(), 0.03 - radius + slack)
+        self.assertGreater(z.min(), radius - slack)
+        self.assertGreater(away[z > 0.008 + radius].min(), 0.006 + radius - slack)
+
+    def test_torque_of_the_impeller_is_that_of_the_walls_at_rest(self):
+        torques = self.results["part_torques_Nm"]
+        self.assertEqual(tuple(torques), PARTS)
+        # Balls that keep their angular momentum pass it on; they resist the impeller, which turns anticlockwise
+        self.assertLess(torques["impeller"], 0)
+        at_rest = sum(torques[part] for part in PARTS[1:])
+        self.assertAlmostEqual(-torques["impeller"] / at_rest, 1, delta=0.03)
+        self.assertGreater(torques["shell"], 0)
+        self.assertGreater(torques["base"], 0)
+
+    def test_power_is_the_impellers_torque_times_its_speed(self):
+        columns, energy = (read_csv(self.case / "dumps" / name) for name in ("torques.csv", "energy.csv"))
+        self.assertEqual(tuple(columns), ("time_s", *(f"{part}_Nm" for part in PARTS)))
+        np.testing.assert_allclose(columns["impeller_Nm"], energy["torque_Nm"], rtol=1e-5, atol=1e-9)
+        np.testing.assert_allclose(energy["power_W"], -energy["torque_Nm"] * 0.8 / 0.025, rtol=1e-6)
+        late = energy["time_s"] >= self.results["steady_from_s"]
+        self.assertAlmostEqual(energy["power_W"][late].mean(), self.results["power_W"],
+                               delta=3 * self.results["power_error_W"])
+        self.assertGreater(energy["potential_J"].min(), 0)
+
+    def test_balls_move_with_the_impeller(self):
+        run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--cylinder", 0, 0.03, 0, 0.09, "--shape", 6, 24,
+            18, "--inside", "walls/*.stl", "--start", 0.2, "--window", 0.3, "-o", "rings.h5")
+        with h5py.File(self.case / "rings.h5") as file:
+            solidity, velocity = file["solidity"][0], file["velocity"][0]  # [z][theta][r]
+            # Softened balls overlap the walls
+            self.assertLess(file["ledger/outside"][0], 1e-4 * file["ledger/volume_in"][0])
+            weight = np.nan_to_num(solidity * file["grid/insideFraction"][0])
+        theta = 2 * np.pi * (np.arange(24) + 0.5) / 24
+        tangential = np.nan_to_num(velocity[..., 1] * np.cos(theta)[:, None]
+                                   - velocity[..., 0] * np.sin(theta)[:, None])
+        mean = (weight * tangential).sum() / weight.sum()
+        self.assertGreater(mean, 0.05)
+        self.assertLess(mean, 0.8)
+
+    def test_a_resumed_run_goes_on_as_if_it_had_not_been_killed(self):
+        case = self.copy()
+        for name in ("run.json", "results.json"):
+            (case / "dumps" / name).unlink()
+        restarts = sorted((case / "dem").glob("restart.*"), key=lambda path: int(path.suffix[1:]))
+        self.assertTrue(restarts)
+        run(case, "millDem", "mill.json", "--case", ".", "--resume")
+        again = read_json(case / "dumps" / "results.json", "charge")
+        for part in PARTS:
+            self.assertAlmostEqual(again["part_torques_Nm"][part], self.results["part_torques_Nm"][part], delta=1e-9)
+
+    def test_everything_is_kept(self):
+        output = run_mill(self.case, self.folder / "mill.yaml")
+        self.assertEqual(output.count("Keeping"), 3)
+
+    def test_a_plan_is_made_of_the_whole_mill(self):
+        run(self.case, "millDem", "plan", "mill.json", "--json", "../dem_plan.json")
+        plan = json.loads((self.folder / "dem_plan.json").read_text())
+        self.assertEqual(plan["balls"], self.results["balls"])
+        self.assertGreater(plan["wall_time_s"], 0)
+
+    def test_stages_that_it_does_not_have_are_refused(self):
+        for command, words in ((("millMesh", "mill.json", "--case", "."), "the mill is stirred: expected --walls"),
+                               (("millMesh", "faces", "mill.json", "-o", "a.obj"), "has no mesh of a flow")):
+            with self.assertRaisesRegex(RunError, words):
+                run(self.case, *command)
+        with self.assertRaisesRegex(RunError, "--until flow: expected walls, charge or average"):
+            run_mill(self.case, self.folder / "mill.yaml", until="flow")
+        with self.assertRaisesRegex(NoMill, "the mill is stirred; expected a tumbling one"):
+            read_mill(self.case)
+
+
+if __name__ == "__main__":
+    unittest.main()
