@@ -276,8 +276,8 @@ Mill read_root(const Section& in, const std::string& usual_title) {
 
 MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
   const auto document = std::make_shared<MillDocument>(file, set);
-  const Section root(document, {"title", "machine", "geometry", "speed", "charge", "materials", "dem",
-                                "averages", "slurry", "air", "resolution", "flow"});
+  const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
+                                "slurry", "air", "resolution", "flow", "machine"});
   MillDescription description{read_root(root, file.stem().string()), document};
   description.mill.fingerprint = fingerprints(document->keys(), description.mill);
   return description;
