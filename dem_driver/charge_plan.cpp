@@ -12,6 +12,7 @@
 #include "dem_driver/mill_key.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
@@ -74,6 +75,27 @@ void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classe
   }
 }
 
+/// Space of a stirred mill below the start cylinder, into which the balls fall, m^3; none of a tumbling mill,
+/// whose heap lies in the cylinder.
+double room_below(const meshing::Mill& mill) {
+  if (!mill.geometry.impeller) return 0;
+  const double bottom = mill.charge.start_bottom;
+  return pi * mill.geometry.radius() * mill.geometry.radius() * bottom -
+         meshing::impeller_volume(mill.geometry, bottom);
+}
+
+/// The start cylinder is too small for the balls that are left.
+[[noreturn]] void refuse_start(const meshing::Mill& mill, double cylinder, long left, double diameter) {
+  const std::string balls =
+      std::to_string(left) + " of " + shown(diameter) + " m and all smaller ones are left over";
+  if (mill.geometry.impeller)
+    throw KeyError("charge", shown(cylinder) + " m^3 above the pins, where balls are released",
+                   "more room there, or fewer balls: " + balls + "; raise geometry.height");
+  throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
+                 "a start cylinder (its volume is " + shown(cylinder) +
+                     " m^3) in which all balls have room: " + balls + "; raise it or lower the masses");
+}
+
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.
 std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
   const double radius = mill.charge.start_radius, core = mill.charge.start_core;
@@ -92,14 +114,9 @@ std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<
       inside += static_cast<double>(now) * volume;
       room -= static_cast<double>(now) * volume;
       if (left == 0) break;
-      room = round_solidity * (cylinder - inside / heap_solidity);
+      room = round_solidity * (cylinder - std::max(inside / heap_solidity - room_below(mill), 0.0));
       // Below this, a round would insert almost nothing, and the number of rounds would have no limit.
-      if (room < volume || room < 0.005 * cylinder)
-        throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
-                       "a start cylinder (its volume is " + shown(cylinder) +
-                           " m^3) in which all balls have room: " + std::to_string(left) + " of " +
-                           shown(size.diameter) +
-                           " m and all smaller ones are left over; raise it or lower the masses");
+      if (room < volume || room < 0.005 * cylinder) refuse_start(mill, cylinder, left, size.diameter);
       rounds.emplace_back();
     }
   }
@@ -144,8 +161,9 @@ ChargePlan plan_charge(const meshing::Mill& mill) {
   check_fits(mill, plan.classes);
   const double radius = mill.charge.start_radius;
   plan.rounds = cut_into_rounds(mill, plan.classes);
-  // Half as long again as a free fall through the start cylinder.
-  plan.round_settle_time = 1.5 * std::sqrt(2 * 2 * radius / meshing::gravity);
+  // Half as long again as a free fall through the start cylinder, or from a stirred mill's lid.
+  const double fall = mill.geometry.impeller ? mill.geometry.length : 2 * radius;
+  plan.round_settle_time = 1.5 * std::sqrt(2 * fall / meshing::gravity);
   return plan;
 }
 

@@ -219,8 +219,9 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
   charge.start_length = geometry.length - charge.start_bottom - largest * start_gap;
   if (charge.start_length < 2 * largest)
     in.refuse(by_classes ? "classes" : "diameter",
-              "balls for which there is room above the impeller, where they are released: " +
-                  shown(geometry.length - impeller_top(impeller)) + " m");
+              "a mill with room above the pins, where balls are released: a height of " +
+                  shown(impeller_top(impeller) + 2.2 * largest) + " m or more, not " +
+                  shown(geometry.length) + " m");
   return charge;
 }
 

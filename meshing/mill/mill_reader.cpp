@@ -245,7 +245,7 @@ void read_tumbling(const Section& in, Mill& mill) {
 /// A stirred mill has a dry run alone: no slurry, no flow and no mesh.
 void read_stirred(const Section& in, Mill& mill) {
   for (const char* key : {"slurry", "air", "resolution", "flow"}) {
-    if (in.has(key)) in.refuse(key, "not this key: of a stirred mill only the dry run is computed");
+    if (in.has(key)) in.refuse(key, "no such key, because of a stirred mill only the dry run is computed");
   }
   mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
   mill.whole_length = mill.geometry.length;

@@ -10,7 +10,8 @@ namespace millfoam::meshing {
 /// the shell, the base, the lid or each other, or that are thicker than the shaft.
 Geometry read_stirred_geometry(const Section& in);
 
-/// The map `speed` of a stirred mill: rad/s, right-handed about +z (up).
+/// The map `speed` of a stirred mill: rad/s, right-handed about +z (up). Throws MillError for both ways to
+/// give it at once, and for speeds that no mill has.
 double read_stirred_speed(Section& in, const Geometry& geometry);
 
 /// Volume of an impeller below a height, m^3, by quadrature over the height; what is above the lid is not

@@ -27,6 +27,34 @@ TEST(ChargePlan, TheCountIsTheMassOverTheMassOfOneBallRounded) {
   EXPECT_NEAR(plan.classes.at(0).mass_asked, 40.4 * one, 1e-15);
 }
 
+/// A stirred mill whose balls are released in a ring of 11 cm^3 above its pins.
+meshing::Mill stirred_mill(double shaft_end, double top) {
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.length = top + 0.011;
+  mill.geometry.impeller = meshing::Impeller{0.008, shaft_end, {{top - 0.002, 0.03, 0.004, 0, 2}}};
+  mill.charge.start_radius = 0.0195;
+  mill.charge.start_core = 0.0045;
+  mill.charge.start_bottom = top + 0.0005;
+  mill.charge.start_length = 0.01;
+  const double one = 2500 * pi / 6 * std::pow(0.003, 3);
+  mill.charge.classes = {{0.003, 1000 * one}};  // 14 cm^3
+  return mill;
+}
+
+TEST(ChargePlan, BallsOfAStirredMillFallBelowThePinsAndLeaveRoomForTheNext) {
+  const auto plan = plan_charge(stirred_mill(0.004, 0.04));
+  EXPECT_EQ(plan.balls(), 1000);
+  EXPECT_GT(plan.rounds.size(), 1);
+  EXPECT_GE(plan.round_settle_time, std::sqrt(2 * 0.051 / 9.81));
+}
+
+TEST(ChargePlan, BallsOfAStirredMillWithoutRoomAreRefusedByItsOwnKeys) {
+  const auto message = message_of([] { plan_charge(stirred_mill(0.001, 0.006)); });
+  EXPECT_NE(message.find("raise geometry.height"), std::string::npos) << message;
+  EXPECT_EQ(message.find("start_radius"), std::string::npos) << message;
+}
+
 TEST(ChargePlan, LargestBallsComeFirst) {
   const auto plan = plan_charge(small_mill());
   double last = 1;

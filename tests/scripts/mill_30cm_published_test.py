@@ -16,7 +16,7 @@ from millfoam.readings.axial import gaussians
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
 from millstudies.axial_slices import jackknife, pressure_drop, read_profile, read_slices
-from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
 from slurry_on_maps_test import slurry_map
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -178,6 +178,16 @@ class Statements(unittest.TestCase):
         self.assertEqual(judged(15.0), {CONFIRMED})
         self.assertEqual(judged(5.0), {CONTRADICTED})
 
+    def test_humps_must_stand_still_and_fit(self):
+        def judged(error, rmsd):
+            profile = SimpleNamespace(humps=SimpleNamespace(places=(0.05, 0.2), rmsd=rmsd), at_ends=0,
+                                      distances=[Mean(0.15, error)], amplitude=Mean(0.02, 0.001))
+            found = own_statements.humps({"fluid_60_20": self.flow(chamber=profile)}, "chamber", "in front")
+            return next(one.verdict for one in found)
+        self.assertEqual(judged(0.01, 0.001), CONFIRMED)
+        self.assertEqual(judged(0.08, 0.001), UNDECIDED)
+        self.assertEqual(judged(0.01, 0.004), UNDECIDED)
+
     def test_patch_and_return(self):
         flows = {"Beetstra_75_20": self.flow(centre_share=0.3, top_velocity=Mean(-0.01, 0.001))}
         found = [one.verdict for one in own_statements.bed(flows) if one.verdict != NOT_TESTED]
@@ -188,6 +198,7 @@ class Tables(unittest.TestCase):
     def test_runs_that_are_not_there_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "dry_75").mkdir()
+        (folder / "dry_75" / "mill.json").write_text("{}")
         found, missing = study.read_each(folder, [RUNS["dry_75"], RUNS["dry_60"]], study.dry_case)
         self.assertEqual(found, {})
         self.assertRegex(missing[0], "dry_75: .*mill.json")

@@ -145,7 +145,8 @@ def read_each(root: Path, chosen: Sequence[Run], read: Callable[[Run, Path], Any
         try:
             found[run.name] = read(run, place_of(root, run))
         except (RuntimeError, OSError) as error:
-            missing.append(f"{run.name}: {error}" if (root / run.name).is_dir() else f"{run.name}: not begun")
+            missing.append(f"{run.name}: {error}" if (root / run.name / "mill.json").is_file()
+                           else f"{run.name}: not begun")
     return found, missing
 
 

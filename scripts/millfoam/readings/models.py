@@ -180,9 +180,10 @@ def grate_hold_up(flow: float, diameter: float, grate_radius: float, open_area: 
     53-72: flow (m3/s), diameter of the mill (m), mean radius of the holes (m), their whole area (m2), speed over the
     critical one; most: share of the mill's volume that the pores of the charge hold.
 
-    Q = 6100 J^2 g^2.5 A p^-1.38 sqrt(D) through the charge, up to J = most; what is beyond flows as a pool of the share
-    J', Q' = 935 J' g^2 A sqrt(D). Q is in m3/h, g the holes' radius over the mill's. It is of grates
-    without pulp lifters. ValueError for values below 0, or a radius beyond the mill's."""
+    Q = 6100 J^2 g^2.5 A p^-1.38 sqrt(D) through the charge, up to J = most; what is beyond flows as a pool of the
+    share J', Q' = 935 J' g^2 A sqrt(D). Q: flow in m3/h; J: share of slurry; g: mean radius of the holes over the
+    mill's; A: their area in m2; p: speed over the critical one; D: diameter in m. Pulp lifters are not in it.
+    ValueError for values below 0, or a radius beyond the mill's."""
     share = 2 * grate_radius / diameter
     if not (flow >= 0 and diameter > 0 and 0 < share <= 1 and open_area > 0 and critical_share > 0 and most > 0):
         raise ValueError(f"flow {flow} m3/s, diameter {diameter} m, grates at {grate_radius} m, {open_area} m2, speed "
