@@ -152,6 +152,7 @@ void write_fluid(const dem_driver::CaseFolder& folder, const meshing::Mill& mill
   dem_driver::FluidOrder order{plan.fluid, plan.step.value, plan.step.steps_per_record, std::nullopt};
   if (plan.fluid.kind == dem_driver::FluidKind::flow) {
     std::vector<fs::path> walls;
+    walls.reserve(parts.size());
     for (const std::string& part : parts) walls.push_back(fs::path("../walls") / (part + ".stl"));
     order.exchange = dem_driver::exchange_of(mill, walls, plan.begin, plan.end_step());
   }

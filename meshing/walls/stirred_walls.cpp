@@ -265,6 +265,7 @@ class Builder {
         if (is_clear(at, holes, side)) numbers.push_back(add(at));
       }
     std::vector<Vector2d> flat;
+    flat.reserve(numbers.size());
     for (const int number : numbers) flat.push_back(unrolled(point(number)));
     // Anticlockwise there is into the shaft here
     for (const auto& [a, b, c] : fill_polygon(flat, edges))
