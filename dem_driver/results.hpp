@@ -39,6 +39,7 @@ struct PartTorques {
 
 /// What LIGGGHTS has written of the parts' torques, a row for each record after step 0. Throws
 /// std::runtime_error naming file and line where it cannot be read.
+/// @param folder  of the case
 /// @param parts  the walls in the order of the deck
 PartTorques read_part_torques(const CaseFolder& folder, const std::vector<std::string>& parts);
 
