@@ -17,7 +17,9 @@ class Section;
 Charge read_charge(Section in, const Geometry& geometry, double density);
 
 /// The same of a stirred mill: by classes, or by the share of the space up to a level that the balls take.
-/// The balls are released around the shaft, between the pins and the lid.
+/// They are released around the shaft, between the pins and the lid.
+/// @param in  the section `charge`
+/// @param geometry  of the mill
 /// @param density  of the balls, kg/m^3
 /// Throws MillError as read_charge, and where there is no room above the pins.
 Charge read_stirred_charge(Section in, const Geometry& geometry, double density);
