@@ -12,7 +12,6 @@
 #include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
-#include "meshing/walls/stirred_walls.hpp"
 #include "meshing/walls/surface_check.hpp"
 
 namespace millfoam::meshing {
@@ -106,15 +105,6 @@ std::string stirred_lines(const MillDescription& description) {
          line("fingerprint              %s", description.mill.fingerprint.charge.c_str());
 }
 
-std::string stirred_wall_report(const WallSurface& walls, double volume, double closed_form) {
-  std::size_t triangles = 0;
-  for (const WallPart& part : walls.parts) triangles += part.triangles.size();
-  return line(
-      "walls                    %zu triangles, the flattest %.3g (limit %g), volume error %.1e (limit %g)",
-      triangles, find_needles(walls).smallest_ratio, needle_ratio, std::abs(volume / closed_form - 1),
-      allowed_stirred_volume_error);
-}
-
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& q,
                         const Openings& openings) {
   const double closed_form = flow_volume(mill.geometry);
@@ -133,13 +123,12 @@ std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQual
          openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume);
 }
 
-std::string wall_report(const WallSurface& walls, double volume, double mesh_volume) {
+std::string wall_report(const WallSurface& walls, double volume, double expected, double limit) {
   std::size_t triangles = 0;
   for (const WallPart& part : walls.parts) triangles += part.triangles.size();
   return line(
       "walls                    %zu triangles, the flattest %.3g (limit %g), volume error %.1e (limit %g)",
-      triangles, find_needles(walls).smallest_ratio, needle_ratio, std::abs(volume / mesh_volume - 1),
-      allowed_volume_difference);
+      triangles, find_needles(walls).smallest_ratio, needle_ratio, std::abs(volume / expected - 1), limit);
 }
 
 }  // namespace millfoam::meshing

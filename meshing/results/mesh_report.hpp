@@ -7,6 +7,7 @@
 #include "meshing/mill_mesh/openings.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/volume/volume_mesh.hpp"
+#include "meshing/walls/surface_check.hpp"
 #include "meshing/walls/wall_surface.hpp"
 
 namespace millfoam::meshing {
@@ -17,18 +18,15 @@ std::string mill_lines(const MillDescription& description);
 /// The same of a stirred mill.
 std::string stirred_lines(const MillDescription& description);
 
-/// The line on a stirred mill's walls: their triangles, and the difference between the volume that they
-/// enclose and the closed form, m^3.
-std::string stirred_wall_report(const WallSurface& walls, double volume, double closed_form);
-
 /// What millMesh prints of a mill's mesh: numbers of cells, the quality against its limits, the areas of the
 /// openings compared with those of mill.yaml, and advice on averaging where cells are smaller than the
 /// largest ball. Lines end with '\n'.
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& quality,
                         const Openings& openings);
 
-/// The line on the walls: their triangles, the flattest one's height over its longest side, and the
-/// difference between the volume that they enclose and the mesh's, m^3.
-std::string wall_report(const WallSurface& walls, double volume, double mesh_volume);
+/// The line on the walls: their triangles, the flattest one's height over its longest side, and the relative
+/// difference between the volume that they enclose and the expected one, m^3, with its limit.
+std::string wall_report(const WallSurface& walls, double volume, double expected,
+                        double limit = allowed_volume_difference);
 
 }  // namespace millfoam::meshing

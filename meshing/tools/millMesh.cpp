@@ -72,6 +72,14 @@ double mesh_time(const Options& options, const Mill& mill) {
   return start.value_or(0);
 }
 
+/// Writes what the dry run needs: the walls, which enclose a volume (m^3), and the resolved mill.
+void write_for_dry_run(const MillDescription& description, const WallSurface& surface, double volume,
+                       const fs::path& folder) {
+  replace_walls(surface, description.mill.geometry.ends, folder / "walls");
+  write_wall_results(description, surface, volume, folder / "walls");
+  write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
+}
+
 /// The walls of a stirred mill, which has no mesh.
 void run_stirred(const Options& options, const MillDescription& description) {
   if (!options.walls_only)
@@ -80,14 +88,11 @@ void run_stirred(const Options& options, const MillDescription& description) {
   const WallSurface surface = make_stirred_walls(mill.geometry);
   const double volume = require_watertight(surface);
   const double closed_form = analytic_volume(mill.geometry);
-  std::cout << stirred_lines(description) << stirred_wall_report(surface, volume, closed_form) << std::flush;
+  std::cout << stirred_lines(description)
+            << wall_report(surface, volume, closed_form, allowed_stirred_volume_error) << std::flush;
   require_stirred_volume(volume, closed_form);
   require_no_needles(surface);
-  if (options.case_folder.empty()) return;
-  const fs::path folder = options.case_folder;
-  replace_walls(surface, mill.geometry.ends, folder / "walls");
-  write_wall_results(description, surface, volume, folder / "walls");
-  write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
+  if (!options.case_folder.empty()) write_for_dry_run(description, surface, volume, options.case_folder);
 }
 
 void run(const Options& options) {
@@ -112,9 +117,7 @@ void run(const Options& options) {
   if (options.case_folder.empty()) return;
 
   const fs::path folder = options.case_folder;
-  replace_walls(surface, mill.geometry.ends, folder / "walls");
-  write_wall_results(description, surface, of_walls, folder / "walls");
-  write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
+  write_for_dry_run(description, surface, of_walls, folder);
   if (options.walls_only) return;
   const double time = mesh_time(options, mill);
   write_poly_mesh(turned(mesh, mill.angular_velocity * time), folder);
