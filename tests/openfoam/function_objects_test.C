@@ -187,11 +187,16 @@ TEST(slurryBalance, addsUpWhatComesAndGoes)
 {
     flowCase box;
     box.alpha = 0.5;
+    // Where the field has a fixed value, slurry is fed
+    const label left = box.mesh().boundaryMesh().findPatchID("left");
+    box.alpha.boundaryFieldRef().set(
+        left, fvPatchScalarField::New(
+                  "fixedValue", box.mesh().boundary()[left], box.alpha()));
+    box.alpha.boundaryFieldRef()[left] == 0.5;
     box.alpha.correctBoundaryConditions();
     functionObjects::slurryBalance balance(
         "balance", box.time(), entriesOf("speed -2; walls (top);"));
     // 0.3 m3/s in and 0.1 m3/s out, for two steps of 0.25 s
-    const label left = box.mesh().boundaryMesh().findPatchID("left");
     const label right = box.mesh().boundaryMesh().findPatchID("right");
     box.slurry.boundaryFieldRef()[left] =
         -0.3 / box.mesh().boundary()[left].size();
