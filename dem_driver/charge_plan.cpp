@@ -89,7 +89,7 @@ double room_below(const meshing::Mill& mill) {
   const std::string balls =
       std::to_string(left) + " of " + shown(diameter) + " m and all smaller ones are left over";
   if (mill.geometry.impeller)
-    throw KeyError("charge", shown(cylinder) + " m^3 above the pins, where balls are released",
+    throw KeyError("charge", shown(cylinder) + " m^3 above the impeller, where balls are released",
                    "more room there, or fewer balls: " + balls + "; raise geometry.height");
   throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
                  "a start cylinder (its volume is " + shown(cylinder) +

@@ -56,11 +56,20 @@ struct PinLevel {
   int arms = 2;          ///< number of them
 };
 
-/// The impeller of a stirred mill: a round shaft on the axis that comes through the lid, with pins.
+/// A flat round plate of a stirred mill's impeller, which the shaft goes through.
+struct Disc {
+  double height = 0;     ///< z of its middle plane, m
+  double diameter = 0;   ///< m
+  double thickness = 0;  ///< along the axis, m
+};
+
+/// The impeller of a stirred mill: a round shaft on the axis that comes through the lid, with pins, discs or
+/// both.
 struct Impeller {
   double shaft_diameter = 0;   ///< m
   double shaft_end = 0;        ///< z of its lower end, m
   std::vector<PinLevel> pins;  ///< in the order of the file
+  std::vector<Disc> discs;     ///< in the order of the file
 };
 
 /// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up. Of a

@@ -36,13 +36,18 @@ Json impeller_numbers(const Geometry& geometry) {
                     {"thickness_m", level.thickness},
                     {"angle_deg", level.angle},
                     {"arms", level.arms}});
+  Json discs = Json::array();
+  for (const Disc& disc : impeller.discs)
+    discs.push_back(
+        {{"height_m", disc.height}, {"diameter_m", disc.diameter}, {"thickness_m", disc.thickness}});
   return {{"shaft_diameter_m", impeller.shaft_diameter},
           {"shaft_end_m", impeller.shaft_end},
           {"radius_m", impeller_radius(impeller)},
           {"top_m", impeller_top(impeller)},
           {"gap_m", geometry.radius() - impeller_radius(impeller)},
           {"volume_below_top_m3", impeller_volume(geometry, impeller_top(impeller))},
-          {"pins", pins}};
+          {"pins", pins},
+          {"discs", discs}};
 }
 
 /// Numbers of the inside of a stirred mill.

@@ -15,13 +15,22 @@ namespace {
 constexpr int most_arms = 24;
 /// Pins above each other: more are a screw.
 constexpr std::size_t most_levels = 100;
-/// Largest speed of the pins' tips, m/s: grinding mills stay below 25.
+/// Discs above each other.
+constexpr std::size_t most_discs = 100;
+/// Smallest part of the shaft's diameter that is left between a disc and what is next to it.
+constexpr double least_gap = 0.01;
+/// Largest speed of the impeller's rim, m/s: grinding mills stay below 25.
 constexpr double fastest_tip = 50;
 constexpr double slowest_tip = 0.001;
 
 /// Lowest and highest points of a level's pins.
 std::pair<double, double> span_of(const PinLevel& level) {
   return {level.height - level.thickness / 2, level.height + level.thickness / 2};
+}
+
+/// Heights of a disc's lower and upper face.
+std::pair<double, double> span_of(const Disc& disc) {
+  return {disc.height - disc.thickness / 2, disc.height + disc.thickness / 2};
 }
 
 /// Neighbouring arms of one level must not meet outside of the shaft, where they would be cut.
@@ -72,6 +81,45 @@ void refuse_pins_that_meet(const std::vector<Section>& items, const std::vector<
     }
 }
 
+Disc read_disc(const Section& in, const Geometry& geometry) {
+  const Impeller& impeller = *geometry.impeller;
+  Disc disc;
+  disc.thickness = in.number(
+      "thickness", positive_below("a disc's thickness", geometry.length, " m", "the mill's height"));
+  const double gap = least_gap * impeller.shaft_diameter;
+  const double end = impeller.shaft_end + disc.thickness / 2;
+  const double high = geometry.length - gap - disc.thickness / 2;
+  disc.height = in.number(
+      "height", {"a height in m of the disc's middle plane, " + shown(end) +
+                     " m for a disc at the shaft's end, or from " + shown(end + gap) + " to " + shown(high) +
+                     " m for one above it and below the lid",
+                 [&](double v) {
+                   return is_at_shaft_end({v, 0, disc.thickness}, impeller) || (v >= end + gap && v <= high);
+                 }});
+  disc.diameter =
+      in.number("diameter", {"a diameter in m above the shaft's, " + shown(impeller.shaft_diameter) +
+                                 " m, and below the shell's, " + shown(geometry.diameter) + " m",
+                             [&](double v) { return v > impeller.shaft_diameter && v < geometry.diameter; }});
+  return disc;
+}
+
+/// A disc leaves a gap to pins and to other discs: no walls of two parts touch.
+void refuse_discs_that_meet(const std::vector<Section>& items, const Impeller& impeller) {
+  const double gap = least_gap * impeller.shaft_diameter;
+  for (std::size_t i = 0; i < impeller.discs.size(); ++i) {
+    const auto [low, high] = span_of(impeller.discs[i]);
+    const auto require_apart = [&, low = low, high = high](const auto& other, const std::string& what) {
+      const auto [other_low, other_high] = span_of(other);
+      if (low >= other_high + gap || high <= other_low - gap) return;
+      items[i].refuse("height", "a height at which this disc, from " + shown(low) + " to " + shown(high) +
+                                    " m, is " + shown(gap) + " m or more away from " + what + " from " +
+                                    shown(other_low) + " to " + shown(other_high) + " m");
+    };
+    for (const PinLevel& level : impeller.pins) require_apart(level, "the pins");
+    for (std::size_t k = 0; k < i; ++k) require_apart(impeller.discs[k], "the disc");
+  }
+}
+
 Impeller read_impeller(const Section& in, Geometry& geometry) {
   const Section shaft = in.section("shaft", {"diameter", "end"});
   geometry.impeller = Impeller();
@@ -85,6 +133,12 @@ Impeller read_impeller(const Section& in, Geometry& geometry) {
     if (items.size() > most_levels) in.refuse("pins", "at most " + std::to_string(most_levels) + " levels");
     for (const Section& item : items) impeller.pins.push_back(read_level(item, geometry));
     refuse_pins_that_meet(items, impeller.pins);
+  }
+  if (in.has("discs")) {
+    const auto items = in.list("discs", {"height", "diameter", "thickness"});
+    if (items.size() > most_discs) in.refuse("discs", "at most " + std::to_string(most_discs) + " discs");
+    for (const Section& item : items) impeller.discs.push_back(read_disc(item, geometry));
+    refuse_discs_that_meet(items, impeller);
   }
   return impeller;
 }
@@ -112,6 +166,13 @@ double arms_volume(const PinLevel& level, double shaft_radius, double height) {
   return level.arms * sum * step / 3;
 }
 
+/// Volume of a disc outside of the shaft and below a height.
+double disc_volume(const Disc& disc, double shaft_radius, double height) {
+  const auto [low, high] = span_of(disc);
+  const double outer = disc.diameter / 2;
+  return pi * (outer * outer - shaft_radius * shaft_radius) * (std::clamp(height, low, high) - low);
+}
+
 }  // namespace
 
 Geometry read_stirred_geometry(const Section& in) {
@@ -119,7 +180,7 @@ Geometry read_stirred_geometry(const Section& in) {
   geometry.diameter = in.number("diameter", length_of_mill());
   geometry.length = in.number("height", length_of_mill());
   geometry.ends = Ends::plain;
-  geometry.impeller = read_impeller(in.section("impeller", {"shaft", "pins"}), geometry);
+  geometry.impeller = read_impeller(in.section("impeller", {"shaft", "pins", "discs"}), geometry);
   return geometry;
 }
 
@@ -137,7 +198,7 @@ double read_stirred_speed(Section& in, const Geometry& geometry) {
                       [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }});
   }
   const double tip =
-      in.number("tip_speed", {"a speed of the pins' tips in m/s from " + shown(slowest_tip) + " to " +
+      in.number("tip_speed", {"a speed of the impeller's tips in m/s from " + shown(slowest_tip) + " to " +
                                   shown(fastest_tip) + " (or the key angular_velocity)",
                               [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
   const double sign =
@@ -150,18 +211,25 @@ double impeller_volume(const Geometry& geometry, double height) {
   const double r = impeller.shaft_diameter / 2;
   double volume = pi * r * r * std::max(height - impeller.shaft_end, 0.0);
   for (const PinLevel& level : impeller.pins) volume += arms_volume(level, r, height);
+  for (const Disc& disc : impeller.discs) volume += disc_volume(disc, r, height);
   return volume;
+}
+
+bool is_at_shaft_end(const Disc& disc, const Impeller& impeller) {
+  return std::abs(span_of(disc).first - impeller.shaft_end) <= 1e-6 * impeller.shaft_diameter;
 }
 
 double impeller_radius(const Impeller& impeller) {
   double reach = impeller.shaft_diameter / 2;
   for (const PinLevel& level : impeller.pins) reach = std::max(reach, level.length / 2);
+  for (const Disc& disc : impeller.discs) reach = std::max(reach, disc.diameter / 2);
   return reach;
 }
 
 double impeller_top(const Impeller& impeller) {
   double top = impeller.shaft_end;
   for (const PinLevel& level : impeller.pins) top = std::max(top, span_of(level).second);
+  for (const Disc& disc : impeller.discs) top = std::max(top, span_of(disc).second);
   return top;
 }
 

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "meshing/faces/polygon_filling.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {
@@ -58,6 +60,12 @@ std::vector<Arm> arms_of(const Impeller& impeller) {
 struct Hole {
   Arm arm;
   Loop loop;
+};
+
+/// A piece of the shaft's side without discs: heights of its ends, m, and the points around them.
+struct Piece {
+  double bottom, top;
+  Loop low, high;
 };
 
 class Builder {
@@ -208,25 +216,65 @@ class Builder {
       part(0).push_back({middle, inner[(i + 1) % inner.size()], inner[i]});
   }
 
-  void add_impeller() {
+  /// The faces and the rim of a disc. Its faces are rings around the points where it meets the shaft, or a
+  /// whole circle where there are none. The impeller's normals point into it.
+  void add_disc(const Disc& disc, const Loop& shaft_below, const Loop& shaft_above) {
+    const double outer = disc.diameter / 2;
+    const int sides = sides_of(outer, radius_);
+    const Loop below = add_circle(outer, disc.height - disc.thickness / 2, sides);
+    const Loop above = add_circle(outer, disc.height + disc.thickness / 2, sides);
+    fill(below, shaft_below, true, part(0));
+    fill(above, shaft_above, false, part(0));
+    join(above, below, part(0));
+  }
+
+  /// Adds the discs and returns the pieces of the shaft's side between them, upwards.
+  std::vector<Piece> add_discs(int sides) {
     const double r = impeller_.shaft_diameter / 2;
-    const int sides = sides_of(r, radius_);
-    const Loop low = add_circle(r, impeller_.shaft_end, sides);
+    std::vector<Disc> discs = impeller_.discs;
+    std::sort(discs.begin(), discs.end(), [](const Disc& a, const Disc& b) { return a.height < b.height; });
+    std::vector<Piece> pieces;
+    double bottom = impeller_.shaft_end;
+    Loop low;
+    if (discs.empty() || !is_at_shaft_end(discs.front(), impeller_)) {
+      low = add_circle(r, bottom, sides);
+      fill(low, {}, true, part(0));
+    }
+    for (const Disc& disc : discs) {
+      const double end = disc.height - disc.thickness / 2, begin = disc.height + disc.thickness / 2;
+      const Loop below = low.empty() ? Loop() : add_circle(r, end, sides);
+      Loop above = add_circle(r, begin, sides);
+      add_disc(disc, below, above);
+      if (!low.empty()) pieces.push_back({bottom, end, low, below});
+      bottom = begin;
+      low = std::move(above);
+    }
     shaft_rim_ = add_circle(r, height_, sides);
-    fill(low, {}, true, part(0));
+    pieces.push_back({bottom, height_, low, shaft_rim_});
+    return pieces;
+  }
+
+  void add_impeller() {
+    const std::vector<Piece> pieces = add_discs(sides_of(impeller_.shaft_diameter / 2, radius_));
     std::vector<Hole> holes;
     for (const Arm& arm : arms_of(impeller_))
       holes.push_back({arm, add_root(arm, sides_of(arm.level->thickness / 2, radius_))});
     for (const Hole& hole : holes) add_arm(hole.arm, hole.loop);
-    fill_shaft(low, holes);
+    for (const Piece& piece : pieces) {
+      std::vector<Hole> own;
+      std::copy_if(holes.begin(), holes.end(), std::back_inserter(own), [&](const Hole& hole) {
+        return hole.arm.level->height > piece.bottom && hole.arm.level->height < piece.top;
+      });
+      fill_shaft(piece, own);
+    }
   }
 
-  /// A point of the shaft's side in the plane: a ring about the axis whose radius grows with the height, so
-  /// that the side has no seam. The map keeps angles, unless the shaft is very long.
-  Vector2d unrolled(const Vector3d& at) const {
+  /// A point of a piece of the shaft's side in the plane: a ring about the axis whose radius grows with the
+  /// height, so that the side has no seam. The map keeps angles, unless the piece is very long.
+  Vector2d unrolled(const Vector3d& at, const Piece& piece) const {
     const double r = impeller_.shaft_diameter / 2;
-    const double steep = std::min(1 / r, largest_exponent / (height_ - impeller_.shaft_end));
-    return std::exp(steep * (at.z() - impeller_.shaft_end)) * at.head<2>().normalized();
+    const double steep = std::min(1 / r, largest_exponent / (piece.top - piece.bottom));
+    return std::exp(steep * (at.z() - piece.bottom)) * at.head<2>().normalized();
   }
 
   /// Whether a point of the shaft's side lies off all holes by some sides of the shaft's circle.
@@ -240,10 +288,10 @@ class Builder {
     });
   }
 
-  /// The shaft's side between its end and the lid, with the holes.
-  void fill_shaft(const Loop& low, const std::vector<Hole>& holes) {
+  /// A piece of the shaft's side, with the holes in it.
+  void fill_shaft(const Piece& piece, const std::vector<Hole>& holes) {
     const double r = impeller_.shaft_diameter / 2;
-    const int sides = static_cast<int>(low.size());
+    const int sides = static_cast<int>(piece.low.size());
     const double side = 2 * pi * r / sides;
     std::vector<int> numbers;
     std::vector<std::array<int, 2>> edges;
@@ -253,20 +301,22 @@ class Builder {
       for (int i = 0; i < count; ++i) edges.push_back({first + i, first + (i + 1) % count});
       numbers.insert(numbers.end(), loop.begin(), loop.end());
     };
-    take_loop(low);
-    take_loop(shaft_rim_);
+    take_loop(piece.low);
+    take_loop(piece.high);
     for (const Hole& hole : holes) take_loop(hole.loop);
-    const double bottom = impeller_.shaft_end, length = height_ - bottom;
-    const int rows = std::max(2, static_cast<int>(std::lround(length / (row_height * side))));
+    const double length = piece.top - piece.bottom;
+    // Between discs that are closer than a side there is no room for points
+    const int fewest = length < side ? 1 : 2;
+    const int rows = std::max(fewest, static_cast<int>(std::lround(length / (row_height * side))));
     for (int row = 1; row < rows; ++row)
       for (int i = 0; i < sides; ++i) {
         const double angle = 2 * pi * (i + 0.5 * (row % 2)) / sides;
-        const Vector3d at(r * std::cos(angle), r * std::sin(angle), bottom + length * row / rows);
+        const Vector3d at(r * std::cos(angle), r * std::sin(angle), piece.bottom + length * row / rows);
         if (is_clear(at, holes, side)) numbers.push_back(add(at));
       }
     std::vector<Vector2d> flat;
     flat.reserve(numbers.size());
-    for (const int number : numbers) flat.push_back(unrolled(point(number)));
+    for (const int number : numbers) flat.push_back(unrolled(point(number), piece));
     // Anticlockwise there is into the shaft here
     for (const auto& [a, b, c] : fill_polygon(flat, edges))
       part(0).push_back({numbers[static_cast<std::size_t>(a)], numbers[static_cast<std::size_t>(b)],

@@ -8,8 +8,8 @@ namespace millfoam::meshing {
 
 /// The walls of a stirred mill with its impeller at DEM time 0: parts impeller, shell, base and lid, which
 /// share their points and close the space of the balls. Round parts are facetted so that chords lie within
-/// 0.1 % of the shell's radius of the arcs, with their points on the true surface; the shaft's side is
-/// triangulated unrolled, with a hole for each pin.
+/// 0.1 % of the shell's radius of the arcs, with their points on the true surface; each piece of the
+/// shaft's side between discs is triangulated unrolled, with a hole for each pin.
 /// @param geometry  of a stirred mill
 WallSurface make_stirred_walls(const Geometry& geometry);
 

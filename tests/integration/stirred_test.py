@@ -37,6 +37,9 @@ materials:
 dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
 averages: {start: 0.2, window: 0.3}
 """
+# Two discs, one of them at the shaft's end
+DISCS = ("geometry.impeller={shaft: {diameter: 0.012, end: 0.008}, discs: [{height: 0.010, diameter: 0.044, "
+         "thickness: 0.004}, {height: 0.022, diameter: 0.040, thickness: 0.004}]}")
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = ("impeller", "shell", "base", "lid")
 os.environ["MILLFOAM_NP"] = "1"  # on one rank a resumed run is the same to round-off
@@ -98,6 +101,30 @@ class Stirred(unittest.TestCase):
         mean = (weight * tangential).sum() / weight.sum()
         self.assertGreater(mean, 0.05)
         self.assertLess(mean, 0.8)
+
+    def test_discs_drive_the_balls(self):
+        case = self.folder / "discs"
+        run_mill(case, self.folder / "mill.yaml", DISCS, "dem.duration=0.25", "averages.start=0.15",
+                 "averages.window=0.1")
+        results, mill = read_json(case / "dumps" / "results.json", "charge"), read_mill(case, "stirred")
+        self.assertEqual(results["lost_balls"], 0)
+        self.assertAlmostEqual(mill.derived("speed", "tip_speed_m_s"), 0.8)
+        last = max((case / "dumps").glob("dump.*.txt"), key=lambda path: int(path.name.split(".")[1]))
+        balls = np.loadtxt(last, skiprows=9)
+        x, y, z, vx, vy = balls[:, 2:7].T
+        away = np.hypot(x, y)
+        # No centre lies in a disc
+        for disc in mill.content["derived"]["geometry"]["impeller"]["discs"]:
+            within = (np.abs(z - disc["height_m"]) < disc["thickness_m"] / 2) & (away < disc["diameter_m"] / 2)
+            self.assertFalse(within.any())
+        # Smooth discs drag the balls by friction, those near them most
+        tangential = (x * vy - y * vx) / away
+        self.assertGreater(tangential.mean(), 0.05)
+        self.assertLess(np.percentile(tangential, 99), 0.8)
+        columns = read_csv(case / "dumps" / "torques.csv")
+        late = columns["time_s"] > 0.15
+        self.assertLess(columns["impeller_Nm"][late].mean(), 0)
+        self.assertGreater(columns["shell_Nm"][late].mean() + columns["base_Nm"][late].mean(), 0)
 
     def test_a_run_that_goes_on_is_the_one_that_was_not_interrupted(self):
         case = self.folder / "parts"

@@ -27,4 +27,12 @@ materials:
 dem: {youngs_modulus: 1.0e7, settle_time: 0.3, duration: 1.2}
 )";
 
+/// A change of that mill: two discs below the upper pins instead of the lower ones, the lowest at the shaft's
+/// end.
+inline const std::string disc_impeller =
+    "geometry.impeller={shaft: {diameter: 0.025, end: 0.020}, "
+    "pins: [{height: 0.0700, length: 0.141, thickness: 0.015}], "
+    "discs: [{height: 0.045, diameter: 0.120, thickness: 0.008}, "
+    "{height: 0.023, diameter: 0.142, thickness: 0.006}]}";
+
 }  // namespace millfoam::meshing

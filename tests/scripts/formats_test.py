@@ -19,6 +19,8 @@ materials: {ball: glass, wall: glass, ball_wall: glass-glass}
 slurry: {density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: -0.01}
 flow: {turns: 12, steady: {hours: 1}}
 """
+# A stirred mill may have discs
+DISCS = "geometry.impeller.discs=[{height: 0.1, diameter: 0.14, thickness: 0.01}]"
 HEAD = {"format", "program", "mill"}  # of every file, described once
 
 
@@ -64,8 +66,10 @@ class Formats(unittest.TestCase):
 
     def test_the_resolved_mill(self):
         resolved = [json.loads(run(self.folder, "millMesh", mill, "--resolved", "-")) for mill in (*MILLS, "mill.yaml")]
-        # Null where the mill has none
-        absent = {"geometry.inlet", "geometry.grates", "geometry.pulp_lifters", "flow.steady"}
+        resolved.append(json.loads(run(self.folder, "millMesh", MILLS[-1], "--set", DISCS, "--resolved", "-")))
+        # Null, or an empty list, where the mill has none
+        absent = {"geometry.inlet", "geometry.grates", "geometry.pulp_lifters", "geometry.impeller.discs",
+                  "flow.steady"}
         self.same("derived", set().union(*(keys(mill["derived"]) for mill in resolved)) - absent)
         self.same("mill.json", set(resolved[0]) - {"format", "program"})
 

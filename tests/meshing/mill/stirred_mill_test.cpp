@@ -93,6 +93,44 @@ TEST(StirredMill, impeller_has_the_volume_of_crossing_cylinders) {
               1e-15);
 }
 
+TEST(StirredMill, discs_have_the_volume_of_rings_on_the_shaft) {
+  const Geometry geometry = read(stirred_mill, {disc_impeller}).geometry;
+  const Geometry pins = read(stirred_mill, {disc_impeller, "geometry.impeller.discs=~"}).geometry;
+  const double r2 = 0.0125 * 0.0125, upper = pi * (0.06 * 0.06 - r2), lower = pi * (0.071 * 0.071 - r2);
+  const auto discs_below = [&](double z) { return impeller_volume(geometry, z) - impeller_volume(pins, z); };
+  EXPECT_EQ(discs_below(0.020), 0);
+  EXPECT_NEAR(discs_below(0.022) / (0.002 * lower), 1, 1e-12);
+  EXPECT_NEAR(discs_below(0.030) / (0.006 * lower), 1, 1e-12);
+  EXPECT_NEAR(discs_below(0.315) / (0.006 * lower + 0.008 * upper), 1, 1e-12);
+  EXPECT_DOUBLE_EQ(impeller_radius(*geometry.impeller), 0.071);
+  EXPECT_DOUBLE_EQ(impeller_top(*geometry.impeller), 0.0775);
+  const Geometry no_pins = read(stirred_mill, {disc_impeller, "geometry.impeller.pins=~"}).geometry;
+  EXPECT_DOUBLE_EQ(impeller_top(*no_pins.impeller), 0.049);
+}
+
+TEST(StirredMill, discs_that_hit_something_are_refused) {
+  const auto disc = [](const std::string& height, const std::string& diameter = "0.14") {
+    return refusal(stirred_mill, {"geometry.impeller.discs=[{height: 0.12, diameter: 0.14, thickness: 0.01}, "
+                                  "{height: " +
+                                  height + ", diameter: " + diameter + ", thickness: 0.01}]"});
+  };
+  EXPECT_EQ(disc("0.05"), "");
+  EXPECT_TRUE(says(disc("0.075"),
+                   "key 'geometry.impeller.discs[1].height' = 0.075: expected a height at which "
+                   "this disc, from 0.07 to 0.08 m, is 0.00025 m or more away from the pins from "
+                   "0.0625 to 0.0775 m"));
+  EXPECT_TRUE(says(disc("0.129"), "away from the disc from 0.115 to 0.125 m"));
+  // They touch
+  EXPECT_TRUE(says(disc("0.130"), "away from the disc"));
+  EXPECT_TRUE(says(disc("0.0825"), "away from the pins"));
+  EXPECT_TRUE(says(disc("0.02"), "0.025 m for a disc at the shaft's end, or from 0.02525 to 0.30975 m"));
+  EXPECT_TRUE(says(disc("0.312"), "below the lid"));
+  EXPECT_TRUE(says(disc("0.1", "0.155"), "above the shaft's, 0.025 m, and below the shell's, 0.155 m"));
+  EXPECT_TRUE(says(disc("0.1", "0.02"), "a diameter in m above the shaft's"));
+  // The shell's gap is that of the largest part
+  EXPECT_TRUE(says(disc("0.1", "0.150"), "the gap between the impeller and the shell, 0.0025 m"));
+}
+
 TEST(StirredMill, balls_are_given_by_mass_or_by_number) {
   const std::string classes = with(stirred_mill, "{level: 0.0775, share: 0.5, diameter: 0.005}",
                                    "{classes: [{diameter: 0.005, number: 1234}]}");
@@ -113,24 +151,33 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   EXPECT_TRUE(says(set("geometry.impeller.pins[0].arms=8"), "these meet outside of the shaft"));
   EXPECT_TRUE(says(set("charge.diameter=0.008"), "the gap between the impeller and the shell, 0.007 m"));
   EXPECT_TRUE(says(set("charge.level=0.5"), "up to the mill's"));
-  EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the pins' tips"));
+  EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the impeller's tips"));
   EXPECT_TRUE(says(set("dem.contact_statistics=true"), "false for a stirred mill"));
   EXPECT_TRUE(says(set("flow.turns=3"), "only the dry run is computed"));
   EXPECT_TRUE(says(set("machine=planetary"), "tumbling"));
   EXPECT_TRUE(says(set("geometry.lifters.count=3"), "'geometry.lifters' is unknown"));
 }
 
+// A mill that was run before it could have discs is still the same
+TEST(StirredMill, without_discs_it_keeps_its_fingerprints) {
+  const MillFingerprints found = read(stirred_mill).fingerprint;
+  EXPECT_EQ(found.walls, "5178b99beda016a3");
+  EXPECT_EQ(found.charge, "ba635eeb3dbe9b1e");
+  EXPECT_NE(read(stirred_mill, {disc_impeller}).fingerprint.walls, found.walls);
+}
+
 TEST(StirredMill, resolved_it_is_the_same_mill) {
   const TemporaryFolder folder;
-  const MillDescription first = describe(stirred_mill, {"dem.contact_interval=0.01"});
+  const MillDescription first = describe(stirred_mill, {"dem.contact_interval=0.01", disc_impeller});
   const Json one = resolved_mill(first, "test");
   const Json two = resolved_mill(describe_mill(folder.write("mill.json", one.dump(2))), "test");
   EXPECT_EQ(one["mill"], two["mill"]);
   EXPECT_EQ(one["derived"], two["derived"]);
   EXPECT_EQ(one["fingerprint"], two["fingerprint"]);
   EXPECT_EQ(one["derived"]["machine"], "stirred");
-  EXPECT_NEAR(one["derived"]["geometry"]["impeller"]["gap_m"].get<double>(), 0.007, 1e-12);
-  EXPECT_NEAR(one["derived"]["speed"]["tip_speed_m_s"].get<double>(), 2.2148, 1e-4);
+  EXPECT_NEAR(one["derived"]["geometry"]["impeller"]["gap_m"].get<double>(), 0.0065, 1e-12);
+  EXPECT_EQ(one["derived"]["geometry"]["impeller"]["discs"][1]["diameter_m"], 0.142);
+  EXPECT_NEAR(one["derived"]["speed"]["tip_speed_m_s"].get<double>(), 2.2305, 1e-4);
 }
 
 TEST(StirredMill, tumbling_mills_keep_their_fingerprints) {

@@ -51,6 +51,13 @@ TEST(StirredWalls, close_the_space_of_the_balls) {
        "{height: 0.07, length: 0.13, thickness: 0.012, angle: 75, arms: 3}]"},
       {"geometry.impeller.pins[0].arms=1", "geometry.impeller.pins[1].thickness=0.024"},
       {"geometry.impeller.pins=~"},
+      {disc_impeller},
+      {disc_impeller, "geometry.impeller.pins=~"},
+      // Many thin discs, hardly apart, and pins just above the highest
+      {"geometry.impeller.discs=[{height: 0.0454, diameter: 0.120, thickness: 0.001}, "
+       "{height: 0.0485, diameter: 0.030, thickness: 0.004}, "
+       "{height: 0.0569, diameter: 0.141, thickness: 0.0106}, "
+       "{height: 0.0509, diameter: 0.0252, thickness: 0.0002}]"},
       {"geometry.diameter=0.256", "geometry.height=0.5"}};
   for (const auto& set : mills) {
     const Geometry geometry = geometry_of(set);
@@ -89,6 +96,26 @@ TEST(StirredWalls, first_arm_is_at_its_angle) {
     }
   EXPECT_NEAR(std::atan2(tip.y(), tip.x()) * 180 / pi, 30, 1e-9);
   EXPECT_NEAR(tip.head<2>().norm(), 0.0705, 1e-12);
+}
+
+TEST(StirredWalls, a_disc_is_a_ring_on_the_shaft) {
+  const WallSurface walls = make_stirred_walls(geometry_of({disc_impeller, "geometry.impeller.pins=~"}));
+  // Areas of the triangles at a height: up and down, with their normals out of the balls' space
+  const auto face = [&](double height) {
+    double up = 0;
+    for (const auto& [a, b, c] : walls.parts[0].triangles) {
+      const auto at = [&](int p) { return walls.points[static_cast<std::size_t>(p)]; };
+      if (std::abs(at(a).z() - height) + std::abs(at(b).z() - height) + std::abs(at(c).z() - height) > 1e-9)
+        continue;
+      up += (at(b) - at(a)).cross(at(c) - at(a)).z() / 2;
+    }
+    return up;
+  };
+  const double shaft = pi * 0.0125 * 0.0125;
+  EXPECT_NEAR(face(0.020) / (pi * 0.071 * 0.071), 1, 3e-3);
+  EXPECT_NEAR(-face(0.026) / (pi * 0.071 * 0.071 - shaft), 1, 3e-3);
+  EXPECT_NEAR(face(0.041) / (pi * 0.060 * 0.060 - shaft), 1, 3e-3);
+  EXPECT_NEAR(-face(0.049) / (pi * 0.060 * 0.060 - shaft), 1, 3e-3);
 }
 
 TEST(StirredWalls, another_volume_is_refused) {
