@@ -24,13 +24,27 @@ constexpr double start_gap = 0.1;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
+/// A stirred mill's balls must not be clamped between the impeller and the shell, or the base, unless
+/// `larger_than_gap` is true. They are released between shaft and shell.
+Rule stirred_diameter(const Section& in, const Geometry& geometry) {
+  const Impeller& impeller = *geometry.impeller;
+  const double room = (geometry.radius() - impeller.shaft_diameter / 2) / (1 + 2 * start_gap);
+  const std::string ball = "a ball's diameter";
+  if (in.boolean("larger_than_gap", false))
+    return positive_below(ball, room, " m", "the room between the shaft and the shell");
+  const std::string unless = " (or charge.larger_than_gap: true)";
+  const double aside = geometry.radius() - impeller_radius(impeller);
+  const double below = impeller.shaft_end;
+  if (below < aside)
+    return positive_below(ball, below, " m" + unless, "the gap between the impeller and the base");
+  return positive_below(ball, std::min(aside, room), " m" + unless,
+                        "the gap between the impeller and the shell");
+}
+
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
 /// images.
-Rule ball_diameter(const Geometry& geometry) {
-  if (geometry.impeller) {
-    const double gap = geometry.radius() - impeller_radius(*geometry.impeller);
-    return positive_below("a ball's diameter", gap, " m", "the gap between the impeller and the shell");
-  }
+Rule ball_diameter(const Section& in, const Geometry& geometry) {
+  if (geometry.impeller) return stirred_diameter(in, geometry);
   const double room = geometry.radius() - geometry.lifters.height;
   const bool slice_is_short = geometry.length < room;
   return positive_below("a ball's diameter", std::min(room, geometry.length), " m",
@@ -67,7 +81,7 @@ double read_mass(const Section& item, const Geometry& geometry, double density, 
 std::vector<SizeClass> read_sizes(const Section& in, const Geometry& geometry, double density, double share) {
   std::vector<SizeClass> classes;
   for (const Section& item : list_classes(in)) {
-    const double diameter = item.number("diameter", ball_diameter(geometry));
+    const double diameter = item.number("diameter", ball_diameter(in, geometry));
     classes.push_back({diameter, read_mass(item, geometry, density, share, diameter) * share});
   }
   return classes;
@@ -100,7 +114,7 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density, do
   double mass = 0;
   for (const SizeClass& size : read_classes(in, geometry, density)) mass += size.mass;
   for (Section& item : list_classes(in)) {
-    const double diameter = item.number("diameter", ball_diameter(geometry));
+    const double diameter = item.number("diameter", ball_diameter(in, geometry));
     const double own = read_mass(item, geometry, density, 1, diameter);
     item.drop("number");
     item.put("mass", own * wanted / mass);
@@ -170,7 +184,7 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
   else
-    charge.classes = {{in.number("diameter", ball_diameter(geometry)),
+    charge.classes = {{in.number("diameter", ball_diameter(in, geometry)),
                        read_fill_mass(in, geometry, density, charge.packing)}};
   const double largest =
       require_room(in, in.has("classes") ? "classes" : "fill", charge.classes, geometry, density);
@@ -206,20 +220,20 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
     charge.classes = read_sizes(in, geometry, density, 1);
   } else {
     charge.classes = {
-        {in.number("diameter", ball_diameter(geometry)), read_level_mass(in, geometry, density)}};
+        {in.number("diameter", ball_diameter(in, geometry)), read_level_mass(in, geometry, density)}};
   }
   const double largest =
       require_room(in, by_classes ? "classes" : "level", charge.classes, geometry, density);
   charge.fines_below = read_fines(in, largest);
   const Impeller& impeller = *geometry.impeller;
-  // Above the pins, around the shaft; a tenth of a ball more, so that none touches a wall
+  // Above pins and discs, around the shaft; a tenth of a ball more, so that none touches a wall
   charge.start_radius = geometry.radius() - largest * start_gap;
   charge.start_core = impeller.shaft_diameter / 2 + largest * start_gap;
   charge.start_bottom = impeller_top(impeller) + largest * start_gap;
   charge.start_length = geometry.length - charge.start_bottom - largest * start_gap;
   if (charge.start_length < 2 * largest)
     in.refuse(by_classes ? "classes" : "diameter",
-              "a mill with room above the pins, where balls are released: a height of " +
+              "a mill with room above the impeller, where balls are released: a height of " +
                   shown(impeller_top(impeller) + 2.2 * largest) + " m or more, not " +
                   shown(geometry.length) + " m");
   return charge;

@@ -17,11 +17,13 @@ class Section;
 Charge read_charge(Section in, const Geometry& geometry, double density);
 
 /// The same of a stirred mill: by classes, or by the share of the space up to a level that the balls take.
-/// They are released around the shaft, between the pins and the lid.
+/// They are released around the shaft, between pins or discs and the lid.
 /// @param in  the section `charge`
 /// @param geometry  of the mill
 /// @param density  of the balls, kg/m^3
-/// Throws MillError as read_charge, and where there is no room above the pins.
+/// Throws MillError as read_charge, for balls larger than the gap between the impeller and the
+/// shell or the base (unless the section's `larger_than_gap` is true), and where there is no room above pins
+/// and discs.
 Charge read_stirred_charge(Section in, const Geometry& geometry, double density);
 
 /// The number of whole balls with the mass of a size class.

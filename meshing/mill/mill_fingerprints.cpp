@@ -35,6 +35,13 @@ Json dem_numbers(const Json& keys, const Mill& mill) {
   return dem;
 }
 
+/// The keys of `charge` but the one that only allows balls of a size.
+Json charge_numbers(const Json& keys) {
+  Json charge = keys.at("charge");
+  charge.erase("larger_than_gap");
+  return charge;
+}
+
 /// The keys of `averages` but the time at which they are made.
 Json averages_numbers(const Json& keys) {
   Json averages = keys.at("averages");
@@ -72,10 +79,11 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["resolution"].erase("layers");
   MillFingerprints result;
   result.walls = fingerprint(of.dump());
-  for (const char* section : {"speed", "charge", "dem"}) of[section] = keys.at(section);
-  of["materials"] = materials;
+  of["speed"] = keys.at("speed");
+  of["charge"] = charge_numbers(keys);
   of["dem"] = dem_numbers(keys, mill);
   of["dem"].erase("duration");
+  of["materials"] = materials;
   result.charge = fingerprint(of.dump());
   of["dem"] = dem_numbers(keys, mill);
   of["averages"] = averages_numbers(keys);
@@ -86,6 +94,7 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   }
   of = keys;
   of.erase("machine");
+  of["charge"] = charge_numbers(keys);
   of["averages"] = averages_numbers(keys);
   of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;

@@ -252,9 +252,9 @@ void read_stirred(const Section& in, Mill& mill) {
   Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
   mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
   read_materials(in, mill);
-  mill.charge = read_stirred_charge(
-      in.section("charge", {"classes", "level", "share", "diameter", "packing", "fines_below"}),
-      mill.geometry, mill.ball.density);
+  mill.charge = read_stirred_charge(in.section("charge", {"classes", "level", "share", "diameter", "packing",
+                                                          "fines_below", "larger_than_gap"}),
+                                    mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", dem_keys);
   mill.dem = read_dem(dem, mill.geometry, mill.turn());
   // Their wall cells turn with the mill

@@ -131,6 +131,21 @@ TEST(StirredMill, discs_that_hit_something_are_refused) {
   EXPECT_TRUE(says(disc("0.1", "0.150"), "the gap between the impeller and the shell, 0.0025 m"));
 }
 
+TEST(StirredMill, larger_balls_than_the_gaps_are_requested) {
+  const std::string base = "geometry.impeller.shaft.end=0.004";
+  EXPECT_TRUE(
+      says(refusal(stirred_mill, {base}),
+           "below the gap between the impeller and the base, 0.004 m (or charge.larger_than_gap: true)"));
+  const std::string wanted = "charge.larger_than_gap=true";
+  EXPECT_EQ(refusal(stirred_mill, {base, wanted}), "");
+  EXPECT_EQ(refusal(stirred_mill, {"charge.diameter=0.008", wanted}), "");
+  // Those that do not fit between shaft and shell stay refused
+  EXPECT_TRUE(says(refusal(stirred_mill, {"charge.diameter=0.06", wanted}),
+                   "below the room between the shaft and the shell, 0.0541667 m"));
+  // It allows balls, and does not change them
+  EXPECT_EQ(read(stirred_mill).fingerprint.charge, read(stirred_mill, {wanted}).fingerprint.charge);
+}
+
 TEST(StirredMill, balls_are_given_by_mass_or_by_number) {
   const std::string classes = with(stirred_mill, "{level: 0.0775, share: 0.5, diameter: 0.005}",
                                    "{classes: [{diameter: 0.005, number: 1234}]}");
