@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Published numbers of the three mills, and verdicts on their order by size and by speed.
+
+Source: Ssebunnya, PhD thesis, University of Cape Town, 2024. Its powers are printed 60 times too high (turns a minute
+taken as turns a second); they are divided by 60 here. They do not agree with the power that its torques give, so that
+only ratios between runs are compared. Its mean speeds are over the last five turns of runs of 5 s."""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from millfoam.readings.means import Mean
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Verdict, by_sign
+
+from run_numbers import Numbers
+from runs import MILLS, SPEEDS
+
+BALANCED = 0.03  # of the impeller's torque, which may be missing on the walls at rest
+NEAR = 0.15  # between a mean speed, or a ratio of two runs, and the published one: dry runs and wet ones
+SAME = 0.05  # between a run and an independent one of the same mill
+
+Place = tuple[str, str]  # mill and speed, as runs name them
+Found = dict[str, Numbers]
+Reading = Callable[[Numbers], Mean]
+
+
+@dataclass(frozen=True)
+class Published:
+    """A published run with slurry: mean speed of the balls, m/s; power that the impeller gives to the balls, and to
+    balls and slurry, W for each m3 of slurry."""
+    speed: float
+    balls: float
+    whole: float
+
+
+PUBLISHED = {("A", "1.5"): Published(0.46, 275e3 / 60, 375e3 / 60),
+             ("A", "1.8"): Published(0.60, 410e3 / 60, 558e3 / 60),
+             ("A", "2.2"): Published(0.73, 531e3 / 60, 792e3 / 60),
+             ("B", "1.8"): Published(0.59, 405e3 / 60, 524e3 / 60)}
+# The same mill by LIGGGHTS alone, with the same modulus, from 0.6 to 1.2 s
+INDEPENDENT = ("A", "2.2"), 24.9, 0.635  # run, W, m/s
+
+
+def name_of(place: Place) -> str:
+    """Name of the dry run of a mill at a speed."""
+    return "_".join((*place, "dry"))
+
+
+def tested(statement: str, found: Found, places: tuple[Place, ...],
+           judge: Callable[..., tuple[str, str]]) -> Verdict:
+    """The verdict of judge(numbers of the dry runs at these places), if all of them are complete and steady."""
+    names = [name_of(place) for place in places]
+    gone = [name for name in names if name not in found]
+    if gone:
+        return Verdict(statement, ", ".join(names), NOT_TESTED, "not finished: " + ", ".join(gone))
+    verdict, figure = judge(*(found[name] for name in names))
+    moving = [f"{name} drifts in {', '.join(found[name].drifting)}" for name in names if found[name].drifting]
+    if moving:
+        return Verdict(statement, ", ".join(names), UNDECIDED, "; ".join([figure, *moving]))
+    return Verdict(statement, ", ".join(names), verdict, figure)
+
+
+def within(value: float, expected: float, tolerance: float) -> str:
+    """Whether a number is another within a share of it."""
+    return CONFIRMED if abs(value / expected - 1) <= tolerance else CONTRADICTED
+
+
+def speed(one: Numbers) -> Mean:
+    """Mean speed of the balls, m/s."""
+    return one.speed
+
+
+def power(one: Numbers) -> Mean:
+    """Power of the drive, W."""
+    return one.power
+
+
+def density(one: Numbers) -> Mean:
+    """Power of the drive for each m3 of slurry, W/m3."""
+    return Mean(one.power.value / one.volume, one.power.error / one.volume)
+
+
+def higher(read: Reading, unit: str, scale: float = 1.0) -> Callable[[Numbers, Numbers], tuple[str, str]]:
+    """A judge of two runs: whether what is read of the second is higher by more than twice the error."""
+
+    def judge(low: Numbers, high: Numbers) -> tuple[str, str]:
+        return by_sign(read(high) - read(low)), " and ".join(read(one).text(unit, scale, ".3f") for one in (low, high))
+    return judge
+
+
+def order_of_speeds(found: Found) -> Iterator[Verdict]:
+    """Power and mean speed rise with the speed of the tips, in each mill."""
+    rising = sorted(SPEEDS, key=lambda name: SPEEDS[name])
+    for words, read, unit in (("the mean speed of the balls", speed, "m/s"), ("the power", power, "W")):
+        for mill in MILLS:
+            for low, high in zip(rising, rising[1:]):
+                yield tested(f"{words} is higher at {high} than at {low} m/s", found, ((mill, low), (mill, high)),
+                             higher(read, unit))
+
+
+def order_of_mills(found: Found) -> Iterator[Verdict]:
+    """Mean speed, and power for each m3 of slurry, fall from the smallest mill to the largest."""
+    for words, read, unit, scale in (("the mean speed of the balls", speed, "m/s", 1.0),
+                                     ("the power per volume", density, "kW/m3", 1e-3)):
+        for at in SPEEDS:
+            for small, large in zip(list(MILLS), list(MILLS)[1:]):
+                yield tested(f"{words} is higher in mill {small} than in {large}", found, ((large, at), (small, at)),
+                             higher(read, unit, scale))
+
+
+def published_speeds(found: Found) -> Iterator[Verdict]:
+    """Mean speeds of dry runs are those of the published ones with slurry."""
+    for place, known in PUBLISHED.items():
+        def judge(one: Numbers, known: Published = known) -> tuple[str, str]:
+            return within(one.speed.value, known.speed, NEAR), (
+                f"{one.speed.text('m/s', 1, '.3f')}, published {known.speed:g}")
+        yield tested(f"the mean speed of the balls is the published one within {100 * NEAR:g} %", found, (place,),
+                     judge)
+
+
+def published_ratios(found: Found) -> Iterator[Verdict]:
+    """Ratios of mean speeds and of powers per volume of two runs are those of the published ones, by the balls."""
+    base = ("A", "1.8")
+    for words, read, known in (("mean speeds", speed, "speed"), ("powers per volume", density, "balls")):
+        for place in PUBLISHED:
+            if place == base:
+                continue
+            expected = getattr(PUBLISHED[place], known) / getattr(PUBLISHED[base], known)
+
+            def judge(first: Numbers, one: Numbers, read: Reading = read,
+                      expected: float = expected) -> tuple[str, str]:
+                over = ratio(read(one), read(first))
+                return within(over.value, expected, NEAR), (
+                    f"{over.value:.3f} ± {over.error:.3f}, published {expected:.3f}")
+            yield tested(f"the ratio of {words} to that of A at 1.8 m/s is the published one within {100 * NEAR:g} %",
+                         found, (base, place), judge)
+
+
+def ratio(one: Mean, other: Mean) -> Mean:
+    """A mean over another, with the error that theirs give."""
+    value = one.value / other.value
+    return Mean(value, float(abs(value) * np.hypot(one.error / one.value, other.error / other.value)))
+
+
+def own_checks(found: Found) -> Iterator[Verdict]:
+    """What each run must hold, and what another program found."""
+    for name, one in found.items():
+        missing = abs(1 - one.at_rest.value)
+        yield Verdict(f"the walls at rest take the impeller's torque within {100 * BALANCED:g} %", name,
+                      CONFIRMED if missing <= BALANCED else CONTRADICTED, f"{one.at_rest.value:.4f} of it")
+    place, watts, metres = INDEPENDENT
+    yield tested(f"power is that of LIGGGHTS alone within {100 * SAME:g} %", found, (place,), lambda one: (
+        within(one.power.value, watts, SAME), f"{one.power.text('W', 1, '.2f')}, expected {watts:g}"))
+    yield tested(f"mean speed is that of LIGGGHTS alone within {100 * SAME:g} %", found, (place,), lambda one: (
+        within(one.speed.value, metres, SAME), f"{one.speed.text('m/s', 1, '.3f')}, expected {metres:g}"))
+
+
+def verdicts(found: Found) -> list[Verdict]:
+    """All verdicts on runs, name -> Numbers."""
+    return [*order_of_speeds(found), *order_of_mills(found), *published_speeds(found), *published_ratios(found),
+            *own_checks(found)]
