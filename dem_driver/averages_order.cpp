@@ -58,13 +58,10 @@ Json grid_json(const BoxGrid& grid, const PathAs&) {
 
 Json grid_json(const CylinderRequest& cylinder, const PathAs&) {
   const CylinderGrid& grid = cylinder.grid;
-  return {{"kind", "cylinder"},
-          {"radii_m", grid.radii()},
-          {"ends_m", grid.ends()},
-          {"shape", grid.shape()},
-          {"periodic", grid.periodic_z()},
-          {"cylindrical", cylinder.cylindrical},
-          {"turning", cylinder.turning}};
+  return {
+      {"kind", "cylinder"},         {"radii_m", grid.radii()},       {"ends_m", grid.ends()},
+      {"shape", grid.shape()},      {"periodic", grid.periodic_z()}, {"cylindrical", cylinder.cylindrical},
+      {"turning", cylinder.turning}};
 }
 
 Json grid_json(const MeshRequest& mesh, const PathAs& path) {

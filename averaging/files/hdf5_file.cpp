@@ -43,7 +43,8 @@ void check_format(hid_t file, const std::string& format, const std::vector<int>&
   if (std::find(versions.begin(), versions.end(), number) == versions.end()) {
     std::string expected;
     for (const int version : versions) expected += (expected.empty() ? "" : " or ") + std::to_string(version);
-    throw Error("attribute 'version' is " + std::to_string(number) + ", expected " + expected + "; " + advice);
+    throw Error("attribute 'version' is " + std::to_string(number) + ", expected " + expected + "; " +
+                advice);
   }
   if (read_int_attribute(file, "complete", 1)[0] != 1) {
     throw Error("the file is not complete: the run that was to write it did not finish");

@@ -21,8 +21,8 @@ struct CylinderFrame {
 
 /// A cylinder about the lab's z axis (x = y = 0), or the shell between two radii, cut into equal steps of r,
 /// theta and z. theta goes from +x towards +y, from 0 to 2 pi. A voxel holds its lower faces and not its
-/// upper ones. Along z the cylinder may repeat without end. A cylinder that turns is described in its own frame:
-/// all points here are that frame's; `in_own_frame` takes them there.
+/// upper ones. Along z the cylinder may repeat without end. A cylinder that turns is described in its own
+/// frame: all points here are that frame's; `in_own_frame` takes them there.
 ///
 /// Fields on it are stored in C order [z][theta][r]: the voxel (i, j, k) along r, theta, z is entry
 /// (k*ntheta + j)*nr + i.

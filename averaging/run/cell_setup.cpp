@@ -118,7 +118,8 @@ CylinderFrame frame_of(const CylinderRequest& cylinder, const RunSettings& setti
   if (!cylinder.turning) return frame;
   if (!settings.angular_velocity) {
     throw std::invalid_argument(
-        "--frame is turning, but neither --speed nor run.json gives the mill's angular velocity; expected one "
+        "--frame is turning, but neither --speed nor run.json gives the mill's angular velocity; expected "
+        "one "
         "of them");
   }
   frame.angular_velocity = settings.angular_velocity;

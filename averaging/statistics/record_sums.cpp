@@ -49,7 +49,8 @@ void sum_record(Deposition& deposition, const ParticleRecord& record, double tim
       diameter = volume_equivalent_diameter(record.shapes[p]);
       deposition.deposit(particle, record.shapes[p], deposits);
     }
-    const double deposited = add_deposits(deposition.field_velocity(particle), diameter, particle_volume, deposits, sums);
+    const double deposited =
+        add_deposits(deposition.field_velocity(particle), diameter, particle_volume, deposits, sums);
     sums.ledger.volume_in += particle_volume;
     sums.ledger.deposited += deposited;
     // A ball wholly inside is deposited to rounding, which is not a loss.

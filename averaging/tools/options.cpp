@@ -72,8 +72,8 @@ CylinderRequest cylinder_request(const Options& options) {
     throw std::invalid_argument("--periodic is x or y, expected z: a cylinder repeats along its axis only");
   }
   const std::vector<double>& c = options.cylinder;
-  CylinderRequest cylinder(CylinderGrid(
-      {c[0], c[1]}, {c[2], c[3]}, {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]));
+  CylinderRequest cylinder(CylinderGrid({c[0], c[1]}, {c[2], c[3]},
+                                        {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]));
   cylinder.turning = options.frame == "turning";
   if (cylinder.turning && options.components == "cartesian") {
     throw std::invalid_argument("--components is cartesian, expected cylindrical with --frame turning");

@@ -316,8 +316,9 @@ Averages read_averages(const Section& root, const Mill& mill) {
   averages.live = in.boolean("live", false);
   if (averages.whole_run) averages.window = duration - averages.start.value_or(0);
   if (averages.whole_run && averages.live && !averages.start)
-    in.refuse("live", "false, or a time in s as averages.start: a window of the whole run cannot wait until the "
-                      "charge is steady");
+    in.refuse("live",
+              "false, or a time in s as averages.start: a window of the whole run cannot wait until the "
+              "charge is steady");
   return averages;
 }
 

@@ -31,12 +31,12 @@ Rings read_rings(const Section& in, const Geometry& geometry, double diameter) {
   const double radius = geometry.radius(), size = std::max(diameter, radius / most_usual_rings);
   Rings rings;
   rings.turning = in.choice("frame", {"lab", "impeller"}, "impeller") == "impeller";
-  rings.radial = in.integer("radial", whole_number("rings along the radius", 1, most_rings),
-                            number_of(radius, size));
+  rings.radial =
+      in.integer("radial", whole_number("rings along the radius", 1, most_rings), number_of(radius, size));
   rings.azimuthal = in.integer("azimuthal", whole_number("sectors around the axis", 1, most_rings),
                                quarters * number_of(2 * pi * middle * radius / quarters, size));
-  rings.axial =
-      in.integer("axial", whole_number("layers along the axis", 1, most_rings), number_of(geometry.length, size));
+  rings.axial = in.integer("axial", whole_number("layers along the axis", 1, most_rings),
+                           number_of(geometry.length, size));
   return rings;
 }
 

@@ -21,71 +21,8 @@ using namespace Foam;
 namespace
 {
 
-//- Of the cylinder, rad/s; its radii and height, m; DEM time at flow time 0, s
-constexpr scalar omega = 5;
-constexpr scalar inner = 0.2;
-constexpr scalar height = 0.5;
-constexpr scalar time0 = 2;
-
-//- Solidity at an azimuth of the cylinder
-scalar solidityAt(const scalar theta)
-{
-    return 0.3 + 0.1 * std::cos(theta);
-}
-
-//- Velocity of balls that turn at 3 rad/s, spread and rise, m/s
-vector velocityAt(const point& p)
-{
-    const scalar r = std::hypot(p.x(), p.y());
-    return vector(
-        0.1 * p.x() / r - 3 * p.y(), 0.1 * p.y() / r + 3 * p.x(), 0.2);
-}
-
-//- Volume of the balls, m3
-scalar volume()
-{
-    return 0.3 * constant::mathematical::pi * (1 - sqr(inner)) * height;
-}
-
-//- One window over the whole run
-void writeSolids(const std::filesystem::path& path)
-{
-    using namespace millfoam::averaging;
-    const CylinderGrid grid(
-        {inner, 1}, {0, height}, {16, 180, 2}, false, {true, omega});
-    SolidsHeader header;
-    header.time0 = time0;
-    header.timestep = 1e-5;
-    header.whole_run = true;
-    header.angular_velocity = omega;
-    const std::size_t n = grid.size();
-    WindowAverage window;
-    window.time = {time0, time0 + 1, 100};
-    for (std::size_t cell = 0; cell < n; ++cell)
-    {
-        const double r =
-            inner + grid.spacing()[0] * (double(cell % 16) + 0.5);
-        const double theta =
-            grid.spacing()[1] * (double(cell / 16 % 180) + 0.5);
-        window.mean.solidity.push_back(solidityAt(theta));
-        for (const double u : {0.1, 3 * r, 0.2})
-        {
-            window.mean.velocity.push_back(u);
-        }
-    }
-    window.mean.diameter.assign(n, 0.01);
-    window.mean.diameter43.assign(n, 0.01);
-    window.number.assign(n, 1);
-    window.solidity_deviation.assign(n, 0);
-    window.velocity_deviation.assign(3 * n, 0);
-    window.granular_temperature.assign(n, 0);
-    window.ledger.volume_in = window.ledger.deposited = volume();
-    SolidsWriter writer(path, grid, header);
-    writer.append(window);
-    writer.finish();
-}
-
-//- A ring of cells around the axis, with that file in its case
+//- A ring of cells around the axis, in a case with the solids of a cylinder that
+//  turns: one window over the whole run
 class ringCase : public smallCase
 {
     pointField atTime0_;
@@ -94,11 +31,54 @@ class ringCase : public smallCase
     {
         const scalar theta = constant::mathematical::twoPi * p.y();
         const scalar r = inner + (1 - inner) * p.x();
-        return point(
-            r * std::cos(theta), r * std::sin(theta), height * p.z());
+        return point(r * std::cos(theta), r * std::sin(theta), height * p.z());
+    }
+
+    static void writeSolids(const std::filesystem::path& path)
+    {
+        using namespace millfoam::averaging;
+        const CylinderGrid grid(
+            {inner, 1}, {0, height}, {16, 180, 2}, false, {true, omega});
+        SolidsHeader header;
+        header.time0 = time0;
+        header.timestep = 1e-5;
+        header.whole_run = true;
+        header.angular_velocity = omega;
+        const std::size_t n = grid.size();
+        WindowAverage window;
+        window.time = {time0, time0 + 1, 100};
+        for (std::size_t cell = 0; cell < n; ++cell)
+        {
+            const double r =
+                inner + grid.spacing()[0] * (double(cell % 16) + 0.5);
+            const double theta =
+                grid.spacing()[1] * (double(cell / 16 % 180) + 0.5);
+            window.mean.solidity.push_back(solidityAt(theta));
+            for (const double u : {0.1, 3 * r, 0.2})
+            {
+                window.mean.velocity.push_back(u);
+            }
+        }
+        window.mean.diameter.assign(n, 0.01);
+        window.mean.diameter43.assign(n, 0.01);
+        window.number.assign(n, 1);
+        window.solidity_deviation.assign(n, 0);
+        window.velocity_deviation.assign(3 * n, 0);
+        window.granular_temperature.assign(n, 0);
+        window.ledger.volume_in = window.ledger.deposited = volume();
+        SolidsWriter writer(path, grid, header);
+        writer.append(window);
+        writer.finish();
     }
 
     public:
+    //- Of the cylinder, rad/s; its inner radius and height, m; DEM time at flow
+    //  time 0, s
+    static constexpr scalar omega = 5;
+    static constexpr scalar inner = 0.2;
+    static constexpr scalar height = 0.5;
+    static constexpr scalar time0 = 2;
+
     std::unique_ptr<dictionary> dict;
     std::unique_ptr<movingBed> bed;
 
@@ -111,13 +91,32 @@ class ringCase : public smallCase
             "solids \"solids.h5\"; interpolation linear;" + entries)));
     }
 
+    //- Solidity at an azimuth of the cylinder
+    static scalar solidityAt(const scalar theta)
+    {
+        return 0.3 + 0.1 * std::cos(theta);
+    }
+
+    //- Velocity of balls that turn at 3 rad/s, spread and rise, m/s
+    static vector velocityAt(const point& p)
+    {
+        const scalar r = std::hypot(p.x(), p.y());
+        return vector(
+            0.1 * p.x() / r - 3 * p.y(), 0.1 * p.y() / r + 3 * p.x(), 0.2);
+    }
+
+    //- Volume of the balls, m3
+    static scalar volume()
+    {
+        return 0.3 * constant::mathematical::pi * (1 - sqr(inner)) * height;
+    }
+
     //- Turn the mesh to its place at the flow's time
     void turn()
     {
         const scalar angle = omega * (time0 + time().value());
         const scalar c = std::cos(angle), s = std::sin(angle);
-        mesh().movePoints(
-            tensor(c, -s, 0, s, c, 0, 0, 0, 1) & atTime0_);
+        mesh().movePoints(tensor(c, -s, 0, s, c, 0, 0, 0, 1) & atTime0_);
     }
 
     void makeBed()
@@ -125,11 +124,11 @@ class ringCase : public smallCase
         bed.reset(new movingBed(*dict, mesh()));
     }
 
-    //- Azimuth of a cell in the cylinder's frame at a DEM time, rad
-    scalar azimuth(const label celli, const scalar t)
+    //- Solidity of the cylinder where a cell is, at a DEM time, s
+    scalar solidityOf(const label celli, const scalar t)
     {
         const vector& centre = mesh().C()[celli];
-        return std::atan2(centre.y(), centre.x()) - omega * t;
+        return solidityAt(std::atan2(centre.y(), centre.x()) - omega * t);
     }
 };
 
@@ -148,13 +147,13 @@ TEST(solidsOnATurningCylinder, restOnAMeshThatTurnsWithIt)
         ++ring.time();
         ring.turn();
         ring.bed->update();
-        const scalar t = time0 + ring.time().value();
+        const scalar t = ring.time0 + ring.time().value();
         forAll(first, celli)
         {
             const scalar phi = ring.bed->solidity()[celli];
             EXPECT_NEAR(phi, first[celli], 1e-12);
-            EXPECT_NEAR(phi, solidityAt(ring.azimuth(celli, t)), 2e-5);
-            const vector expected(velocityAt(ring.mesh().C()[celli]));
+            EXPECT_NEAR(phi, ring.solidityOf(celli, t), 2e-5);
+            const vector expected(ring.velocityAt(ring.mesh().C()[celli]));
             EXPECT_LT(mag(ring.bed->velocity()[celli] - expected), 1e-12);
         }
     }
@@ -168,15 +167,15 @@ TEST(solidsOnATurningCylinder, passAMeshAtRest)
     {
         ++ring.time();
         ring.bed->update();
-        const scalar t = time0 + ring.time().value();
+        const scalar t = ring.time0 + ring.time().value();
         forAll(ring.mesh().C(), celli)
         {
             const vector& centre = ring.mesh().C()[celli];
             EXPECT_NEAR(
-                ring.bed->solidity()[celli],
-                solidityAt(ring.azimuth(celli, t)), 2e-5);
+                ring.bed->solidity()[celli], ring.solidityOf(celli, t), 2e-5);
             EXPECT_LT(
-                mag(ring.bed->velocity()[celli] - velocityAt(centre)), 1e-12);
+                mag(ring.bed->velocity()[celli] - ring.velocityAt(centre)),
+                1e-12);
         }
     }
 }
@@ -190,14 +189,13 @@ TEST(solidsOnATurningCylinder, wereWhereTheyTurnedFromInTheStepBefore)
     ring.turn();
     const scalarField before(ring.bed->voidageBefore()().field());
     ring.bed->update();
-    const scalar t = time0 + ring.time().value();
+    const scalar t = ring.time0 + ring.time().value();
     forAll(before, celli)
     {
-        const scalar old = solidityAt(ring.azimuth(celli, t - 0.02));
+        const scalar old = ring.solidityOf(celli, t - 0.02);
         EXPECT_NEAR(1 - before[celli], old, 2e-5);
         EXPECT_NEAR(
-            ring.bed->solidity()[celli], solidityAt(ring.azimuth(celli, t)),
-            2e-5);
+            ring.bed->solidity()[celli], ring.solidityOf(celli, t), 2e-5);
     }
 }
 
@@ -212,9 +210,8 @@ TEST(solidsOnATurningCylinder, keepTheVolumeOfTheLedger)
         ring.turn();
         ring.bed->update();
         const scalar found = sum(
-            ring.bed->solidity().primitiveField() *
-            ring.mesh().V().field());
-        EXPECT_NEAR(found / volume(), 1, 1e-12);
+            ring.bed->solidity().primitiveField() * ring.mesh().V().field());
+        EXPECT_NEAR(found / ring.volume(), 1, 1e-12);
     }
 }
 

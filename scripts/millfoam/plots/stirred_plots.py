@@ -71,11 +71,16 @@ def draw_meridian(axis: Axes, mill: Mill, rings: Rings, quantity: str, largest: 
     image = axis.pcolormesh(both, 1e3 * rings.z, values, **_colours(values, quantity, largest))
     _meridian_arrows(axis, mill, rings, (left, right), "w" if image.get_cmap().name == "viridis" else "k")
     draw_impeller(axis, mill, rings.angular_velocity != 0)
-    top = 1.12 * max(1e3 * filled_height(meridian(rings), rings.z), 1e3 * mill.impeller["top_m"])
-    axis.set(xlim=(-1, 1), ylim=(0, min(top, 1e3 * mill.length)), xlabel="r / R", ylabel="z, mm",
+    axis.set(xlim=(-1, 1), ylim=(0, 1e3 * _shown_height(mill, rings)), xlabel="r / R", ylabel="z, mm",
              aspect=1 / (1e3 * mill.radius))
     axis.set_xticks([-1, -0.5, 0, 0.5, 1], ["1", "0.5", "0", "0.5", "1"])
     return image
+
+
+def _shown_height(mill: Mill, rings: Rings) -> float:
+    """Height up to which a map in the r-z plane shows the mill, m: a little above balls and impeller."""
+    filled = filled_height(meridian(rings), rings.z)
+    return float(min(1.12 * max(filled, mill.impeller["top_m"]), mill.length))
 
 
 def _values(mean: Means, quantity: str) -> np.ndarray:
@@ -131,7 +136,8 @@ def meridian_figure(mill: Mill, rings: Rings,
                     quantities: Iterable[str] = ("solidity", "speed", "tangential")) -> Figure:
     """Maps of quantities in the r-z plane, next to each other, with arrows of radial and axial velocity."""
     names = list(quantities)
-    figure, axes = plt.subplots(1, len(names), figsize=(4.6 * len(names), 4.3), layout="constrained", squeeze=False)
+    height = 1.2 + 3.1 * _shown_height(mill, rings) / (2 * mill.radius)
+    figure, axes = plt.subplots(1, len(names), figsize=(4.4 * len(names), height), layout="constrained", squeeze=False)
     for axis, name in zip(axes[0], names):
         image = draw_meridian(axis, mill, rings, name)
         figure.colorbar(image, ax=axis, label=label_of(name), shrink=0.8)

@@ -255,7 +255,8 @@ TEST(SolidsFileOnACylinder, GivesTheGridBackAndShowsItAsACurvilinearOne) {
 }
 
 TEST(SolidsFileOnACylinder, SaysWhatItsVelocitiesAreAndWhetherItTurns) {
-  for (const CylinderFrame& frame : {CylinderFrame{}, CylinderFrame{true, std::nullopt}, CylinderFrame{true, -7.5}}) {
+  for (const CylinderFrame& frame :
+       {CylinderFrame{}, CylinderFrame{true, std::nullopt}, CylinderFrame{true, -7.5}}) {
     const auto [read, xdmf] = written_and_read(CylinderGrid({0, 1}, {0, 1}, {2, 3, 4}, false, frame));
     const auto& back = std::get<CylinderGrid>(read).frame();
     EXPECT_EQ(back.cylindrical, frame.cylindrical);

@@ -36,15 +36,14 @@ TEST(Cylindrical, ComponentsAreThoseOfTheSameVectorTurnedWithItsPoint) {
 
 TEST(CylinderFrame, TurnsOnlyWithCylindricalVelocitiesAndAFiniteSpeed) {
   const auto refusal = [](const CylinderFrame& frame) {
-    return message_of<std::invalid_argument>(
-        [&] { CylinderGrid({0, 1}, {0, 1}, {1, 1, 1}, false, frame); });
+    return message_of<std::invalid_argument>([&] { CylinderGrid({0, 1}, {0, 1}, {1, 1, 1}, false, frame); });
   };
   expect_named(refusal({false, 3.0}), {"it turns", "expected cylindrical"});
   expect_named(refusal({true, std::nan("")}), {"angular velocity is nan", "rad/s"});
 }
 
-/// Solidity 0.3 + 0.1 cos(theta) and the velocity (0.1, 3 r, 0.2) along r, theta and z, on a cylinder that turns
-/// at 5 rad/s.
+/// Solidity 0.3 + 0.1 cos(theta) and the velocity (0.1, 3 r, 0.2) along r, theta and z, on a cylinder that
+/// turns at 5 rad/s.
 struct TurningField : ::testing::Test {
   CylinderGrid grid{{0.2, 1}, {0, 1}, {16, 180, 2}, false, {true, 5.0}};
   SolidsWindow window{std::vector<double>(grid.size()),

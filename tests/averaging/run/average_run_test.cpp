@@ -108,8 +108,8 @@ TEST_F(AverageRun, FailsTheLedgerOnlyAboveTheTolerance) {
   expect_named(failures[2], {"window 2 from 0.1 s", "11.1 %", "outside the grid", "10 %"});
 }
 
-/// Dumps every 100 steps of 1e-4 s: a ball of 0.1 m at r = 0.5 that turns with a mill of -9 rad/s, and one of 0.05 m
-/// at r = 0.25 at rest.
+/// Dumps every 100 steps of 1e-4 s: a ball of 0.1 m at r = 0.5 that turns with a mill of -9 rad/s, and one of
+/// 0.05 m at r = 0.25 at rest.
 struct TurningRun : AverageRun {
   CylinderRequest rings{CylinderGrid({0, 1}, {0, 1}, {10, 36, 10})};
 
@@ -169,7 +169,8 @@ TEST_F(TurningRun, WallsThatTurnWithItAreAtRest) {
   for (const auto& face : faces) {
     for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
       text += "facet normal 0 0 0\nouter loop\n";
-      for (const int corner : {face[0], face[b], face[c]}) text += std::string("vertex ") + corners[corner] + '\n';
+      for (const int corner : {face[0], face[b], face[c]})
+        text += std::string("vertex ") + corners[corner] + '\n';
       text += "endloop\nendfacet\n";
     }
   }

@@ -149,7 +149,8 @@ TEST(StirredMill, balls_are_averaged_over_the_run_on_rings_that_turn_with_the_im
 }
 
 TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
-  const Averages averages = read(stirred_mill + "averages: {frame: lab, radial: 8, azimuthal: 12, axial: 20}\n").averages;
+  const Averages averages =
+      read(stirred_mill + "averages: {frame: lab, radial: 8, azimuthal: 12, axial: 20}\n").averages;
   EXPECT_FALSE(averages.rings->turning);
   EXPECT_FALSE(averages.whole_run);
   EXPECT_LT(averages.window, 0.1);
@@ -167,8 +168,9 @@ TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
 TEST(StirredMill, wrong_averages_are_refused) {
   EXPECT_TRUE(says(refusal(stirred_mill, {"averages.frame=shaft"}),
                    "'averages.frame' = shaft: expected one of lab, impeller"));
-  EXPECT_TRUE(says(refusal(stirred_mill, {"averages.radial=0"}),
-                   "'averages.radial' = 0: expected a whole number of rings along the radius from 1 to 1000"));
+  EXPECT_TRUE(
+      says(refusal(stirred_mill, {"averages.radial=0"}),
+           "'averages.radial' = 0: expected a whole number of rings along the radius from 1 to 1000"));
   EXPECT_TRUE(says(refusal(stirred_mill, {"averages.window=all"}), "expected 'whole', or a time in s"));
   EXPECT_TRUE(says(refusal(stirred_mill, {"averages.voxel_size=0.01"}), "'averages.voxel_size'"));
   EXPECT_TRUE(says(refusal(stirred_mill, {"averages.live=true"}),
