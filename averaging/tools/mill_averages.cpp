@@ -80,16 +80,15 @@ void take_grid(const meshing::Mill& mill, Options& options) {
 
 namespace {
 
-/// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at
-/// its end, and averages.start counts from there.
+/// Start, window and end: whole windows up to the end of the dry run, or one with all records. A run that
+/// continues another begins at its end, and averages.start counts from there.
 void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run,
                   Options& options) {
   const double window = mill.averages.window;
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
-  options.end = mill.averages.whole_run ? begin + duration
-                                        : last_whole_window(start, begin + duration, duration, window);
+  if (!mill.averages.whole_run) options.end = last_whole_window(start, begin + duration, duration, window);
   options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
   options.start = start;
 }

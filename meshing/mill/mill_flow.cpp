@@ -270,6 +270,22 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
   return averages;
 }
 
+/// The averages' length of windows; of a whole run it follows from the start.
+void read_window(const Section& in, const Mill& mill, Averages& averages) {
+  averages.whole_run = averages.rings && (!in.has("window") || in.is("window", "whole"));
+  if (averages.whole_run) {
+    in.choice("window", {"whole"}, "whole");
+    return;
+  }
+  const double duration = mill.dem.duration, shortest = mill.dem.record_interval;
+  averages.window = in.number("window",
+                              {(averages.rings ? "'whole', or a time" : "a time") +
+                                   std::string(" in s of at least dem.record_interval, ") + shown(shortest) +
+                                   " s, and not above dem.duration, " + shown(duration) + " s",
+                               [=](double v) { return v >= shortest * (1 - 1e-9) && v <= duration; }},
+                              std::min(whole_records(mill.turn() / windows_per_turn, mill), duration));
+}
+
 }  // namespace
 
 Averages read_averages(const Section& root, const Mill& mill) {
@@ -288,20 +304,8 @@ Averages read_averages(const Section& root, const Mill& mill) {
     averages.rings = read_rings(in, mill.geometry, charge.largest_diameter);
   else
     averages.voxels = read_voxels(in, mill.geometry, usual_size, 0);
+  read_window(in, mill, averages);
   const double duration = mill.dem.duration;
-  const double usual_window = std::min(whole_records(mill.turn() / windows_per_turn, mill), duration);
-  const bool usually_whole = averages.rings && averages.rings->turning;
-  averages.whole_run = stirred && (in.has("window") ? in.is("window", "whole") : usually_whole);
-  if (averages.whole_run)
-    in.choice("window", {"whole"}, "whole");
-  else
-    averages.window =
-        in.number("window",
-                  {(stirred ? "'whole', or a time" : "a time") + std::string(" in s of at least ") +
-                       "dem.record_interval, " + shown(mill.dem.record_interval) +
-                       " s, and not above dem.duration, " + shown(duration) + " s",
-                   [&](double v) { return v >= mill.dem.record_interval * (1 - 1e-9) && v <= duration; }},
-                  usual_window);
   const Rule time = {
       "'steady', or a DEM time in s of 0 or more and below dem.duration, " + shown(duration) + " s",
       [=](double v) { return v >= 0 && v < duration; }};

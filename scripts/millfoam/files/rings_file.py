@@ -10,12 +10,6 @@ import numpy as np
 from .solids_file import open_hdf5
 
 
-def has_rings(path: Path | str) -> bool:
-    """Whether the averages are on a cylinder's voxels."""
-    with open_hdf5(path) as file:
-        return "radii" in file["grid"].attrs
-
-
 @dataclass(frozen=True)
 class Rings:
     """Charge on the voxels of a cylinder, averaged over windows.
