@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 using averaging::AverageRequest;
 using averaging::BoxGrid;
 using averaging::CylinderGrid;
+using averaging::CylinderRequest;
 using averaging::DepositionMethod;
 using averaging::GridRequest;
 using averaging::MeshRequest;
@@ -55,12 +56,12 @@ Json grid_json(const BoxGrid& grid, const PathAs&) {
           {"periodic", grid.periodic()}};
 }
 
-Json grid_json(const CylinderGrid& grid, const PathAs&) {
-  return {{"kind", "cylinder"},
-          {"radii_m", grid.radii()},
-          {"ends_m", grid.ends()},
-          {"shape", grid.shape()},
-          {"periodic", grid.periodic_z()}};
+Json grid_json(const CylinderRequest& cylinder, const PathAs&) {
+  const CylinderGrid& grid = cylinder.grid;
+  return {
+      {"kind", "cylinder"},         {"radii_m", grid.radii()},       {"ends_m", grid.ends()},
+      {"shape", grid.shape()},      {"periodic", grid.periodic_z()}, {"cylindrical", cylinder.cylindrical},
+      {"turning", cylinder.turning}};
 }
 
 Json grid_json(const MeshRequest& mesh, const PathAs& path) {
@@ -78,9 +79,13 @@ GridRequest grid_of(const Json& json) {
   const auto kind = json.at("kind").get<std::string>();
   if (kind == "box")
     return BoxGrid(json.at("lower_m"), json.at("upper_m"), json.at("shape"), json.at("periodic"));
-  if (kind == "cylinder")
-    return CylinderGrid(json.at("radii_m"), json.at("ends_m"), json.at("shape"),
-                        json.at("periodic").get<bool>());
+  if (kind == "cylinder") {
+    CylinderRequest cylinder(CylinderGrid(json.at("radii_m"), json.at("ends_m"), json.at("shape"),
+                                          json.at("periodic").get<bool>()));
+    cylinder.cylindrical = json.at("cylindrical");
+    cylinder.turning = json.at("turning");
+    return cylinder;
+  }
   MeshRequest mesh;
   mesh.file = json.at("mesh").get<std::string>();
   mesh.motion = json.at("motion").get<std::vector<std::string>>();

@@ -67,7 +67,7 @@ long steps_between_contacts(const meshing::Mill& mill, double time_step) {
 /// Of the windows that `averages.live` keeps until the run is complete: 13 numbers of each voxel and window.
 double bytes_of_averages(const meshing::Mill& mill) {
   if (!mill.averages.live) return 0;
-  const auto& shape = mill.averages.voxels.shape;
+  const std::array<int, 3> shape = mill.averages.shape();
   return 13 * sizeof(double) * mill.dem.duration / mill.averages.window * shape[0] * shape[1] * shape[2];
 }
 

@@ -44,6 +44,10 @@ class Deposition {
   virtual void deposit(const Particle& particle, const Superquadric& shape,
                        std::vector<Deposit>& deposits) = 0;
 
+  /// A particle's velocity, m/s, along the directions that the fields have: x, y and z, or others where it is
+  /// said so.
+  virtual Vector3 field_velocity(const Particle& particle) const { return particle.velocity; }
+
  protected:
   Deposition() = default;
   Deposition(const Deposition&) = default;

@@ -13,6 +13,11 @@ constexpr const char* box_kind = "box";
 constexpr const char* cylinder_kind = "cylinder";
 constexpr const char* cells_kind = "cells";
 
+constexpr const char* cartesian = "cartesian";
+constexpr const char* cylindrical = "cylindrical";
+constexpr const char* lab = "lab";
+constexpr const char* turning = "turning";
+
 void write(hid_t group, const BoxGrid& grid) {
   write_attribute(group, "kind", std::string(box_kind));
   write_attribute(group, "lower", std::vector<double>(grid.lower().begin(), grid.lower().end()));
@@ -22,12 +27,21 @@ void write(hid_t group, const BoxGrid& grid) {
   write_attribute(group, "periodic", std::vector<int>(periodic.begin(), periodic.end()));
 }
 
+/// Only of fields that files without these attributes do not have.
+void write(hid_t group, const CylinderFrame& frame) {
+  if (!frame.cylindrical) return;
+  write_attribute(group, "components", std::string(cylindrical));
+  write_attribute(group, "frame", std::string(frame.angular_velocity ? turning : lab));
+  if (frame.angular_velocity) write_attribute(group, "angular_velocity", *frame.angular_velocity);
+}
+
 void write(hid_t group, const CylinderGrid& grid) {
   write_attribute(group, "kind", std::string(cylinder_kind));
   write_attribute(group, "radii", std::vector<double>(grid.radii().begin(), grid.radii().end()));
   write_attribute(group, "ends", std::vector<double>(grid.ends().begin(), grid.ends().end()));
   write_attribute(group, "shape", std::vector<int>(grid.shape().begin(), grid.shape().end()));
   write_attribute(group, "periodic", grid.periodic_z() ? 1 : 0);
+  write(group, grid.frame());
   const auto [nr, ntheta, nz] = grid.shape();
   const Vector3& step = grid.spacing();
   std::vector<double> points;
@@ -66,6 +80,25 @@ BoxGrid read_box(hid_t group) {
           {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0}};
 }
 
+/// Whether an attribute is the second of two words; where it is not there it counts as the first.
+bool is_second(hid_t group, const char* name, const char* first, const char* second) {
+  if (!has_attribute(group, name)) return false;
+  const std::string found = read_text_attribute(group, name);
+  if (found != first && found != second) {
+    throw Error(std::string("the grid's ") + name + " is '" + found + "', expected '" + first + "' or '" +
+                second + "'");
+  }
+  return found == second;
+}
+
+CylinderFrame read_frame(hid_t group) {
+  CylinderFrame frame{is_second(group, "components", cartesian, cylindrical), std::nullopt};
+  if (is_second(group, "frame", lab, turning)) {
+    frame.angular_velocity = read_double_attribute(group, "angular_velocity", 1)[0];
+  }
+  return frame;
+}
+
 CylinderGrid read_cylinder(hid_t group) {
   const auto radii = read_double_attribute(group, "radii", 2);
   const auto ends = read_double_attribute(group, "ends", 2);
@@ -73,7 +106,8 @@ CylinderGrid read_cylinder(hid_t group) {
   return {{radii[0], radii[1]},
           {ends[0], ends[1]},
           {shape[0], shape[1], shape[2]},
-          read_int_attribute(group, "periodic", 1)[0] != 0};
+          read_int_attribute(group, "periodic", 1)[0] != 0,
+          read_frame(group)};
 }
 
 MeshCells read_cells(hid_t group) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/files/hdf5_file.hpp"
 
+#include <algorithm>
+
 #include "averaging/files/hdf5_io.hpp"
 
 namespace millfoam::averaging::hdf5 {
@@ -33,13 +35,16 @@ Handle open_file(const std::filesystem::path& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, "open the file"};
 }
 
-void check_format(hid_t file, const std::string& format, int version, const std::string& advice) {
+void check_format(hid_t file, const std::string& format, const std::vector<int>& versions,
+                  const std::string& advice) {
   const std::string found = read_text_attribute(file, "format");
   if (found != format) throw Error("attribute 'format' is '" + found + "', expected '" + format + "'");
   const int number = read_int_attribute(file, "version", 1)[0];
-  if (number != version) {
-    throw Error("attribute 'version' is " + std::to_string(number) + ", expected " + std::to_string(version) +
-                "; " + advice);
+  if (std::find(versions.begin(), versions.end(), number) == versions.end()) {
+    std::string expected;
+    for (const int version : versions) expected += (expected.empty() ? "" : " or ") + std::to_string(version);
+    throw Error("attribute 'version' is " + std::to_string(number) + ", expected " + expected + "; " +
+                advice);
   }
   if (read_int_attribute(file, "complete", 1)[0] != 1) {
     throw Error("the file is not complete: the run that was to write it did not finish");

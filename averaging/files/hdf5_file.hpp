@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "averaging/files/hdf5_handle.hpp"
 
@@ -19,8 +20,9 @@ Handle create_file(const std::filesystem::path& path);
 Handle open_file(const std::filesystem::path& path);
 
 /// Throws unless the attributes `format`, `version` and `complete` of a file say that it is of this format
-/// and version and whole. `advice` ends the message about another version.
-void check_format(hid_t file, const std::string& format, int version, const std::string& advice);
+/// and of one of these versions, and whole. `advice` ends the message about another version.
+void check_format(hid_t file, const std::string& format, const std::vector<int>& versions,
+                  const std::string& advice);
 
 /// Pushes all that was written to the disk.
 void flush(hid_t file);

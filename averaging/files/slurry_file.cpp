@@ -333,7 +333,7 @@ SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& gri
     const hdf5::Handle file = hdf5::open_file(path);
     const hid_t root = file.get();
     hdf5::check_format(
-        root, segment_format, slurry_version,
+        root, segment_format, {slurry_version},
         "remove the folder of the segments and the flow's times, and run the flow from its start");
     const hdf5::Handle group = hdf5::open_group(root, "grid");
     check_same(std::get<BoxGrid>(hdf5::read_grid(group.get())), grid);

@@ -25,7 +25,7 @@ void check_file(hid_t root) {
     throw hdf5::Error(std::string("is of version 1, which has no forces on balls (group /balls), expected "
                                   "version 2: ") +
                       again);
-  hdf5::check_format(root, "millfoam-slurry", version_with_balls, again);
+  hdf5::check_format(root, "millfoam-slurry", {version_with_balls}, again);
   if (!hdf5::has(root, "balls"))
     throw hdf5::Error(
         "has no forces on balls (group /balls), because its flow had no balls; expected a flow "

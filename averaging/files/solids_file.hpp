@@ -18,8 +18,12 @@
 
 namespace millfoam::averaging {
 
-/// The version of the layout that is written and that can be read.
+/// The version of the layout of files whose velocities are along x, y and z on cells of the lab or of a mesh.
 inline constexpr int solids_version = 2;
+
+/// The version of files on a cylinder with velocities along r, theta and z, which may turn. Programs that
+/// read only the other would take them for velocities along x, y and z.
+inline constexpr int cylindrical_solids_version = 3;
 
 /// A solids file that cannot be read or written; the message names the file and the reason.
 class SolidsFileError : public std::runtime_error {

@@ -122,7 +122,8 @@ struct SolidsReader::Open {
   }
 
   SolidsHeader read_header() const {
-    hdf5::check_format(file.get(), layout::format, solids_version, "average again with this millAverage");
+    hdf5::check_format(file.get(), layout::format, {solids_version, cylindrical_solids_version},
+                       "average again with this millAverage");
     SolidsHeader found;
     found.time0 = hdf5::read_double_attribute(file.get(), "time0", 1)[0];
     found.timestep = hdf5::read_double_attribute(file.get(), "timestep", 1)[0];

@@ -21,6 +21,11 @@ hdf5::Handle create_field(hid_t parent, const Grid& grid, const layout::Field& f
                            field.units);
 }
 
+int version_of(const Grid& grid) {
+  const auto* cylinder = std::get_if<CylinderGrid>(&grid);
+  return cylinder != nullptr && cylinder->frame().cylindrical ? cylindrical_solids_version : solids_version;
+}
+
 void write_known(hid_t root, const char* name, const std::string& text) {
   if (!text.empty()) hdf5::write_attribute(root, name, text);
 }
@@ -37,7 +42,7 @@ struct SolidsWriter::Open {
 
   Open(const std::filesystem::path& part, const Grid& grid, const SolidsHeader& header)
       : file(hdf5::create_file(part)) {
-    write_root(header);
+    write_root(header, version_of(grid));
     const hdf5::Handle grid_group = hdf5::create_group(file.get(), "grid");
     hdf5::write_grid(grid_group.get(), grid);
     if (header.inside_fractions) {
@@ -53,10 +58,10 @@ struct SolidsWriter::Open {
     }
   }
 
-  void write_root(const SolidsHeader& header) const {
+  void write_root(const SolidsHeader& header, int version) const {
     const hid_t root = file.get();
     hdf5::write_attribute(root, "format", std::string(layout::format));
-    hdf5::write_attribute(root, "version", solids_version);
+    hdf5::write_attribute(root, "version", version);
     hdf5::write_attribute(root, "complete", 0);
     hdf5::write_attribute(root, "time0", header.time0);
     hdf5::write_attribute(root, "timestep", header.timestep);

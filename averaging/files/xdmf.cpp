@@ -161,7 +161,13 @@ std::filesystem::path write_xdmf(const std::filesystem::path& solids_file) {
   const SolidsReader solids(solids_file);
   std::vector<XdmfField> fields;
   fields.reserve(std::size(layout::fields) + 1);
-  for (const layout::Field& field : layout::fields) fields.push_back({field.name, field.name, field.vector});
+  // ParaView takes the components of a vector for those along x, y and z
+  const auto* cylinder = std::get_if<CylinderGrid>(&solids.grid());
+  const bool cylindrical = cylinder != nullptr && cylinder->frame().cylindrical;
+  for (const layout::Field& field : layout::fields) {
+    const std::string directions = cylindrical && field.vector ? "_r_theta_z" : "";
+    fields.push_back({field.name + directions, field.name, field.vector});
+  }
   if (solids.header().inside_fractions) {
     const std::string name = layout::inside_fraction.name;
     fields.push_back({name, "grid/" + name, layout::inside_fraction.vector});

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/grids/cylindrical.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::averaging {
@@ -37,6 +38,17 @@ void check(const std::array<double, 2>& radii, const std::array<double, 2>& ends
   }
 }
 
+void check(const CylinderFrame& frame) {
+  if (!frame.angular_velocity) return;
+  if (!frame.cylindrical) {
+    throw std::invalid_argument(
+        "cylinder: it turns, and its velocities are along x, y and z; expected cylindrical ones");
+  }
+  if (std::isfinite(*frame.angular_velocity)) return;
+  throw std::invalid_argument("cylinder: its angular velocity is " + std::to_string(*frame.angular_velocity) +
+                              "; expected a finite number, rad/s");
+}
+
 /// Number of the step that holds a place between 0 and the last step's end; rounding may put one at the end
 /// into the step after the last.
 int step(double place, double spacing, int steps) {
@@ -46,9 +58,10 @@ int step(double place, double spacing, int steps) {
 }  // namespace
 
 CylinderGrid::CylinderGrid(const std::array<double, 2>& radii, const std::array<double, 2>& ends,
-                           const VoxelIndex& shape, bool periodic_z)
-    : radii_(radii), ends_(ends), shape_(shape), periodic_z_(periodic_z) {
+                           const VoxelIndex& shape, bool periodic_z, const CylinderFrame& frame)
+    : radii_(radii), ends_(ends), shape_(shape), periodic_z_(periodic_z), frame_(frame) {
   check(radii, ends, shape);
+  check(frame);
   spacing_ = {(radii[1] - radii[0]) / shape[0], 2 * pi / shape[1], (ends[1] - ends[0]) / shape[2]};
 }
 
@@ -72,6 +85,10 @@ Vector3 CylinderGrid::centre(const VoxelIndex& voxel) const {
   const double radius = radii_[0] + (voxel[0] + 0.5) * spacing_[0];
   const double theta = (voxel[1] + 0.5) * spacing_[1];
   return {radius * std::cos(theta), radius * std::sin(theta), ends_[0] + (voxel[2] + 0.5) * spacing_[2]};
+}
+
+Vector3 CylinderGrid::in_own_frame(const Vector3& point, double time) const {
+  return frame_.angular_velocity ? turned(point, -*frame_.angular_velocity * time) : point;
 }
 
 Vector3 CylinderGrid::wrapped(const Vector3& point) const {

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "averaging/grids/cylindrical.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
@@ -149,8 +151,10 @@ std::array<SolidsShare, 8> solids_shares(const BoxGrid& grid, const SolidsWindow
 }
 
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
-                   Interpolation interpolation) {
-  return sample_voxels(grid, window, point, interpolation);
+                   Interpolation interpolation, double time) {
+  LocalSolids local = sample_voxels(grid, window, grid.in_own_frame(point, time), interpolation);
+  if (grid.frame().cylindrical) local.velocity = to_cartesian(local.velocity, point);
+  return local;
 }
 
 }  // namespace millfoam::averaging

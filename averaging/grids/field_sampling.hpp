@@ -36,8 +36,11 @@ enum class Interpolation {
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
 /// The same on a cylinder, whose own coordinates are r, theta and z.
+/// @param time  DEM time, s, at which the point is at `point`: a cylinder that turns is sampled where the
+///              point is in its frame. Velocities along r, theta and z are interpolated as such, and turned
+///              to x and y at the point's own azimuth.
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
-                   Interpolation interpolation);
+                   Interpolation interpolation, double time = 0);
 
 /// How much of the solids that `sample` gives at a point is of a voxel.
 struct SolidsShare {

@@ -169,7 +169,7 @@ struct MeshReader::Open {
 
   explicit Open(const std::filesystem::path& path) : file(hdf5::open_file(path)) {
     const hid_t root = file.get();
-    hdf5::check_format(root, format, mesh_version, "export the mesh again");
+    hdf5::check_format(root, format, {mesh_version}, "export the mesh again");
     time0 = hdf5::read_double_attribute(root, "time0", 1)[0];
     if (!std::isfinite(time0)) throw hdf5::Error("attribute 'time0' is not a finite number");
     times = read_times(root);

@@ -32,6 +32,16 @@ struct MeshRequest {
   double smoothing = 0;             ///< its width, m; 0: `usual_smoothing` Sauter diameters of the first dump
 };
 
+/// The voxels of a cylinder.
+struct CylinderRequest {
+  /// @param voxels  a cylinder at rest
+  CylinderRequest(const CylinderGrid& voxels) : grid(voxels) {}
+
+  CylinderGrid grid;         ///< with velocities along x, y and z
+  bool cylindrical = false;  ///< velocities along r, theta and z are requested
+  bool turning = false;      ///< the cylinder turns with the mill; its velocities are then cylindrical, too
+};
+
 /// How balls are deposited in cells.
 enum class DepositionMethod {
   exact,  ///< exact volumes of intersection
@@ -39,7 +49,7 @@ enum class DepositionMethod {
 };
 
 /// Where balls are deposited.
-using GridRequest = std::variant<BoxGrid, CylinderGrid, MeshRequest>;
+using GridRequest = std::variant<BoxGrid, CylinderRequest, MeshRequest>;
 
 /// A series of windows of one length.
 struct WindowsRequest {

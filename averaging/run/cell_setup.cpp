@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "averaging/deposition/cylindrical_deposition.hpp"
 #include "averaging/deposition/exact_box_deposition.hpp"
 #include "averaging/deposition/exact_cylinder_deposition.hpp"
 #include "averaging/deposition/exact_mesh_deposition.hpp"
@@ -50,7 +51,13 @@ std::vector<double> voxel_volumes(const Grid& grid) {
   return volumes;
 }
 
-/// The walls that cut the voxels, turning with the mill.
+/// A surface at a time, s, turned to where it is in the frame that turns with it.
+void turn_back(const Motion& motion, double time, Surface& surface) {
+  const Eigen::Isometry3d back = motion.place(time).inverse();
+  for (Eigen::Vector3d& point : surface.points) point = back * point;
+}
+
+/// The walls that cut the voxels, turning with the mill; at rest in a grid that turns with it.
 std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
                                                 const AverageRequest& request, const RunSettings& settings,
                                                 const Note& note) {
@@ -74,7 +81,10 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
     if (surface.caps > 0) note("the walls are open at an end across z; a plane closes them there");
   }
   std::shared_ptr<const Motion> motion;
-  if (settings.angular_velocity.value_or(0) != 0) {
+  const auto* cylinder = std::get_if<CylinderGrid>(&grid);
+  if (cylinder != nullptr && cylinder->frame().angular_velocity) {
+    turn_back(*parse_motion({rotation(*cylinder->frame().angular_velocity)}), time, surface);
+  } else if (settings.angular_velocity.value_or(0) != 0) {
     motion = parse_motion({rotation(*settings.angular_velocity)});
   } else if (!settings.angular_velocity) {
     note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
@@ -103,9 +113,31 @@ CellSetup set_up_cells(const BoxGrid& grid, const AverageRequest& request, const
   return set_up_voxels<ExactBoxDeposition, SampledBoxDeposition>(grid, request, settings, note);
 }
 
-CellSetup set_up_cells(const CylinderGrid& grid, const AverageRequest& request, const RunSettings& settings,
-                       const Note& note) {
-  return set_up_voxels<ExactCylinderDeposition, SampledCylinderDeposition>(grid, request, settings, note);
+CylinderFrame frame_of(const CylinderRequest& cylinder, const RunSettings& settings) {
+  CylinderFrame frame{cylinder.cylindrical || cylinder.turning, std::nullopt};
+  if (!cylinder.turning) return frame;
+  if (!settings.angular_velocity) {
+    throw std::invalid_argument(
+        "--frame is turning, but neither --speed nor run.json gives the mill's angular velocity; expected "
+        "one "
+        "of them");
+  }
+  frame.angular_velocity = settings.angular_velocity;
+  return frame;
+}
+
+CellSetup set_up_cells(const CylinderRequest& cylinder, const AverageRequest& request,
+                       const RunSettings& settings, const Note& note) {
+  const CylinderGrid& at_rest = cylinder.grid;
+  const CylinderFrame frame = frame_of(cylinder, settings);
+  const CylinderGrid grid(at_rest.radii(), at_rest.ends(), at_rest.shape(), at_rest.periodic_z(), frame);
+  CellSetup setup =
+      set_up_voxels<ExactCylinderDeposition, SampledCylinderDeposition>(grid, request, settings, note);
+  if (frame.cylindrical) {
+    setup.deposition = std::make_unique<CylindricalDeposition>(std::move(setup.deposition),
+                                                               frame.angular_velocity.value_or(0));
+  }
+  return setup;
 }
 
 /// How a mesh that keeps its shape moves, in the words of `parse_motion`; empty at rest.

@@ -30,8 +30,9 @@ void put(std::ostream& out, const BoxGrid& grid) {
   put_all(out, grid.periodic());
 }
 
-void put(std::ostream& out, const CylinderGrid& grid) {
-  out << "cylinder " << grid.periodic_z() << ' ';
+void put(std::ostream& out, const CylinderRequest& cylinder) {
+  const CylinderGrid& grid = cylinder.grid;
+  out << "cylinder " << grid.periodic_z() << ' ' << cylinder.cylindrical << ' ' << cylinder.turning << ' ';
   put_all(out, grid.radii());
   put_all(out, grid.ends());
   put_all(out, grid.shape());

@@ -11,10 +11,9 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Adds the deposits of one particle and returns their volume, m^3.
-double add_deposits(const Particle& particle, double diameter, double particle_volume,
+/// Adds the deposits of one particle of velocity v and returns their volume, m^3.
+double add_deposits(const Vector3& v, double diameter, double particle_volume,
                     const std::vector<Deposit>& deposits, RecordSums& sums) {
-  const Vector3& v = particle.velocity;
   const double speed2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   double deposited = 0;
   for (const Deposit& deposit : deposits) {
@@ -50,7 +49,8 @@ void sum_record(Deposition& deposition, const ParticleRecord& record, double tim
       diameter = volume_equivalent_diameter(record.shapes[p]);
       deposition.deposit(particle, record.shapes[p], deposits);
     }
-    const double deposited = add_deposits(particle, diameter, particle_volume, deposits, sums);
+    const double deposited =
+        add_deposits(deposition.field_velocity(particle), diameter, particle_volume, deposits, sums);
     sums.ledger.volume_in += particle_volume;
     sums.ledger.deposited += deposited;
     // A ball wholly inside is deposited to rounding, which is not a loss.

@@ -10,7 +10,8 @@
 namespace millfoam::averaging {
 
 /// Sums over the particles of one record, per cell of a grid of n cells. V is the part of a particle's volume
-/// in the cell, d the diameter of the sphere of the particle's volume, v its velocity.
+/// in the cell, d the diameter of the sphere of the particle's volume, v its velocity along the
+/// directions of the deposition.
 struct RecordSums {
   /// The extensive quantities of a cell, side by side so that they can be smoothed and moved together.
   enum Column : std::size_t {

@@ -37,9 +37,9 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
   std::optional<double> end;
   if (!own_windows) {
     const double window = mill.averages.window;
-    options.windows = {exact(window)};
+    options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
     options.start = begin + mill.averages.start.value_or(0);
-    end = last_whole_window(*options.start, begin + duration, duration, window);
+    if (!mill.averages.whole_run) end = last_whole_window(*options.start, begin + duration, duration, window);
   }
   if (!own_grid) take_grid(mill, options);
   if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();

@@ -61,10 +61,17 @@ double last_whole_window(double start, double end, double duration, double windo
 }
 
 void take_grid(const meshing::Mill& mill, Options& options) {
-  const meshing::Voxels& voxels = mill.averages.voxels;
-  options.box.assign(voxels.lower.begin(), voxels.lower.end());
-  options.box.insert(options.box.end(), voxels.upper.begin(), voxels.upper.end());
-  options.shape.assign(voxels.shape.begin(), voxels.shape.end());
+  const std::array<int, 3> shape = mill.averages.shape();
+  options.shape.assign(shape.begin(), shape.end());
+  if (mill.averages.rings) {
+    options.cylinder = {0, mill.geometry.radius(), 0, mill.geometry.length};
+    options.components = "cylindrical";
+    options.frame = mill.averages.rings->turning ? "turning" : "lab";
+  } else {
+    const meshing::Voxels& voxels = mill.averages.voxels;
+    options.box.assign(voxels.lower.begin(), voxels.lower.end());
+    options.box.insert(options.box.end(), voxels.upper.begin(), voxels.upper.end());
+  }
   if (mill.geometry.ends == meshing::Ends::periodic) options.periodic = {"z"};
   if (options.walls.empty()) options.walls = {(fs::path(options.case_folder) / "walls" / "*.stl").string()};
   options.method = mill.averages.method;
@@ -73,16 +80,16 @@ void take_grid(const meshing::Mill& mill, Options& options) {
 
 namespace {
 
-/// Start, window and end: whole windows up to the end of the dry run. A run that continues another begins at
-/// its end, and averages.start counts from there.
+/// Start, window and end: whole windows up to the end of the dry run, or one with all records. A run that
+/// continues another begins at its end, and averages.start counts from there.
 void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run,
                   Options& options) {
   const double window = mill.averages.window;
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
-  options.end = last_whole_window(start, begin + duration, duration, window);
-  options.windows = {exact(window)};
+  if (!mill.averages.whole_run) options.end = last_whole_window(start, begin + duration, duration, window);
+  options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
   options.start = start;
 }
 

@@ -65,14 +65,21 @@ BoxGrid box_grid(const Options& options) {
           periodic_axes(options)};
 }
 
-CylinderGrid cylinder_grid(const Options& options) {
+CylinderRequest cylinder_request(const Options& options) {
   require_shape(options, "numbers of voxels nr ntheta nz");
   const std::array<bool, 3> periodic = periodic_axes(options);
   if (periodic[0] || periodic[1]) {
     throw std::invalid_argument("--periodic is x or y, expected z: a cylinder repeats along its axis only");
   }
   const std::vector<double>& c = options.cylinder;
-  return {{c[0], c[1]}, {c[2], c[3]}, {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]};
+  CylinderRequest cylinder(CylinderGrid({c[0], c[1]}, {c[2], c[3]},
+                                        {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]));
+  cylinder.turning = options.frame == "turning";
+  if (cylinder.turning && options.components == "cartesian") {
+    throw std::invalid_argument("--components is cartesian, expected cylindrical with --frame turning");
+  }
+  cylinder.cylindrical = cylinder.turning || options.components == "cylindrical";
+  return cylinder;
 }
 
 /// Metres, or 0 for the usual width.
@@ -109,12 +116,15 @@ GridRequest grid(const Options& options) {
     throw std::invalid_argument(std::string(kinds == 0 ? "none" : "more than one") +
                                 " of --box, --cylinder and --mesh is given, expected one of them");
   }
+  if (options.cylinder.empty() && (options.frame != "lab" || !options.components.empty())) {
+    throw std::invalid_argument("--frame and --components are for --cylinder");
+  }
   if (!options.mesh.empty()) return mesh_request(options);
   if (!options.motion.empty() || options.period || options.smoothing) {
     throw std::invalid_argument("--motion, --period and --smooth are for --mesh; voxels do not move");
   }
   if (!options.box.empty()) return box_grid(options);
-  return cylinder_grid(options);
+  return cylinder_request(options);
 }
 
 /// The files that patterns match. A shell that has expanded a pattern already gives plain names.
@@ -163,6 +173,14 @@ void declare_cells(CLI::App& app, Options& options) {
   app.add_option("--cylinder", options.cylinder,
                  "voxels of a cylinder about z: radii r0 r1 and ends z0 z1, m")
       ->expected(4);
+  app.add_option("--frame", options.frame,
+                 "of the cylinder: lab, or turning with the mill, whose balls are then in one place on it")
+      ->check(CLI::IsMember({"lab", "turning"}))
+      ->capture_default_str();
+  app.add_option("--components", options.components,
+                 "of velocities on the cylinder: cartesian or cylindrical [cartesian in the lab's frame, "
+                 "cylindrical in the turning one]")
+      ->check(CLI::IsMember({"cartesian", "cylindrical"}));
   app.add_option("--shape", options.shape, "numbers of voxels nx ny nz, or nr ntheta nz")->expected(3);
   app.add_option("--periodic", options.periodic, "axes along which the grid repeats: x, y, z")
       ->check(CLI::IsMember({"x", "y", "z"}));

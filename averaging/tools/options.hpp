@@ -21,6 +21,8 @@ struct Options {
   std::optional<double> speed;           ///< of the mill about z, rad/s
   std::vector<double> box;               ///< [6] two corners, m
   std::vector<double> cylinder;          ///< [4] two radii and two ends, m
+  std::string frame = "lab";             ///< of the cylinder: lab or turning
+  std::string components;                ///< on it: cartesian or cylindrical; empty: those of the frame
   std::string mesh;                      ///< mesh file
   std::vector<int> shape;                ///< [3] numbers of voxels
   std::vector<std::string> periodic;     ///< x, y, z

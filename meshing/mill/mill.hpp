@@ -181,14 +181,28 @@ struct Voxels {
   std::array<int, 3> shape = {};     ///< numbers along x, y, z
 };
 
+/// Voxels of a cylinder about the axis, from the base to the lid and from the axis to the shell.
+struct Rings {
+  bool turning = false;  ///< with the impeller
+  int radial = 0;        ///< numbers along r, around the axis and along z
+  int azimuthal = 0;
+  int axial = 0;
+};
+
 /// How the charge is averaged for the flow.
 struct Averages {
   Voxels voxels;                ///< the grid of the averages
-  double window = 0;            ///< s, a whole number of records
+  std::optional<Rings> rings;   ///< of a stirred mill, instead of the voxels
+  bool whole_run = false;       ///< one window from the start to the end of the dry run
+  double window = 0;            ///< s; of the whole run: of what is known of it
   std::optional<double> start;  ///< DEM time, s; nothing: when the dry run has become steady
   std::string method;           ///< exact or sample
   int template_points = 0;      ///< along a diameter, of `sample`
   bool live = false;            ///< made by millDem while the mill turns
+  /// Numbers of cells along x, y, z, or of rings along r, around the axis and along z.
+  std::array<int, 3> shape() const {
+    return rings ? std::array<int, 3>{rings->radial, rings->azimuthal, rings->axial} : voxels.shape;
+  }
 };
 
 /// The slurry at the start of the flow: a level, or a volume.

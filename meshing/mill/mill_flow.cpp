@@ -9,6 +9,7 @@
 #include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
+#include "meshing/mill/stirred_averages.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 
 namespace millfoam::meshing {
@@ -269,24 +270,42 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
   return averages;
 }
 
+/// The averages' length of windows; of a whole run it follows from the start.
+void read_window(const Section& in, const Mill& mill, Averages& averages) {
+  averages.whole_run = averages.rings && (!in.has("window") || in.is("window", "whole"));
+  if (averages.whole_run) {
+    in.choice("window", {"whole"}, "whole");
+    return;
+  }
+  const double duration = mill.dem.duration, shortest = mill.dem.record_interval;
+  averages.window = in.number("window",
+                              {(averages.rings ? "'whole', or a time" : "a time") +
+                                   std::string(" in s of at least dem.record_interval, ") + shown(shortest) +
+                                   " s, and not above dem.duration, " + shown(duration) + " s",
+                               [=](double v) { return v >= shortest * (1 - 1e-9) && v <= duration; }},
+                              std::min(whole_records(mill.turn() / windows_per_turn, mill), duration));
+}
+
 }  // namespace
 
 Averages read_averages(const Section& root, const Mill& mill) {
-  Section in = root.optional_section(
-      "averages", {"voxel_size", "counts", "window", "start", "method", "template", "live"});
+  const bool stirred = mill.machine() == Machine::stirred;
+  Section::Keys keys{"window", "start", "method", "template", "live"};
+  const Section::Keys cells = stirred ? Section::Keys{"frame", "radial", "azimuthal", "axial"}
+                                      : Section::Keys{"voxel_size", "counts"};
+  keys.insert(keys.end(), cells.begin(), cells.end());
+  Section in = root.optional_section("averages", keys);
   const ChargeNumbers charge = count_charge(mill);
   const double radius = mill.geometry.radius();
   const double many_balls = std::min(usual_voxel * charge.sauter_diameter, radius / usual_voxels_of_radius);
   const double usual_size = std::min(std::max(charge.largest_diameter, many_balls), radius);
   Averages averages;
-  averages.voxels = read_voxels(in, mill.geometry, usual_size, 0);
+  if (stirred)
+    averages.rings = read_rings(in, mill.geometry, charge.largest_diameter);
+  else
+    averages.voxels = read_voxels(in, mill.geometry, usual_size, 0);
+  read_window(in, mill, averages);
   const double duration = mill.dem.duration;
-  averages.window =
-      in.number("window",
-                {"a time in s of at least dem.record_interval, " + shown(mill.dem.record_interval) +
-                     " s, and not above dem.duration, " + shown(duration) + " s",
-                 [&](double v) { return v >= mill.dem.record_interval * (1 - 1e-9) && v <= duration; }},
-                std::min(whole_records(mill.turn() / windows_per_turn, mill), duration));
   const Rule time = {
       "'steady', or a DEM time in s of 0 or more and below dem.duration, " + shown(duration) + " s",
       [=](double v) { return v >= 0 && v < duration; }};
@@ -299,6 +318,11 @@ Averages read_averages(const Section& root, const Mill& mill) {
       in.integer("template",
                  {"a whole number of points from 2 to 100", [](double v) { return v >= 2 && v <= 100; }}, 12);
   averages.live = in.boolean("live", false);
+  if (averages.whole_run) averages.window = duration - averages.start.value_or(0);
+  if (averages.whole_run && averages.live && !averages.start)
+    in.refuse("live",
+              "false, or a time in s as averages.start: a window of the whole run cannot wait until the "
+              "charge is steady");
   return averages;
 }
 

@@ -132,9 +132,18 @@ Json voxel_numbers(const Voxels& voxels) {
   return {{"lower_m", voxels.lower}, {"upper_m", voxels.upper}, {"shape", voxels.shape}};
 }
 
+/// Of the cells of a stirred mill's averages.
+Json ring_numbers(const Mill& mill) {
+  return {{"radii_m", {0, mill.geometry.radius()}},
+          {"ends_m", {0, mill.geometry.length}},
+          {"shape", mill.averages.shape()},
+          {"frame", mill.averages.rings->turning ? "impeller" : "lab"},
+          {"whole_run", mill.averages.whole_run}};
+}
+
 Json averages_numbers(const Mill& mill) {
-  Json numbers = voxel_numbers(mill.averages.voxels);
-  numbers["periodic"] = {false, false, mill.geometry.ends == Ends::periodic};
+  Json numbers = mill.averages.rings ? ring_numbers(mill) : voxel_numbers(mill.averages.voxels);
+  if (!mill.averages.rings) numbers["periodic"] = {false, false, mill.geometry.ends == Ends::periodic};
   numbers["window_s"] = mill.averages.window;
   numbers["start_s"] = mill.averages.start ? Json(*mill.averages.start) : Json("steady");
   numbers["method"] = mill.averages.method;

@@ -67,8 +67,9 @@ struct Averages : ::testing::Test {
 
 TEST_F(Averages, AreReadBackAsTheyWereOrdered) {
   // A folder with a blank in its name would end the name of a table
-  for (const AverageRequest& request :
-       {box(), AverageRequest(CylinderGrid({0.001, 0.02}, {0, 0.012}, {4, 8, 2}, true))})
+  averaging::CylinderRequest rings(CylinderGrid({0.001, 0.02}, {0, 0.012}, {4, 8, 2}, true));
+  rings.turning = true;
+  for (const AverageRequest& request : {box(), AverageRequest(rings)})
     order.averages.push_back({averages_id(request), request});
   write_averages_order(folder.averages_order(), small_mill(), order);
   const AveragesOrder found = read_averages_order(folder.averages_order());
@@ -84,6 +85,7 @@ TEST_F(Averages, AreReadBackAsTheyWereOrdered) {
     // Which has every setting
     EXPECT_EQ(averages_id(found.averages[n].request), order.averages[n].id);
   }
+  EXPECT_TRUE(std::get<averaging::CylinderRequest>(found.averages[1].request.grid).turning);
   const AverageRequest& first = found.averages[0].request;
   EXPECT_EQ(std::get<BoxGrid>(first.grid).upper(), std::get<BoxGrid>(box().grid).upper());
   EXPECT_EQ(first.windows[0].length, 0.1 / 3);

@@ -14,6 +14,7 @@ import numpy as np
 from mill_case import run_mill
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.mill import NoMill, read_mill
+from millfoam.files.rings_file import read_rings
 from millfoam.run import RunError, run
 
 MILL = """
@@ -35,7 +36,7 @@ materials:
   ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
   ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
 dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
-averages: {start: 0.2, window: 0.3}
+averages: {start: 0.2}
 """
 # Two discs, one of them at the shaft's end
 DISCS = ("geometry.impeller={shaft: {diameter: 0.012, end: 0.008}, discs: [{height: 0.010, diameter: 0.044, "
@@ -86,6 +87,55 @@ class Stirred(unittest.TestCase):
         self.assertAlmostEqual(energy["power_W"][late].mean(), self.results["power_W"],
                                delta=3 * self.results["power_error_W"])
         self.assertGreater(energy["potential_J"].min(), 0)
+
+    def test_averages_turn_with_the_impeller(self):
+        with h5py.File(self.case / "solids.h5") as file:
+            self.assertEqual(file.attrs["version"], 3)
+            grid = file["grid"].attrs
+            self.assertEqual((grid["frame"], grid["components"]), (b"turning", b"cylindrical"))
+            self.assertAlmostEqual(grid["angular_velocity"], 0.8 / 0.025, places=9)
+        rings = read_rings(self.case / "solids.h5")
+        self.assertAlmostEqual(rings.balls.sum() / read_mill(self.case, "stirred").derived("charge", "volume_m3"), 1,
+                               delta=1e-3)
+        mean = (rings.balls[..., None] * np.nan_to_num(rings.velocity)).sum(axis=(0, 1, 2)) / rings.balls.sum()
+        self.assertGreater(mean[1], 0.05)
+        # The same time as in the lab's frame, whose test below has other voxels
+        self.assertLess(mean[1], 0.8)
+
+    def test_balls_are_never_where_the_pins_are(self):
+        # In the impeller's frame the mean over the run has pins as sharp as in a single record: lower ones along x
+        run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--cylinder", 0.012, 0.024, 0.0115, 0.0145,
+            "--shape", 1, 60, 1, "--frame", "turning", "--start", 0.2, "--window", "whole", "--tolerance", 1, "-o",
+            "pins.h5")
+        rings = read_rings(self.case / "pins.h5")
+        at_pins = rings.solidity[0, [0, 29, 30, 59], 0]  # within 6 degrees: 1.3 mm of 3 mm at 12 mm
+        others = rings.solidity[0, [14, 15, 44, 45], 0]
+        self.assertLess(at_pins.max(), 0.02 * others.mean())
+        run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--cylinder", 0.012, 0.024, 0.0115, 0.0145,
+            "--shape", 1, 60, 1, "--components", "cylindrical", "--start", 0.2, "--window", "whole", "--tolerance", 1,
+            "-o", "pins.h5")
+        lab = read_rings(self.case / "pins.h5")
+        self.assertGreater(lab.solidity.min(), 0.3 * others.mean())
+
+    def test_averages_made_in_the_run_are_those_of_its_dumps(self):
+        case = self.folder / "live"
+        run_mill(case, self.folder / "mill.yaml", "dem.settle_time=0.05", "dem.duration=0.06", "averages.start=0.03",
+                 "averages.live=yes")
+        run(case, "millAverage", "mill.json", "--case", ".", "-o", "later.h5")
+        live, later = (read_rings(case / name) for name in ("solids.h5", "later.h5"))
+        # Dumps have six digits
+        np.testing.assert_allclose(live.solidity, later.solidity, atol=1e-4)
+        np.testing.assert_allclose(live.velocity, later.velocity, atol=1e-3)
+        self.assertEqual(live.angular_velocity, later.angular_velocity)
+        self.assertEqual((live.begin, live.end), (later.begin, later.end))
+
+    def test_frames_that_do_not_fit_are_refused(self):
+        grid = ("--shape", 2, 2, 2, "--window", "whole", "-o", "no.h5", "--dumps", "dumps/dump.*.txt")
+        for options, words in ((("--box", 0, 0, 0, 1, 1, 1, "--frame", "turning"), "are for --cylinder"),
+                               (("--cylinder", 0, 1, 0, 1, "--frame", "turning", "--components", "cartesian"),
+                                "--components is cartesian, expected cylindrical with --frame turning")):
+            with self.assertRaisesRegex(RunError, words):
+                run(self.case, "millAverage", *options, *grid)
 
     def test_balls_move_with_the_impeller(self):
         run(self.case, "millAverage", "--dumps", "dumps/dump.*.txt", "--cylinder", 0, 0.03, 0, 0.09, "--shape", 6, 24,

@@ -24,6 +24,7 @@ const Foam::Enum<millfoam::averaging::Interpolation>
 namespace Foam
 {
 
+using millfoam::averaging::CylinderGrid;
 using millfoam::averaging::LocalSolids;
 using millfoam::averaging::MeshCells;
 
@@ -34,10 +35,20 @@ struct pointSampler
     const point& p;
     millfoam::averaging::Interpolation interpolation;
 
+    //- DEM time, s
+    scalar time;
+
     template <class Grid> LocalSolids operator()(const Grid& grid) const
     {
         return millfoam::averaging::sample(
             grid, window, {p.x(), p.y(), p.z()}, interpolation);
+    }
+
+    //- A cylinder may turn
+    LocalSolids operator()(const CylinderGrid& grid) const
+    {
+        return millfoam::averaging::sample(
+            grid, window, {p.x(), p.y(), p.z()}, interpolation, time);
     }
 
     //- Fields on cells are not looked up by points
@@ -56,7 +67,7 @@ struct voxelLengths
         return vector(lengths[0], lengths[1], lengths[2]);
     }
 
-    vector operator()(const millfoam::averaging::CylinderGrid& grid) const
+    vector operator()(const CylinderGrid& grid) const
     {
         const auto lengths = grid.spacing();
         return vector(lengths[0], lengths[1] * grid.radii()[1] / 2, lengths[2]);
@@ -102,10 +113,12 @@ void Foam::solidsRecord::checkMill() const
 {
     const millfoam::averaging::SolidsHeader& header = reader_->header();
 
+    const std::optional<double> known =
+        turning() ? turning() : header.angular_velocity;
     scalar omega = 0;
-    if (dict_.readIfPresent("omega", omega) && header.angular_velocity)
+    if (dict_.readIfPresent("omega", omega) && known)
     {
-        const scalar recorded = *header.angular_velocity;
+        const scalar recorded = *known;
         if (mag(omega - recorded) > 1e-6 * max(mag(omega), mag(recorded)))
         {
             FatalIOErrorInFunction(dict_)
@@ -247,7 +260,15 @@ Foam::solidsRecord::held& Foam::solidsRecord::have(
 }
 
 
-bool Foam::solidsRecord::sampleWindow(const fvMesh& mesh, held& one)
+std::optional<double> Foam::solidsRecord::turning() const
+{
+    const auto* cylinder = std::get_if<CylinderGrid>(&reader_->grid());
+    return cylinder ? cylinder->frame().angular_velocity : std::nullopt;
+}
+
+
+bool Foam::solidsRecord::sampleWindow(
+    const fvMesh& mesh, const scalar time, held& one)
 {
     if (one.sampled)
         return false;
@@ -265,7 +286,9 @@ bool Foam::solidsRecord::sampleWindow(const fvMesh& mesh, held& one)
     forAll(centres, i)
     {
         const LocalSolids local = std::visit(
-            pointSampler{one.window, centres[i], interpolation_},
+            pointSampler{
+                one.window, centres[i], interpolation_,
+                reader_->time0() + time},
             reader_->grid());
         const vector u(local.velocity[0], local.velocity[1], local.velocity[2]);
         one.sums.add(i, local.solidity, u, local.diameter, local.diameter43);
@@ -285,7 +308,8 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   file_(dict.get<fileName>("solids").expand()),
   interpolation_(),
-  moment_()
+  moment_(),
+  sampledTime_(0)
 {
     open(mesh.time());
     checkMill();
@@ -311,7 +335,9 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 bool Foam::solidsRecord::sample(
     const fvMesh& mesh, const scalar time, const bool moved, solidsFields& sums)
 {
-    if (moved && inSpace())
+    const bool turned = turning() && time != sampledTime_;
+    sampledTime_ = time;
+    if ((moved && inSpace()) || turned)
     {
         for (held& one : held_)
         {
@@ -327,7 +353,7 @@ bool Foam::solidsRecord::sample(
     for (std::size_t i = 0; i < solids.size(); ++i)
     {
         held& one = have(now.windows[i], now);
-        changed = sampleWindow(mesh, one) || changed;
+        changed = sampleWindow(mesh, time, one) || changed;
         solids[i] = &one.sums;
     }
     if (changed)

@@ -107,6 +107,12 @@ class Mill:
         return count, height, width, top_width
 
     @property
+    def impeller(self) -> dict[str, Any]:
+        """A stirred mill's impeller, as in `derived.geometry.impeller`; DataError without one."""
+        found: dict[str, Any] = entry(self.content, self.path, "derived", "geometry", "impeller")
+        return found
+
+    @property
     def discharge_radius(self) -> float | None:
         """Radius over which pulp lifters discharge, m; None without pulp lifters."""
         found = entry(self.content, self.path, "derived", "geometry").get("pulp_lifters")

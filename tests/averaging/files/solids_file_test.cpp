@@ -254,6 +254,37 @@ TEST(SolidsFileOnACylinder, GivesTheGridBackAndShowsItAsACurvilinearOne) {
   expect_named(xdmf, {"3DSMesh\" Dimensions=\"5 9 4\"", "solids.h5:/grid/points", "Dimensions=\"5 9 4 3\""});
 }
 
+TEST(SolidsFileOnACylinder, SaysWhatItsVelocitiesAreAndWhetherItTurns) {
+  for (const CylinderFrame& frame :
+       {CylinderFrame{}, CylinderFrame{true, std::nullopt}, CylinderFrame{true, -7.5}}) {
+    const auto [read, xdmf] = written_and_read(CylinderGrid({0, 1}, {0, 1}, {2, 3, 4}, false, frame));
+    const auto& back = std::get<CylinderGrid>(read).frame();
+    EXPECT_EQ(back.cylindrical, frame.cylindrical);
+    EXPECT_EQ(back.angular_velocity, frame.angular_velocity);
+    expect_named(xdmf, {frame.cylindrical ? "Name=\"velocity_r_theta_z\"" : "Name=\"velocity\""});
+  }
+}
+
+/// The attribute `version` of a file on a cylinder of that frame.
+int version_of(const CylinderFrame& frame) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "solids.h5";
+  SolidsWriter(path, CylinderGrid({0, 1}, {0, 1}, {1, 1, 1}, false, frame), {});
+  const hid_t file = H5Fopen((path.string() + ".part").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen(file, "version", H5P_DEFAULT);
+  int version = 0;
+  H5Aread(attribute, H5T_NATIVE_INT, &version);
+  H5Aclose(attribute);
+  H5Fclose(file);
+  return version;
+}
+
+TEST(SolidsFileOnACylinder, HasAVersionThatProgramsRefuseWhichTakeItsVelocitiesForCartesianOnes) {
+  EXPECT_EQ(version_of({}), 2);
+  EXPECT_EQ(version_of({true, std::nullopt}), 3);
+  EXPECT_EQ(version_of({true, 2.0}), 3);
+}
+
 TEST(SolidsFileOnCells, GivesTheVolumesBackAndShowsPolyhedra) {
   MeshCells mesh;
   mesh.volumes = {1.0 / 6};

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/output_lock.hpp"
 #include "averaging/run/program.hpp"
@@ -104,6 +106,81 @@ TEST_F(AverageRun, FailsTheLedgerOnlyAboveTheTolerance) {
   const std::vector<std::string> failures = ledger_failures(summary, 0.1);
   ASSERT_EQ(failures.size(), 30U);
   expect_named(failures[2], {"window 2 from 0.1 s", "11.1 %", "outside the grid", "10 %"});
+}
+
+/// Dumps every 100 steps of 1e-4 s: a ball of 0.1 m at r = 0.5 that turns with a mill of -9 rad/s, and one of
+/// 0.05 m at r = 0.25 at rest.
+struct TurningRun : AverageRun {
+  CylinderRequest rings{CylinderGrid({0, 1}, {0, 1}, {10, 36, 10})};
+
+  TurningRun() {
+    for (int r = 0; r <= 150; ++r) {
+      const double angle = 0.4 - 9 * 0.01 * r, x = 0.5 * std::cos(angle), y = 0.5 * std::sin(angle);
+      folder.write("dump" + std::to_string(100 * r) + ".txt",
+                   dump_text(100 * r, {{1, {x, y, 0.5}, {9 * y, -9 * x, 0}, 0.1},
+                                       {2, {0.25, 0, 0.5}, {0.01, 0.02, 0.03}, 0.05}}));
+    }
+    rings.turning = true;
+    request.grid = rings;
+    request.angular_velocity = -9;
+    request.windows[0].length.reset();
+  }
+};
+
+TEST_F(TurningRun, ABodyThatTurnsWithTheMillIsSharpInTheMeanOverTheRun) {
+  run();
+  const SolidsReader solids(output());
+  const auto& grid = std::get<CylinderGrid>(solids.grid());
+  EXPECT_EQ(grid.frame().angular_velocity, -9);
+  const SolidsWindow mean = solids.read_window(0);
+  // Where the ball is at time 0, in sector 0.4 / 10 degrees; on the other side nothing
+  const std::size_t centre = grid.offset({4, 2, 4}), opposite = grid.offset({4, 20, 4});
+  EXPECT_NEAR(mean.solidity[centre], 1, 1e-12);
+  EXPECT_NEAR(mean.velocity[3 * centre], 0, 1e-13);
+  EXPECT_NEAR(mean.velocity[3 * centre + 1], -4.5, 1e-13);
+  EXPECT_EQ(mean.solidity[opposite], 0);
+  const Ledger ledger = solids.read_ledgers()[0];
+  EXPECT_NEAR(ledger.volume_in / (sphere_volume(0.1) + sphere_volume(0.05)), 1, 1e-12);
+  EXPECT_NEAR((ledger.deposited + ledger.outside) / ledger.volume_in, 1, 1e-14);
+  // In the lab's frame that ball is spread over all sectors
+  rings.turning = false;
+  rings.cylindrical = true;
+  request.grid = rings;
+  run();
+  const SolidsWindow lab = SolidsReader(output()).read_window(0);
+  EXPECT_LT(lab.solidity[centre], 0.2);
+  EXPECT_GT(lab.solidity[opposite], 0.05);
+  const std::size_t resting = grid.offset({2, 0, 4});
+  EXPECT_NEAR(lab.velocity[3 * resting], 0.01, 1e-13);
+  EXPECT_NEAR(lab.velocity[3 * resting + 1], 0.02, 1e-13);
+}
+
+TEST_F(TurningRun, NeedsTheMillsSpeed) {
+  request.angular_velocity.reset();
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {"--frame is turning", "--speed", "run.json"});
+}
+
+TEST_F(TurningRun, WallsThatTurnWithItAreAtRest) {
+  // The half y > 0 of the cylinder, as a wedge of 3 m that is closed; at DEM time 0
+  const char* corners[] = {"-3 0 0", "3 0 0", "3 3 0", "-3 3 0", "-3 0 1", "3 0 1", "3 3 1", "-3 3 1"};
+  const int faces[][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  std::string text = "solid box\n";
+  for (const auto& face : faces) {
+    for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
+      text += "facet normal 0 0 0\nouter loop\n";
+      for (const int corner : {face[0], face[b], face[c]})
+        text += std::string("vertex ") + corners[corner] + '\n';
+      text += "endloop\nendfacet\n";
+    }
+  }
+  request.walls = {folder.write("box.stl", text + "endsolid box\n")};
+  run();
+  const SolidsReader solids(output());
+  const auto& grid = std::get<CylinderGrid>(solids.grid());
+  const SolidsWindow mean = solids.read_window(0);
+  EXPECT_NEAR(mean.inside_fraction[grid.offset({5, 9, 5})], 1, 1e-12);
+  EXPECT_NEAR(mean.inside_fraction[grid.offset({5, 27, 5})], 0, 1e-12);
 }
 
 TEST_F(AverageRun, OverTheWholeRunIsOneWindowToBeHeld) {

@@ -113,6 +113,24 @@ void expect_same(const fs::path& one, const fs::path& other) {
   }
 }
 
+TEST_F(Live, OnACylinderThatTurnsAreThoseOfDumps) {
+  for (long long step = 0; step <= 3000; step += 100)
+    folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, record(step).particles));
+  CylinderRequest rings(CylinderGrid({0, 2.5}, {0, 1}, {5, 8, 2}));
+  rings.turning = true;
+  request.grid = rings;
+  run.settings.angular_velocity = 3;
+  whole_run(3000);
+  AverageRequest later = request;
+  later.dumps = (folder / "dump*.txt").string();
+  later.timestep = 1e-4;
+  later.angular_velocity = 3;
+  later.windows[0].output = folder / "dumps.h5";
+  average_run(later, {[](std::size_t, std::size_t) {}, [](const std::string&) {}}, alone);
+  expect_same(folder / "live.h5", folder / "dumps.h5");
+  EXPECT_EQ(std::get<CylinderGrid>(SolidsReader(folder / "live.h5").grid()).frame().angular_velocity, 3);
+}
+
 TEST_F(Live, AreThoseOfDumpsForAllWindowsAndEnds) {
   for (long long step = 0; step <= 10000; step += 100)
     folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, record(step).particles));

@@ -195,6 +195,51 @@ TEST(StirredMill, resolved_it_is_the_same_mill) {
   EXPECT_NEAR(one["derived"]["speed"]["tip_speed_m_s"].get<double>(), 2.2305, 1e-4);
 }
 
+TEST(StirredMill, balls_are_averaged_over_the_run_on_rings_that_turn_with_the_impeller) {
+  const Averages averages = read(stirred_mill).averages;
+  ASSERT_TRUE(averages.rings);
+  EXPECT_TRUE(averages.rings->turning);
+  EXPECT_TRUE(averages.whole_run);
+  // Edges of a ball of 5 mm; a number of sectors that four pins share
+  EXPECT_EQ(averages.shape(), (std::array<int, 3>{16, 64, 63}));
+  EXPECT_DOUBLE_EQ(read(stirred_mill, {"averages.start=0.5"}).averages.window, 0.7);
+  const Json derived = resolved_mill(describe(stirred_mill), "test")["derived"]["averages"];
+  EXPECT_EQ(derived["shape"], (Json{16, 64, 63}));
+  EXPECT_EQ(derived["frame"], "impeller");
+  EXPECT_EQ(derived["whole_run"], true);
+  EXPECT_EQ(derived["radii_m"], (Json{0, 0.0775}));
+}
+
+TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
+  const Averages averages =
+      read(stirred_mill + "averages: {frame: lab, radial: 8, azimuthal: 12, axial: 20}\n").averages;
+  EXPECT_FALSE(averages.rings->turning);
+  EXPECT_TRUE(averages.whole_run);
+  EXPECT_EQ(averages.shape(), (std::array<int, 3>{8, 12, 20}));
+  EXPECT_EQ(read(stirred_mill, {"averages.window=0.2"}).averages.window, 0.2);
+  EXPECT_FALSE(read(stirred_mill, {"averages.window=0.2"}).averages.whole_run);
+  const auto fingerprint = [](const std::vector<std::string>& set) {
+    return read(stirred_mill, set).fingerprint.averages;
+  };
+  EXPECT_NE(fingerprint({"averages.frame=lab"}), fingerprint({}));
+  EXPECT_EQ(fingerprint({"averages.axial=63"}), fingerprint({}));
+}
+
+TEST(StirredMill, wrong_averages_are_refused) {
+  EXPECT_TRUE(says(refusal(stirred_mill, {"averages.frame=shaft"}),
+                   "'averages.frame' = shaft: expected one of lab, impeller"));
+  EXPECT_TRUE(
+      says(refusal(stirred_mill, {"averages.radial=0"}),
+           "'averages.radial' = 0: expected a whole number of rings along the radius from 1 to 1000"));
+  EXPECT_TRUE(says(refusal(stirred_mill, {"averages.window=all"}), "expected 'whole', or a time in s"));
+  EXPECT_TRUE(says(refusal(stirred_mill, {"averages.voxel_size=0.01"}), "'averages.voxel_size'"));
+  EXPECT_TRUE(says(refusal(stirred_mill, {"averages.live=true"}),
+                   "'averages.live' = true: expected false, or a time in s as averages.start"));
+  EXPECT_EQ(refusal(stirred_mill, {"averages.live=true", "averages.start=0.3"}), "");
+  EXPECT_TRUE(says(refusal(example_mill, {"averages.frame=lab"}), "'averages.frame'"));
+  EXPECT_TRUE(says(refusal(example_mill, {"averages.window=whole"}), "expected a time in s of at least"));
+}
+
 TEST(StirredMill, tumbling_mills_keep_their_fingerprints) {
   const MillFingerprints usual = read(example_mill).fingerprint;
   const MillFingerprints named = read("machine: tumbling\n" + example_mill).fingerprint;
