@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
@@ -31,6 +32,8 @@ struct BallCount {
   double mass = 0;        ///< kg, of `count` balls
   long count = 0;         ///< the nearest whole number; may be 0
   bool simulated = true;  ///< false for fines (charge.fines_below)
+  /// Spheres have none.
+  std::optional<Superquadric> shape = std::nullopt;
 };
 
 /// The charge in numbers; lengths in m, masses in kg, volumes in m^3. They are of the simulated balls, unless
