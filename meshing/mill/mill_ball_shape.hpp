@@ -10,7 +10,7 @@ namespace millfoam::meshing {
 
 /// Least radius of curvature that a ball may have over its diameter. Hertz' law needs overlaps well below the
 /// radius of curvature, and softened balls overlap by several percent of their diameter.
-inline constexpr double least_curvature_share = 0.05;
+inline constexpr double least_curvature_share = 0.08;
 
 /// The key `shape` of a size class, or of a charge of one size: `sphere`, as where the key is missing, or a
 /// map with half_axes and blockiness or roundness. The word `sphere` is not recorded: such a mill is that
