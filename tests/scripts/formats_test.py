@@ -63,7 +63,9 @@ class Formats(unittest.TestCase):
         self.assertEqual(sorted(names), sorted(found), heading)
 
     def test_the_resolved_mill(self):
-        resolved = [json.loads(run(self.folder, "millMesh", mill, "--resolved", "-")) for mill in (*MILLS, "mill.yaml")]
+        shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}"
+        resolved = [json.loads(run(self.folder, "millMesh", mill, *words, "--resolved", "-"))
+                    for mill, *words in (*((mill,) for mill in MILLS), ("mill.yaml", "--set", shape))]
         # Null where the mill has none
         absent = {"geometry.inlet", "geometry.grates", "geometry.pulp_lifters", "flow.steady"}
         self.same("derived", set().union(*(keys(mill["derived"]) for mill in resolved)) - absent)
