@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Superquadrics in the dry run: two bodies, a body on a plane, a small stirred mill against spheres, its averages, and
 a killed run. Ends with 77 where LIGGGHTS with superquadrics is not built; the refusal in words is tested anyway."""
+import math
 import os
 import shutil
 import subprocess
@@ -160,7 +161,7 @@ class Bodies(unittest.TestCase):
         turns = ((0.8, 0.36, 0.48, 0), (0.6, 0, 0.64, 0.48))
         balls, _ = self.fly([(self.words(axes, 6, turn), place, velocity)
                              for turn, place, velocity in zip(turns, places, speed)], 10000)
-        volume, square = dirichlet(axes, 6)
+        _, square = dirichlet(axes, 6)
         moments = np.array([square[1] + square[2], square[2] + square[0], square[0] + square[1]])  # over the mass
         velocity, spin, places_after = balls[:, 1:4], balls[:, 4:7], balls[:, 7:10]
         turned = [rotation(turn) for turn in balls[:, 10:14]]
