@@ -254,6 +254,7 @@ double ball_mass(const Mill& mill, double diameter) {
 ChargeNumbers count_charge(const Mill& mill) {
   ChargeNumbers numbers;
   double mass_over_diameter = 0;
+  double mass_times_sphericity = 0;
   double asked = 0;
   for (const SizeClass& size : mill.charge.classes) {
     const double one = ball_mass(mill, size.diameter);
@@ -273,6 +274,7 @@ ChargeNumbers count_charge(const Mill& mill) {
     numbers.balls += count;
     numbers.mass += ball.mass;
     mass_over_diameter += ball.mass / ball.diameter;
+    mass_times_sphericity += ball.mass * (ball.shape ? sphericity(*ball.shape) : 1);
     numbers.largest_diameter = std::max(numbers.largest_diameter, ball.diameter);
     if (numbers.smallest_diameter == 0) numbers.smallest_diameter = ball.diameter;
     numbers.smallest_diameter = std::min(numbers.smallest_diameter, ball.diameter);
@@ -280,6 +282,7 @@ ChargeNumbers count_charge(const Mill& mill) {
   // A charge that rounds to no ball at all, which the dry run refuses, is as large as its largest class
   numbers.sauter_diameter =
       mass_over_diameter > 0 ? numbers.mass / mass_over_diameter : numbers.largest_diameter;
+  if (numbers.mass > 0) numbers.sphericity = mass_times_sphericity / numbers.mass;
   numbers.volume = numbers.mass / mill.ball.density;
   const double solidity = mill.charge.packing;
   const double bulk = solidity * analytic_volume(mill.geometry);

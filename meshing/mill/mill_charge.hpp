@@ -45,6 +45,7 @@ struct ChargeNumbers {
   double volume = 0;               ///< of the balls alone
   double fines_mass = 0;           ///< requested and left out
   double sauter_diameter = 0;      ///< Σm/Σ(m/d)
+  double sphericity = 1;           ///< mean by mass
   double smallest_diameter = 0;    ///< of a ball
   double largest_diameter = 0;     ///< of a ball
   double load = 0;                 ///< bulk volume at rest over the mill's

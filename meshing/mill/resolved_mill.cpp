@@ -133,6 +133,7 @@ Json charge_numbers(const ChargeNumbers& charge, double packing) {
           {"fines_mass_kg", charge.fines_mass},
           {"fines_share", whole > 0 ? charge.fines_mass / whole : 0},
           {"sauter_diameter_m", charge.sauter_diameter},
+          {"sphericity", charge.sphericity},
           {"smallest_diameter_m", charge.smallest_diameter},
           {"largest_diameter_m", charge.largest_diameter},
           {"classes", classes}};

@@ -118,7 +118,8 @@ double surface(const Superquadric& body) {
 
 double sphericity(const Superquadric& body) {
   const double radius = equal_radius(body);
-  return 4 * pi * radius * radius / surface(body);
+  // No body has less surface than the sphere; the quadrature of one may
+  return std::min(4 * pi * radius * radius / surface(body), 1.0);
 }
 
 double cross_section(const Superquadric& body, const std::array<double, 3>& along) {
