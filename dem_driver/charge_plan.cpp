@@ -59,7 +59,7 @@ std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
                          shown(static_cast<double>(size.count)) + " balls",
                      "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
     if (size.count == 0 && size.simulated) refuse_empty_class(mill, i);
-    classes.push_back({size.diameter, size.mass_asked, size.mass, size.count});
+    classes.push_back({size.diameter, size.mass_asked, size.mass, size.count, size.shape});
   }
   std::stable_sort(classes.begin(), classes.end(),
                    [](const auto& a, const auto& b) { return a.diameter > b.diameter; });
@@ -68,10 +68,11 @@ std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
 
 void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classes) {
   for (const auto& size : classes) {
-    if (size.diameter < std::min(2 * mill.charge.start_radius, start_length(mill))) continue;
+    const double length = 2 * Insertion{size.diameter, size.count, size.shape}.reach();
+    if (length < std::min(2 * mill.charge.start_radius, start_length(mill))) continue;
     throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
                    "a start cylinder (its length is " + shown(start_length(mill)) +
-                       " m) in which a ball of diameter " + shown(size.diameter) + " m has room");
+                       " m) in which a ball of diameter " + shown(length) + " m has room");
   }
 }
 
@@ -105,18 +106,19 @@ std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<
   double room = round_solidity * cylinder;
   rounds.emplace_back();
   for (const auto& size : classes) {
-    const double volume = ball_volume(size.diameter);
+    // A superquadric is inserted as the sphere around it
+    const double taken = ball_volume(2 * Insertion{size.diameter, size.count, size.shape}.reach());
     long left = size.count;
     while (left > 0) {
-      const long now = std::min(left, static_cast<long>(room / volume));
-      if (now > 0) rounds.back().push_back({size.diameter, now});
+      const long now = std::min(left, static_cast<long>(room / taken));
+      if (now > 0) rounds.back().push_back({size.diameter, now, size.shape});
       left -= now;
-      inside += static_cast<double>(now) * volume;
-      room -= static_cast<double>(now) * volume;
+      inside += static_cast<double>(now) * ball_volume(size.diameter);
+      room -= static_cast<double>(now) * taken;
       if (left == 0) break;
       room = round_solidity * (cylinder - std::max(inside / heap_solidity - room_below(mill), 0.0));
       // Below this, a round would insert almost nothing, and the number of rounds would have no limit.
-      if (room < volume || room < 0.005 * cylinder) refuse_start(mill, cylinder, left, size.diameter);
+      if (room < taken || room < 0.005 * cylinder) refuse_start(mill, cylinder, left, size.diameter);
       rounds.emplace_back();
     }
   }
@@ -126,7 +128,16 @@ std::vector<Round> cut_into_rounds(const meshing::Mill& mill, const std::vector<
 }  // namespace
 
 double ClassCount::surface() const {
-  return static_cast<double>(count) * pi * diameter * diameter;
+  return static_cast<double>(count) * (shape ? meshing::surface(*shape) : pi * diameter * diameter);
+}
+
+double Insertion::reach() const {
+  return shape ? meshing::bounding_radius(*shape) : diameter / 2;
+}
+
+bool ChargePlan::has_shapes() const {
+  return std::any_of(classes.begin(), classes.end(),
+                     [](const ClassCount& size) { return size.shape.has_value(); });
 }
 
 long ChargePlan::balls() const {
@@ -167,6 +178,22 @@ ChargePlan plan_charge(const meshing::Mill& mill) {
   return plan;
 }
 
+namespace {
+
+/// One line for each class of superquadrics.
+void print_shapes(std::ostream& out, const ChargePlan& plan) {
+  for (const auto& size : plan.classes) {
+    if (!size.shape) continue;
+    const auto& [a, b, c] = size.shape->half_axes;
+    out << std::setprecision(4) << "  superquadrics, " << size.count << " balls: half axes " << a * 1e3 << ' '
+        << b * 1e3 << ' ' << c * 1e3 << " mm, blockiness " << size.shape->blockiness << ", sphericity "
+        << meshing::sphericity(*size.shape) << ", least radius of curvature "
+        << 1e3 * meshing::least_radius_of_curvature(*size.shape) << " mm\n";
+  }
+}
+
+}  // namespace
+
 void print_charge(std::ostream& out, const ChargePlan& plan) {
   out << "charge: " << plan.balls() << " balls, inserted largest first in " << plan.rounds.size()
       << " round(s)\n"
@@ -181,6 +208,7 @@ void print_charge(std::ostream& out, const ChargePlan& plan) {
   out << "        total" << std::setw(10) << plan.balls() << std::setw(15) << std::setprecision(4) << asked
       << std::setw(14) << plan.mass() << std::setw(15) << std::setprecision(2)
       << 100 * (plan.mass() / asked - 1) << '\n';
+  print_shapes(out, plan);
   for (const auto& size : plan.fines)
     out << "  fines, not simulated: " << std::setprecision(4) << size.diameter * 1e3 << " mm, " << size.count
         << " balls, " << size.mass_realised << " kg, " << size.surface() << " m^2\n";

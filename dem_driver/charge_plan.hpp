@@ -2,6 +2,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
@@ -14,13 +15,18 @@ struct ClassCount {
   double mass_asked = 0;     ///< kg
   double mass_realised = 0;  ///< kg, of `count` whole balls
   long count = 0;            ///< whole balls
-  double surface() const;    ///< m^2, of all its balls
+  /// Their shape; spheres have none.
+  std::optional<meshing::Superquadric> shape = std::nullopt;
+  double surface() const;  ///< m^2, of all its balls
 };
 
-/// Balls of one size that are put in at one moment.
+/// Balls of one size and shape that are put in at one moment.
 struct Insertion {
   double diameter = 0;  ///< m
   long count = 0;       ///< balls put in by this insertion
+  /// Their shape; spheres have none.
+  std::optional<meshing::Superquadric> shape = std::nullopt;
+  double reach() const;  ///< m, from a ball's centre to its farthest point
 };
 
 /// Insertions, one after the other, before the balls fall.
@@ -36,6 +42,7 @@ struct ChargePlan {
   double mass() const;              ///< kg realised
   double fines_mass() const;        ///< kg, requested, of the classes that are left out
   double asked_mass() const;        ///< kg, requested, of all classes, fines too
+  bool has_shapes() const;          ///< whether not all balls that are simulated are spheres
 };
 
 /// Random insertion without overlap jams near a solidity of 0.38; a round fills the free part of the start

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -21,9 +22,25 @@ namespace {
 // within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
-/// The same model, whose contacts are followed.
+/// The same model, whose contacts are followed, or of superquadrics.
 std::string model_of(const DemPlan& plan) {
-  return contact_model + (plan.watches_contacts ? std::string(" surface ") + watched_surface_model : "");
+  std::string model = contact_model;
+  if (plan.watches_contacts) model += std::string(" surface ") + watched_surface_model;
+  if (plan.charge.has_shapes()) model += " surface superquadric";
+  return model;
+}
+
+/// What follows the model in its commands: of superquadrics, the radius of curvature at the contact.
+std::string settings_of(const meshing::Mill& mill, const DemPlan& plan) {
+  if (!plan.charge.has_shapes()) return "";
+  std::ostringstream words;
+  words << " curvatureLimitFactor " << mill.dem.curvature_limit << " meanCurvature yes";
+  return words.str();
+}
+
+/// How the balls move.
+const char* motion_of(const DemPlan& plan) {
+  return plan.charge.has_shapes() ? "nve/superquadric integration_scheme 1" : "nve/sphere";
 }
 
 /// LIGGGHTS needs a different prime above 10000 for every random stream. Each seed has its own range of
@@ -89,7 +106,8 @@ double largest_diameter(const DemPlan& plan) {
 
 void write_style(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, int ranks) {
   const RankGrid grid = split_ranks(ranks, mill.geometry.length, largest_diameter(plan));
-  out << "units si\natom_style granular\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
+  out << "units si\natom_style " << (plan.charge.has_shapes() ? "superquadric" : "granular")
+      << "\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
       << "processors " << grid.x << ' ' << grid.y << ' ' << grid.z << '\n';
 }
 
@@ -140,20 +158,20 @@ void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
                mill.ball_wall.friction);
   write_matrix(out, "rolling", "coefficientRollingFriction", types, mill.ball_ball.rolling_friction,
                mill.ball_wall.rolling_friction);
-  out << "pair_style " << model_of(plan) << "\npair_coeff * *\n"
+  out << "pair_style " << model_of(plan) << settings_of(mill, plan) << "\npair_coeff * *\n"
       << "timestep " << plan.step.value << '\n'
       << "fix gravity all gravity " << meshing::gravity << " vector "
       << (is_stirred(mill) ? "0 0 -1" : "0 -1 0") << '\n';
 }
 
-void write_walls(std::ostream& out, const DemPlan& plan, const std::vector<std::string>& parts,
-                 const AtomTypes& types) {
+void write_walls(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
+                 const std::vector<std::string>& parts, const AtomTypes& types) {
   for (const auto& part : parts)
     out << "fix " << part << " all mesh/surface/stress file ../walls/" << part << ".stl type " << types.wall()
         << '\n';
   out << "fix walls all wall/" << model_of(plan) << " mesh n_meshes " << parts.size() << " meshes";
   for (const auto& part : parts) out << ' ' << part;
-  out << '\n';
+  out << settings_of(mill, plan) << '\n';
 }
 
 /// What LIGGGHTS computes of every contact. It allows one such compute for pairs of balls and one for walls,
@@ -192,11 +210,28 @@ void write_thermo(std::ostream& out, const DemPlan& plan) {
       << "thermo_modify lost ignore norm no flush yes\nthermo " << plan.thermo_steps << '\n';
 }
 
+/// Size and shape in LIGGGHTS' words. It has one kind of balls in a run: a sphere among superquadrics is one
+/// with equal half axes.
+std::string form_of(const Insertion& insertion, bool superquadrics) {
+  const double radius = insertion.diameter / 2;
+  std::ostringstream words;
+  words.precision(std::numeric_limits<double>::digits10);
+  if (!superquadrics) {
+    words << " radius constant " << radius;
+    return words.str();
+  }
+  const auto shape = insertion.shape.value_or(meshing::Superquadric{{radius, radius, radius}, 2});
+  words << " shape constant";
+  for (const double axis : shape.half_axes) words << ' ' << axis;
+  words << " blockiness constant " << shape.blockiness << ' ' << shape.blockiness;
+  return words.str();
+}
+
 /// One insertion: centres in the start cylinder shrunk by the ball's radius. The number asked of
 /// `insert/pack` is that of all balls then in the region, so those that are there already are counted first.
 void write_insertion(std::ostream& out, const meshing::Mill& mill, const AtomTypes& types,
-                     const Insertion& insertion, int number, Primes& primes) {
-  const double radius = insertion.diameter / 2;
+                     const Insertion& insertion, bool superquadrics, int number, Primes& primes) {
+  const double radius = insertion.reach();
   const double length = is_periodic(mill) ? mill.geometry.length : mill.charge.start_length;
   const double z0 = (is_periodic(mill) ? 0 : mill.charge.start_bottom) + radius;
   const std::string id = std::to_string(number);
@@ -208,13 +243,14 @@ void write_insertion(std::ostream& out, const meshing::Mill& mill, const AtomTyp
         << z0 + length << " side out units box\n"
         << "region start" << id << " intersect 2 around" << id << " core" << id << '\n';
   out << "variable wanted equal count(all,start" << id << ")+" << insertion.count << '\n'
-      << "fix ball" << id << " all particletemplate/sphere " << primes.next() << " atom_type "
-      << types.of_ball(insertion.diameter) << " density constant " << mill.ball.density << " radius constant "
-      << radius << '\n'
+      << "fix ball" << id << " all particletemplate/" << (superquadrics ? "superquadric " : "sphere ")
+      << primes.next() << " atom_type " << types.of_ball(insertion.diameter) << " density constant "
+      << mill.ball.density << form_of(insertion, superquadrics) << '\n'
       << "fix size" << id << " all particledistribution/discrete " << primes.next() << " 1 ball" << id
       << " 1\n"
       << "fix insert" << id << " all insert/pack seed " << primes.next() << " distributiontemplate size" << id
-      << " maxattempt 2000 insert_every once overlapcheck yes all_in no vel constant 0 0 0 region start" << id
+      << " maxattempt 2000 insert_every once overlapcheck yes all_in no vel constant 0 0 0"
+      << (superquadrics ? " orientation random" : "") << " region start" << id
       << " particles_in_region ${wanted}\n"
       << "run 1\n"
       << "print \"" << inserted_mark << ' ' << insertion.count << " of " << insertion.diameter
@@ -238,9 +274,10 @@ void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& p
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     out << "\n# round " << i + 1 << " of " << rounds.size() << '\n';
     if (i > 0) out << "unfix motion\n";
-    for (const auto& insertion : rounds[i]) write_insertion(out, mill, types, insertion, ++number, primes);
-    out << "fix motion all nve/sphere\nrun " << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps)
-        << '\n';
+    for (const auto& insertion : rounds[i])
+      write_insertion(out, mill, types, insertion, plan.charge.has_shapes(), ++number, primes);
+    out << "fix motion all " << motion_of(plan) << "\nrun "
+        << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps) << '\n';
   }
 }
 
@@ -299,6 +336,18 @@ void write_averages(std::ostream& out, const DemPlan& plan) {
   out << ": need millLiggghts and averages.json\nfix " << averages_fix << " all external pf/callback 1 1\n";
 }
 
+/// The balls of every record; of superquadrics `radius` is that of the sphere around one.
+void write_dumps(std::ostream& out, const DemPlan& plan) {
+  if (plan.dumps == 0) return;
+  out << "dump balls all custom " << plan.step.steps_per_record
+      << " ../dumps/dump.*.txt id type x y z vx vy vz radius";
+  if (plan.charge.has_shapes())
+    out << " shapex shapey shapez blockiness1 blockiness2 quat1 quat2 quat3 quat4";
+  out << "\ndump_modify balls format \"%d %d";
+  for (int number = 0; number < (plan.charge.has_shapes() ? 16 : 7); ++number) out << " %.10g";
+  out << "\"\n";
+}
+
 /// From step `start` on, which is 0 or that of a restart file.
 void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                    const std::vector<std::string>& parts, long start) {
@@ -312,10 +361,7 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
   }
   write_results(out, mill, plan, parts, start);
   write_averages(out, plan);
-  if (plan.dumps > 0)
-    out << "dump balls all custom " << plan.step.steps_per_record
-        << " ../dumps/dump.*.txt id type x y z vx vy vz radius\n"
-        << "dump_modify balls format \"%d %d %.10g %.10g %.10g %.10g %.10g %.10g %.10g\"\n";
+  write_dumps(out, plan);
   // Renamed when it is complete, so that a run killed while it writes leaves no half restart file of that
   // name.
   out << "variable now equal step\n";
@@ -358,7 +404,7 @@ void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
   write_style(out, mill, plan, ranks);
   write_box(out, mill, types);
   write_physics(out, mill, plan, types);
-  write_walls(out, plan, parts, types);
+  write_walls(out, mill, plan, parts, types);
   write_thermo(out, plan);
   write_charge(out, mill, plan, types);
   if (plan.fluid.acts_at_rest()) out << "unfix " << fluid_at_rest_fix << '\n';
@@ -375,9 +421,9 @@ void write_resume_deck(std::ostream& out, const meshing::Mill& mill, const DemPl
   write_style(out, mill, plan, ranks);
   out << "read_restart restart." << step << '\n';
   write_physics(out, mill, plan, types);
-  write_walls(out, plan, parts, types);
+  write_walls(out, mill, plan, parts, types);
   write_thermo(out, plan);
-  out << "fix motion all nve/sphere\n";
+  out << "fix motion all " << motion_of(plan) << '\n';
   write_turning(out, mill, plan, parts, step);
 }
 

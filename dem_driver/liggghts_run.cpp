@@ -29,14 +29,23 @@ std::string require(const std::string& program, const std::string& package) {
 }
 
 /// millLiggghts, which is in the folder of this program, or what MILLFOAM_LIGGGHTS names, a path or a name on
-/// PATH.
-std::string liggghts_program() {
+/// PATH; of superquadrics, the program that is linked with their library.
+std::string liggghts_program(bool superquadrics) {
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  if (superquadrics) {
+    const auto program = folder / "millLiggghtsSuperquadric";
+    if (!std::filesystem::exists(program))
+      throw RunError(program.string() +
+                     ": no such program, which the key 'shape' of the charge needs: expected spheres, or the "
+                     "program next to millDem: build it with scripts/setup --superquadrics");
+    return program.string();
+  }
   const char* other = std::getenv("MILLFOAM_LIGGGHTS");
   if (other != nullptr && *other != '\0') {
     if (std::filesystem::path(other).has_parent_path()) return std::filesystem::absolute(other).string();
     return require(other, "liggghts");
   }
-  const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "millLiggghts";
+  const auto program = folder / "millLiggghts";
   if (!std::filesystem::exists(program))
     throw RunError(program.string() +
                    ": no such program, expected it next to millDem: build or install millFoam "
@@ -45,8 +54,8 @@ std::string liggghts_program() {
 }
 
 /// setpriv has the program end when millDem does, however that is killed.
-std::vector<std::string> command(const std::filesystem::path& deck, int ranks) {
-  const std::string liggghts = liggghts_program();
+std::vector<std::string> command(const std::filesystem::path& deck, const DemPlan& plan, int ranks) {
+  const std::string liggghts = liggghts_program(plan.charge.has_shapes());
   std::vector<std::string> words{require("setpriv", "util-linux"), "--pdeathsig", "TERM"};
   if (ranks > 1) words.insert(words.end(), {require("mpirun", "openmpi-bin"), "-np", std::to_string(ranks)});
   words.insert(words.end(), {liggghts, "-in", deck.filename().string(), "-log", "none"});
@@ -115,13 +124,13 @@ double logged_time(const std::filesystem::path& file) {
 
 }  // namespace
 
-void require_programs(int ranks) {
-  command("", ranks);
+void require_programs(const DemPlan& plan, int ranks) {
+  command("", plan, ranks);
 }
 
 RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks, ProgressOutput progress,
                        std::optional<long> resumed_at) {
-  const auto words = command(resumed_at ? folder.resume_deck() : folder.deck(), ranks);
+  const auto words = command(resumed_at ? folder.resume_deck() : folder.deck(), plan, ranks);
   RunResult result;
   result.ranks = ranks;
   if (resumed_at) result.wall_time = logged_time(folder.log());

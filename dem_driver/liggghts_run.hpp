@@ -28,9 +28,10 @@ struct ProgressOutput {
 };
 
 /// Throws RunError that names the program and its package when one of those that a run needs is missing:
-/// `millLiggghts` in the folder of this program, `setpriv` and, for more than one rank, `mpirun` on PATH. The
-/// variable MILLFOAM_LIGGGHTS may name another program in the place of millLiggghts, which takes its options.
-void require_programs(int ranks);
+/// `millLiggghts` in the folder of this program, of superquadrics `millLiggghtsSuperquadric`, `setpriv` and,
+/// for more than one rank, `mpirun` on PATH. The variable MILLFOAM_LIGGGHTS may name another program in the
+/// place of millLiggghts, which takes its options.
+void require_programs(const DemPlan& plan, int ranks);
 
 /// Runs LIGGGHTS with `ranks` processes (mpirun for more than one) in DIR/dem, on `in.mill`, or on
 /// `in.resume` when the run resumes from step `resumed_at`. Its output is appended to DIR/dem/log.liggghts.

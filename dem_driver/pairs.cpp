@@ -2,6 +2,7 @@
 #include "dem_driver/pairs.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <sstream>
 
@@ -33,23 +34,52 @@ double smallest_simulated(const meshing::Mill& mill) {
       ->diameter;
 }
 
+double least_radius(const meshing::SizeClass& size) {
+  return size.shape ? meshing::least_radius_of_curvature(*size.shape) : size.diameter / 2;
+}
+
+std::string in_words(const meshing::SizeClass& size) {
+  if (!size.shape) return millimetres(size.diameter);
+  std::ostringstream text;
+  text << millimetres(size.diameter) << " of blockiness " << size.shape->blockiness;
+  return text.str();
+}
+
 std::vector<NamedPair> all_pairs(const meshing::Mill& mill, const Stiffness& stiffness) {
-  const auto ball = [&](double diameter) {
-    return Elastic{stiffness.of_ball(diameter), mill.ball.poisson_ratio};
+  const auto ball = [&](const meshing::SizeClass& size) {
+    return Elastic{stiffness.of_ball(size.diameter), mill.ball.poisson_ratio};
   };
   const Elastic wall{stiffness.modulus, mill.wall.poisson_ratio};
   const auto classes = simulated_classes(mill);
+  std::vector<double> radii;
+  for (const auto& size : classes) radii.push_back(least_radius(size));
   std::vector<NamedPair> pairs;
-  for (const auto& [first, mass] : classes) {
-    for (const auto& [second, other_mass] : classes) {
-      if (second < first) continue;
-      pairs.push_back({millimetres(first) + " on " + millimetres(second),
-                       ball_on_ball(first, second, mill.ball.density, ball(first), ball(second)), first,
-                       mill.ball_ball.restitution});
+  const auto add = [&](NamedPair named, bool shapes, double radius) {
+    named.blunt = named.pair;
+    if (shapes) {
+      named.blunt.radius *= mill.dem.curvature_limit;
+      named.pair.radius = radius;
     }
-    pairs.push_back({millimetres(first) + " on the wall",
-                     ball_on_wall(first, mill.ball.density, ball(first), wall), first,
-                     mill.ball_wall.restitution});
+    pairs.push_back(named);
+  };
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const auto& first = classes[i];
+    for (std::size_t k = 0; k < classes.size(); ++k) {
+      const auto& second = classes[k];
+      if (second.diameter < first.diameter) continue;
+      add({in_words(first) + " on " + in_words(second),
+           ball_on_ball(first.diameter, second.diameter, mill.ball.density, ball(first), ball(second)),
+           {},
+           first.diameter,
+           mill.ball_ball.restitution},
+          first.shape || second.shape, radii[i] * radii[k] / (radii[i] + radii[k]));
+    }
+    add({in_words(first) + " on the wall",
+         ball_on_wall(first.diameter, mill.ball.density, ball(first), wall),
+         {},
+         first.diameter,
+         mill.ball_wall.restitution},
+        first.shape.has_value(), radii[i]);
   }
   return pairs;
 }

@@ -21,27 +21,27 @@ constexpr double most_steps_per_record = 1e15;  // which a long holds, for the h
 
 TimeStepLimit rayleigh_limit(const meshing::Mill& mill, const Stiffness& stiffness) {
   double shortest = std::numeric_limits<double>::infinity();
-  double diameter = 0;
+  std::string ball;
   for (const auto& size : simulated_classes(mill)) {
-    const Elastic ball{stiffness.of_ball(size.diameter), mill.ball.poisson_ratio};
-    const double time = rayleigh_time(size.diameter / 2, mill.ball.density, ball);
+    const Elastic elastic{stiffness.of_ball(size.diameter), mill.ball.poisson_ratio};
+    const double time = rayleigh_time(least_radius(size), mill.ball.density, elastic);
     if (time < shortest) {
       shortest = time;
-      diameter = size.diameter;
+      ball = in_words(size);
     }
   }
   std::ostringstream reason;
-  reason << mill.dem.rayleigh_fraction << " of the Rayleigh time of " << millimetres(diameter);
+  reason << mill.dem.rayleigh_fraction << " of the Rayleigh time of " << ball;
   return {"rayleigh", reason.str(), mill.dem.rayleigh_fraction * shortest};
 }
 
 TimeStepLimit contact_limit(const std::vector<NamedPair>& pairs, double speed) {
   const auto shortest = std::min_element(pairs.begin(), pairs.end(), [speed](const auto& a, const auto& b) {
-    return hertz_contact_time(a.pair, speed) < hertz_contact_time(b.pair, speed);
+    return hertz_contact_time(a.blunt, speed) < hertz_contact_time(b.blunt, speed);
   });
   std::ostringstream reason;
   reason << "1/" << steps_per_contact << " of the shortest Hertz contact, " << shortest->name;
-  return {"contact", reason.str(), hertz_contact_time(shortest->pair, speed) / steps_per_contact};
+  return {"contact", reason.str(), hertz_contact_time(shortest->blunt, speed) / steps_per_contact};
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ inline constexpr double steps_per_allowed_overlap = 6;
 inline constexpr double allowed_overlap_ratio = 0.15;
 
 /// Chooses the stiffness (choose_stiffness) and the time-step: the smallest of a fraction
-/// (`dem.rayleigh_fraction`) of the shortest Rayleigh time of all balls, a tenth of the shortest Hertz
+/// (`dem.rayleigh_fraction`) of the shortest Rayleigh time of all balls, of superquadrics that of a sphere of
+/// their least radius of curvature, a tenth of the shortest Hertz
 /// contact, and the time in which the hardest impact crosses a sixth of the allowed overlap; then shortened
 /// so that `dem.record_interval` is a whole number of steps. Throws KeyError for a mill without balls or with
 /// values that give no finite step.

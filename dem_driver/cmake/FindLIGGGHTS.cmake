@@ -5,6 +5,11 @@
 #   LIGGGHTS_INCLUDE_DIR    the folder that has the folder liggghts/
 #   LIGGGHTS_LIBRARY        the library
 #   LIGGGHTS::LIGGGHTS      both, with MPI
+#
+# Debian's library has no superquadrics. scripts/setup --superquadrics builds one that has them, for the same headers:
+#
+#   LIGGGHTS_SUPERQUADRIC_LIBRARY      that library, if there is one
+#   LIGGGHTS::LIGGGHTS_SUPERQUADRIC    it, with the headers and their flags
 
 find_path(LIGGGHTS_INCLUDE_DIR liggghts/library.h)
 find_library(LIGGGHTS_LIBRARY liggghts)
@@ -24,4 +29,16 @@ if(LIGGGHTS_FOUND AND NOT TARGET LIGGGHTS::LIGGGHTS)
   target_compile_definitions(LIGGGHTS::LIGGGHTS INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
   target_link_libraries(LIGGGHTS::LIGGGHTS INTERFACE MPI::MPI_C)
 endif()
-mark_as_advanced(LIGGGHTS_INCLUDE_DIR LIGGGHTS_LIBRARY)
+
+find_library(LIGGGHTS_SUPERQUADRIC_LIBRARY liggghts-superquadric
+             PATHS ${CMAKE_SOURCE_DIR}/build/liggghts-superquadric/lib NO_DEFAULT_PATH)
+if(LIGGGHTS_FOUND AND LIGGGHTS_SUPERQUADRIC_LIBRARY AND NOT TARGET LIGGGHTS::LIGGGHTS_SUPERQUADRIC)
+  add_library(LIGGGHTS::LIGGGHTS_SUPERQUADRIC SHARED IMPORTED)
+  set_target_properties(LIGGGHTS::LIGGGHTS_SUPERQUADRIC PROPERTIES IMPORTED_LOCATION "${LIGGGHTS_SUPERQUADRIC_LIBRARY}")
+  target_include_directories(LIGGGHTS::LIGGGHTS_SUPERQUADRIC SYSTEM INTERFACE "${LIGGGHTS_INCLUDE_DIR}")
+  # As the library was compiled: they change the layout of its classes
+  target_compile_definitions(LIGGGHTS::LIGGGHTS_SUPERQUADRIC INTERFACE
+                             SUPERQUADRIC_ACTIVE_FLAG NONSPHERICAL_ACTIVE_FLAG OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(LIGGGHTS::LIGGGHTS_SUPERQUADRIC INTERFACE MPI::MPI_C)
+endif()
+mark_as_advanced(LIGGGHTS_INCLUDE_DIR LIGGGHTS_LIBRARY LIGGGHTS_SUPERQUADRIC_LIBRARY)

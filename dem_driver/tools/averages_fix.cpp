@@ -16,6 +16,7 @@
 
 #include "averaging/run/live_averages.hpp"
 #include "dem_driver/averages_order.hpp"
+#include "dem_driver/tools/ball_radius.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -85,7 +86,7 @@ class AveragesFix : public LAMMPS_NS::Fix {
     for (int i = 0; i < atom->nlocal; ++i) {
       const double *x = atom->x[i], *v = atom->v[i];
       own_.particles[static_cast<std::size_t>(i)] = {
-          atom->tag[i], {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, atom->radius[i]};
+          atom->tag[i], {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, ball_radius(*atom, i)};
     }
     for (const auto& averages : averages_) averages->add(own_);
     // The deck writes a restart file after each part of the run

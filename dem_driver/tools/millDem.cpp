@@ -213,7 +213,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   }
   dem_driver::print_plan(std::cout, mill, plan);
   if (!options.deck_only) {
-    dem_driver::require_programs(options.ranks);
+    dem_driver::require_programs(plan, options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(plan.begin));
     prepare(folder, step);
     if (state && !step) dem_driver::take_restart(*state, folder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/mill/mill.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "meshing/surface/pi.hpp"
@@ -17,6 +18,15 @@ double Mill::turn() const {
 
 const char* Mill::sense() const {
   return angular_velocity < 0 ? "clockwise" : "anticlockwise";
+}
+
+double longest_way(const SizeClass& size) {
+  return size.shape ? 2 * bounding_radius(*size.shape) : size.diameter;
+}
+
+bool Charge::has_shapes() const {
+  return std::any_of(classes.begin(), classes.end(),
+                     [](const SizeClass& size) { return size.shape.has_value(); });
 }
 
 }  // namespace millfoam::meshing

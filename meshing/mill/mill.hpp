@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "meshing/mill/superquadric.hpp"
+
 /// The description of a mill and what is made from it: its walls, the mesh of its flow, and meshes out of
 /// faces. Units are SI.
 namespace millfoam::meshing {
@@ -94,11 +96,16 @@ struct Geometry {
   double radius() const { return diameter / 2; }
 };
 
-/// Balls of one diameter.
+/// Balls of one diameter and shape.
 struct SizeClass {
-  double diameter = 0;  ///< m
+  double diameter = 0;  ///< m; of a superquadric, that of the sphere of equal volume
   double mass = 0;      ///< kg of this class in this mill (a slice: in the slice)
+  /// The balls' shape; spheres have none.
+  std::optional<Superquadric> shape = std::nullopt;
 };
+
+/// Twice the radius of the smallest sphere about a ball's centre that holds it, m; a sphere's diameter.
+double longest_way(const SizeClass& size);
 
 /// The dry charge: size classes in the order of the file, and the cylinder on the axis in which they are
 /// released.
@@ -111,6 +118,7 @@ struct Charge {
   double start_length = 0;  ///< m; ignored for a periodic slice
   double start_bottom = 0;  ///< z of the cylinder's lower end, m; ignored for a periodic slice
   double start_core = 0;    ///< m, radius of the cylinder's core that is left out: the shaft; 0 for none
+  bool has_shapes() const;  ///< whether not all balls are spheres
 };
 
 /// Elastic solid. The modulus used by the simulation may be softer than the real one; see
@@ -140,7 +148,10 @@ struct Dem {
   bool dumps = true;             ///< whether the balls of every record are dumped
   double contact_interval = 0;   ///< s between dumps of all contacts; 0: they are not dumped
   bool contact_statistics = false;  ///< whether every contact is followed in every step
-  int seed = 0;                     ///< of the random insertion
+  /// Of superquadrics: largest radius of curvature over the radius of the sphere of equal volume; 0 of
+  /// spheres.
+  double curvature_limit = 0;
+  int seed = 0;  ///< of the random insertion
   /// m, height y of the surface of a pool at rest in which the balls float up; nothing: no pool.
   std::optional<double> pool_level;
 };

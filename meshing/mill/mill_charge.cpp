@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_ball_shape.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
@@ -24,35 +25,50 @@ constexpr double start_gap = 0.1;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
-/// A stirred mill's balls must not be clamped between the impeller and the shell, or the base, unless
-/// `larger_than_gap` is true. They are released between shaft and shell.
-Rule stirred_diameter(const Section& in, const Geometry& geometry) {
+/// A length that balls must be below, and what it is.
+struct Room {
+  double length;     ///< m
+  const char* of;    ///< for messages
+  const char* unit;  ///< its unit, and how to allow larger balls
+};
+
+/// A stirred mill's balls must not be clamped between the impeller and the shell, or the base, unless the
+/// charge's `larger_than_gap` is true. They are released between shaft and shell.
+Room room_in_stirred(const Section& charge, const Geometry& geometry) {
   const Impeller& impeller = *geometry.impeller;
   const double room = (geometry.radius() - impeller.shaft_diameter / 2) / (1 + 2 * start_gap);
-  const std::string ball = "a ball's diameter";
-  if (in.boolean("larger_than_gap", false))
-    return positive_below(ball, room, " m", "the room between the shaft and the shell");
-  const std::string unless = " (or charge.larger_than_gap: true)";
+  if (charge.boolean("larger_than_gap", false))
+    return {room, "the room between the shaft and the shell", " m"};
+  const char* unless = " m (or charge.larger_than_gap: true)";
   const double aside = geometry.radius() - impeller_radius(impeller);
-  const double below = impeller.shaft_end;
-  if (below < aside)
-    return positive_below(ball, below, " m" + unless, "the gap between the impeller and the base");
-  return positive_below(ball, std::min(aside, room), " m" + unless,
-                        "the gap between the impeller and the shell");
+  if (impeller.shaft_end < aside)
+    return {impeller.shaft_end, "the gap between the impeller and the base", unless};
+  return {std::min(aside, room), "the gap between the impeller and the shell", unless};
 }
 
 /// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
 /// images.
-Rule ball_diameter(const Section& in, const Geometry& geometry) {
-  if (geometry.impeller) return stirred_diameter(in, geometry);
+Room room_of_ball(const Section& charge, const Geometry& geometry) {
+  if (geometry.impeller) return room_in_stirred(charge, geometry);
   const double room = geometry.radius() - geometry.lifters.height;
-  const bool slice_is_short = geometry.length < room;
-  return positive_below("a ball's diameter", std::min(room, geometry.length), " m",
-                        slice_is_short ? "the mill's length" : "the radius inside the lifters");
+  if (geometry.length < room) return {geometry.length, "the mill's length", " m"};
+  return {room, "the radius inside the lifters", " m"};
+}
+
+Rule ball_diameter(const Section& charge, const Geometry& geometry) {
+  const Room room = room_of_ball(charge, geometry);
+  return positive_below("a ball's diameter", room.length, room.unit, room.of);
+}
+
+/// The shape of the balls of a class, or of a charge of one class.
+std::optional<Superquadric> read_shape(const Section& in, const Section& charge, const Geometry& geometry,
+                                       double diameter) {
+  const Room room = room_of_ball(charge, geometry);
+  return read_ball_shape(in, diameter, room.length, room.of);
 }
 
 std::vector<Section> list_classes(const Section& in) {
-  return in.list("classes", {"diameter", "mass", "number"});
+  return in.list("classes", {"diameter", "mass", "number", "shape"});
 }
 
 /// `share` of the mass lies in the mill.
@@ -82,14 +98,15 @@ std::vector<SizeClass> read_sizes(const Section& in, const Geometry& geometry, d
   std::vector<SizeClass> classes;
   for (const Section& item : list_classes(in)) {
     const double diameter = item.number("diameter", ball_diameter(in, geometry));
-    classes.push_back({diameter, read_mass(item, geometry, density, share, diameter) * share});
+    classes.push_back({diameter, read_mass(item, geometry, density, share, diameter) * share,
+                       read_shape(item, in, geometry, diameter)});
   }
   return classes;
 }
 
 std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry, double density) {
-  for (const char* other : {"fill", "diameter"}) {
-    if (in.has(other)) in.refuse(other, "either classes, or fill and diameter");
+  for (const char* other : {"fill", "diameter", "shape"}) {
+    if (in.has(other)) in.refuse(other, "either classes, or fill, diameter and shape");
   }
   const double share =
       geometry.length / in.number("reference_length",
@@ -123,7 +140,7 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density, do
 
 /// What --set gives takes the place of the file's other way to say how much charge there is.
 void choose_charge(Section& in, const Geometry& geometry, double density, double packing) {
-  in.displace("classes", {"fill", "diameter"});
+  in.displace("classes", {"fill", "diameter", "shape"});
   if (in.is_set("fill") && in.has("classes") && !in.is_set("classes") && !in.has("diameter"))
     fill_with_classes(in, geometry, density, packing);
   else
@@ -137,14 +154,14 @@ double read_packing(const Section& in, double usual) {
                    usual);
 }
 
-/// Refuses balls that do not fit, by the key that gives them; returns the largest diameter, m.
+/// Refuses balls that do not fit, by the key that gives them; returns the longest way through a ball, m.
 double require_room(const Section& in, const char* key, const std::vector<SizeClass>& classes,
                     const Geometry& geometry, double density) {
   double volume = 0;
   double largest = 0;
   for (const SizeClass& size : classes) {
     volume += size.mass / density;
-    largest = std::max(largest, size.diameter);
+    largest = std::max(largest, longest_way(size));
   }
   if (volume > closest_packing * analytic_volume(geometry)) {
     in.refuse(key, "balls that fit: theirs is " + shown(volume) + " m^3, the closest packing in this mill " +
@@ -153,7 +170,15 @@ double require_room(const Section& in, const char* key, const std::vector<SizeCl
   return largest;
 }
 
-double read_fines(const Section& in, double largest) {
+/// A charge of balls of one size and shape.
+SizeClass read_single_class(const Section& in, const Geometry& geometry, double mass) {
+  const double diameter = in.number("diameter", ball_diameter(in, geometry));
+  return {diameter, mass, read_shape(in, in, geometry, diameter)};
+}
+
+double read_fines(const Section& in, const std::vector<SizeClass>& classes) {
+  double largest = 0;
+  for (const SizeClass& size : classes) largest = std::max(largest, size.diameter);
   return in.number("fines_below",
                    {"a diameter in m of 0 or more and up to the largest ball's, " + shown(largest) + " m",
                     [=](double v) { return v >= 0 && v <= largest; }},
@@ -184,11 +209,10 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
   else
-    charge.classes = {{in.number("diameter", ball_diameter(in, geometry)),
-                       read_fill_mass(in, geometry, density, charge.packing)}};
+    charge.classes = {read_single_class(in, geometry, read_fill_mass(in, geometry, density, charge.packing))};
   const double largest =
       require_room(in, in.has("classes") ? "classes" : "fill", charge.classes, geometry, density);
-  charge.fines_below = read_fines(in, largest);
+  charge.fines_below = read_fines(in, charge.classes);
   const double room = geometry.radius() - geometry.lifters.height;
   charge.start_radius =
       in.number("start_radius",
@@ -211,20 +235,19 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
 Charge read_stirred_charge(Section in, const Geometry& geometry, double density) {
   Charge charge;
   charge.packing = read_packing(in, charge.packing);
-  in.displace("classes", {"level", "share", "diameter"});
+  in.displace("classes", {"level", "share", "diameter", "shape"});
   in.displace("level", {"classes"});
   const bool by_classes = in.has("classes");
   if (by_classes) {
-    for (const char* other : {"level", "share", "diameter"})
-      if (in.has(other)) in.refuse(other, "either classes, or level, share and diameter");
+    for (const char* other : {"level", "share", "diameter", "shape"})
+      if (in.has(other)) in.refuse(other, "either classes, or level, share, diameter and shape");
     charge.classes = read_sizes(in, geometry, density, 1);
   } else {
-    charge.classes = {
-        {in.number("diameter", ball_diameter(in, geometry)), read_level_mass(in, geometry, density)}};
+    charge.classes = {read_single_class(in, geometry, read_level_mass(in, geometry, density))};
   }
   const double largest =
       require_room(in, by_classes ? "classes" : "level", charge.classes, geometry, density);
-  charge.fines_below = read_fines(in, largest);
+  charge.fines_below = read_fines(in, charge.classes);
   const Impeller& impeller = *geometry.impeller;
   // Above pins and discs, around the shaft; a tenth of a ball more, so that none touches a wall
   charge.start_radius = geometry.radius() - largest * start_gap;
@@ -246,12 +269,17 @@ double ball_mass(const Mill& mill, double diameter) {
 ChargeNumbers count_charge(const Mill& mill) {
   ChargeNumbers numbers;
   double mass_over_diameter = 0;
+  double mass_times_sphericity = 0;
   double asked = 0;
   for (const SizeClass& size : mill.charge.classes) {
     const double one = ball_mass(mill, size.diameter);
     const long count = std::lround(std::min(size.mass / one, most_counted));
-    const BallCount ball{size.diameter, size.mass, static_cast<double>(count) * one, count,
-                         size.diameter >= mill.charge.fines_below};
+    const BallCount ball{size.diameter,
+                         size.mass,
+                         static_cast<double>(count) * one,
+                         count,
+                         size.diameter >= mill.charge.fines_below,
+                         size.shape};
     numbers.classes.push_back(ball);
     asked += size.mass;
     if (!ball.simulated) {
@@ -261,6 +289,7 @@ ChargeNumbers count_charge(const Mill& mill) {
     numbers.balls += count;
     numbers.mass += ball.mass;
     mass_over_diameter += ball.mass / ball.diameter;
+    mass_times_sphericity += ball.mass * (ball.shape ? sphericity(*ball.shape) : 1);
     numbers.largest_diameter = std::max(numbers.largest_diameter, ball.diameter);
     if (numbers.smallest_diameter == 0) numbers.smallest_diameter = ball.diameter;
     numbers.smallest_diameter = std::min(numbers.smallest_diameter, ball.diameter);
@@ -268,6 +297,7 @@ ChargeNumbers count_charge(const Mill& mill) {
   // A charge that rounds to no ball at all, which the dry run refuses, is as large as its largest class
   numbers.sauter_diameter =
       mass_over_diameter > 0 ? numbers.mass / mass_over_diameter : numbers.largest_diameter;
+  if (numbers.mass > 0) numbers.sphericity = mass_times_sphericity / numbers.mass;
   numbers.volume = numbers.mass / mill.ball.density;
   const double solidity = mill.charge.packing;
   const double bulk = solidity * analytic_volume(mill.geometry);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
@@ -33,6 +34,8 @@ struct BallCount {
   double mass = 0;        ///< kg, of `count` balls
   long count = 0;         ///< the nearest whole number; may be 0
   bool simulated = true;  ///< false for fines (charge.fines_below)
+  /// Spheres have none.
+  std::optional<Superquadric> shape = std::nullopt;
 };
 
 /// The charge in numbers; lengths in m, masses in kg, volumes in m^3. They are of the simulated balls, unless
@@ -44,6 +47,7 @@ struct ChargeNumbers {
   double volume = 0;               ///< of the balls alone
   double fines_mass = 0;           ///< requested and left out
   double sauter_diameter = 0;      ///< Σm/Σ(m/d)
+  double sphericity = 1;           ///< mean by mass
   double smallest_diameter = 0;    ///< of a ball
   double largest_diameter = 0;     ///< of a ball
   double load = 0;                 ///< bulk volume at rest over the mill's

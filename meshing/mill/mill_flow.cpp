@@ -11,6 +11,7 @@
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_averages.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
+#include "openfoam_module/drag/nonspherical.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -182,6 +183,7 @@ std::optional<SteadyEnd> read_steady_end(const Section& flow_section, const Flow
 void read_drag(const Section& in, Flow& flow) {
   Section::Keys names;
   for (const drag::Law& law : drag::laws()) names.emplace_back(law.name);
+  names.emplace_back(drag::hoelzer_sommerfeld_law().name);
   flow.law = in.choice("law", names, "Beetstra");
   flow.multiplier = in.number("multiplier", zero_up_to("a factor on the drag", largest_multiplier), 1);
   flow.viscosity = in.choice("viscosity", {"plastic", "pore"}, "plastic");

@@ -33,6 +33,9 @@ constexpr double records_per_turn = 500;
 constexpr double usual_stirred_turns = 15;
 constexpr double stirred_records_per_turn = 50;
 
+/// Largest radius of curvature of a superquadric's flat sides over the radius of the sphere of equal volume.
+constexpr double usual_curvature_limit = 10;
+
 /// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
 constexpr double slowest_fraction = 0.001;
 constexpr double fastest_fraction = 3;
@@ -110,7 +113,18 @@ double fall_time(const Geometry& geometry) {
   return std::sqrt(2 * (geometry.impeller ? geometry.length : geometry.diameter) / gravity);
 }
 
-Dem read_dem(Section& in, const Geometry& geometry, double turn) {
+/// What differs for superquadrics.
+void read_shapes_dem(const Section& in, Dem& dem) {
+  dem.curvature_limit =
+      in.number("curvature_limit", positive_up_to("a number of radii of the sphere of equal volume", 100),
+                usual_curvature_limit);
+  if (dem.contact_interval > 0)
+    in.refuse("contact_interval", "0 for superquadrics: the readings of contacts are those of spheres");
+  if (dem.contact_statistics)
+    in.refuse("contact_statistics", "false for superquadrics: contacts of spheres alone are followed");
+}
+
+Dem read_dem(Section& in, const Geometry& geometry, const Charge& charge, double turn) {
   Dem dem;
   read_softness(in, geometry, dem);
   dem.rayleigh_fraction = in.number(
@@ -131,6 +145,10 @@ Dem read_dem(Section& in, const Geometry& geometry, double turn) {
       {"0 for no contacts, or " + interval.expected, [&](double v) { return v == 0 || interval.holds(v); }},
       0);
   dem.contact_statistics = in.boolean("contact_statistics", false);
+  if (charge.has_shapes())
+    read_shapes_dem(in, dem);
+  else if (in.has("curvature_limit"))
+    in.refuse("curvature_limit", "this key with a shape in the charge only");
   dem.seed = in.integer(
       "seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }}, 1);
   return dem;
@@ -211,8 +229,9 @@ void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
 
 /// Keys of `dem` that both machines have.
 const Section::Keys dem_keys = {
-    "youngs_modulus",  "largest_overlap", "soften_below",     "rayleigh_fraction",  "settle_time", "duration",
-    "record_interval", "dumps",           "contact_interval", "contact_statistics", "seed"};
+    "youngs_modulus", "largest_overlap", "soften_below", "rayleigh_fraction", "settle_time",
+    "duration",       "record_interval", "dumps",        "contact_interval",  "contact_statistics",
+    "seed",           "curvature_limit"};
 
 Section::Keys and_more(Section::Keys keys, const Section::Keys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
@@ -226,11 +245,11 @@ void read_tumbling(const Section& in, Mill& mill) {
   Section speed = in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"});
   mill.angular_velocity = read_angular_velocity(speed, mill.geometry);
   read_materials(in, mill);
-  mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter",
+  mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter", "shape",
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", and_more(dem_keys, {"fluid", "fluid_level"}));
-  mill.dem = read_dem(dem, mill.geometry, mill.turn());
+  mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
   Section slurry =
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
   mill.slurry = read_slurry(slurry);
@@ -252,11 +271,11 @@ void read_stirred(const Section& in, Mill& mill) {
   Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
   mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
   read_materials(in, mill);
-  mill.charge = read_stirred_charge(in.section("charge", {"classes", "level", "share", "diameter", "packing",
-                                                          "fines_below", "larger_than_gap"}),
+  mill.charge = read_stirred_charge(in.section("charge", {"classes", "level", "share", "diameter", "shape",
+                                                          "packing", "fines_below", "larger_than_gap"}),
                                     mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", dem_keys);
-  mill.dem = read_dem(dem, mill.geometry, mill.turn());
+  mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
   // Their wall cells turn with the mill
   if (mill.dem.contact_statistics) dem.refuse("contact_statistics", "false for a stirred mill");
   mill.averages = read_averages(in, mill);

@@ -104,14 +104,29 @@ Json speed_numbers(const Mill& mill) {
           {"turn_s", mill.turn()}};
 }
 
+Json shape_numbers(const Superquadric& shape) {
+  const auto shadow = [&](double x, double y, double z) { return cross_section(shape, {x, y, z}); };
+  return {{"half_axes_m", shape.half_axes},
+          {"blockiness", shape.blockiness},
+          {"volume_m3", volume(shape)},
+          {"surface_m2", surface(shape)},
+          {"inertia_over_mass_m2", inertia_over_mass(shape)},
+          {"sphericity", sphericity(shape)},
+          {"cross_sections_m2", {shadow(1, 0, 0), shadow(0, 1, 0), shadow(0, 0, 1)}},
+          {"least_radius_of_curvature_m", least_radius_of_curvature(shape)},
+          {"bounding_radius_m", bounding_radius(shape)}};
+}
+
 Json charge_numbers(const ChargeNumbers& charge, double packing) {
   Json classes = Json::array();
-  for (const BallCount& size : charge.classes)
+  for (const BallCount& size : charge.classes) {
     classes.push_back({{"diameter_m", size.diameter},
                        {"count", size.count},
                        {"mass_asked_kg", size.mass_asked},
                        {"mass_kg", size.mass},
                        {"simulated", size.simulated}});
+    if (size.shape) classes.back()["shape"] = shape_numbers(*size.shape);
+  }
   const double whole = charge.mass + charge.fines_mass;
   return {{"balls", charge.balls},
           {"mass_kg", charge.mass},
@@ -123,6 +138,7 @@ Json charge_numbers(const ChargeNumbers& charge, double packing) {
           {"fines_mass_kg", charge.fines_mass},
           {"fines_share", whole > 0 ? charge.fines_mass / whole : 0},
           {"sauter_diameter_m", charge.sauter_diameter},
+          {"sphericity", charge.sphericity},
           {"smallest_diameter_m", charge.smallest_diameter},
           {"largest_diameter_m", charge.largest_diameter},
           {"classes", classes}};

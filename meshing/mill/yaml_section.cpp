@@ -168,6 +168,24 @@ double Section::number(const std::string& key, const Rule& rule, double fallback
   return fallback;
 }
 
+std::vector<double> Section::numbers(const std::string& key, std::size_t count, const Rule& rule) const {
+  const std::string expected = "a list of " + std::to_string(count) + " numbers, each " + rule.expected;
+  const YAML::Node node = value(key, expected);
+  if (!node.IsSequence() || node.size() != count) refuse(key, expected);
+  std::vector<double> list;
+  for (std::size_t i = 0; i < count; ++i) {
+    const YAML::Node item = node[i];
+    const auto number = is_plain_scalar(item) ? parse<double>(item.Scalar()) : std::nullopt;
+    if (!number || !std::isfinite(*number) || !rule.holds(*number)) {
+      const std::string path = path_of(key) + "[" + std::to_string(i) + "]";
+      fail(path, "key '" + path + "' = " + shown(item) + ": expected " + rule.expected);
+    }
+    list.push_back(*number);
+  }
+  document_->record(path_of(key), list);
+  return list;
+}
+
 int Section::integer(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
   const auto number = is_plain_scalar(node) ? parse<int>(node.Scalar()) : std::nullopt;

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -59,6 +60,8 @@ class Section {
   double number(const std::string& key, const Rule& rule) const;
   /// As above, or `fallback` where the key is not there.
   double number(const std::string& key, const Rule& rule, double fallback) const;
+  /// The list of `count` finite numbers under `key`, each of which must satisfy the rule.
+  std::vector<double> numbers(const std::string& key, std::size_t count, const Rule& rule) const;
   /// The whole number under `key`, in decimal digits.
   int integer(const std::string& key, const Rule& rule) const;
   /// As above, or `fallback` where the key is not there.

@@ -27,6 +27,21 @@ std::string line(const char* format, Values... values) {
   return std::string(text.data()) + '\n';
 }
 
+/// One for each class of superquadrics.
+std::string shape_lines(const Charge& charge) {
+  std::string lines;
+  for (const SizeClass& size : charge.classes) {
+    if (!size.shape) continue;
+    const auto& [a, b, c] = size.shape->half_axes;
+    lines += line(
+        "superquadric             half axes %.4g %.4g %.4g mm, blockiness %.4g, sphericity %.4f,\n"
+        "                         least radius of curvature %.3g mm, longest way %.4g mm",
+        1e3 * a, 1e3 * b, 1e3 * c, size.shape->blockiness, sphericity(*size.shape),
+        1e3 * least_radius_of_curvature(*size.shape), 1e3 * longest_way(size));
+  }
+  return lines;
+}
+
 std::string quality_line(const char* what, const char* format, double value, double limit) {
   const std::string row = std::string("%-24s ") + format + " (limit %g)%s";
   return line(row.c_str(), what, value, limit, value <= limit ? "" : ": too large");
@@ -102,6 +117,7 @@ std::string stirred_lines(const MillDescription& description) {
               mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
               mill.sense()) +
          line("charge                   %ld balls, %.4g kg", charge.balls, charge.mass) +
+         shape_lines(mill.charge) +
          line("fingerprint              %s", description.mill.fingerprint.charge.c_str());
 }
 

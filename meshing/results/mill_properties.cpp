@@ -104,6 +104,7 @@ void write_flow(Entries& out, const Mill& mill) {
   out.number("flowDuration", flow.duration);
   out.truth("flowBalls", flow.balls);
   out.word("dragLaw", flow.law);
+  out.number("dragSphericity", count_charge(mill).sphericity);
   out.number("dragMultiplier", flow.multiplier);
   out.word("dragViscosity", flow.viscosity);
   out.truth("dragPolydispersity", flow.polydispersity);

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "openfoam_module/drag/drag_laws.hpp"
-
 namespace millfoam::drag {
 
 namespace {
@@ -25,6 +23,22 @@ double hoelzer_sommerfeld(double phi, double re, const Shape& shape) {
   assert(shape.sphericity > 0 && shape.sphericity <= 1 && shape.crosswise_sphericity > 0);
   // Di Felice's law is a single sphere's drag times his function of the voidage.
   return single_ball(re, shape) * di_felice(phi, re) / di_felice(0, re);
+}
+
+const Law& hoelzer_sommerfeld_law() {
+  static const Law law = {"HoelzerSommerfeld",
+                          [](double phi, double re) {
+                            return hoelzer_sommerfeld(phi, re, {1, 1});
+                          },
+                          "Hölzer & Sommerfeld 2008", find_law("DiFelice").range};
+  return law;
+}
+
+double exchange_coefficient(const Shape& shape, double phi, double slip, double diameter,
+                            const Fluid& fluid) {
+  if (phi <= 0) return 0;
+  const double factor = hoelzer_sommerfeld(phi, reynolds(phi, slip, diameter, fluid), shape);
+  return exchange_from_factor(phi, diameter, fluid.viscosity, factor);
 }
 
 }  // namespace millfoam::drag

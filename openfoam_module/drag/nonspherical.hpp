@@ -4,6 +4,8 @@
 /// @file
 /// Drag of a bed of balls that are not spheres. It needs their shape, so it is not one of the table's laws.
 
+#include "openfoam_module/drag/drag_laws.hpp"
+
 namespace millfoam::drag {
 
 /// Both ratios have the cross-section or surface of the sphere of equal volume above the line; 1 for a
@@ -18,5 +20,13 @@ struct Shape {
 /// of the voidage. Stokes drag for a lone slow sphere; for
 /// spheres it lies up to 23 % below Di Felice's law (at Re 55), who takes Dallavalle's single sphere.
 double hoelzer_sommerfeld(double phi, double re, const Shape& shape);
+
+/// The law `HoelzerSommerfeld` by name and range, which is Di Felice's. Its function is that of spheres: of
+/// other balls use the coefficient below.
+const Law& hoelzer_sommerfeld_law();
+
+/// Exchange coefficient beta (kg/(m^3 s)) by this law of a bed of solidity phi at slip v (m/s).
+/// @param diameter  of the sphere of equal volume, m
+double exchange_coefficient(const Shape& shape, double phi, double slip, double diameter, const Fluid& fluid);
 
 }  // namespace millfoam::drag

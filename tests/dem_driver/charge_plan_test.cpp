@@ -55,6 +55,21 @@ TEST(ChargePlan, BallsOfAStirredMillWithoutRoomAreRefusedByItsOwnKeys) {
   EXPECT_EQ(message.find("start_radius"), std::string::npos) << message;
 }
 
+TEST(ChargePlan, SuperquadricsTakeTheRoomOfTheSpheresAroundThem) {
+  auto mill = small_mill();
+  const auto spheres = plan_charge(mill);
+  for (auto& size : mill.charge.classes) size.shape = meshing::scaled_to({{2, 1, 1}, 4}, size.diameter);
+  const auto plan = plan_charge(mill);
+  EXPECT_TRUE(plan.has_shapes());
+  EXPECT_FALSE(spheres.has_shapes());
+  EXPECT_EQ(plan.balls(), spheres.balls());
+  EXPECT_DOUBLE_EQ(plan.mass(), spheres.mass());
+  EXPECT_GT(plan.rounds.size(), spheres.rounds.size());
+  const double reach = meshing::bounding_radius(*mill.charge.classes.back().shape);
+  EXPECT_DOUBLE_EQ(plan.rounds.front().front().reach(), reach);
+  EXPECT_GT(plan.classes.front().surface(), spheres.classes.front().surface());
+}
+
 TEST(ChargePlan, LargestBallsComeFirst) {
   const auto plan = plan_charge(small_mill());
   double last = 1;

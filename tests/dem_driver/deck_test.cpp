@@ -85,6 +85,40 @@ TEST(Deck, OfAStirredMillBallsAreReleasedAroundTheShaftAboveThePins) {
   EXPECT_TRUE(has_line(deck, "region start1 intersect 2 around1 core1"));
 }
 
+/// The small drum whose balls of 3 mm are superquadrics.
+meshing::Mill mill_with_shapes() {
+  auto mill = small_mill();
+  mill.charge.classes.back().shape = meshing::scaled_to({{1.5, 1, 1}, 4}, 0.003);
+  mill.dem.curvature_limit = 10;
+  return mill;
+}
+
+TEST(Deck, ABallOfAnotherShapeMakesAllOfThemSuperquadrics) {
+  const std::string deck = deck_of(mill_with_shapes());
+  EXPECT_TRUE(has_line(deck, "atom_style superquadric"));
+  const std::string model = "gran model hertz tangential history rolling_friction cdt surface superquadric";
+  const std::string settings = "curvatureLimitFactor 10 meanCurvature yes";
+  EXPECT_TRUE(has_line(deck, "pair_style " + model + ' ' + settings));
+  EXPECT_TRUE(has_line(deck, "fix walls all wall/" + model + " mesh n_meshes 1 meshes shell " + settings));
+  EXPECT_EQ(deck.find("particletemplate/sphere"), std::string::npos);
+  // The balls of 2 mm
+  EXPECT_NE(deck.find("shape constant 0.001 0.001 0.001 blockiness constant 2 2\n"), std::string::npos);
+  EXPECT_NE(deck.find("blockiness constant 4 4\n"), std::string::npos);
+  EXPECT_NE(deck.find("orientation random region"), std::string::npos);
+  EXPECT_TRUE(has_line(deck, "fix motion all nve/superquadric integration_scheme 1"));
+  EXPECT_NE(deck.find("radius shapex shapey shapez blockiness1 blockiness2 quat1 quat2 quat3 quat4\n"),
+            std::string::npos);
+  EXPECT_EQ(after(deck, "\"%d").size(), 1U);
+}
+
+TEST(Deck, ARunOfSuperquadricsResumesAsOne) {
+  const auto mill = mill_with_shapes();
+  std::ostringstream deck;
+  write_resume_deck(deck, mill, plan_dem(mill), {"shell"}, 1, 500);
+  EXPECT_TRUE(has_line(deck.str(), "atom_style superquadric"));
+  EXPECT_TRUE(has_line(deck.str(), "fix motion all nve/superquadric integration_scheme 1"));
+}
+
 TEST(Deck, EveryPartIsAWallAndEveryPartTurns) {
   const std::string deck = deck_of(small_mill(), {"shell", "lifters", "feedEnd"});
   EXPECT_EQ(after(deck, "n_meshes"), std::vector<std::string>{"3"});

@@ -47,6 +47,23 @@ TEST(TimeStep, FourTimesTheModulusHalvesTheRayleighLimit) {
   EXPECT_NEAR(choose_time_step(mill).limits.at(0).value / soft, 0.5, 1e-12);
 }
 
+TEST(TimeStep, OfSuperquadricsTheLeastRadiusOfCurvatureAndTheFlatSidesGovern) {
+  auto mill = small_mill();
+  mill.charge.classes.pop_back();
+  const auto spheres = choose_time_step(mill);
+  const auto shape = meshing::scaled_to({{1, 1, 1}, 6}, 0.002);
+  mill.charge.classes.back().shape = shape;
+  mill.dem.curvature_limit = 10;
+  const auto blocks = choose_time_step(mill);
+  EXPECT_NEAR(blocks.limits.at(0).value / spheres.limits.at(0).value,
+              meshing::least_radius_of_curvature(shape) / 0.001, 1e-9);
+  // A Hertz contact is shorter by the fifth root of the radii
+  EXPECT_NEAR(blocks.limits.at(1).value / spheres.limits.at(1).value, std::pow(10, -0.2), 1e-9);
+  EXPECT_NEAR(blocks.overlap.ratio / spheres.overlap.ratio,
+              std::pow(meshing::least_radius_of_curvature(shape) / 0.001, -0.2), 1e-9);
+  EXPECT_NE(blocks.limits.at(0).reason.find("2 mm of blockiness 6"), std::string::npos);
+}
+
 TEST(TimeStep, TheHardestImpactIsAFallThroughTheDiameterPlusTheShellsSpeed) {
   auto mill = small_mill();
   mill.geometry.diameter = 0.2;

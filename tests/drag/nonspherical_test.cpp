@@ -27,6 +27,18 @@ TEST(Nonspherical, ValuesComputedApart) {
   EXPECT_NEAR(drag::hoelzer_sommerfeld(0.45, 100, {0.806, 0.9}) / 70.8804108574, 1, 1e-10);
 }
 
+TEST(Nonspherical, CoefficientHasTheShapesFactor) {
+  const drag::Fluid slurry{1239, 0.0014};
+  const double d = 0.005, phi = 0.45, v = 0.2;
+  const double factor = drag::hoelzer_sommerfeld(phi, drag::reynolds(phi, v, d, slurry), {0.9, 0.8});
+  const double expected = 18 * 0.0014 * phi * (1 - phi) * (1 - phi) * factor / (d * d);
+  EXPECT_NEAR(drag::exchange_coefficient(drag::Shape{0.9, 0.8}, phi, v, d, slurry) / expected, 1, 1e-12);
+  EXPECT_EQ(drag::exchange_coefficient(drag::Shape{0.9, 0.8}, 0, v, d, slurry), 0);
+  const double spheres = drag::exchange_coefficient(drag::hoelzer_sommerfeld_law(), phi, v, d, slurry);
+  EXPECT_DOUBLE_EQ(drag::exchange_coefficient(drag::Shape{1, 1}, phi, v, d, slurry), spheres);
+  EXPECT_LT(spheres, expected);
+}
+
 TEST(Nonspherical, SpheresInABedFeelAtMost23PerCentLessThanDiFelices) {
   double smallest = 1;
   for (double re = 1e-4; re < 1e4; re *= 1.05)

@@ -74,6 +74,22 @@ TEST(bedDrag, isTheLawOfTheTableAtTheSlip)
         1.032 * slurry, 1e-11 * slurry);
 }
 
+TEST(bedDrag, ofAnyShapeHasTheBallsSphericities)
+{
+    const string law("law HoelzerSommerfeld;");
+    const scalar expected = millfoam::drag::exchange_coefficient(
+        millfoam::drag::Shape{0.9, 0.8}, solidity, 0.5, diameter,
+        {1239, 0.0014});
+    EXPECT_NEAR(
+        exchangeOf(law + " sphericity 0.9; crosswiseSphericity 0.8;", 1, -0.3),
+        expected, 1e-12 * expected);
+    EXPECT_LT(exchangeOf(law, 1, -0.3), expected);
+    // The other laws are those of spheres
+    const scalar beetstra = exchangeOf("law Beetstra;", 1, -0.3);
+    EXPECT_DOUBLE_EQ(
+        exchangeOf("law Beetstra; sphericity 0.9;", 1, -0.3), beetstra);
+}
+
 TEST(bedDrag, sharesItsResistanceByRelativePermeabilities)
 {
     const auto found = [](const scalar alpha)

@@ -65,8 +65,9 @@ class Formats(unittest.TestCase):
         self.assertEqual(sorted(names), sorted(found), heading)
 
     def test_the_resolved_mill(self):
-        resolved = [json.loads(run(self.folder, "millMesh", mill, "--resolved", "-")) for mill in (*MILLS, "mill.yaml")]
-        resolved.append(json.loads(run(self.folder, "millMesh", MILLS[-1], "--set", DISCS, "--resolved", "-")))
+        shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}"
+        mills = (*((mill,) for mill in MILLS), ("mill.yaml", "--set", shape), (MILLS[-1], "--set", DISCS))
+        resolved = [json.loads(run(self.folder, "millMesh", mill, *words, "--resolved", "-")) for mill, *words in mills]
         # Null, or an empty list, where the mill has none
         absent = {"geometry.inlet", "geometry.grates", "geometry.pulp_lifters", "geometry.impeller.discs",
                   "flow.steady"}

@@ -60,6 +60,10 @@ static bedFluids readFluids(const dictionary& dict)
 static const millfoam::drag::Law* readLaw(const dictionary& dict)
 {
     const word name(dict.get<word>("law"));
+    if (name == millfoam::drag::hoelzer_sommerfeld_law().name)
+    {
+        return &millfoam::drag::hoelzer_sommerfeld_law();
+    }
     std::string reason;
     try
     {
@@ -69,8 +73,30 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
     {
         reason = error.what();
     }
-    FatalIOErrorInFunction(dict) << reason << exit(FatalIOError);
+    FatalIOErrorInFunction(dict)
+        << reason << ", "
+        << word(std::string(millfoam::drag::hoelzer_sommerfeld_law().name))
+        << exit(FatalIOError);
     return nullptr;
+}
+
+
+//- The balls' shape
+static millfoam::drag::Shape readShape(const dictionary& dict)
+{
+    const millfoam::drag::Shape shape{
+        dict.lookupOrDefault<scalar>("sphericity", 1),
+        dict.lookupOrDefault<scalar>("crosswiseSphericity", 1)};
+    if (!(shape.sphericity > 0 && shape.sphericity <= 1 &&
+          shape.crosswise_sphericity > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "sphericity is " << shape.sphericity
+            << " and crosswiseSphericity is " << shape.crosswise_sphericity
+            << "; expected the first above 0 and up to 1, the second above 0"
+            << exit(FatalIOError);
+    }
+    return shape;
 }
 
 } // End namespace Foam
@@ -95,17 +121,25 @@ Foam::bedDrag::slurryAt(const scalar phi, const scalar v, const scalar d) const
 }
 
 
-Foam::scalar Foam::bedDrag::exchangeAt(
-    const scalar share, const scalar phi, const scalar v, const scalar d) const
+Foam::scalar Foam::bedDrag::lawAt(
+    const scalar phi, const scalar v, const scalar d,
+    const millfoam::drag::Fluid& fluid) const
 {
     using millfoam::drag::exchange_coefficient;
 
+    return law_ == &millfoam::drag::hoelzer_sommerfeld_law()
+               ? exchange_coefficient(shape_, phi, v, d, fluid)
+               : exchange_coefficient(*law_, phi, v, d, fluid);
+}
+
+
+Foam::scalar Foam::bedDrag::exchangeAt(
+    const scalar share, const scalar phi, const scalar v, const scalar d) const
+{
     const bool wet = share > 0;
     const bool dry = share < 1;
-    const scalar slurry =
-        wet ? exchange_coefficient(*law_, phi, v, d, slurryAt(phi, v, d)) : 0;
-    const scalar air =
-        dry ? exchange_coefficient(*law_, phi, v, d, fluids_.air) : 0;
+    const scalar slurry = wet ? lawAt(phi, v, d, slurryAt(phi, v, d)) : 0;
+    const scalar air = dry ? lawAt(phi, v, d, fluids_.air) : 0;
     if (mixed_ == mixture::weights || !(wet && dry))
     {
         return share * slurry + (1 - share) * air;
@@ -121,6 +155,7 @@ Foam::scalar Foam::bedDrag::exchangeAt(
 
 Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
 : law_(readLaw(dict)),
+  shape_(readShape(dict)),
   range_(*law_),
   fluids_(fluids),
   viscosity_(dict, fluids.slurry),
@@ -150,7 +185,9 @@ Foam::bedDrag::bedDrag(const dictionary& dict)
 
 Foam::wordList Foam::bedDrag::entries()
 {
-    return {"law", "viscosity", "polydispersity", "multiplier", "mixed"};
+    return {"law",       "sphericity",     "crosswiseSphericity",
+            "viscosity", "polydispersity", "multiplier",
+            "mixed"};
 }
 
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/resolved_mill.hpp"
+#include "tests/meshing/stirred_mill.hpp"
+#include "tests/meshing/test_mill.hpp"
+
+namespace millfoam::meshing {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The message with which a mill is refused.
+std::string refusal(const std::vector<std::string>& set, const std::string& text = stirred_mill) {
+  try {
+    describe(text, set);
+  } catch (const MillError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+::testing::AssertionResult says(const std::string& message, const std::string& part) {
+  if (message.find(part) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << message << "' does not say '" << part << "'";
+}
+
+TEST(BallShape, HalfAxesAreScaledToTheDiameterOfEqualVolume) {
+  const auto mill =
+      describe(stirred_mill, {"charge.shape={half_axes: [2.70274, 2.00172, 1.67844], roundness: 0.333333}"});
+  const SizeClass& size = mill.mill.charge.classes.front();
+  ASSERT_TRUE(size.shape);
+  EXPECT_TRUE(mill.mill.charge.has_shapes());
+  EXPECT_NEAR(size.shape->blockiness, 6, 1e-5);
+  EXPECT_NEAR(size.shape->half_axes[0], 2.70274e-3, 1e-8);
+  EXPECT_NEAR(longest_way(size), 2 * 3.191e-3, 1e-6);
+  const Json derived = resolved_mill(mill, "test")["derived"]["charge"]["classes"][0];
+  EXPECT_EQ(derived["count"], count_charge(describe(stirred_mill).mill).balls);
+  EXPECT_NEAR(derived["shape"]["sphericity"], 0.8995, 1e-4);
+  EXPECT_NEAR(derived["shape"]["least_radius_of_curvature_m"], 0.582e-3, 1e-6);
+}
+
+TEST(BallShape, AGroupIsAClassForEachShape) {
+  const std::string group = with(stirred_mill, "{level: 0.0775, share: 0.5, diameter: 0.005}", R"(
+  classes:
+    - {diameter: 0.005, number: 300, shape: {half_axes: [3, 2, 2], blockiness: 3}}
+    - {diameter: 0.005, number: 300, shape: {half_axes: [2, 2, 2], blockiness: 4}}
+    - {diameter: 0.005, number: 300})");
+  const ChargeNumbers numbers = count_charge(describe(group).mill);
+  ASSERT_EQ(numbers.classes.size(), 3U);
+  EXPECT_EQ(numbers.classes[0].shape->blockiness, 3);
+  EXPECT_EQ(numbers.classes[1].shape->blockiness, 4);
+  EXPECT_FALSE(numbers.classes[2].shape);
+  EXPECT_EQ(numbers.balls, 900);
+  EXPECT_NEAR(numbers.sauter_diameter, 0.005, 1e-12);
+}
+
+// The key's default is not recorded, so that mills of before it have their fingerprints
+TEST(BallShape, SpheresAreTheMillWithoutTheKey) {
+  const auto plain = describe(stirred_mill), spheres = describe(stirred_mill, {"charge.shape=sphere"});
+  EXPECT_EQ(plain.mill.fingerprint.charge, spheres.mill.fingerprint.charge);
+  EXPECT_EQ(resolved_mill(plain, "test")["mill"], resolved_mill(spheres, "test")["mill"]);
+  const std::string shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}";
+  EXPECT_NE(plain.mill.fingerprint.charge, describe(stirred_mill, {shape}).mill.fingerprint.charge);
+  EXPECT_EQ(describe(stirred_mill, {shape}).mill.dem.curvature_limit, 10);
+  EXPECT_EQ(resolved_mill(plain, "test")["mill"]["dem"].count("curvature_limit"), 0U);
+}
+
+TEST(BallShape, BallsOfATumblingMillHaveThemToo) {
+  const std::string set = "charge.classes[0].shape={half_axes: [1.5, 1, 1], blockiness: 3}";
+  const Mill mill = describe(example_mill, {set}).mill;
+  EXPECT_TRUE(mill.charge.classes[0].shape);
+  EXPECT_EQ(mill.charge.classes[0].diameter, describe(example_mill).mill.charge.classes[0].diameter);
+}
+
+TEST(BallShape, ImpossibleShapesAreRefused) {
+  const auto with_shape = [](const std::string& shape) { return refusal({"charge.shape=" + shape}); };
+  EXPECT_TRUE(
+      says(with_shape("cube"), "key 'charge.shape' = cube: expected sphere, or a map with half_axes"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2], blockiness: 3}"),
+                   "key 'charge.shape.half_axes' = […]: expected a list of 3 numbers, each a length"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, -2], blockiness: 3}"),
+                   "key 'charge.shape.half_axes[2]' = -2: expected a length above 0"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], blockiness: 1.5}"),
+                   "key 'charge.shape.blockiness' = 1.5: expected a blockiness from 2, which is that of an"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2]}"), "key 'charge.shape.blockiness' is missing"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], roundness: 0.1}"),
+                   "key 'charge.shape.roundness' = 0.1: expected a roundness from 0.166667 to 1"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], roundness: 0.5, blockiness: 4}"),
+                   "expected either this key or blockiness, which is 2/roundness"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [9, 2, 2], blockiness: 3}"),
+                   "is below the gap between the impeller and the shell, 0.007 m"));
+}
+
+TEST(BallShape, EdgesThatHertzLawDoesNotBearAreRefused) {
+  EXPECT_TRUE(says(refusal({"charge.shape={half_axes: [1, 1, 1], blockiness: 11}", "charge.diameter=0.004"}),
+                   "expected a shape whose least mean radius of curvature, here 0.000"));
+}
+
+TEST(BallShape, WhatReadsContactsOfSpheresIsRefused) {
+  const std::string shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}";
+  EXPECT_TRUE(says(refusal({shape, "dem.contact_interval=0.01"}), "expected 0 for superquadrics"));
+  EXPECT_TRUE(says(refusal({"dem.curvature_limit=5"}), "expected this key with a shape in the charge only"));
+}
+
+}  // namespace
+}  // namespace millfoam::meshing
