@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/contact_order.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -14,12 +15,18 @@ namespace {
 
 constexpr char contact_order_format[] = "millfoam-contacts";
 constexpr double cells_per_diameter = 60;
+/// A stirred mill's triangles are five times as long as wide, and so are their cells.
+constexpr double stirred_cells_per_diameter = 15;
 constexpr long wall_records = 10;  // of a run
 
 }  // namespace
 
 ContactKinds ContactOrder::kinds() const {
   return {static_cast<int>(diameters.size()), static_cast<int>(parts.size())};
+}
+
+bool ContactOrder::turns(std::size_t part) const {
+  return std::find(turning_parts.begin(), turning_parts.end(), parts[part]) != turning_parts.end();
 }
 
 WallCells ContactOrder::cells() const {
@@ -31,9 +38,11 @@ ContactOrder contact_order_of(const meshing::Mill& mill, const DemPlan& plan,
   ContactOrder order;
   for (const auto& size : plan.charge.classes) order.diameters.push_back(size.diameter);
   order.parts = parts;
+  order.turning_parts = turning_parts(mill, parts);
   order.timestep = plan.step.value;
   order.angular_velocity = mill.angular_velocity;
-  order.cell_edge = mill.geometry.diameter / cells_per_diameter;
+  const bool stirred = mill.machine() == meshing::Machine::stirred;
+  order.cell_edge = mill.geometry.diameter / (stirred ? stirred_cells_per_diameter : cells_per_diameter);
   order.end_step = plan.end_step();
   order.block_steps = plan.restart_steps;
   order.wall_steps = (plan.turning_steps + wall_records - 1) / wall_records;
@@ -45,6 +54,7 @@ void write_contact_order(const fs::path& file, const meshing::Mill& mill, const 
   Json json = begin_result("contacts", mill);
   json.update({{"diameters_m", order.diameters},
                {"parts", order.parts},
+               {"turning_parts", order.turning_parts},
                {"walls", fs::relative(order.walls, file.parent_path()).string()},
                {"timestep_s", order.timestep},
                {"angular_velocity_rad_s", order.angular_velocity},
@@ -72,6 +82,7 @@ ContactOrder read_contact_order(const fs::path& file) {
     ContactOrder order;
     read("diameters_m", order.diameters);
     read("parts", order.parts);
+    read("turning_parts", order.turning_parts);
     read("walls", walls);
     order.walls = file.parent_path() / walls;
     read("timestep_s", order.timestep);

@@ -211,9 +211,10 @@ double ContactResults::collisions_per_second() const {
 }
 
 double ContactResults::wall_torque() const {
+  const std::vector<int> parts = order.cells().part_of_cells();
   double moment = 0;
-  for (std::size_t cell = 0; cell < walls.sums.numbers.size() / numbers_per_wall_cell; ++cell)
-    moment += walls.sums.of(cell).moment;
+  for (std::size_t cell = 0; cell < parts.size(); ++cell)
+    if (order.turns(static_cast<std::size_t>(parts[cell]))) moment += walls.sums.of(cell).moment;
   return moment / static_cast<double>(walls.end - walls.begin);
 }
 

@@ -40,7 +40,7 @@ ContactSpan sum_blocks(const std::vector<ContactBlock>& blocks, const ContactOrd
 struct DriveRow {
   long step = 0;      ///< at the record's end
   double power = 0;   ///< of the mill's drive and of the fluid, mean over the record's steps, W
-  double torque = 0;  ///< of the charge on the mill, mean over the record's steps, N m
+  double torque = 0;  ///< of the charge on the walls that turn, mean over the record's steps, N m
   double energy = 0;  ///< kinetic of translation and potential, at the record's end, J
 };
 
@@ -49,7 +49,7 @@ struct ContactBalance {
   ContactWork power;  ///< of the contacts
   double drive = 0;   ///< of the mill's drive, and of the fluid
   double gain = 0;    ///< of the charge's kinetic energy, of spin too, and potential energy
-  double torque = 0;  ///< of the charge on the mill, N m
+  double torque = 0;  ///< of the charge on the walls that turn, N m
   /// What the contacts take over what the drive gives less the gain; 1 where the energy is balanced.
   double ratio() const { return power.total() / (drive - gain); }
 };
@@ -79,7 +79,8 @@ struct ContactResults {
   WallSpan walls;                        ///< of the steady part
   double time() const;                   ///< of `span`, s
   double collisions_per_second() const;  ///< in `span`
-  double wall_torque() const;  ///< of the forces on the wall cells about the axis, N m, mean over `walls`
+  /// Of the forces on the cells of the walls that turn, about the axis, N m, mean over `walls`.
+  double wall_torque() const;
 };
 
 /// Reads what millLiggghts has written. Throws as the functions above.

@@ -73,11 +73,6 @@ bool is_stirred(const meshing::Mill& mill) {
   return mill.machine() == meshing::Machine::stirred;
 }
 
-/// The walls that turn: all of a tumbling mill's; of a stirred mill's the impeller alone.
-std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts) {
-  return is_stirred(mill) ? std::vector<std::string>{impeller_part} : parts;
-}
-
 /// The atom types of LIGGGHTS: balls of equal modulus share one, the wall has the last.
 class AtomTypes {
  public:
@@ -374,6 +369,10 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
 }
 
 }  // namespace
+
+std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts) {
+  return is_stirred(mill) ? std::vector<std::string>{impeller_part} : parts;
+}
 
 int read_ranks(const std::string& word) {
   int ranks = 0;

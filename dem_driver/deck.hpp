@@ -113,6 +113,8 @@ inline constexpr char averages_fix[] = "averages";
 
 /// Wall of a stirred mill that turns.
 inline constexpr char impeller_part[] = "impeller";
+/// The walls that turn: all of a tumbling mill's; of a stirred mill's the impeller alone.
+std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts);
 /// Name of the deck's fix that writes the torque on each wall of a stirred mill, and of its files.
 inline constexpr char part_torques_kind[] = "partTorques";
 

@@ -6,7 +6,6 @@
 #include <iomanip>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <ostream>
 #include <stdexcept>
 #include <utility>
@@ -76,17 +75,22 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
   return fluid;
 }
 
-/// Means of the parts' torques over the steady part of the run.
-Json part_torques_of(const Results& results) {
-  if (!results.part_torques) return nullptr;
-  const PartTorques& found = *results.part_torques;
-  const auto first = static_cast<std::size_t>(
-      std::lower_bound(results.time.begin(), results.time.end(), results.steady_from()) -
-      results.time.begin());
-  Json json = Json::object();
-  for (std::size_t part = 0; part < found.parts.size(); ++part)
-    json[found.parts[part]] = found.mean(part, first);
-  return json;
+/// Entries `part_torques_Nm` and `part_torques_error_Nm`: means of the steady part of the run.
+void add_part_torques(Json& json, const Results& results) {
+  Json means, errors;
+  if (results.part_torques) {
+    const PartTorques& found = *results.part_torques;
+    const auto first = static_cast<std::size_t>(
+        std::lower_bound(results.time.begin(), results.time.end(), results.steady_from()) -
+        results.time.begin());
+    for (std::size_t part = 0; part < found.parts.size(); ++part) {
+      const SteadyMean mean = mean_since(found.torques[part], first, results.turn);
+      means[found.parts[part]] = mean.mean;
+      errors[found.parts[part]] = mean.standard_error;
+    }
+  }
+  json["part_torques_Nm"] = means;
+  json["part_torques_error_Nm"] = errors;
 }
 
 void write_part_torques(std::ostream& out, const Results& results) {
@@ -118,9 +122,9 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"steady", results.steady()},
                {"steady_from_s", results.steady_from()},
                {"power_W", results.power_steadiness.mean},
-               {"power_error_W", results.power_steadiness.standard_error},
-               {"part_torques_Nm", part_torques_of(results)},
-               {"kinetic_energy_J", results.kinetic_steadiness.mean},
+               {"power_error_W", results.power_steadiness.standard_error}});
+  add_part_torques(json, results);
+  json.update({{"kinetic_energy_J", results.kinetic_steadiness.mean},
                {"potential_energy_J", results.potential_steadiness.mean},
                {"ball_overlap_largest_m", results.ball_overlaps.largest},
                {"ball_overlap_99_m", results.ball_overlaps.percentile(0.99)},
@@ -177,13 +181,6 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder) {
   std::transform(rows.begin(), rows.end(), std::back_inserter(history),
                  [](const auto& entry) { return entry.second; });
   return history;
-}
-
-double PartTorques::mean(std::size_t part, std::size_t first) const {
-  const auto& all = torques[part];
-  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size()));
-  return std::accumulate(begin, all.end(), 0.0) /
-         static_cast<double>(std::max(all.end() - begin, std::ptrdiff_t{1}));
 }
 
 PartTorques read_part_torques(const CaseFolder& folder, const std::vector<std::string>& parts) {
@@ -251,6 +248,7 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
     throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
                    " records of torque and energy, expected " + std::to_string(plan.records - 1));
   if (mill.machine() == meshing::Machine::stirred) {
+    results.turn = mill.turn() / (plan.step.value * static_cast<double>(plan.step.steps_per_record));
     results.part_torques = read_part_torques(folder, find_walls(folder, mill));
     if (results.part_torques->torques.front().size() != results.history.size())
       throw RunError(folder.dem().string() + ": " +
@@ -266,11 +264,11 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   });
   results.power =
       column(results.history, [&](const HistoryRow& row) { return -row.torque * mill.angular_velocity; });
-  results.power_steadiness = judge_steadiness(results.power);
-  results.kinetic_steadiness =
-      judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.kinetic; }));
-  results.potential_steadiness =
-      judge_steadiness(column(results.history, [](const HistoryRow& row) { return row.potential; }));
+  results.power_steadiness = judge_steadiness(results.power, results.turn);
+  results.kinetic_steadiness = judge_steadiness(
+      column(results.history, [](const HistoryRow& row) { return row.kinetic; }), results.turn);
+  results.potential_steadiness = judge_steadiness(
+      column(results.history, [](const HistoryRow& row) { return row.potential; }), results.turn);
   if (plan.watches_contacts) results.contacts = contacts_of(folder, results);
   const double largest = plan.charge.classes.front().diameter;
   results.ball_overlaps = read_overlaps(folder, "ballOverlaps", largest);

@@ -33,8 +33,6 @@ std::vector<HistoryRow> read_history(const CaseFolder& folder);
 struct PartTorques {
   std::vector<std::string> parts;            ///< their names
   std::vector<std::vector<double>> torques;  ///< about +z, N m, of each part at each record
-  /// Mean over the records from a number on, N m.
-  double mean(std::size_t part, std::size_t first) const;
 };
 
 /// What LIGGGHTS has written of the parts' torques, a row for each record after step 0. Throws
@@ -68,6 +66,7 @@ struct Results {
   std::vector<HistoryRow> history;         ///< one row for each record after the run's begin
   std::vector<FluidRow> fluid;             ///< one row for each of them, with a fluid
   std::vector<double> time;                ///< s, of each row
+  double turn = 0;                         ///< of a stirred mill's impeller, in records; 0 of a tumbling mill
   std::vector<double> power;               ///< that the drive gives to the charge, W, of each row
   Steadiness power_steadiness;             ///< of `power`, W
   Steadiness kinetic_steadiness;           ///< of the energy of translation, J

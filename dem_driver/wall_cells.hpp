@@ -15,7 +15,7 @@ namespace millfoam::dem_driver {
 using Triangle = std::array<std::array<double, 3>, 3>;
 
 /// Sums over the contacts of one wall cell in some steps. The forces are those of the balls on the wall, in
-/// the frame that turns with the mill.
+/// the frame of the wall files, which turns with a wall that turns.
 struct WallCellSums {
   double contacts = 0;               ///< times steps
   double push = 0;                   ///< forces along the contacts' normals, N times steps
@@ -74,7 +74,7 @@ class WallSums {
   explicit WallSums(std::size_t cells) : numbers(cells * numbers_per_wall_cell) {}
   /// Adds a contact of one step.
   /// @param cell  its number
-  /// @param contact  the force on the ball, in the frame of the mill
+  /// @param contact  the force on the ball, in the frame of the wall files
   /// @param moment  of the force on the wall, N m
   /// @param work  of the contact in the step, J
   void add(std::size_t cell, const ContactForce& contact, double moment, const ContactWork& work);

@@ -87,7 +87,10 @@ class WatchFix : public LAMMPS_NS::Fix {
         start_(static_cast<long>(update->ntimestep)),
         last_(start_) {
     nevery = 1;
-    for (const auto& part : order.parts) parts_.push_back(part_of(part));
+    for (std::size_t part = 0; part < order.parts.size(); ++part) {
+      parts_.push_back(part_of(order.parts[part]));
+      turns_.push_back(order.turns(part));
+    }
     statistics_.count_touches(false);
     if (comm->me == 0) begin();
   }
@@ -146,7 +149,7 @@ class WatchFix : public LAMMPS_NS::Fix {
         for (int k = 0; k < 3 && same; ++k) {
           Triple node;
           mesh.node(i, k, node.data());
-          node = in_mill(node);
+          node = in_wall(p, node);
           double nearest = order_.cell_edge;
           for (const auto& corner : triangles[number])
             nearest =
@@ -160,8 +163,9 @@ class WatchFix : public LAMMPS_NS::Fix {
     }
   }
 
-  /// From the lab frame to the frame of the wall files.
-  Triple in_mill(const Triple& vector) const {
+  /// From the lab frame to that of a part's file, in which the part is at rest.
+  Triple in_wall(std::size_t part, const Triple& vector) const {
+    if (!turns_[part]) return vector;
     return {cosine_ * vector[0] + sine_ * vector[1], cosine_ * vector[1] - sine_ * vector[0], vector[2]};
   }
 
@@ -223,19 +227,21 @@ class WatchFix : public LAMMPS_NS::Fix {
 
   void add(const SeenAtWall& seen) {
     const int i = seen.ball;
-    const auto part = static_cast<int>(std::find(parts_.begin(), parts_.end(), seen.part) - parts_.begin());
-    if (part == static_cast<int>(parts_.size())) throw std::runtime_error("a wall is not in contacts.json");
+    const auto part =
+        static_cast<std::size_t>(std::find(parts_.begin(), parts_.end(), seen.part) - parts_.begin());
+    if (part == parts_.size()) throw std::runtime_error("a wall is not in contacts.json");
+    const int number = static_cast<int>(part);
     const ContactMotion motion{minus(atom->v[i], seen.velocity.data()), triple_of(atom->omega[i]), {}};
     const ContactWork work = work_of(seen.contact, motion, order_.timestep);
-    statistics_.add(atom->tag[i], -1 - part, kinds_.of_wall(class_of(i), part), seen.energy, work);
+    statistics_.add(atom->tag[i], -1 - number, kinds_.of_wall(class_of(i), number), seen.energy, work);
     const Triple& push = seen.contact.force;
     const double moment = -(seen.point[0] * push[1] - seen.point[1] * push[0]);
-    ContactForce in_mill_frame = seen.contact;
-    in_mill_frame.normal = in_mill(seen.contact.normal);
-    in_mill_frame.force = in_mill(push);
-    const std::size_t cell = cells_.cell_of(static_cast<std::size_t>(part),
-                                            static_cast<std::size_t>(seen.triangle), in_mill(seen.point));
-    wall_sums_.add(cell, in_mill_frame, moment, work);
+    ContactForce in_wall_frame = seen.contact;
+    in_wall_frame.normal = in_wall(part, seen.contact.normal);
+    in_wall_frame.force = in_wall(part, push);
+    const std::size_t cell =
+        cells_.cell_of(part, static_cast<std::size_t>(seen.triangle), in_wall(part, seen.point));
+    wall_sums_.add(cell, in_wall_frame, moment, work);
   }
 
   /// Energy of spin of this rank's balls, J.
@@ -278,6 +284,7 @@ class WatchFix : public LAMMPS_NS::Fix {
   WallSums wall_sums_;    ///< of this rank, since the last block
   WallSums wall_totals_;  ///< on rank 0, of all ranks until the last block
   std::vector<LAMMPS_NS::FixMeshSurface*> parts_;
+  std::vector<bool> turns_;              ///< whether each part does
   std::optional<ContactRecord> record_;  ///< of rank 0
   std::vector<int> classes_;             ///< of the balls in LIGGGHTS' order
   std::vector<OpenContact> homeless_;    ///< read from a file, not yet on the rank of their ball
@@ -285,7 +292,7 @@ class WatchFix : public LAMMPS_NS::Fix {
   long start_;
   long last_;  ///< step of the last block
   long wall_steps_ = 0;
-  double cosine_ = 1;  ///< of the walls' angle
+  double cosine_ = 1;  ///< of the turning walls' angle
   double sine_ = 0;
   bool moved_ = true;  ///< whether balls may have changed their rank
   bool begun_ = false;

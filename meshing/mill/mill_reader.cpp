@@ -276,8 +276,6 @@ void read_stirred(const Section& in, Mill& mill) {
                                     mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", dem_keys);
   mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
-  // Their wall cells turn with the mill
-  if (mill.dem.contact_statistics) dem.refuse("contact_statistics", "false for a stirred mill");
   mill.averages = read_averages(in, mill);
 }
 

@@ -27,7 +27,7 @@ class ContactRecordTest : public ::testing::Test {
     std::filesystem::create_directories(folder_.walls());
     tests::write_drum(folder_, small_mill().geometry);
     order_.diameters = {0.004, 0.002};
-    order_.parts = {"shell"};
+    order_.parts = order_.turning_parts = {"shell"};
     order_.timestep = 0.001;
     order_.cell_edge = 0.01;
     order_.end_step = 40;
@@ -51,10 +51,15 @@ class ContactRecordTest : public ::testing::Test {
 
 TEST_F(ContactRecordTest, TheOrderIsReadBackAsItWasWritten) {
   order_.angular_velocity = -6.25;
+  order_.parts = {"impeller", "shell"};
+  order_.turning_parts = {"impeller"};
   write_contact_order(folder_.contact_order(), small_mill(), order_);
   const ContactOrder read = read_contact_order(folder_.contact_order());
   EXPECT_EQ(read.diameters, order_.diameters);
   EXPECT_EQ(read.parts, order_.parts);
+  EXPECT_EQ(read.turning_parts, order_.turning_parts);
+  EXPECT_TRUE(read.turns(0));
+  EXPECT_FALSE(read.turns(1));
   EXPECT_EQ(read.timestep, order_.timestep);
   EXPECT_EQ(read.angular_velocity, order_.angular_velocity);
   EXPECT_EQ(read.cell_edge, order_.cell_edge);
@@ -138,6 +143,9 @@ TEST_F(ContactRecordTest, TheBalanceComparesTheContactsWithTheDriveAndTheGainOfT
   EXPECT_NEAR(contacts.collisions_per_second(), 2 / 0.02, 1e-9);
   EXPECT_EQ(contacts.walls.begin, 20);
   EXPECT_NEAR(contacts.wall_torque(), 0.3, 1e-12);
+  auto at_rest = contacts;
+  at_rest.order.turning_parts.clear();
+  EXPECT_EQ(at_rest.wall_torque(), 0);
   write_contact_files(folder_, contacts);
   std::ifstream power(folder_.contact_power());
   std::string head, row;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -63,6 +64,40 @@ TEST(SteadyState, AConstantSeriesIsSteadyFromItsBeginning) {
 TEST(SteadyState, TooFewValuesAreNotSteady) {
   EXPECT_FALSE(judge_steadiness(std::vector<double>(fewest_values - 1, 2.5)).steady);
   EXPECT_FALSE(judge_steadiness({}).steady);
+}
+
+TEST(SteadyState, WhatRepeatsWithEveryTurnHasNoErrorAndNoDrift) {
+  const double turn = 17.3;
+  std::vector<double> values;
+  for (double i = 0; i < 150; ++i) values.push_back(2 + std::cos(2 * std::acos(-1) * (i + 0.5) / turn));
+  const auto by_turns = judge_steadiness(values, turn);
+  EXPECT_TRUE(by_turns.steady);
+  EXPECT_NEAR(by_turns.mean, 2, 1e-3);
+  EXPECT_LT(by_turns.standard_error, 5e-3);
+  EXPECT_NEAR(by_turns.drift, 0, 5e-3);
+  EXPECT_GT(judge_steadiness(values).standard_error, 3 * by_turns.standard_error);
+}
+
+TEST(SteadyState, AMeanOverTurnsBeginsWithAWholeTurn) {
+  std::vector<double> values(105, 1.0);
+  std::fill(values.begin(), values.begin() + 5, 100.0);
+  const auto found = mean_since(values, 2, 20);
+  EXPECT_EQ(found.begin, 5U);
+  EXPECT_EQ(found.mean, 1);
+  EXPECT_EQ(found.standard_error, 0);
+  // Half of a value at the begin
+  EXPECT_NEAR(mean_since(values, 2, 25.125).mean, 1 + 0.5 * 99 / 100.5, 1e-12);
+  // Three turns are not enough: all values count
+  EXPECT_NEAR(mean_since(values, 2, 30).mean, (3 * 100.0 + 100) / 103, 1e-12);
+  EXPECT_TRUE(std::isnan(mean_since(values, 100, 20).standard_error));
+}
+
+TEST(SteadyState, TheErrorOverTurnsIsThatOfTheirMeansAboutALine) {
+  // Turns of two values with the means 1, 2, 3, 5: 0.2, -0.1, -0.4, 0.3 off the line
+  const auto found = mean_since({0, 2, 1, 3, 2, 4, 4, 6}, 0, 2);
+  EXPECT_NEAR(found.mean, 2.75, 1e-12);
+  EXPECT_NEAR(found.standard_error, std::sqrt(0.3 / 8), 1e-12);
+  EXPECT_NEAR(found.drift, 2.5, 1e-12);
 }
 
 }  // namespace

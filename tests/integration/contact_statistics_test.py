@@ -113,9 +113,9 @@ class OneCollision(ContactCase):
                       f"set atom {number} omegax {spin[0]} omegay {spin[1]} omegaz {spin[2]}"]
         deck = DECK.replace("BALLS", "\n".join(lines)).replace("RANKS", str(ranks)).replace("STEPS", str(steps))
         (case / "in.deck").write_text(deck)
-        order = {"format": "millfoam-contacts", "diameters_m": [2 * RADIUS], "parts": ["floor"], "walls": "walls",
-                 "timestep_s": TIMESTEP, "angular_velocity_rad_s": 0.0, "cell_edge_m": 0.002, "end_step": steps,
-                 "block_steps": steps, "wall_steps": steps}
+        order = {"format": "millfoam-contacts", "diameters_m": [2 * RADIUS], "parts": ["floor"], "turning_parts": [],
+                 "walls": "walls", "timestep_s": TIMESTEP, "angular_velocity_rad_s": 0.0, "cell_edge_m": 0.002,
+                 "end_step": steps, "block_steps": steps, "wall_steps": steps}
         (case / "contacts.json").write_text(json.dumps(order))
         run(case, "mpirun", "--allow-run-as-root", "--oversubscribe", "-np", ranks, "millLiggghts", "-in", "in.deck")
         before, after = (self.energy(np.loadtxt(case / f"dump.{step}.txt", skiprows=9, ndmin=2)) for step in (0, steps))

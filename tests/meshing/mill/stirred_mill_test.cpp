@@ -167,7 +167,6 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   EXPECT_TRUE(says(set("charge.diameter=0.008"), "the gap between the impeller and the shell, 0.007 m"));
   EXPECT_TRUE(says(set("charge.level=0.5"), "up to the mill's"));
   EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the impeller's tips"));
-  EXPECT_TRUE(says(set("dem.contact_statistics=true"), "false for a stirred mill"));
   EXPECT_TRUE(says(set("flow.turns=3"), "only the dry run is computed"));
   EXPECT_TRUE(says(set("machine=planetary"), "tumbling"));
   EXPECT_TRUE(says(set("geometry.lifters.count=3"), "'geometry.lifters' is unknown"));
