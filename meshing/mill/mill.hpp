@@ -181,7 +181,7 @@ struct BlockCounts {
 /// Size or numbers of the flow's cells.
 struct Resolution {
   double cell_size = 0;                              ///< m, in the mill's cross-section; 0 with `counts`
-  int layers = 0;                                    ///< of cells along the axis
+  int layers = 0;                                    ///< of cells along the axis; 0 of a stirred mill
   std::optional<BlockCounts> counts = std::nullopt;  ///< instead of the size
 };
 
@@ -304,18 +304,19 @@ struct Mill {
   double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
   /// rad/s, right-handed about +z: negative turns clockwise with x right and y up.
   double angular_velocity = 0;
-  Charge charge;                 ///< the balls
-  Material ball;                 ///< of all balls
-  Material wall;                 ///< of shell, lifters and ends
-  Contact ball_ball;             ///< of two balls
-  Contact ball_wall;             ///< of a ball and a wall
-  Dem dem;                       ///< the dry run
-  Averages averages;             ///< of the dry run
-  Slurry slurry;                 ///< the liquid
-  Air air;                       ///< the gas
-  Resolution resolution;         ///< of the flow's mesh
-  Flow flow;                     ///< of slurry and air
-  MillFingerprints fingerprint;  ///< of the keys that this mill was read from
+  Charge charge;                                        ///< the balls
+  Material ball;                                        ///< of all balls
+  Material wall;                                        ///< of shell, lifters and ends
+  Contact ball_ball;                                    ///< of two balls
+  Contact ball_wall;                                    ///< of a ball and a wall
+  Dem dem;                                              ///< the dry run
+  Averages averages;                                    ///< of the dry run
+  Slurry slurry;                                        ///< the liquid
+  Air air;                                              ///< the gas
+  Resolution resolution;                                ///< of the flow's mesh
+  Flow flow;                                            ///< of slurry and air
+  MillFingerprints fingerprint;                         ///< of the keys that this mill was read from
+  bool has_flow() const { return slurry.density > 0; }  ///< a stirred mill may have a dry run alone
   Machine machine() const { return geometry.impeller ? Machine::stirred : Machine::tumbling; }  ///< its kind
   double turn() const;        ///< time of one turn, s
   const char* sense() const;  ///< clockwise or anticlockwise, seen with x to the right and y up

@@ -88,10 +88,7 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["dem"] = dem_numbers(keys, mill);
   of["averages"] = averages_numbers(keys);
   result.averages = fingerprint(of.dump());
-  if (stirred) {
-    result.flow = "";
-    return result;
-  }
+  if (!mill.has_flow()) return result;
   of = keys;
   of.erase("machine");
   of["charge"] = charge_numbers(keys);

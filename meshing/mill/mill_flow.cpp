@@ -10,6 +10,7 @@
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_averages.hpp"
+#include "meshing/mill/stirred_geometry.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/nonspherical.hpp"
 
@@ -32,6 +33,12 @@ constexpr double fields_per_turn = 24;
 constexpr double samples_per_window = 10;
 constexpr double finest_flow_voxel = 1.0 / 32;
 constexpr double longest_step_of_turn = 1.0 / 250;
+
+/// The same of a stirred mill, whose impeller turns several times a second: turns of the flow, written fields
+/// and windows in a turn.
+constexpr double usual_stirred_flow_turns = 15;
+constexpr double stirred_fields_per_turn = 0.5;
+constexpr double stirred_windows_per_turn = 1;
 
 /// Voxels of a few balls are up to 2.3 % off the balls' volume on the cells of small mills (radius of four to
 /// seven balls), up to 5.1 % at single times of a smooth course between windows that differ; where averages
@@ -96,27 +103,52 @@ double whole_records(double time, const Mill& mill) {
   return std::max(1.0, std::round(time / mill.dem.record_interval)) * mill.dem.record_interval;
 }
 
+FlowStart at_level(double level) {
+  FlowStart start;
+  start.level = level;
+  return start;
+}
+
+/// Slurry of a stirred mill that stands at a level when all is at rest: the space below it without impeller
+/// and balls.
+/// @param pores  volume between the resting balls, m^3
+FlowStart at_rest(const Section& in, double level, double pores, const Mill& mill) {
+  const double space = analytic_section(mill.geometry) * level - impeller_volume(mill.geometry, level);
+  FlowStart start;
+  start.volume = space - count_charge(mill).volume;
+  if (!(start.volume > 0))
+    in.refuse("level", "a height at which slurry covers the balls: up to " + shown(level) + " m there are " +
+                           shown(space) + " m^3, and the balls' volume is " +
+                           shown(count_charge(mill).volume) + " m^3");
+  start.fill = start.volume / pores;
+  return start;
+}
+
 FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
-  const double radius = mill.geometry.radius();
+  const double radius = mill.geometry.radius(), height = mill.geometry.length;
+  const bool stirred = mill.machine() == Machine::stirred;
   const double pores = count_charge(mill).pore_volume;
-  const Rule level = {"a height in m within the radius, " + shown(radius) + " m, of the axis",
-                      [=](double v) { return std::abs(v) <= radius; }};
+  const Rule level = stirred ? positive_below("a height in m above the base", height, " m", "the mill's")
+                             : Rule{"a height in m within the radius, " + shown(radius) + " m, of the axis",
+                                    [=](double v) { return std::abs(v) <= radius; }};
   FlowStart start;
   const bool both_set = flow.is_set("start") && slurry.is_set("level");
   if (flow.is_set("start") && !both_set) slurry.drop("level");
   if (slurry.has("level")) {
     if (flow.has("start") && (both_set || !slurry.is_set("level")))
       flow.refuse("start", "either this key or slurry.level");
-    start.level = slurry.number("level", level);
-    return start;
+    const double at = slurry.number("level", level);
+    return stirred ? at_rest(slurry, at, pores, mill) : at_level(at);
   }
   Section in = flow.optional_section("start", {"level", "volume", "fill"});
   in.alternatives({"level", "volume", "fill"});
   for (const auto& [one, other] : {std::pair("level", "volume"), {"level", "fill"}, {"volume", "fill"}})
     if (in.has(one) && in.has(other)) in.refuse(other, std::string("either this key or ") + one);
   if (in.has("level")) {
-    start.level = in.number("level", level);
-  } else if (in.has("volume")) {
+    const double at = in.number("level", level);
+    return stirred ? at_rest(in, at, pores, mill) : at_level(at);
+  }
+  if (in.has("volume")) {
     start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",
                                                   flow_volume(mill.geometry) * mill.whole_length /
                                                       mill.geometry.length)) *
@@ -148,10 +180,11 @@ void read_duration(Section& in, const Mill& mill, Flow& flow) {
     if (in.has("turns")) in.refuse("turns", "either duration or turns");
     flow.duration = in.number("duration", time_above_zero());
   } else {
-    flow.duration = mill.turn() * in.number("turns",
-                                            {"a number of turns above 0 and up to 10000",
-                                             [](double v) { return v > 0 && v <= 1e4; }},
-                                            usual_flow_turns);
+    flow.duration =
+        mill.turn() *
+        in.number("turns",
+                  {"a number of turns above 0 and up to 10000", [](double v) { return v > 0 && v <= 1e4; }},
+                  mill.geometry.impeller ? usual_stirred_flow_turns : usual_flow_turns);
   }
 }
 
@@ -239,8 +272,10 @@ void read_steps(Section& in, const Mill& mill, Flow& flow) {
       usual_largest_correction);
   flow.max_time_step = in.number("max_time_step", part_of("flow's duration", flow.duration),
                                  std::min(longest_step_of_turn * mill.turn(), flow.duration));
-  flow.write_interval = in.number("write_interval", part_of("flow's duration", flow.duration),
-                                  std::min(mill.turn() / fields_per_turn, flow.duration));
+  flow.write_interval =
+      in.number("write_interval", part_of("flow's duration", flow.duration),
+                std::min(mill.turn() / (mill.geometry.impeller ? stirred_fields_per_turn : fields_per_turn),
+                         flow.duration));
 }
 
 /// Whole turns at the end of the flow, at most two thirds of it; of a flow shorter than 1.5 turns its
@@ -250,13 +285,25 @@ double usual_averages_start(const Flow& flow, double turn) {
   return turns >= 1 ? std::max(0.0, flow.duration - turns * turn) : flow.duration / 2;
 }
 
+/// Voxels along the axis: one for each of the mesh's layers, of a stirred mill of its cell size.
+int slices_along(const Mill& mill) {
+  const double layer =
+      mill.geometry.impeller ? mill.resolution.cell_size : mill.geometry.length / mill.resolution.layers;
+  return std::max(1, static_cast<int>(std::lround(reach(mill.geometry) / layer)));
+}
+
+/// What only tumbling mills have.
+void refuse_for_stirred(const Section& in, const Flow& flow) {
+  if (flow.solver != "slurryFoam") in.refuse("solver", "slurryFoam for a stirred mill");
+  if (flow.coupling.both_ways()) in.refuse("coupling", "one_way for a stirred mill");
+}
+
 FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, const Mill& mill) {
   Section in =
       flow_section.optional_section("averages", {"start", "window", "interval", "voxel_size", "counts"});
   const double radius = mill.geometry.radius();
   const double size = std::max(shell_cell_size(mill.resolution, mill.geometry), finest_flow_voxel * radius);
-  const double layer = mill.geometry.length / mill.resolution.layers;
-  const int along = std::max(1, static_cast<int>(std::lround(reach(mill.geometry) / layer)));
+  const int along = slices_along(mill);
   FlowAverages averages;
   averages.voxels = read_voxels(in, mill.geometry, std::min(size, radius), along);
   const Rule begin = {
@@ -265,8 +312,9 @@ FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, c
       [&](double v) { return v == 0 || (!flow.steady && v > 0 && v < flow.duration); }};
   averages.start = in.number("start", begin, flow.steady ? 0 : usual_averages_start(flow, mill.turn()));
   const double rest = flow.duration - averages.start;
-  averages.window = in.number("window", part_of("time after flow.averages.start", rest),
-                              std::min(mill.turn() / windows_per_turn, rest));
+  averages.window = in.number(
+      "window", part_of("time after flow.averages.start", rest),
+      std::min(mill.turn() / (mill.geometry.impeller ? stirred_windows_per_turn : windows_per_turn), rest));
   averages.interval =
       in.number("interval", part_of("window", averages.window), averages.window / samples_per_window);
   return averages;
@@ -361,6 +409,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   read_drag(in, flow);
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
   flow.coupling = read_coupling(in, flow);
+  if (mill.geometry.impeller) refuse_for_stirred(in, flow);
   flow.steady = read_steady_end(in, flow, mill.turn());
   flow.start = read_start(in, slurry, mill);
   check_room(in, flow, mill);
@@ -372,7 +421,8 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
     in.refuse("feed", "this key with geometry.inlet only");
   flow.feed = mill.geometry.inlet ? feed : 0;
   read_steps(in, mill, flow);
-  flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis), mill.resolution.layers);
+  flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis),
+                           mill.geometry.impeller ? slices_along(mill) : mill.resolution.layers);
   flow.averages = read_flow_averages(in, flow, mill);
   return flow;
 }

@@ -32,6 +32,8 @@ constexpr double records_per_turn = 500;
 /// of a laboratory mill; records in a turn.
 constexpr double usual_stirred_turns = 15;
 constexpr double stirred_records_per_turn = 50;
+/// Cells of a stirred mill's flow between axis and shell.
+constexpr double usual_stirred_cells = 17;
 
 /// Largest radius of curvature of a superquadric's flat sides over the radius of the sphere of equal volume.
 constexpr double usual_curvature_limit = 10;
@@ -261,11 +263,29 @@ void read_tumbling(const Section& in, Mill& mill) {
   mill.dem.pool_level = read_pool_level(dem, mill);
 }
 
-/// A stirred mill has a dry run alone: no slurry, no flow and no mesh.
-void read_stirred(const Section& in, Mill& mill) {
-  for (const char* key : {"slurry", "air", "resolution", "flow"}) {
-    if (in.has(key)) in.refuse(key, "no such key, because of a stirred mill only the dry run is computed");
+/// The flow of a stirred mill; without `slurry` it has a dry run alone.
+void read_stirred_flow(const Section& in, Mill& mill) {
+  if (!in.has("slurry")) {
+    for (const char* key : {"air", "resolution", "flow"})
+      if (in.has(key)) in.refuse(key, "this key with slurry only: without it the mill has a dry run alone");
+    return;
   }
+  Section slurry =
+      in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
+  mill.slurry = read_slurry(slurry);
+  mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
+  const double radius = mill.geometry.radius();
+  Section resolution = in.optional_section("resolution", {"cell_size"});
+  mill.resolution.cell_size =
+      resolution.number("cell_size",
+                        {"a length in m from a sixtieth of the radius to a sixth of it, " +
+                             shown(radius / 60) + " to " + shown(radius / 6) + " m",
+                         [=](double v) { return v >= radius / 60 && v <= radius / 6; }},
+                        radius / usual_stirred_cells);
+  mill.flow = read_flow(in, slurry, mill);
+}
+
+void read_stirred(const Section& in, Mill& mill) {
   mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
   mill.whole_length = mill.geometry.length;
   Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
@@ -277,6 +297,7 @@ void read_stirred(const Section& in, Mill& mill) {
   Section dem = in.optional_section("dem", dem_keys);
   mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
   mill.averages = read_averages(in, mill);
+  read_stirred_flow(in, mill);
 }
 
 Mill read_root(const Section& in, const std::string& usual_title) {

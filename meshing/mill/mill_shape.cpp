@@ -29,6 +29,7 @@ double analytic_volume(const Geometry& geometry) {
 }
 
 double flow_volume(const Geometry& geometry) {
+  if (geometry.impeller) return analytic_volume(geometry);
   const double depth = geometry.pulp_lifters ? geometry.pulp_lifters->depth : 0;
   return analytic_section(geometry) * (geometry.length + depth);
 }

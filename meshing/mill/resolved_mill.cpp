@@ -211,15 +211,33 @@ Json flow_numbers(const Mill& mill) {
           {"averages", averages}};
 }
 
-/// A stirred mill has a dry run alone.
+Json slurry_numbers(const Slurry& slurry) {
+  return {{"density_kg_m3", slurry.density},
+          {"plastic_viscosity_Pa_s", slurry.plastic_viscosity},
+          {"yield_stress_Pa", slurry.yield_stress},
+          {"surface_tension_N_m", slurry.surface_tension}};
+}
+
+Json air_numbers(const Air& air) {
+  return {{"density_kg_m3", air.density}, {"viscosity_Pa_s", air.viscosity}};
+}
+
+/// Without slurry a stirred mill has a dry run alone.
 Json stirred_numbers(const Mill& mill) {
-  return {{"machine", "stirred"},
-          {"geometry", stirred_geometry_numbers(mill.geometry)},
-          {"speed", stirred_speed_numbers(mill)},
-          {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
-          {"materials", materials_numbers(mill)},
-          {"averages", averages_numbers(mill)},
-          {"gravity_m_s2", gravity}};
+  Json numbers = {{"machine", "stirred"},
+                  {"geometry", stirred_geometry_numbers(mill.geometry)},
+                  {"speed", stirred_speed_numbers(mill)},
+                  {"charge", charge_numbers(count_charge(mill), mill.charge.packing)},
+                  {"materials", materials_numbers(mill)},
+                  {"averages", averages_numbers(mill)},
+                  {"gravity_m_s2", gravity}};
+  numbers["flow"] = nullptr;
+  if (!mill.has_flow()) return numbers;
+  numbers["slurry"] = slurry_numbers(mill.slurry);
+  numbers["air"] = air_numbers(mill.air);
+  numbers["resolution"] = {{"cell_size_m", mill.resolution.cell_size}};
+  numbers["flow"] = flow_numbers(mill);
+  return numbers;
 }
 
 Json derived_numbers(const Mill& mill) {
@@ -231,12 +249,8 @@ Json derived_numbers(const Mill& mill) {
           {"materials", materials_numbers(mill)},
           {"averages", averages_numbers(mill)},
           {"gravity_m_s2", gravity},
-          {"slurry",
-           {{"density_kg_m3", mill.slurry.density},
-            {"plastic_viscosity_Pa_s", mill.slurry.plastic_viscosity},
-            {"yield_stress_Pa", mill.slurry.yield_stress},
-            {"surface_tension_N_m", mill.slurry.surface_tension}}},
-          {"air", {{"density_kg_m3", mill.air.density}, {"viscosity_Pa_s", mill.air.viscosity}}},
+          {"slurry", slurry_numbers(mill.slurry)},
+          {"air", air_numbers(mill.air)},
           {"resolution", {{"cell_size_m", mill.resolution.cell_size}, {"layers", mill.resolution.layers}}},
           {"flow", flow_numbers(mill)}};
 }

@@ -122,19 +122,21 @@ std::string stirred_lines(const MillDescription& description) {
 }
 
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& q,
-                        const Openings& openings) {
+                        const Openings& openings, const QualityLimits& limits) {
   const double closed_form = flow_volume(mill.geometry);
   double largest_ball = 0;
   for (const SizeClass& size : mill.charge.classes) largest_ball = std::max(largest_ball, size.diameter);
-  return line("cells                    %d, %zu of them in the cross-section", mesh.cells,
-              openings.compartment.size()) +
-         line("faces                    %zu", mesh.faces.size()) +
+  const std::string cells = mill.geometry.impeller
+                                ? line("cells                    %d", mesh.cells)
+                                : line("cells                    %d, %zu of them in the cross-section",
+                                       mesh.cells, openings.compartment.size());
+  return cells + line("faces                    %zu", mesh.faces.size()) +
          line("volume                   %.6g m^3 (closed form %.6g)", q.volume, closed_form) +
-         quality_line("volume error", "%.2e", std::abs(q.volume / closed_form - 1), allowed_volume_error) +
+         quality_line("volume error", "%.2e", std::abs(q.volume / closed_form - 1), limits.volume_error) +
          quality_line("max non-orthogonality", "%.1f degrees", q.max_non_orthogonality,
-                      allowed_non_orthogonality) +
-         quality_line("max skewness", "%.2f", q.max_skewness, allowed_skewness) +
-         quality_line("max volume ratio", "%.2f", q.max_volume_ratio, allowed_volume_ratio) +
+                      limits.non_orthogonality) +
+         quality_line("max skewness", "%.2f", q.max_skewness, limits.skewness) +
+         quality_line("max volume ratio", "%.2f", q.max_volume_ratio, limits.volume_ratio) +
          line("edges                    %.3g to %.3g mm", 1e3 * q.smallest_edge, 1e3 * q.largest_edge) +
          openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume);
 }

@@ -22,7 +22,7 @@ std::string stirred_lines(const MillDescription& description);
 /// openings compared with those of mill.yaml, and advice on averaging where cells are smaller than the
 /// largest ball. Lines end with '\n'.
 std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQuality& quality,
-                        const Openings& openings);
+                        const Openings& openings, const QualityLimits& limits = QualityLimits());
 
 /// The line on the walls: their triangles, the flattest one's height over its longest side, and the relative
 /// difference between the volume that they enclose and the expected one, m^3, with its limit.

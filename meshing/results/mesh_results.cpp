@@ -28,7 +28,7 @@ Json limited(double value, double limit) {
 
 void write_mesh_results(const MillDescription& description, const VolumeMesh& mesh,
                         const MeshQuality& quality, const Openings& openings, double time,
-                        const std::filesystem::path& case_folder) {
+                        const std::filesystem::path& case_folder, const QualityLimits& limits) {
   const double closed_form = flow_volume(description.mill.geometry);
   Json json = result_head("millfoam-mesh", "millMesh", to_json(description.mill.fingerprint));
   json["time0_s"] = time;
@@ -38,10 +38,10 @@ void write_mesh_results(const MillDescription& description, const VolumeMesh& me
   json["volume_m3"] = quality.volume;
   json["closed_form_volume_m3"] = closed_form;
   json["quality"] = {
-      {"volume_error", limited(std::abs(quality.volume / closed_form - 1), allowed_volume_error)},
-      {"non_orthogonality_deg", limited(quality.max_non_orthogonality, allowed_non_orthogonality)},
-      {"skewness", limited(quality.max_skewness, allowed_skewness)},
-      {"volume_ratio", limited(quality.max_volume_ratio, allowed_volume_ratio)}};
+      {"volume_error", limited(std::abs(quality.volume / closed_form - 1), limits.volume_error)},
+      {"non_orthogonality_deg", limited(quality.max_non_orthogonality, limits.non_orthogonality)},
+      {"skewness", limited(quality.max_skewness, limits.skewness)},
+      {"volume_ratio", limited(quality.max_volume_ratio, limits.volume_ratio)}};
   json["smallest_cell_m3"] = quality.smallest_cell;
   json["smallest_edge_m"] = quality.smallest_edge;
   json["largest_edge_m"] = quality.largest_edge;

@@ -15,7 +15,8 @@ namespace millfoam::meshing {
 /// `time` (s) that the mesh is turned to. Layout: FORMATS.md.
 void write_mesh_results(const MillDescription& description, const VolumeMesh& mesh,
                         const MeshQuality& quality, const Openings& openings, double time,
-                        const std::filesystem::path& case_folder);
+                        const std::filesystem::path& case_folder,
+                        const QualityLimits& limits = QualityLimits());
 
 /// Writes `walls/walls.json`: where the walls come from, the box and the volume (m^3) that they enclose.
 /// Without a description they come from CAD and belong to no fingerprint.

@@ -47,7 +47,8 @@ class Entries {
 
 void write_fluids(Entries& out, const Mill& mill) {
   out.number("gravity", gravity);
-  out.list("gravityVector", std::array<double, 3>{0, -gravity, 0});
+  out.list("gravityVector", mill.geometry.impeller ? std::array<double, 3>{0, 0, -gravity}
+                                                   : std::array<double, 3>{0, -gravity, 0});
   out.number("ballDensity", mill.ball.density);
   out.number("slurryDensity", mill.slurry.density);
   out.number("slurryViscosity", mill.slurry.plastic_viscosity);
@@ -81,6 +82,13 @@ void write_openings(Entries& out, const Mill& mill, const Openings& openings) {
     out.number("outletRadius", geometry.pulp_lifters->discharge_radius);
     out.number("outletArea", openings.outlet_area);
   }
+}
+
+/// The walls, and those of them that are at rest while the mesh turns.
+void write_walls(Entries& out, const Mill& mill) {
+  const bool stirred = mill.machine() == Machine::stirred;
+  out.word("wallPatches", stirred ? "(impeller shell base lid)" : "(shell lifters)");
+  out.word("restingPatches", stirred ? "(shell base lid)" : "()");
 }
 
 /// The entries of slurryStartDict.
@@ -155,6 +163,7 @@ void write_mill_properties(const MillDescription& description, const Openings& o
     out.number("time0", time);
     write_fluids(out, mill);
     write_openings(out, mill, openings);
+    write_walls(out, mill);
     write_flow(out, mill);
   });
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/mill_mesh/stirred_mesh.hpp"
 #include "meshing/results/mesh_report.hpp"
 #include "meshing/results/mesh_results.hpp"
 #include "meshing/results/mill_properties.hpp"
@@ -80,11 +82,28 @@ void write_for_dry_run(const MillDescription& description, const WallSurface& su
   write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
 }
 
-/// The walls of a stirred mill, which has no mesh.
-void run_stirred(const Options& options, const MillDescription& description) {
-  if (!options.walls_only)
-    throw std::runtime_error("the mill is stirred: expected --walls, because it has no mesh of a flow");
+/// The mesh of a stirred mill's flow.
+void mesh_stirred(const Options& options, const MillDescription& description) {
   const Mill& mill = description.mill;
+  const VolumeMesh mesh = make_stirred_mesh(mill.geometry, mill.resolution.cell_size);
+  const MeshQuality q = quality(mesh);
+  const Openings none;
+  std::cout << mesh_report(mill, mesh, q, none, stirred_limits) << std::flush;
+  require_quality(q, flow_volume(mill.geometry), std::numeric_limits<double>::infinity(), stirred_limits);
+  if (options.case_folder.empty()) return;
+  const fs::path folder = options.case_folder;
+  const double time = mesh_time(options, mill);
+  write_poly_mesh(turned(mesh, mill.angular_velocity * time), folder);
+  write_mill_properties(description, none, time, folder);
+  write_mesh_results(description, mesh, q, none, time, folder, stirred_limits);
+}
+
+/// The walls of a stirred mill and, where it has slurry, the mesh of its flow.
+void run_stirred(const Options& options, const MillDescription& description) {
+  const Mill& mill = description.mill;
+  if (!options.walls_only && !mill.has_flow())
+    throw std::runtime_error(
+        "the mill is stirred and has no slurry: expected --walls, because it has no mesh of a flow");
   const WallSurface surface = make_stirred_walls(mill.geometry);
   const double volume = require_watertight(surface);
   const double closed_form = analytic_volume(mill.geometry);
@@ -93,6 +112,7 @@ void run_stirred(const Options& options, const MillDescription& description) {
   require_stirred_volume(volume, closed_form);
   require_no_needles(surface);
   if (!options.case_folder.empty()) write_for_dry_run(description, surface, volume, options.case_folder);
+  if (!options.walls_only) mesh_stirred(options, description);
 }
 
 void run(const Options& options) {

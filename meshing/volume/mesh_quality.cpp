@@ -71,22 +71,22 @@ double skewness(const VolumeMesh& mesh, const MeshMeasures& m, std::size_t f, co
 }
 
 /// What to change in mill.yaml; cells from z = `length` on are as long as the pulp lifters' layers.
-std::string advice(const Vector3d& place, double length) {
+std::string advice(const Vector3d& place, double length, const QualityLimits& limits) {
   if (place.z() >= length * (1 - same_level))
     return "choose another pulp_lifters.layers or pulp_lifters.depth, so that the layers behind the grates "
            "are "
            "about as thick as the mill's, or another resolution";
-  return "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
-         "further from each other and from the lifters";
+  return limits.advice;
 }
 
 /// Refuses meshes; `length` as in require_quality.
 struct Judge {
   double length;
+  const QualityLimits& limits;
 
   [[noreturn]] void refuse(const std::string& what, const Vector3d& place) const {
     throw std::runtime_error("the mesh has " + what + " at " + described(place) +
-                             " m: " + advice(place, length));
+                             " m: " + advice(place, length, limits));
   }
 
   void require_at_most(double limit, double value, const std::string& what, const std::string& unit,
@@ -161,21 +161,22 @@ MeshQuality quality(const VolumeMesh& mesh) {
   return q;
 }
 
-void require_quality(const MeshQuality& q, double analytic_volume, double length) {
-  const Judge judge{length};
+void require_quality(const MeshQuality& q, double analytic_volume, double length,
+                     const QualityLimits& limits) {
+  const Judge judge{length, limits};
   std::ostringstream text;
   text << "a cell turned inside out, of " << q.smallest_cell << " m^3,";
   if (!(q.smallest_cell > 0)) judge.refuse(text.str(), q.smallest_cell_at);
-  judge.require_at_most(allowed_non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
+  judge.require_at_most(limits.non_orthogonality, q.max_non_orthogonality, "a largest non-orthogonality",
                         " degrees", q.max_non_orthogonality_at);
-  judge.require_at_most(allowed_skewness, q.max_skewness, "a largest skewness", "", q.max_skewness_at);
-  judge.require_at_most(allowed_volume_ratio, q.max_volume_ratio,
+  judge.require_at_most(limits.skewness, q.max_skewness, "a largest skewness", "", q.max_skewness_at);
+  judge.require_at_most(limits.volume_ratio, q.max_volume_ratio,
                         "a largest volume ratio of neighbouring cells", "", q.max_volume_ratio_at);
   const double error = std::abs(q.volume / analytic_volume - 1);
-  if (error <= allowed_volume_error) return;  // refuses nan too
+  if (error <= limits.volume_error) return;  // refuses nan too
   text.str("");
   text << "the mesh has a relative error in volume of " << error << ", above the allowed "
-       << allowed_volume_error << ": choose another resolution, or lifters that are less high or less wide";
+       << limits.volume_error << ": " << limits.advice;
   throw std::runtime_error(text.str());
 }
 

@@ -54,9 +54,21 @@ inline constexpr double allowed_volume_ratio = 3;
 /// Largest error of a mill's mesh in volume, relative to the closed form.
 inline constexpr double allowed_volume_error = 0.005;
 
+/// What a mesh may have at most, and what to change otherwise; by default of a tumbling mill.
+struct QualityLimits {
+  double non_orthogonality = allowed_non_orthogonality;  ///< degrees
+  double skewness = allowed_skewness;
+  double volume_ratio = allowed_volume_ratio;
+  double volume_error = allowed_volume_error;
+  const char* advice =
+      "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
+      "further from each other and from the lifters";  ///< for messages
+};
+
 /// Throws std::runtime_error with the value, the limit, the place and advice for a mesh that is not good
 /// enough; `analytic_volume` in m^3. From z = `length`, m, on, cells are those of pulp lifters.
 void require_quality(const MeshQuality& quality, double analytic_volume,
-                     double length = std::numeric_limits<double>::infinity());
+                     double length = std::numeric_limits<double>::infinity(),
+                     const QualityLimits& limits = QualityLimits());
 
 }  // namespace millfoam::meshing

@@ -119,7 +119,7 @@ Foam::functionObjects::slurryBalance::slurryBalance(
   momentum_(torque_.momentum()),
   torqueAll_(0)
 {
-    slurryFields::refuseOthers(dict, {"walls", "speed"});
+    slurryFields::refuseOthers(dict, {"walls", "resting", "speed"});
     fields_.requireWholeFlux();
     if (runTime.timeIndex() > 0 && !foundProperty("fed"))
     {
@@ -189,11 +189,11 @@ bool Foam::functionObjects::slurryBalance::write()
         file() << tab << value;
     }
     file() << tab << torqueAll_;
-    for (const scalar value : walls)
+    for (const scalar value : torque_.powers(walls))
     {
-        file() << tab << value * torque_.speed();
+        file() << tab << value;
     }
-    file() << tab << torqueAll_ * torque_.speed();
+    file() << tab << torque_.power(torqueAll_, walls);
     if (fields_.bed<volScalarField>("solidity"))
     {
         writeSlip();

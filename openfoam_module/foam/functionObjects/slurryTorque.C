@@ -35,6 +35,33 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
 }
 
 
+//- Which of these patches the entry resting names
+static List<bool> restingOf(
+    const polyBoundaryMesh& patches, const labelList& walls,
+    const dictionary& dict)
+{
+    const wordRes names(dict.lookupOrDefault<wordRes>("resting", wordRes()));
+    const labelHashSet found(patches.patchSet(names, false));
+    List<bool> result(walls.size());
+    forAll(walls, i)
+    {
+        result[i] = found.found(walls[i]);
+    }
+    label inWalls = 0;
+    for (const bool one : result)
+    {
+        inWalls += one;
+    }
+    if (inWalls < names.size())
+    {
+        FatalIOErrorInFunction(dict)
+            << "resting is " << names << "; expected patches of walls"
+            << exit(FatalIOError);
+    }
+    return result;
+}
+
+
 //- Angular speed of the mill about z, rad/s
 static scalar speedOf(const fvMesh& mesh, const dictionary& dict)
 {
@@ -91,6 +118,7 @@ Foam::slurryTorque::slurryTorque(
     const slurryFields& fields, const dictionary& dict)
 : fields_(fields),
   walls_(wallsOf(fields.mesh().boundaryMesh(), dict)),
+  resting_(restingOf(fields.mesh().boundaryMesh(), walls_, dict)),
   speed_(speedOf(fields.mesh(), dict))
 {
 }
@@ -120,6 +148,32 @@ Foam::scalarField Foam::slurryTorque::ofWalls() const
         result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
     }
     return result;
+}
+
+
+Foam::scalarField Foam::slurryTorque::powers(const scalarField& torques) const
+{
+    scalarField result(speed_ * torques);
+    forAll(result, i)
+    {
+        if (resting_[i])
+        {
+            result[i] = 0;
+        }
+    }
+    return result;
+}
+
+
+Foam::scalar
+Foam::slurryTorque::power(const scalar all, const scalarField& torques) const
+{
+    scalar atRest = 0;
+    forAll(torques, i)
+    {
+        atRest += resting_[i] ? torques[i] : 0;
+    }
+    return speed_ * (all - atRest);
 }
 
 
