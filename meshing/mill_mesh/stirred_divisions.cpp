@@ -21,6 +21,8 @@ constexpr double growth = 0.25;
 /// Above this multiple of the impeller's top cells grow, up to this multiple of the cell size.
 constexpr double fine_up_to = 1.6;
 constexpr double largest_height = 4;
+/// Cells at the shaft's radius over those of the O-grid below it.
+constexpr double next_to_core = 2;
 /// Columns that lie at least between two pins.
 constexpr int columns_between_pins = 4;
 /// Distance below which two lines are the same, m.
@@ -82,7 +84,9 @@ std::vector<Line> merged(std::vector<Line> lines) {
 void divide_radii(const Geometry& geometry, double size, StirredDivisions& divisions) {
   const Impeller& impeller = *geometry.impeller;
   const double shell = geometry.radius();
-  std::vector<Line> lines = {{impeller.shaft_diameter / 2, column_width * size}};
+  const double shaft = impeller.shaft_diameter / 2;
+  const double in_core = ring_thickness(shaft).least / divisions.core_layers;
+  std::vector<Line> lines = {{shaft, std::min(column_width * size, next_to_core * in_core)}};
   double thinnest = column_width * size;
   const auto add_tip = [&](double reach) {
     const double cell = std::min((shell - reach) / cells_in_gap, size);

@@ -24,7 +24,7 @@ constexpr double reach_of_circle = 3;
 constexpr double height_of_return = 3;
 /// Slope of the lines' angles at a pin over that of equal angles: cells next to a pin are at least and at
 /// most so wide as these shares of equal ones.
-constexpr double narrowest = 0.6;
+constexpr double narrowest = 0.8;
 constexpr double widest = 1.8;
 /// Layers of cells over which a flat tip moves points towards the shaft.
 constexpr int layers_of_tip = 3;
@@ -188,14 +188,14 @@ class StirredMesh {
     if (inner > 1) share = (1 - outer) / (1 - outer / inner);
     share *= roundness(arm.level, ring);
     const Vector2d moved = at + share * (on_circle(on_block, width, height, half) - on_block);
-    angle = arm.angle + std::asin(std::clamp(moved.x() / line_radius, -1.0, 1.0));
     z = pins.height + moved.y();
     const int tip = lines_.pin_tips[arm.level];
     const double reach = pins.length / 2;
-    const double flat = reach / std::cos(std::asin(std::clamp(moved.x() / reach, -0.9, 0.9))) - reach;
+    const double flat = std::hypot(reach, moved.x()) - reach;
     const double fade =
         ring > tip ? roundness(arm.level, ring) : std::max(0.0, 1 - double(tip - ring) / layers_of_tip);
     radius += fade * (inner > 1 ? (1 - outer) / (1 - outer / inner) : 1) * flat;
+    angle = arm.angle + std::asin(std::clamp(moved.x() / radius, -1.0, 1.0));
   }
 
   /// Where a point on the sides of a pin's block lies on the pin's circle: equal shares of the sides take

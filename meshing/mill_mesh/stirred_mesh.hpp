@@ -10,7 +10,7 @@ namespace millfoam::meshing {
 /// What a stirred mill's mesh may have at most. The cells at the four edges of the block that a pin takes
 /// have a face with an angle of 180 degrees on the pin: these are its most skew ones.
 inline constexpr QualityLimits stirred_limits = {
-    50, 2, 4, allowed_volume_error,
+    50, 2, 5, allowed_volume_error,
     "choose another resolution.cell_size, or an impeller whose parts are further from each other, from the "
     "shaft's end and from the shell"};
 
