@@ -64,9 +64,13 @@ TEST(StirredMill, balls_of_the_published_mills) {
   for (const auto& [diameter, length, balls, slurry] :
        {Published{0.155, 0.141, 10639, 696e-6}, Published{0.203, 0.185, 18512, 1212e-6},
         Published{0.256, 0.233, 29694, 1944e-6}}) {
-    const Mill mill = read(stirred_mill, {"geometry.diameter=" + std::to_string(diameter),
-                                          "geometry.impeller.pins[0].length=" + std::to_string(length),
-                                          "geometry.impeller.pins[1].length=" + std::to_string(length)});
+    const Mill mill =
+        read(stirred_mill, {"geometry.diameter=" + std::to_string(diameter),
+                            "geometry.impeller.pins[0].length=" + std::to_string(length),
+                            "geometry.impeller.pins[1].length=" + std::to_string(length),
+                            "slurry={density: 1379, plastic_viscosity: 0.0022, yield_stress: 0, "
+                            "level: 0.0775}"});
+    EXPECT_NEAR(mill.flow.start.volume / slurry, 1, 1e-3);
     const ChargeNumbers charge = count_charge(mill);
     EXPECT_NEAR(static_cast<double>(charge.balls) / static_cast<double>(balls), 1, 1e-3);
     EXPECT_NEAR(charge.volume / slurry, 1, 1e-3);
@@ -167,7 +171,17 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   EXPECT_TRUE(says(set("charge.diameter=0.008"), "the gap between the impeller and the shell, 0.007 m"));
   EXPECT_TRUE(says(set("charge.level=0.5"), "up to the mill's"));
   EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the impeller's tips"));
-  EXPECT_TRUE(says(set("flow.turns=3"), "only the dry run is computed"));
+  EXPECT_TRUE(says(set("flow.turns=3"), "without it the mill has a dry run alone"));
+  const std::string slurry = "slurry={density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: ";
+  EXPECT_TRUE(says(set(slurry + "0.4}"), "above 0 and below the mill's"));
+  EXPECT_TRUE(says(set(slurry + "0.03}"), "a height at which slurry covers the balls"));
+  const auto wet = [&](const std::string& change) {
+    return refusal(stirred_mill, {slurry + "0.0775}", change});
+  };
+  EXPECT_TRUE(says(wet("flow.coupling=iterated"), "one_way for a stirred mill"));
+  EXPECT_TRUE(says(wet("flow.solver=interFoam"), "slurryFoam for a stirred mill"));
+  EXPECT_TRUE(says(wet("resolution.cell_size=0.05"), "from a sixtieth of the radius"));
+  EXPECT_TRUE(says(wet("resolution.layers=9"), "'resolution.layers' is unknown"));
   EXPECT_TRUE(says(set("machine=planetary"), "tumbling"));
   EXPECT_TRUE(says(set("geometry.lifters.count=3"), "'geometry.lifters' is unknown"));
 }
