@@ -158,10 +158,11 @@ PINS = [{"height_m": 0.03, "thickness_m": 0.02, "length_m": 0.14, "angle_deg": 0
         {"height_m": 0.1, "thickness_m": 0.02, "length_m": 0.14, "angle_deg": 90.0, "arms": 2}]
 
 
-def mill_of(pins):
+def mill_of(pins, discs=()):
     """What the pictures read of a mill."""
     derived = {"geometry": {"radius_m": R, "length_m": HEIGHT, "impeller": {
-        "shaft_diameter_m": 0.02, "shaft_end_m": 0.015, "top_m": 0.11, "pins": pins}}, "speed": {}, "charge": {}}
+        "shaft_diameter_m": 0.02, "shaft_end_m": 0.015, "top_m": 0.11, "pins": pins,
+        "discs": list(discs)}}, "speed": {}, "charge": {}}
     return Mill("mill.json", {"derived": derived, "mill": {name: {} for name in ("geometry", "speed", "charge")}})
 
 
@@ -193,6 +194,17 @@ class Pictures(InFolder):
         figure = meridian_figure(mill_of(PINS), rings, ["tangential"])
         figure.canvas.draw()
         self.assertEqual(len(dark(figure.axes[0])), 1 + 2 * 2)
+
+    def test_discs_are_on_both_sides_and_limit_the_bands(self):
+        rings = self.rings(np.reshape([0.1, 0.2, 0.2, 0.4, 0.4], (5, 1, 1)), [0, 1, 0])
+        mill = mill_of([], [{"height_m": 0.075, "thickness_m": 0.07, "diameter_m": 0.12}])
+        figure = meridian_figure(mill, rings, ["speed"])
+        figure.canvas.draw()
+        disc = dark(figure.axes[0])[1]
+        np.testing.assert_allclose([disc.x0, disc.x1, disc.y0, disc.y1], [-0.75, 0.75, 40, 110], atol=1e-6)
+        below, impeller, _ = (line.get_ydata() for line in profiles_figure(mill, rings).axes[0].lines)
+        np.testing.assert_allclose(below, 0.1)
+        np.testing.assert_allclose(impeller, 0.2)
 
     def test_slices_show_their_own_pins_from_tip_to_tip(self):
         rings = self.rings(0.3, [0.1, 1, 0.2])

@@ -15,8 +15,8 @@ from ..files.rings_file import Rings
 from ..readings.stirred import Box, Means, bands, filled_height, meridian, near_arms, slice_around
 
 DARK, EMPTY = "0.2", "0.93"  # impeller; space without balls
-BANDS = {"below": ("below the pins", "#0072B2"), "impeller": ("at the pins", "#D55E00"),
-         "above": ("above the pins", "#009E73")}  # Okabe and Ito's colours
+BANDS = {"below": ("below the impeller", "#0072B2"), "impeller": ("at the impeller", "#D55E00"),
+         "above": ("above the impeller", "#009E73")}  # Okabe and Ito's colours
 COMPONENTS = ("radial", "tangential", "axial")
 PIN_SLICE = 1.5  # height of a slice through pins, in their thickness
 ARROWS = 16  # across the mill
@@ -26,6 +26,11 @@ CLEAR = 0.01  # solidity below which nothing is drawn: single balls that were th
 def _pins(mill: Mill) -> list[dict]:
     """The impeller's levels of pins from below; of a bare shaft none."""
     return sorted(mill.impeller.get("pins", []), key=lambda pins: float(pins["height_m"]))
+
+
+def _discs(mill: Mill) -> list[dict]:
+    """The impeller's discs."""
+    return list(mill.impeller.get("discs", []))
 
 
 def _near_lowest(mill: Mill, angle: np.ndarray) -> np.ndarray:
@@ -45,10 +50,13 @@ def halves(mill: Mill, rings: Rings) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw_impeller(axis: Axes, mill: Mill, turning: bool) -> None:
-    """Shaft and pins in the r-z plane; r over R, z in mm. turning: each level is on its half of `halves`; otherwise on
-    both sides."""
+    """Shaft, discs and pins in the r-z plane; r over R, z in mm. turning: each level of pins is on its half of
+    `halves`; otherwise on both sides."""
     radius, end = mill.impeller["shaft_diameter_m"] / 2 / mill.radius, 1e3 * mill.impeller["shaft_end_m"]
     axis.add_patch(Rectangle((-radius, end), 2 * radius, 1e3 * mill.length - end, fc=DARK, ec="none", zorder=3))
+    for disc in _discs(mill):
+        low, reach = 1e3 * (disc["height_m"] - disc["thickness_m"] / 2), disc["diameter_m"] / 2 / mill.radius
+        axis.add_patch(Rectangle((-reach, low), 2 * reach, 1e3 * disc["thickness_m"], fc=DARK, ec="none", zorder=3))
     for pins in _pins(mill):
         low, thickness = 1e3 * (pins["height_m"] - pins["thickness_m"] / 2), 1e3 * pins["thickness_m"]
         left = bool(_near_lowest(mill, np.radians(pins["angle_deg"])))
@@ -123,9 +131,9 @@ def _meridian_arrows(axis: Axes, mill: Mill, rings: Rings, both: tuple[Means, Me
         places.append(np.stack([x[shown], y[shown]]))
         arrows.append(np.stack([side * mean.velocity[shown][:, 0], mean.velocity[shown][:, 2]]))
     where, velocity = np.concatenate(places, axis=1), np.concatenate(arrows, axis=1)
-    if velocity.size == 0:
+    usual = float(np.percentile(np.hypot(*velocity), 95)) if velocity.size else 0.0
+    if usual == 0:
         return
-    usual = float(np.percentile(np.hypot(*velocity), 95))
     drawn = axis.quiver(*where, *velocity, color=colour, pivot="mid", scale_units="width", scale=12 * usual,
                         width=0.005, zorder=2)
     key = float(f"{usual:.1g}")
@@ -186,13 +194,13 @@ def _slice_arrows(axis: Axes, mill: Mill, rings: Rings, mean: Means) -> None:
     for ring in range(step // 2, len(r), step):
         shown[::max(1, round(spacing / (r[ring] * np.diff(theta)[0]))) if len(theta) > 1 else 1, ring] = True
     shown &= mean.solidity > CLEAR
-    if not shown.any():
-        return
     rr, angle = np.meshgrid(r / mill.radius, theta)
     rr, angle, velocity = rr[shown], angle[shown], mean.velocity[shown]
     x = velocity[:, 0] * np.cos(angle) - velocity[:, 1] * np.sin(angle)
     y = velocity[:, 0] * np.sin(angle) + velocity[:, 1] * np.cos(angle)
-    usual = float(np.percentile(np.hypot(x, y), 95))
+    usual = float(np.percentile(np.hypot(x, y), 95)) if x.size else 0.0
+    if usual == 0:
+        return
     drawn = axis.quiver(rr * np.cos(angle), rr * np.sin(angle), x, y, color="k", pivot="mid", scale_units="width",
                         scale=14 * usual, width=0.0045, zorder=2)
     key = float(f"{usual:.1g}")
@@ -211,9 +219,9 @@ def slices_figure(mill: Mill, rings: Rings, quantities: Iterable[str] = ("solidi
 
 
 def profiles_figure(mill: Mill, rings: Rings) -> Figure:
-    """Solidity and the three velocities over the radius, in the bands below, at and above the impeller."""
-    pins = _pins(mill)
-    low = min((one["height_m"] - one["thickness_m"] / 2 for one in pins), default=mill.impeller["shaft_end_m"])
+    """Solidity and the three velocities over the radius, in the bands below, at and above the pins or discs."""
+    low = min((one["height_m"] - one["thickness_m"] / 2 for one in _pins(mill) + _discs(mill)),
+              default=mill.impeller["shaft_end_m"])
     found = bands(rings, low, mill.impeller["top_m"])
     r = rings.middles()[0] / mill.radius
     figure, axes = plt.subplots(1, 4, figsize=(15, 3.6), layout="constrained", sharex=True)
