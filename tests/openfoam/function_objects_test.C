@@ -166,11 +166,45 @@ TEST(slurryTorque, aSlidingLidGivesItsShearStress)
     const scalar shear = 4;
     box.set(box.U, [=](const point& x) { return vector(shear * x.y(), 0, 0); });
     const slurryFields fields(box.mesh(), dictionary::null);
-    const slurryTorque torque(fields, entriesOf("walls (top); speed 1;"));
+    const slurryTorque torque(
+        fields, entriesOf("walls (top); resting (top); speed 1;"));
 
     const scalar force = density * kinematicViscosity * shear * depth;
     ASSERT_EQ(torque.names(), wordList({"top"}));
     EXPECT_NEAR(torque.ofWalls()[0], -force, 1e-12);
+}
+
+TEST(slurryTorque, wallsThatTurnWithTheFluidGiveNoFriction)
+{
+    flowCase box;
+    const scalar omega = 3;
+    box.set(
+        box.U, [=](const point& x)
+        { return vector(-omega * x.y(), omega * x.x(), 0); });
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const slurryTorque turning(fields, entriesOf("speed 3;"));
+    const slurryTorque resting(
+        fields, entriesOf("walls (top); resting (top); speed 3;"));
+
+    EXPECT_NEAR(sum(turning.ofWalls()), 0, 1e-12);
+    // Without the wall's own turn, dU/dy = -omega along x, at a distance of 1 m
+    const scalar wrong = density * kinematicViscosity * omega * depth;
+    EXPECT_NEAR(sum(resting.ofWalls()), wrong, 1e-12);
+    EXPECT_EQ(sum(resting.powers(resting.ofWalls())()), 0);
+    EXPECT_NEAR(resting.power(2 + wrong, resting.ofWalls()), 3 * 2, 1e-12);
+}
+
+TEST(slurryTorque, refusesRestingPatchesThatAreNoWalls)
+{
+    flowCase box;
+    const slurryFields fields(box.mesh(), dictionary::null);
+    const std::string error = errorOf(
+        [&] {
+            slurryTorque(
+                fields, entriesOf("walls (top); resting (left); speed 1;"));
+        });
+    EXPECT_NE(error.find("expected patches of walls"), std::string::npos)
+        << error;
 }
 
 TEST(slurryTorque, refusesWallsThatAreNotThere)

@@ -90,9 +90,10 @@ static scalar moment(const vectorField& places, const vectorField& forces)
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::tmp<Foam::vectorField>
-Foam::slurryTorque::friction(const label patchi) const
+Foam::slurryTorque::friction(const label wall) const
 {
     const fvMesh& mesh = fields_.mesh();
+    const label patchi = walls_[wall];
     const fvPatch& patch = mesh.boundary()[patchi];
     const auto& turbulence = mesh.lookupObject<incompressible::turbulenceModel>(
         turbulenceModel::propertiesName);
@@ -107,6 +108,10 @@ Foam::slurryTorque::friction(const label patchi) const
     const vectorField normal(patch.nf());
     vectorField gradient(fields_.U().boundaryField()[patchi].snGrad());
     gradient -= normal * (normal & gradient);
+    if (!resting_[wall])
+    {
+        gradient += normal ^ vector(0, 0, speed_);
+    }
     return voidage * density * turbulence.nuEff(patchi) * patch.magSf() *
            gradient;
 }
@@ -144,7 +149,7 @@ Foam::scalarField Foam::slurryTorque::ofWalls() const
     {
         const fvPatch& patch = fields_.mesh().boundary()[walls_[i]];
         const scalarField& p = fields_.p().boundaryField()[walls_[i]];
-        const vectorField force(friction(walls_[i]) - p * patch.Sf());
+        const vectorField force(friction(i) - p * patch.Sf());
         result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
     }
     return result;
