@@ -52,6 +52,7 @@ std::vector<NamedPair> all_pairs(const meshing::Mill& mill, const Stiffness& sti
   const Elastic wall{stiffness.modulus, mill.wall.poisson_ratio};
   const auto classes = simulated_classes(mill);
   std::vector<double> radii;
+  radii.reserve(classes.size());
   for (const auto& size : classes) radii.push_back(least_radius(size));
   std::vector<NamedPair> pairs;
   const auto add = [&](NamedPair named, bool shapes, double radius) {

@@ -170,9 +170,13 @@ double require_room(const Section& in, const char* key, const std::vector<SizeCl
   return largest;
 }
 
-/// A charge of balls of one size and shape.
-SizeClass read_single_class(const Section& in, const Geometry& geometry, double mass) {
+/// A charge of balls of one size and shape. The diameter is read before the mass: the order of the keys is
+/// part of the fingerprint.
+/// @param read_mass  reads it, kg
+template <typename ReadMass>
+SizeClass read_single_class(const Section& in, const Geometry& geometry, const ReadMass& read_mass) {
   const double diameter = in.number("diameter", ball_diameter(in, geometry));
+  const double mass = read_mass();
   return {diameter, mass, read_shape(in, in, geometry, diameter)};
 }
 
@@ -209,7 +213,8 @@ Charge read_charge(Section in, const Geometry& geometry, double density) {
   if (in.has("classes"))
     charge.classes = read_classes(in, geometry, density);
   else
-    charge.classes = {read_single_class(in, geometry, read_fill_mass(in, geometry, density, charge.packing))};
+    charge.classes = {read_single_class(
+        in, geometry, [&] { return read_fill_mass(in, geometry, density, charge.packing); })};
   const double largest =
       require_room(in, in.has("classes") ? "classes" : "fill", charge.classes, geometry, density);
   charge.fines_below = read_fines(in, charge.classes);
@@ -243,7 +248,8 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
       if (in.has(other)) in.refuse(other, "either classes, or level, share, diameter and shape");
     charge.classes = read_sizes(in, geometry, density, 1);
   } else {
-    charge.classes = {read_single_class(in, geometry, read_level_mass(in, geometry, density))};
+    charge.classes = {
+        read_single_class(in, geometry, [&] { return read_level_mass(in, geometry, density); })};
   }
   const double largest =
       require_room(in, by_classes ? "classes" : "level", charge.classes, geometry, density);

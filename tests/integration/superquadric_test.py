@@ -42,8 +42,8 @@ materials:
   wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
   ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
   ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
-dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.6, record_interval: 0.005}
-averages: {start: 0.2, window: 0.4}
+dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
+averages: {start: 0.2, window: 0.3}
 """
 ROUND = "charge.shape={half_axes: [1, 1, 1], blockiness: 2}"  # a sphere, computed as a superquadric
 BLOCK = "charge.shape={half_axes: [2.55269, 2.04215, 2.04215], roundness: 0.571429}"

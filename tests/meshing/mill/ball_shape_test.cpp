@@ -69,6 +69,19 @@ TEST(BallShape, SpheresAreTheMillWithoutTheKey) {
   EXPECT_EQ(resolved_mill(plain, "test")["mill"]["dem"].count("curvature_limit"), 0U);
 }
 
+// Fingerprints depend on the order in which keys are read. These are of version 0.2.0+4ab9011f, without
+// shapes
+TEST(BallShape, MillsOfBeforeTheKeyHaveTheirFingerprints) {
+  const auto fill = describe(example_mill, {"charge.classes=~", "charge.fill=0.2", "charge.diameter=0.004"})
+                        .mill.fingerprint;
+  EXPECT_EQ(fill.charge, "57d867e56dd2efab");
+  EXPECT_EQ(fill.flow, "73ef08ad1700976a");
+  const std::string stirred = resolved_mill(describe(stirred_mill), "test")["mill"]["charge"].dump();
+  EXPECT_NE(stirred.find(R"("diameter":0.005,"level":0.0775,"share":0.5,"fines_below":0.0)"),
+            std::string::npos)
+      << stirred;
+}
+
 TEST(BallShape, BallsOfATumblingMillHaveThemToo) {
   const std::string set = "charge.classes[0].shape={half_axes: [1.5, 1, 1], blockiness: 3}";
   const Mill mill = describe(example_mill, {set}).mill;
