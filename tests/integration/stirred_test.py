@@ -223,7 +223,7 @@ class Stirred(unittest.TestCase):
         text = (self.case / "report.html").read_text()
         for words in ("power number", "mean speed of the balls", "ball on impeller",
                       "Walls at rest take the impeller", "Contacts dissipate what the drive gives",
-                      "Spectra of energy"):
+                      "Spectra of energy", "Around the pins"):
             self.assertIn(words, text)
         run(self.case, ROOT / "scripts" / "report", ".", ".", "-o", "comparison.html")
         self.assertIn("Comparison of stirred mills", (self.case / "comparison.html").read_text())

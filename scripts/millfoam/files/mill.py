@@ -139,11 +139,6 @@ class Mill:
         return self.derived("speed", "turn_s")
 
     @property
-    def impeller(self) -> dict[str, Any]:
-        """Derived numbers of a stirred mill's impeller: radius_m to the tips, top_m, pins …"""
-        return entry(self.content, self.path, "derived", "geometry", "impeller")
-
-    @property
     def critical_share(self) -> float:
         """Speed over the critical speed."""
         return self.derived("speed", "fraction_of_critical")

@@ -8,6 +8,7 @@ import numpy as np
 from .data_files import entry
 from .mill import NoMill
 from .mill_case import MillCase
+from .rings_file import Rings, read_rings
 
 
 class StirredCase(MillCase):
@@ -20,6 +21,13 @@ class StirredCase(MillCase):
     def solids(self) -> Path | None:
         """None: the maps of a tumbling mill, which are across its axis, have no meaning here."""
         return None
+
+    @cached_property
+    def rings(self) -> Rings | None:
+        """Averages of the balls in solids.h5, over all its windows; None without them, or if `unusable` reports that
+        they cannot be read."""
+        path = self.folder / "solids.h5"
+        return self._reported(lambda: read_rings(path)) if path.is_file() else None
 
     @cached_property
     def dumps(self) -> Path:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..files.stirred_case import StirredCase
+from ..plots.stirred_plots import meridian_figure, slices_figure
 from ..readings.partner_spectra import BALLS, PartnerSpectra, Peak, read_partner_spectra
 from ..readings.stirred_power import StirredNumbers, read_stirred
 from . import figures, page, stirred_figures
@@ -88,6 +89,21 @@ def time_section(case: StirredCase) -> list[str]:
     return cards
 
 
+def charge_section(case: StirredCase) -> list[str]:
+    """Cards of the maps of the balls' averages."""
+    rings = case.rings
+    if rings is None:
+        return []
+    frame = "the impeller's frame" if rings.angular_velocity else "the lab's frame"
+    words = f"Averages of DEM time {rings.begin:.3g} to {rings.end:.3g} s in {frame}."
+    cards = [page.picture(meridian_figure(case.mill, rings, ("solidity", "tangential")),
+                          f"In the r-z plane, r over the shell's radius. {words}", title="Solidity and velocity")]
+    if case.mill.impeller.get("pins"):
+        cards.append(page.picture(slices_figure(case.mill, rings, ("solidity", "axial")),
+                                  f"At the pins, seen from above. {words}", title="Around the pins"))
+    return cards
+
+
 def contact_section(case: StirredCase) -> list[str]:
     """Cards of the contacts by partner; none if the run did not follow them."""
     if not (case.results or {}).get("contacts"):
@@ -139,8 +155,8 @@ def partner_row(name: str, collisions: float, powers: np.ndarray, whole: float,
     return (name, (collisions, ".3g"), *((value, ".4g") for value in shown), (100 * powers.sum() / whole, ".1f"), *end)
 
 
-SECTIONS = (("overview", "Overview", overview), ("time", "Against time", time_section),
-            ("contacts", "Contacts", contact_section),
+SECTIONS = (("overview", "Overview", overview), ("charge", "Balls", charge_section),
+            ("time", "Against time", time_section), ("contacts", "Contacts", contact_section),
             ("run", "How it was run", lambda case: run_section(case, None)))
 
 
