@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A small stirred mill from its description to its averages: torques on its parts, a resumed run, and what is
-refused."""
+"""A small stirred mill from its description to its averages and report: torques on its parts, contacts, a resumed run,
+and what is refused."""
 import json
 import os
 import shutil
@@ -15,6 +15,7 @@ from mill_case import run_mill
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.mill import NoMill, read_mill
 from millfoam.files.rings_file import read_rings
+from millfoam.files.wall_forces import read_wall_forces
 from millfoam.run import RunError, run
 
 MILL = """
@@ -35,7 +36,8 @@ materials:
   wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
   ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
   ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
-dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
+dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005,
+      contact_statistics: true}
 averages: {start: 0.2}
 """
 # Two discs, one of them at the shaft's end
@@ -185,6 +187,46 @@ class Stirred(unittest.TestCase):
         whole, parts = (read_csv(place / "dumps" / "torques.csv") for place in (self.case, case))
         for name, values in whole.items():
             np.testing.assert_allclose(parts[name], values, rtol=1e-6, atol=1e-9)
+
+    def test_contacts_dissipate_what_the_impeller_gives(self):
+        contacts = self.results["contacts"]
+        self.assertAlmostEqual(contacts["dissipated_over_drive"], 1, delta=0.01)
+        self.assertEqual(sorted(contacts["power"]), sorted(("balls", *PARTS)))
+        whole = sum(sum(parts.values()) for parts in contacts["power"].values())
+        self.assertAlmostEqual(whole / contacts["dissipated_W"], 1, delta=1e-6)
+        for partner in ("balls", "impeller", "shell", "base"):
+            self.assertGreater(contacts["power"][partner]["tangential_W"], 0)
+        spectra = read_csv(self.case / "dumps" / "contact_spectra.csv")
+        self.assertAlmostEqual(spectra["touches_per_s"].sum() / contacts["collisions_per_s"], 1, delta=1e-6)
+
+    def test_wall_cells_of_the_impeller_turn_and_the_others_are_at_rest(self):
+        walls = self.results["contacts"]["walls"]
+        energy = read_csv(self.case / "dumps" / "energy.csv")
+        inside = (energy["time_s"] > walls["begin_s"] + 1e-9) & (energy["time_s"] <= walls["end_s"] + 1e-9)
+        self.assertAlmostEqual(walls["torque_Nm"] / energy["torque_Nm"][inside].mean(), 1, delta=1e-5)
+        torques = read_csv(self.case / "dumps" / "torques.csv")
+        cells = read_wall_forces(self.case / "dumps" / "wall_forces.vtp")
+        self.assertEqual(tuple(cells.parts), PARTS)
+        middle, force = cells.corners.mean(axis=1), cells.fields["force_N"]
+        moments = middle[:, 0] * force[:, 1] - middle[:, 1] * force[:, 0]
+        # In the wrong frame the cells' middles are far from the contacts, and the forces of a turn add up to nothing
+        for number, part in enumerate(PARTS[:3]):
+            moment = moments[cells.fields["part"] == number].sum()
+            self.assertAlmostEqual(moment / torques[f"{part}_Nm"][inside].mean(), 1, delta=0.05)
+        # Each arm pushes as much as the opposite one, and against the sense of rotation
+        pin = (cells.fields["part"] == 0) & (middle[:, 2] < 0.0165) & (np.abs(middle[:, 1]) < 0.0035)
+        for side in (-1, 1):
+            arm = pin & (side * middle[:, 0] > 0.008)
+            self.assertLess(side * force[arm, 1].sum(), 0)
+
+    def test_the_report_has_its_numbers(self):
+        text = (self.case / "report.html").read_text()
+        for words in ("power number", "mean speed of the balls", "ball on impeller",
+                      "Walls at rest take the impeller", "Contacts dissipate what the drive gives",
+                      "Spectra of energy", "Around the pins"):
+            self.assertIn(words, text)
+        run(self.case, ROOT / "scripts" / "report", ".", ".", "-o", "comparison.html")
+        self.assertIn("Comparison of stirred mills", (self.case / "comparison.html").read_text())
 
     def test_everything_is_kept(self):
         output = run_mill(self.case, self.folder / "mill.yaml")

@@ -17,8 +17,8 @@ from millfoam.files.dumps import numbered_dumps, read_timestep
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.rings_file import read_rings
 from millfoam.plots.stirred_plots import boxes_figure, meridian_figure, profiles_figure, slices_figure
-from millfoam.readings.batches import error_over_turns
 from millfoam.readings.stirred import Box, ball_boxes, charge_boxes
+from millfoam.readings.stirred_power import mean_from, mean_speed
 
 BALANCED = 0.03  # of the impeller's torque, which may be missing on the walls at rest
 LEAST_TURNS = 3  # of the averaged time, to judge that
@@ -39,26 +39,23 @@ def late_balls(case: Path, begin: float) -> list[tuple[np.ndarray, np.ndarray]]:
 def numbers_of(case: Path, mill: Mill, results: dict, begin: float) -> dict[str, float]:
     """Key -> number, of the time from `begin` (s) on."""
     torques, energy = (read_csv(case / "dumps" / name) for name in ("torques.csv", "energy.csv"))
-    late = torques["time_s"] >= begin
+    power = mean_from(energy["time_s"], energy["power_W"], begin, mill.turn)
     found = {"tip_speed_m_s": mill.derived("speed", "tip_speed_m_s"), "balls": results["balls"],
-             "steady_from_s": results["steady_from_s"], "power_W": float(energy["power_W"][late].mean()),
-             "power_error_W": error_over_turns(energy["time_s"], energy["power_W"], begin, mill.turn)}
+             "steady_from_s": results["steady_from_s"], "power_W": power.value, "power_error_W": power.error}
     for part in results["part_torques_Nm"]:
-        values = torques[f"{part}_Nm"]
-        found[f"torque_{part}_Nm"] = float(values[late].mean())
-        found[f"torque_{part}_error_Nm"] = error_over_turns(torques["time_s"], values, begin, mill.turn)
+        torque = mean_from(torques["time_s"], torques[f"{part}_Nm"], begin, mill.turn)
+        found[f"torque_{part}_Nm"], found[f"torque_{part}_error_Nm"] = torque.value, torque.error
     at_rest = sum(found[f"torque_{part}_Nm"] for part in results["part_torques_Nm"] if part != "impeller")
     found["at_rest_over_impeller"] = -at_rest / found["torque_impeller_Nm"]
+    speed = mean_speed(case / "dumps", begin, mill.turn)
+    found["mean_speed_m_s"], found["mean_speed_error_m_s"] = speed.value, speed.error
     return found
 
 
-def speeds_of(records: list[tuple[np.ndarray, np.ndarray]], boxes: dict[str, Box]) -> dict[str, float]:
-    """Key -> number: mean speed of all balls of the dumps, its standard deviation over these, and the boxes, m/s."""
-    means = [np.linalg.norm(velocities, axis=1).mean() for _, velocities in records]
-    found = {"mean_speed_m_s": float(np.mean(means)), "mean_speed_deviation_m_s": float(np.std(means))}
-    for name, box in boxes.items():
-        found |= {f"{name}_{part}_m_s": getattr(box, part) for part in ("first", "median", "third")}
-    return found
+def speeds_of(boxes: dict[str, Box]) -> dict[str, float]:
+    """Key -> number: quartiles of the boxes, m/s."""
+    return {f"{name}_{part}_m_s": getattr(box, part) for name, box in boxes.items()
+            for part in ("first", "median", "third")}
 
 
 def torques_figure(case: Path, begin: float) -> plt.Figure:
@@ -83,7 +80,7 @@ def main() -> None:
     begin, end = results["steady_from_s"] if start == "steady" else float(start), results["duration_s"]
     records = late_balls(case, begin)
     boxes = ball_boxes(*(np.concatenate(parts) for parts in zip(*records)))
-    numbers = numbers_of(case, mill, results, begin) | speeds_of(records, boxes)
+    numbers = numbers_of(case, mill, results, begin) | speeds_of(boxes)
     with open(case / "stirred.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, list(numbers))
         writer.writeheader()

@@ -26,9 +26,9 @@ def fnv1a(content: bytes) -> str:
     return f"{value:016x}"
 
 
-def read_mill(folder: Path | str, machine: str = "tumbling") -> "Mill":
+def read_mill(folder: Path | str, machine: str | None = "tumbling") -> "Mill":
     """The Mill of a case's folder; NoMill if its mill.json is missing, not JSON, of another format or incomplete, or if
-    the mill is another machine (tumbling or stirred) than the reader knows."""
+    the mill is another machine (tumbling or stirred; None: any) than the reader knows."""
     path = Path(folder) / "mill.json"
     if not path.is_file():
         raise NoMill(f"{folder}: no mill.json; expected the folder of a mill's case that was run: run Allrun, or "
@@ -36,7 +36,7 @@ def read_mill(folder: Path | str, machine: str = "tumbling") -> "Mill":
     try:
         content = read_json(path, "mill")
         found = entry(content, path, "derived").get("machine", "tumbling")
-        if found != machine:
+        if machine and found != machine:
             raise NoMill(f"{path}: the mill is {found}; expected a {machine} one")
         return Mill(path, content)
     except DataError as error:
@@ -67,6 +67,11 @@ class Mill:
     def title(self) -> str:
         """The mill's title, empty without one."""
         return self.asked("title") or ""
+
+    @property
+    def machine(self) -> str:
+        """`tumbling` or `stirred`."""
+        return self.content["derived"].get("machine", "tumbling")
 
     @property
     def fingerprint(self) -> dict[str, str]:

@@ -29,11 +29,13 @@ class MillCase:
     a flow that was cut short before. The averages of a dry run begin at the same DEM time, or when it is steady.
     unusable: why files cannot be used, in words."""
 
+    machine = "tumbling"  # that mill.json must have
+
     def __init__(self, folder: Path | str, begin: float | None = None) -> None:
         self.folder = Path(folder)
         self.asked_begin = begin
         self.unusable: list[str] = []
-        self.mill = read_mill(self.folder)
+        self.mill = read_mill(self.folder, self.machine)
         if self.flow is None and self.solids is None and self.dry is None:
             raise NoMill("; ".join([f"{self.folder}: no flow (times with alpha.slurry), no complete solids.h5, no "
                                     "dumps/results.json; has the case run to its end?", *self.unusable]))

@@ -11,12 +11,9 @@ from .contact_spectra import PARTS, Spectra, energy_edges
 LOWEST, HIGHEST = 1e-15, 1e3  # J, edges of the bins of millDem, five per decade
 
 
-def read_statistics(dumps: Path | str, begin: float, end: float) -> Spectra:
-    """Spectra of `contact_spectra.csv` in a folder dumps/; begin, end: DEM times (s) of `contacts` in results.json.
-
-    `collisions` are by energy at first touch. `damping`, `friction` and `rolling` are the power of the normal and the
-    tangential force and of rolling friction, by the energy that the whole collision dissipates; `spring` is 0.
-    `sliding` is not known. DataError for a file with other bins."""
+def binned(dumps: Path | str) -> tuple[np.ndarray, dict[str, np.ndarray], np.ndarray]:
+    """Edges of the bins [n] (J), columns of `contact_spectra.csv` in a folder dumps/, and the bin of each row: 0 below
+    the first edge, n above the last. DataError for a file with other bins."""
     path = Path(dumps) / "contact_spectra.csv"
     table = read_csv(path)
     edges = energy_edges(LOWEST, HIGHEST)
@@ -25,16 +22,26 @@ def read_statistics(dumps: Path | str, begin: float, end: float) -> Spectra:
     bins = np.where(np.isinf(to), len(edges), np.rint(5 * np.log10(np.where(np.isinf(to), 1.0, to) / LOWEST)))
     if np.any((bins < 0) | (bins > len(edges))):
         raise DataError(f"{path}: energies beyond the bins from {LOWEST:g} to {HIGHEST:g} J")
+    return edges, table, bins.astype(int)
+
+
+def read_statistics(dumps: Path | str, begin: float, end: float) -> Spectra:
+    """Spectra of `contact_spectra.csv` in a folder dumps/; begin, end: DEM times (s) of `contacts` in results.json.
+
+    `collisions` are by energy at first touch. `damping`, `friction` and `rolling` are the power of the normal and the
+    tangential force and of rolling friction, by the energy that the whole collision dissipates; `spring` is 0.
+    `sliding` is not known. DataError for a file with other bins."""
+    edges, table, bins = binned(dumps)
     small, large = np.sort([table["first_m"], table["second_m"]], axis=0)
     classes = np.unique(np.concatenate([[0.0], small, large]))
-    place = np.searchsorted(classes, small), np.searchsorted(classes, large), bins.astype(int)
+    place = np.searchsorted(classes, small), np.searchsorted(classes, large), bins
 
     def collect(values: np.ndarray) -> np.ndarray:
         field = np.zeros((len(classes), len(classes), len(edges) + 1))
         np.add.at(field, place, values)
         return field
     columns = {"damping": "normal_W", "friction": "tangential_W", "rolling": "rolling_W"}
-    power = {part: collect(table[columns[part]]) if part in columns else collect(np.zeros(len(to))) for part in PARTS}
+    power = {part: collect(table[columns[part]]) if part in columns else collect(np.zeros(len(bins))) for part in PARTS}
     return Spectra(edges, classes, collect(table["touches_per_s"]), power, np.nan, 0, end - begin)
 
 

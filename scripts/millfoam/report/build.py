@@ -4,8 +4,10 @@ import datetime
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..files.mill import read_mill
 from ..files.mill_case import MillCase
-from . import comparison, measurements, page
+from ..files.stirred_case import StirredCase
+from . import comparison, measurements, page, stirred_sections
 from .case_readings import Readings
 from .checks import all_checks
 from .headline import fines_words, first_lines, summary
@@ -18,6 +20,10 @@ def report_case(folder: Path | str, begin: float | None = None, measured: Path |
                 tracers: Sequence[Path] = ()) -> str:
     """HTML text of the report of a case's folder; measured: CSV of a measured map; tracers: files of tracks.
     RuntimeError if the folder is not that of a case that was run, or a file cannot be read."""
+    if read_mill(folder, None).machine == StirredCase.machine:
+        if measured or tracers:
+            raise RuntimeError(f"{folder}: the mill is stirred; expected a tumbling one with --measured and --tracer")
+        return report_stirred(StirredCase(folder, begin))
     case = MillCase(folder, begin)
     against = [measurements.measured_section(case, measured)] if measured else []
     against += [measurements.tracer_section(case, tracers)] if tracers else []
@@ -32,8 +38,24 @@ def report_case(folder: Path | str, begin: float | None = None, measured: Path |
                      first_lines(case, found))
 
 
+def report_stirred(case: StirredCase) -> str:
+    """HTML text of the report of a stirred mill's dry run."""
+    found = all_checks(case)
+    sections = [(name, heading, section(case)) for name, heading, section in stirred_sections.SECTIONS]
+    sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))
+    title = f"{case.title} – {case.name}" if case.title != case.name else case.title
+    return page.page(title, stirred_sections.summary(case), sections, FOOT.format(datetime.datetime.now()),
+                     first_lines(case, found))
+
+
 def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> str:
-    """HTML text of a comparison of cases' folders with the first one."""
+    """HTML text of a comparison of cases' folders with the first one. RuntimeError for mills of both machines."""
+    machines = [read_mill(folder, None).machine for folder in folders]
+    if len(set(machines)) > 1:
+        raise RuntimeError("expected mills of one machine: " + ", ".join(
+            f"{folder} is {machine}" for folder, machine in zip(folders, machines)))
+    if machines[0] == StirredCase.machine:
+        return compare_stirred([StirredCase(folder, begin) for folder in folders])
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
     names = comparison.distinct(cases)
@@ -42,3 +64,12 @@ def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> 
     subtitle = ", ".join(names[1:]) + f" compared with {names[0]}"
     return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names, found),
                      FOOT.format(datetime.datetime.now()), lines)
+
+
+def compare_stirred(cases: Sequence[StirredCase]) -> str:
+    """HTML text of a comparison of stirred mills with the first one."""
+    names = comparison.distinct(cases)
+    found = [all_checks(case) for case in cases]
+    lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
+    return page.page("Comparison of stirred mills", ", ".join(names[1:]) + f" compared with {names[0]}",
+                     stirred_sections.compared(cases, names, found), FOOT.format(datetime.datetime.now()), lines)

@@ -11,6 +11,7 @@ from .verdict import Check, judged
 LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
 FOLLOWS, SLIDES = 0.8, 0.5  # speed of the balls at the shell over its own: a charge that follows it, one that slides
 CONTACTS, CONTACTS_DOUBTFUL = 0.01, 0.05  # of the drive's power that may be missing in the contacts
+TORQUES, TORQUES_DOUBTFUL = 0.03, 0.1  # of the impeller's torque that may be missing on the walls at rest
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
@@ -69,6 +70,17 @@ def contact_balance(case: MillCase) -> Check:
                   f"{100 * CONTACTS:.0f} %)",
                   "Shorten the time-step (dem.rayleigh_fraction), or let the steady part be longer (dem.duration).",
                   doubtful=CONTACTS_DOUBTFUL)
+
+
+def torque_balance(case: MillCase) -> Check:
+    """Whether the walls at rest of a stirred mill take the torque of its impeller."""
+    torques = {part: case.result("part_torques_Nm", part) for part in case.results["part_torques_Nm"]}
+    at_rest = sum(torque for part, torque in torques.items() if part != "impeller")
+    ratio = -at_rest / torques["impeller"]
+    return judged("Walls at rest take the impeller's torque", abs(ratio - 1), TORQUES,
+                  f"their torque is {ratio:.4f} of the impeller's (limit {100 * TORQUES:.0f} %)",
+                  "Let the run be longer (dem.duration): the balls still gain or lose angular momentum.",
+                  doubtful=TORQUES_DOUBTFUL)
 
 
 def ledger(case: MillCase) -> Check:

@@ -2,7 +2,7 @@
 """Whether a run is reliable: what the checks found, and what to do if they fail."""
 from ..files.mill_case import MillCase
 from .charge_checks import (averaging_volume, charge_steadiness, contact_balance, follows_shell, ledger, lost_balls,
-                            overlap, window_noise)
+                            overlap, torque_balance, window_noise)
 from .coupling_section import coupling_checks
 from .flow_checks import conservation, continuity, courant, drag_range, mesh, one_way, solids_on_mesh
 from .stages import same_mill
@@ -19,6 +19,7 @@ def all_checks(case: MillCase) -> list[Check]:
         functions += [conservation, flow_steadiness, courant, mesh]
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]
+        functions += [torque_balance] if case.results.get("part_torques_Nm") else []
         functions += [contact_balance] if case.results.get("contacts") else []
     if case.solids:
         functions += [follows_shell, ledger, averaging_volume, window_noise]

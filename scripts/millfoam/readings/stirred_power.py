@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings of a stirred mill's dry run: torques on its parts, power, speed of the balls, dimensionless numbers."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..files.data_files import read_csv, read_text
+from ..files.dumps import numbered_dumps, read_timestep
+from ..files.stirred_case import StirredCase
+from .batches import batch_means
+from .means import Mean
+from .power_models import bulk_density
+
+DUMPS = 400  # of which the mean speed is taken, at most, at equal distances
+
+
+def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean:
+    """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on; error: that of the means of the
+    last whole turns of `turn` s, NaN if fewer than two fit. A value is that of the time since the one before."""
+    late = times >= begin - 1e-6 * turn
+    times, values = times[late], values[late]
+    interval = np.ptp(times) / max(len(times) - 1, 1)
+    turns = int((np.ptp(times) + interval) / turn + 0.005)  # times are rounded
+    if turns < 2:
+        return Mean(float(values.mean()), np.nan)
+    means = batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns)
+    return Mean(float(values.mean()), float(means.std(ddof=1) / np.sqrt(turns)))
+
+
+def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
+    """Mean speed of all balls in the dumps of a folder from a DEM time on (s), m/s, and its error over whole turns of
+    `turn` s. RuntimeError without such dumps."""
+    timestep = read_timestep(dumps)
+    late = [(step * timestep, path) for step, path in numbered_dumps(dumps) if step * timestep >= begin - timestep / 2]
+    if not late:
+        raise RuntimeError(f"{dumps}: no dump from {begin:g} s on")
+    late = late[::-(-len(late) // DUMPS)]
+    return mean_from(np.array([time for time, _ in late]), np.array([speed_in(path) for _, path in late]), begin, turn)
+
+
+def speed_in(path: Path) -> float:
+    """Mean speed of the balls in a dump, m/s."""
+    head, rows = read_text(path).split("ITEM: ATOMS", 1)[1].split("\n", 1)
+    columns = [head.split().index(name) for name in ("vx", "vy", "vz")]
+    values = np.array(rows.split(), dtype=float).reshape(-1, len(head.split()))
+    return float(np.linalg.norm(values[:, columns], axis=1).mean())
+
+
+def power_number(power: float, density: float, omega: float, diameter: float) -> float:
+    """P / (rho N^3 D^5) of a power P (W), a density rho (kg/m3), an impeller's angular speed (rad/s; N is in turns per
+    second) and its diameter D from tip to tip (m)."""
+    return power / (density * (abs(omega) / (2 * np.pi))**3 * diameter**5)
+
+
+def torque_coefficient(torque: float, density: float, omega: float, diameter: float) -> float:
+    """|T| / (rho omega^2 R^5) of a torque T (N m), a density rho (kg/m3), an angular speed (rad/s) and a radius R =
+    diameter / 2 (m)."""
+    return abs(torque) / (density * omega**2 * (diameter / 2)**5)
+
+
+@dataclass(frozen=True)
+class StirredNumbers:
+    """Of the averaged time of a dry run. power: W; torques: {part: N m} about +z; balance: torque on the parts at rest
+    over that on the impeller, 1 if no angular momentum is missing; speed: of the balls, m/s, None without dumps;
+    density: bulk density of the resting balls, kg/m3; power_number, torque_coefficient: with this density;
+    torque_over_weight: impeller's torque over the balls' weight times the tips' radius, a coefficient of friction;
+    per_mass: W/kg of balls; per_slurry: W/m3 of slurry, None without slurry."""
+    power: Mean
+    torques: dict[str, Mean]
+    balance: float
+    speed: Mean | None
+    density: float
+    power_number: Mean
+    torque_coefficient: Mean
+    torque_over_weight: Mean
+    per_mass: Mean
+    per_slurry: Mean | None
+
+
+def scaled(mean: Mean, factor: float) -> Mean:
+    """A mean and its error times a factor above 0."""
+    return Mean(mean.value * factor, mean.error * factor)
+
+
+def driven(case: StirredCase) -> tuple[Mean, dict[str, Mean]]:
+    """Power (W), and torque on each part (N m): those of results.json, or from the time on at which the averages were
+    asked to begin."""
+    if case.asked_begin is None:
+        return (Mean(case.result("power_W"), case.result("power_error_W")),
+                {part: Mean(case.result("part_torques_Nm", part), case.result("part_torques_error_Nm", part))
+                 for part in case.parts})
+    energy, torques = (read_csv(case.dumps / name) for name in ("energy.csv", "torques.csv"))
+    if case.span[0] >= energy["time_s"][-1]:
+        raise RuntimeError(f"{case.folder}: averages from {case.span[0]:g} s on; expected less than the end of the dry "
+                           f"run, {energy['time_s'][-1]:g} s")
+    return (mean_from(energy["time_s"], energy["power_W"], case.span[0], case.turn),
+            {part: mean_from(torques["time_s"], torques[f"{part}_Nm"], case.span[0], case.turn) for part in case.parts})
+
+
+def read_stirred(case: StirredCase) -> StirredNumbers:
+    """StirredNumbers of a case. RuntimeError for a file that is missing or cannot be read."""
+    power, found = driven(case)
+    impeller = found["impeller"]
+    at_rest = sum(mean.value for part, mean in found.items() if part != "impeller")
+    mill, mass, diameter = case.mill, case.mill.derived("charge", "mass_kg"), 2 * case.tip_radius
+    density = bulk_density(mill.ball_density, mill.derived("charge", "resting_solidity"))
+    gravity = mill.derived("gravity_m_s2")
+    try:
+        speed = mean_speed(case.dumps, case.span[0], case.turn)
+    except RuntimeError:
+        speed = None
+    volume = case.slurry_volume
+    return StirredNumbers(
+        power, found, -at_rest / impeller.value, speed, density,
+        scaled(power, power_number(1.0, density, case.omega, diameter)),
+        scaled(Mean(abs(impeller.value), impeller.error), torque_coefficient(1.0, density, case.omega, diameter)),
+        scaled(Mean(abs(impeller.value), impeller.error), 1 / (mass * gravity * case.tip_radius)),
+        scaled(power, 1 / mass), scaled(power, 1 / volume) if volume else None)

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings and report of a stirred mill's dry run, of files written by hand."""
+import json
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.files.data_files import DataError
+from millfoam.files.mill import NoMill
+from millfoam.files.mill_case import MillCase
+from millfoam.files.stirred_case import StirredCase
+from millfoam.readings.partner_spectra import read_partner_spectra
+from millfoam.readings.stirred_power import mean_speed, power_number, read_stirred, torque_coefficient
+from millfoam.report.build import compare_cases, report_case
+from millfoam.report.checks import all_checks
+from report_cases import PRINTS, RESULTS, change_json, write_dry, write_json
+
+OMEGA, TURN, RADIUS, MASS = 10 * np.pi, 0.2, 0.07, 1.5
+PARTS = ("impeller", "shell", "base", "lid")
+TORQUES = {"impeller": -0.8, "shell": 0.6, "base": 0.192, "lid": 0.0}
+HEAD = ("first_m,second_m,wall,energy_from_J,energy_to_J,touches_per_s,collisions_per_s,normal_W,tangential_W,"
+        "rolling_W\n")
+SPECTRA = ("0.005,0.005,-1,1e-06,1.584893e-06,500,400,3,4,0\n0.005,0.005,-1,1.584893e-06,2.511886e-06,50,40,1,2,0\n"
+           "0.005,0,0,1e-05,1.584893e-05,70,60,2,3,0\n0.005,0,1,1e-06,1.584893e-06,20,10,1,8,0\n")
+STEADY = 0.4
+
+
+def contacts():
+    """Entry `contacts` of results.json: partners' powers sum to 25 W."""
+    powers = {"balls": (4, 6), "impeller": (2, 3), "shell": (1, 8), "base": (0.5, 0.5), "lid": (0, 0)}
+    return {"begin_s": STEADY, "end_s": 2.0, "collisions_per_s": 640.0, "dissipated_W": 25.0, "drive_W": 25.2,
+            "gain_W": 0.1, "dissipated_over_drive": 25 / 25.1, "torque_Nm": -0.8,
+            "power": {name: {"normal_W": normal, "tangential_W": tangential, "rolling_W": 0.0}
+                      for name, (normal, tangential) in powers.items()}}
+
+
+def write_stirred(folder, **changed):
+    """A dry run of two seconds, ten turns: mill.json, dumps/; changed: values of results.json."""
+    folder.mkdir(parents=True, exist_ok=True)
+    impeller = {"shaft_diameter_m": 0.025, "shaft_end_m": 0.02, "radius_m": RADIUS, "top_m": 0.0775, "gap_m": 0.0075,
+                "volume_below_top_m3": 1e-4, "pins": []}
+    derived = {
+        "machine": "stirred",
+        "geometry": {"radius_m": 0.0775, "length_m": 0.3, "section_m2": 0.018, "volume_m3": 5e-3, "impeller": impeller},
+        "speed": {"angular_velocity_rad_s": OMEGA, "sense": "anticlockwise", "tip_speed_m_s": OMEGA * RADIUS,
+                  "turn_s": TURN},
+        "charge": {"balls": 4, "mass_kg": MASS, "resting_solidity": 0.6, "fines_share": 0.0},
+        "materials": {"ball": {"density_kg_m3": 2500.0}}, "gravity_m_s2": 9.81}
+    content = {"format": "millfoam-mill", "version": 1, "program": "millMesh 1.2.3", "file": "mill.yaml",
+               "fingerprint": {**PRINTS, "flow": ""},
+               "mill": {"title": "A stirred mill", "geometry": {}, "speed": {}, "charge": {}}, "derived": derived}
+    (folder / "mill.json").write_text(json.dumps(content))
+    results = {**RESULTS, "balls": 4, "steady_from_s": STEADY, "begin_s": 0.0, "duration_s": 2.0, "power_W": 25.0,
+               "power_error_W": 0.2, "part_torques_Nm": TORQUES,
+               "part_torques_error_Nm": {part: 0.004 for part in PARTS}, **changed}
+    write_json(folder / "dumps" / "results.json", "charge", ("charge",), **results)
+    write_json(folder / "dumps" / "run.json", "dumps", ("charge",), timestep_s=1e-3, interval=10,
+               angular_velocity_rad_s=OMEGA)
+    time = np.arange(1, 201) * 0.01
+    ripple = 0.1 * np.sin(2 * np.pi * (time - 0.005) / TURN)
+    np.savetxt(folder / "dumps" / "energy.csv", np.column_stack([time, -0.8 + ripple, 25 - ripple, 0.1 + 0 * time,
+                                                                 0.2 + 0 * time]), "%.9g", ",", comments="",
+               header="time_s,torque_Nm,power_W,kinetic_J,potential_J")
+    np.savetxt(folder / "dumps" / "torques.csv", np.column_stack([time, *(TORQUES[part] + ripple for part in PARTS)]),
+               "%.9g", ",", comments="", header="time_s," + ",".join(f"{part}_Nm" for part in PARTS))
+    # Speeds 3, 4, 5 and 8 m/s after the begin, other ones before, with a ripple that repeats with the turns
+    for step in range(0, 2001, 10):
+        speeds = np.array([3, 4, 5, 8]) + np.sin(2 * np.pi * step / 200) if step >= 400 else np.full(4, 100)
+        rows = "".join(f"{k} 1 0 0 0 {0.6 * speed:.9g} 0 {-0.8 * speed:.9g} 0.0025\n" for k, speed in enumerate(speeds))
+        (folder / "dumps" / f"dump.{step}.txt").write_text(
+            f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n4\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+            f"ITEM: ATOMS id type x y z vx vy vz radius\n{rows}")
+    if results.get("contacts"):
+        (folder / "dumps" / "contact_spectra.csv").write_text(HEAD + SPECTRA)
+    return folder
+
+
+def text_of(page):
+    return re.sub(r"<[^>]*>", "|", page)
+
+
+class StirredReport(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.case = write_stirred(self.folder / "one", contacts=contacts())
+
+    def test_a_disc_of_fluid_in_rigid_rotation_has_the_numbers_of_its_definition(self):
+        # 2 W at two turns per second in a fluid of 1000 kg/m3 with an impeller of 0.1 m
+        self.assertAlmostEqual(power_number(2.0, 1000.0, -4 * np.pi, 0.1), 2 / (1000 * 8 * 1e-5))
+        self.assertAlmostEqual(torque_coefficient(-2.0, 1000.0, 4.0, 0.1), 2 / (1000 * 16 * 0.05**5))
+
+    def test_the_mean_speed_is_that_of_all_balls_from_the_begin_on_and_a_turns_ripple_is_no_error(self):
+        speed = mean_speed(self.case / "dumps", STEADY, TURN)
+        self.assertAlmostEqual(speed.value, 5, delta=0.01)
+        self.assertLess(speed.error, 0.01)
+        with self.assertRaisesRegex(RuntimeError, "no dump from 3 s on"):
+            mean_speed(self.case / "dumps", 3.0, TURN)
+
+    def test_numbers_are_those_of_the_results_or_of_the_time_that_is_asked_for(self):
+        found = read_stirred(StirredCase(self.case))
+        self.assertEqual((found.power.value, found.power.error), (25.0, 0.2))
+        self.assertAlmostEqual(found.balance, 0.99)
+        self.assertAlmostEqual(found.density, 1500)
+        self.assertAlmostEqual(found.power_number.value, 25 / (1500 * 125 * 0.14**5))
+        self.assertAlmostEqual(found.torque_over_weight.value, 0.8 / (MASS * 9.81 * RADIUS))
+        self.assertAlmostEqual(found.per_mass.value, 25 / MASS)
+        self.assertIsNone(found.per_slurry)
+        later = read_stirred(StirredCase(self.case, 1.01))
+        self.assertAlmostEqual(later.torques["shell"].value, 0.6, delta=1e-6)
+        self.assertLess(later.torques["shell"].error, 1e-6)
+        with self.assertRaisesRegex(RuntimeError, "averages from 7 s on; expected less than the end"):
+            read_stirred(StirredCase(self.case, 7.0))
+
+    def test_spectra_are_by_partner_and_have_their_peaks(self):
+        found = read_partner_spectra(self.case / "dumps", PARTS)
+        self.assertEqual(found.partners, ("balls", *PARTS))
+        np.testing.assert_allclose(found.collisions.sum(axis=1), [550, 70, 20, 0, 0])
+        np.testing.assert_allclose(found.total.sum(axis=1), [10, 5, 9, 0, 0])
+        self.assertAlmostEqual(found.peak().power, 16)
+        self.assertAlmostEqual(found.peak("balls").power, 7)
+        self.assertAlmostEqual(found.peak("impeller").energy / 1.2589e-5, 1, delta=1e-3)
+        self.assertIsNone(found.peak("lid"))
+        with self.assertRaisesRegex(DataError, "wall 1; expected -1 to 0"):
+            read_partner_spectra(self.case / "dumps", PARTS[:1])
+
+    def test_the_report_shows_numbers_checks_and_contacts(self):
+        text = text_of(report_case(self.case))
+        for words in ("25.00 ± 0.20 W", "−0.800 ± 0.004 N m", "0.9900", "power number", "W/kg", "5 m/s",
+                      "stirred mill, 155 × 300 mm", "ball on shell", "all contacts over it", "Torque on each part"):
+            self.assertIn(words, text)
+        self.assertNotIn("ball on lid", text)
+        states = {check.name: check.state for check in all_checks(StirredCase(self.case))}
+        self.assertEqual(set(states.values()), {"holds"})
+        self.assertIn("Contacts dissipate what the drive gives", states)
+
+    def test_missing_torque_and_missing_dissipation_are_seen(self):
+        change_json(self.case / "dumps" / "results.json", "part_torques_Nm", "shell", to=0.5)
+        change_json(self.case / "dumps" / "results.json", "contacts", "dissipated_over_drive", to=0.9)
+        states = {check.name: check.state for check in all_checks(StirredCase(self.case))}
+        self.assertEqual(states["Walls at rest take the impeller's torque"], "fails")
+        self.assertEqual(states["Contacts dissipate what the drive gives"], "fails")
+
+    def test_a_run_without_contacts_or_with_a_damaged_file_has_a_report(self):
+        self.assertNotIn("Spectra of energy", report_case(write_stirred(self.folder / "plain")))
+        (self.case / "dumps" / "contact_spectra.csv").write_text(HEAD + "0.005,0\n")
+        self.assertIn("Contacts cannot be shown", report_case(self.case))
+
+    def test_the_power_for_the_slurry_is_shown_if_there_is_slurry(self):
+        change_json(self.case / "mill.json", "derived", "flow", to={"start": {"volume_m3": 1e-3}})
+        self.assertIn("25.00 ± 0.20 kW/m³", report_case(self.case))
+
+    def test_stirred_mills_are_compared_with_each_other_only(self):
+        other = write_stirred(self.folder / "other", power_W=30.0)
+        text = text_of(compare_cases([self.case, other]))
+        for words in ("other compared with one", "30.00 ± 0.20 W", "25.00 ± 0.20 W", "Spectra of energy"):
+            self.assertIn(words, text)
+        tumbling = write_dry(self.folder / "tumbling")
+        with self.assertRaisesRegex(RuntimeError, "expected mills of one machine: .*one is stirred, .* is tumbling"):
+            compare_cases([self.case, tumbling])
+        with self.assertRaisesRegex(NoMill, "the mill is stirred; expected a tumbling one"):
+            MillCase(self.case)
+        with self.assertRaisesRegex(RuntimeError, "expected a tumbling one with --measured and --tracer"):
+            report_case(self.case, measured=Path("map.csv"))
+
+
+if __name__ == "__main__":
+    unittest.main()
