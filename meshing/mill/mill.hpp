@@ -68,10 +68,10 @@ struct Disc {
 /// The impeller of a stirred mill: a round shaft on the axis that comes through the lid, with pins, discs or
 /// both.
 struct Impeller {
-  double shaft_diameter = 0;   ///< m
-  double shaft_end = 0;        ///< z of its lower end, m
-  std::vector<PinLevel> pins;  ///< in the order of the file
-  std::vector<Disc> discs;     ///< in the order of the file
+  double shaft_diameter = 0;     ///< m
+  double shaft_end = 0;          ///< z of its lower end, m
+  std::vector<PinLevel> pins;    ///< in the order of the file
+  std::vector<Disc> discs = {};  ///< in the order of the file
 };
 
 /// The inside of the mill. The axis is x = y = 0; z runs from 0 at the feed end to `length`; y is up. Of a
