@@ -190,7 +190,7 @@ TEST(slurryTorque, wallsThatTurnWithTheFluidGiveNoFriction)
     // Without the wall's own turn, dU/dy = -omega along x, at a distance of 1 m
     const scalar wrong = density * kinematicViscosity * omega * depth;
     EXPECT_NEAR(sum(resting.ofWalls()), wrong, 1e-12);
-    EXPECT_EQ(sum(resting.powers(resting.ofWalls())()), 0);
+    EXPECT_EQ(sum(resting.powers(resting.ofWalls())), 0);
     EXPECT_NEAR(resting.power(2 + wrong, resting.ofWalls()), 3 * 2, 1e-12);
 }
 
