@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The slurry in a small stirred mill: its mesh, start and flow between the balls of the dry run, from one mill.yaml."""
+import os
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from mill_case import run_mill
+from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.foam import read_field, read_mesh, times
+from millfoam.files.mill import read_mill
+from millfoam.files.tables import read_columns
+
+MILL = """
+title: small stirred mill with slurry
+machine: stirred
+geometry:
+  diameter: 0.06
+  height: 0.09
+  impeller:
+    shaft: {diameter: 0.012, end: 0.008}
+    pins:
+      - {height: 0.013, length: 0.050, thickness: 0.006}
+      - {height: 0.025, length: 0.050, thickness: 0.006, angle: 90}
+speed: {tip_speed: 0.8, sense: clockwise}
+charge: {level: 0.035, share: 0.5, diameter: 0.0045}
+materials:
+  ball: {density: 2700, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
+  wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
+  ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
+  ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
+dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.2, record_interval: 0.005}
+averages: {start: 0.1}
+slurry: {density: 1379, plastic_viscosity: 0.1, yield_stress: 0, level: 0.035}
+resolution: {cell_size: 0.0035}
+flow: {duration: 0.06, write_interval: 0.03, averages: {start: 0.03}}
+"""
+os.environ["MILLFOAM_NP"] = "1"
+
+
+class StirredFlow(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="stirred-flow-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        (cls.folder / "mill.yaml").write_text(MILL)
+        cls.case = cls.folder / "case"
+        run_mill(cls.case, cls.folder / "mill.yaml")
+        cls.mill = read_mill(cls.case, "stirred")
+        cls.balance = read_columns(cls.case, "slurryBalance")
+
+    def test_mesh_turns_with_the_impeller_and_is_good(self):
+        mesh = read_json(self.case / "mesh.json", "mesh")
+        self.assertEqual(mesh["time0_s"], 0.1)
+        for quantity, limited in mesh["quality"].items():
+            self.assertLessEqual(limited["value"], limited["limit"], quantity)
+        self.assertTrue(read_json(self.case / "check.json", "check")["ok"])
+        # Turned by 0.8 m/s / 25 mm for 0.1 s: a tip of the lower pins lies there
+        points = np.unique(read_mesh(self.case).points.round(9), axis=0)
+        angle = -0.8 / 0.025 * 0.1
+        tip = 0.025 * np.array([np.cos(angle), np.sin(angle)])
+        self.assertLess(np.abs(points - [*tip, 0.013]).max(axis=1).min(), 1e-8)
+
+    def test_slurry_is_kept(self):
+        start = self.mill.derived("flow", "start")["volume_m3"]
+        self.assertAlmostEqual(self.balance["holdUp"][0] / start, 1, delta=1e-6)
+        self.assertLess(np.abs(self.balance["missing"]).max() / start, 1e-10)
+        # Nothing passes the walls that are at rest, although their faces turn
+        self.assertLess(np.abs(self.balance["discharge"]).max() * 0.06 / start, 1e-12)
+
+    def test_balls_are_those_of_the_dry_run(self):
+        steps = read_csv(next((self.case / "postProcessing" / "flow").glob("*/steps.csv")))
+        np.testing.assert_allclose(steps["solids_m3"], self.mill.derived("charge", "volume_m3"), rtol=1e-3)
+
+    def test_impeller_drives_the_slurry_and_the_shell_holds_it(self):
+        late = self.balance["Time"] > 0.03
+        # Clockwise, so that what drives it is negative
+        self.assertLess(self.balance["torque_shell"][late].mean() * -1, 0)
+        for part in ("shell", "base", "lid"):
+            self.assertEqual(np.abs(self.balance[f"power_{part}"]).max(), 0)
+        folder = times(self.case)[-1][1]
+        mesh = read_mesh(self.case, folder)
+        centre, volume = mesh.centres_and_volumes()
+        velocity, share = read_field(folder / "U", mesh.cells), read_field(folder / "alpha.slurry", mesh.cells)
+        around = (centre[:, 0] * velocity[:, 1] - centre[:, 1] * velocity[:, 0]) / np.hypot(centre[:, 0], centre[:, 1])
+        mean = (volume * share * around).sum() / (volume * share).sum()
+        self.assertLess(mean, -0.01)
+        self.assertGreater(mean, -0.8)
+
+    def test_gravity_is_along_the_axis(self):
+        centre, volume = read_mesh(self.case).centres_and_volumes()
+        share = read_field(self.case / "0" / "alpha.slurry", len(volume))
+        full = share > 1 - 1e-9
+        self.assertLess(centre[full, 2].max(), centre[share < 1e-9, 2].min() + 0.004)
+
+    def test_an_up_to_date_flow_is_kept_and_reported(self):
+        text = run_mill(self.case, self.folder / "mill.yaml")
+        for stage in ("charge", "average", "mesh", "start", "flow"):
+            self.assertIn(f"Keeping {stage}", text)
+        self.assertTrue((self.case / "report.html").is_file())
+
+
+if __name__ == "__main__":
+    unittest.main()
