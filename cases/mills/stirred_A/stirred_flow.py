@@ -29,8 +29,8 @@ SPECKS = 0.02  # share of slurry below which a bin of the map shows none
 
 @dataclass
 class Flow:
-    """The written times of a flow from its averages' start on, in the impeller's frame. Of each cell: centre [n, 3] (m),
-    volume [n] (m3), share of slurry, solidity [n], velocity of slurry and balls [n, 3] along r, theta, z (m/s):
+    """The written times of a flow from its averages' start on, in the impeller's frame. Of each cell: centre [n, 3]
+    (m), volume [n] (m3), share of slurry, solidity [n], velocity of slurry and balls [n, 3] along r, theta, z (m/s):
     means over the times, velocities weighted by the slurry; slips: of each time, its median over cells, m/s."""
     centre: np.ndarray
     volume: np.ndarray
@@ -110,7 +110,8 @@ def numbers_of(case: Path, mill: Mill, flow: Flow) -> dict[str, float]:
     found["slurry_share_of_power"] = found["power_slurry_W"] / (found["power_slurry_W"] + dry)
     found["missing_over_hold_up"] = float(np.abs(columns["missing"]).max() / columns["holdUp"][0])
     found["centre_z_m"] = float(np.interp(even, time, columns["z"]).mean())
-    balls, slurry = (mill.derived(*keys) for keys in (("materials", "ball", "density_kg_m3"), ("slurry", "density_kg_m3")))
+    balls = mill.derived("materials", "ball", "density_kg_m3")
+    slurry = mill.derived("slurry", "density_kg_m3")
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
     found["slip_m_s"], found["slip_deviation_m_s"] = float(np.mean(flow.slips)), float(np.std(flow.slips))
     found["froude"] = found["slip_m_s"] / float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
@@ -249,8 +250,8 @@ def main() -> None:
         figure.savefig(case / f"{name}.png", dpi=110)
         print(f"{name}.png")
     if not numbers["missing_over_hold_up"] <= CONSERVED:
-        sys.exit(f"stirred_flow: {numbers['missing_over_hold_up']:.1e} of the slurry is missing; expected {CONSERVED:g} "
-                 "or less")
+        sys.exit(f"stirred_flow: {numbers['missing_over_hold_up']:.1e} of the slurry is missing; "
+                 f"expected {CONSERVED:g} or less")
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ WALLS = {
 
 @dataclass(frozen=True)
 class Run:
-    """One flow: its mill.yaml and changes, the walls (of WALLS), whether the mesh turns, and whether slurry fills it."""
+    """One flow: its mill.yaml and changes, the walls (of WALLS), whether the mesh turns, whether slurry fills it."""
     mill: Path
     changes: tuple[str, ...]
     walls: str
@@ -65,8 +65,9 @@ def runs(quick: bool) -> dict[str, Run]:
              "Couette, mesh at rest": Run(own, couette, "rest", False, True),
              "pool at rest": Run(STIRRED, still, "pool", False, False)}
     if not quick:
-        paraboloid = (f"speed.angular_velocity={PARABOLOID}", "geometry.height=0.15", "geometry.impeller.shaft.diameter=0.02",
-                      "slurry.plastic_viscosity=2", "flow.max_time_step=0.002", "flow.duration=3", f"resolution.cell_size={0.0775 / 14:.6g}")
+        paraboloid = (f"speed.angular_velocity={PARABOLOID}", "geometry.height=0.15",
+                      "geometry.impeller.shaft.diameter=0.02", "slurry.plastic_viscosity=2", "flow.max_time_step=0.002",
+                      "flow.duration=3", f"resolution.cell_size={0.0775 / 14:.6g}")
         found["turning vessel"] = Run(own, paraboloid, "vessel", True, False)
     return found
 
@@ -83,7 +84,8 @@ def compute(item: tuple[str, Run]) -> Path:
     shutil.move(case / "0.orig", case / "0")
     (case / "0" / "U").write_text(
         HEAD.format(kind="volVectorField", name="U") + '#include "<case>/constant/millProperties"\n'
-        "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\nboundaryField\n{\n" + WALLS[what.walls] + "\n}\n")
+        "dimensions [0 1 -1 0 0 0 0];\ninternalField uniform (0 0 0);\n"
+        "boundaryField\n{\n" + WALLS[what.walls] + "\n}\n")
     if not what.turns:
         (case / "constant" / "dynamicMeshDict").write_text(
             HEAD.format(kind="dictionary", name="dynamicMeshDict") + "dynamicFvMesh staticFvMesh;\n")
@@ -131,7 +133,7 @@ def couette(mill: Mill, radius: np.ndarray) -> np.ndarray:
 
 
 def paraboloid(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Radii of rings of columns from the lid to the base, heights of the slurry there, and those of the closed form, m."""
+    """Radii of rings of columns from lid to base, heights of the slurry there, and those of the closed form, m."""
     mill = state.mill
     omega, length = mill.derived("speed", "angular_velocity_rad_s"), mill.length
     shaft, shell = mill.impeller["shaft_diameter_m"] / 2, mill.radius
@@ -156,8 +158,9 @@ def table(found: dict[str, Path], what: dict[str, Run]) -> tuple[list[tuple[str,
     for name in ("Couette, turning mesh", "Couette, mesh at rest"):
         state = states[name]
         low, high = (share * state.mill.length for share in MIDDLE)
-        chosen = (state.centre[:, 2] > low) & (state.centre[:, 2] < high) & (state.radius > state.mill.impeller["shaft_diameter_m"] / 2)
-        speed = state.mill.derived("speed", "angular_velocity_rad_s") * state.mill.impeller["shaft_diameter_m"] / 2
+        shaft_radius = state.mill.impeller["shaft_diameter_m"] / 2
+        chosen = (state.centre[:, 2] > low) & (state.centre[:, 2] < high) & (state.radius > shaft_radius)
+        speed = state.mill.derived("speed", "angular_velocity_rad_s") * shaft_radius
         error = np.abs(state.around - couette(state.mill, state.radius))[chosen] / speed
         rows.append((f"{name}: largest difference from the closed form", error.max(), COUETTE))
         columns = read_columns(found[name], "slurryBalance")
