@@ -144,6 +144,7 @@ std::vector<ContactBlock> read_contact_blocks(const CaseFolder& folder, const Co
     for (std::size_t k = 0; k < ContactSums::numbers_per_bin; ++k) at[k] += line.values[3 + k];
   }
   std::vector<ContactBlock> ordered;
+  ordered.reserve(blocks.size());
   for (auto& [step, block] : blocks) ordered.push_back(std::move(block));
   return ordered;
 }

@@ -103,7 +103,8 @@ SteadyMean mean_of_turns(const std::vector<double>& values, double turn, std::si
     const double to = end - static_cast<double>(b) * length;
     of_batches.push_back(means.between(std::max(to - length, 0.0), to));
   }
-  const double half = static_cast<double>(count * in_batch / 2) * turn;
+  const std::size_t turns_in_half = count * in_batch / 2;
+  const double half = static_cast<double>(turns_in_half) * turn;
   constexpr double round_off = 1e-6;
   return {static_cast<std::size_t>(start + round_off), mean_of(of_batches, 0, count),
           error_about_line(of_batches), means.between(end - half, end) - means.between(start, start + half)};

@@ -239,13 +239,13 @@ class Stirred(unittest.TestCase):
         self.assertGreater(plan["wall_time_s"], 0)
 
     def test_stages_that_it_does_not_have_are_refused(self):
-        for command, words in ((("millMesh", "mill.json", "--case", "."), "the mill is stirred: expected --walls"),
+        for command, words in ((("millMesh", "mill.json", "--case", "."), "has no slurry: expected --walls"),
                                (("millMesh", "faces", "mill.json", "-o", "a.obj"), "has no mesh of a flow")):
             with self.assertRaisesRegex(RunError, words):
                 run(self.case, *command)
         with self.assertRaisesRegex(RunError, "--until flow: expected walls, charge or average"):
             run_mill(self.case, self.folder / "mill.yaml", until="flow")
-        with self.assertRaisesRegex(RunError, "expected a tumbling mill, because a stirred one has no flow"):
+        with self.assertRaisesRegex(RunError, "expected a mill with slurry, because this one has no flow"):
             run_mill(self.folder / "other", self.folder / "mill.yaml", charge=self.case)
         with self.assertRaisesRegex(RunError, "a stirred one has no flow"):
             run(self.case, "millDem", "mill.json", "--case", ".", "--fluid", "slurry.h5")
