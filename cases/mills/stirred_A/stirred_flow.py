@@ -115,6 +115,9 @@ def numbers_of(case: Path, mill: Mill, flow: Flow) -> dict[str, float]:
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
     found["slip_m_s"], found["slip_deviation_m_s"] = float(np.mean(flow.slips)), float(np.std(flow.slips))
     found["froude"] = found["slip_m_s"] / float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
+    # As the thesis' code computes them: times the root, and with a tenfold viscosity
+    found["froude_as_printed"] = found["slip_m_s"] * float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
+    found["reynolds_as_printed"] = float(np.mean(flow.reynolds)) / 10
     found["reynolds"], found["reynolds_deviation"] = float(np.mean(flow.reynolds)), float(np.std(flow.reynolds))
     return found
 
