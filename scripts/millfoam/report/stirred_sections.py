@@ -16,9 +16,10 @@ from .sections import run_section
 from .verdict import Check
 from .words import uncertain
 
-NUMBERS_NOTE = ("±: standard errors over whole turns, of the power and torques without a drift. Power number: "
-                "P/(ρ N³ D⁵), N in turns per second, D from tip to tip; torque coefficient: T/(ρ ω² R⁵), R = D/2. ρ "
-                "is the bulk density of the resting balls. Torque over weight: T/(m g R), m the balls' mass.")
+NUMBERS_NOTE = ("±: standard errors over whole turns; of power and torques without a drift, and with fewer than four "
+                "turns from ten batches of equal time. Power number: P/(ρ N³ D⁵), N in turns per second, D from tip "
+                "to tip; torque coefficient: T/(ρ ω² R⁵), R = D/2. ρ is the bulk density of the resting balls. Torque "
+                "over weight: T/(m g R), m the balls' mass.")
 
 
 def key_numbers(case: StirredCase) -> Rows:
