@@ -111,23 +111,24 @@ FlowStart at_level(double level) {
 
 /// Slurry of a stirred mill that stands at a level when all is at rest: the space below it without impeller
 /// and balls.
+/// @param balls  volume of the balls, m^3; 0 in a flow without them
 /// @param pores  volume between the resting balls, m^3
-FlowStart at_rest(const Section& in, double level, double pores, const Mill& mill) {
+FlowStart at_rest(const Section& in, double level, double balls, double pores, const Mill& mill) {
   const double space = analytic_section(mill.geometry) * level - impeller_volume(mill.geometry, level);
   FlowStart start;
-  start.volume = space - count_charge(mill).volume;
+  start.volume = space - balls;
   if (!(start.volume > 0))
     in.refuse("level", "a height at which slurry covers the balls: up to " + shown(level) + " m there are " +
-                           shown(space) + " m^3, and the balls' volume is " +
-                           shown(count_charge(mill).volume) + " m^3");
+                           shown(space) + " m^3, and the balls' volume is " + shown(balls) + " m^3");
   start.fill = start.volume / pores;
   return start;
 }
 
-FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
+FlowStart read_start(const Section& flow, Section& slurry, bool with_balls, const Mill& mill) {
   const double radius = mill.geometry.radius(), height = mill.geometry.length;
   const bool stirred = mill.machine() == Machine::stirred;
   const double pores = count_charge(mill).pore_volume;
+  const double balls = with_balls ? count_charge(mill).volume : 0;
   const Rule level = stirred ? positive_below("a height in m above the base", height, " m", "the mill's")
                              : Rule{"a height in m within the radius, " + shown(radius) + " m, of the axis",
                                     [=](double v) { return std::abs(v) <= radius; }};
@@ -138,7 +139,7 @@ FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
     if (flow.has("start") && (both_set || !slurry.is_set("level")))
       flow.refuse("start", "either this key or slurry.level");
     const double at = slurry.number("level", level);
-    return stirred ? at_rest(slurry, at, pores, mill) : at_level(at);
+    return stirred ? at_rest(slurry, at, balls, pores, mill) : at_level(at);
   }
   Section in = flow.optional_section("start", {"level", "volume", "fill"});
   in.alternatives({"level", "volume", "fill"});
@@ -146,7 +147,7 @@ FlowStart read_start(const Section& flow, Section& slurry, const Mill& mill) {
     if (in.has(one) && in.has(other)) in.refuse(other, std::string("either this key or ") + one);
   if (in.has("level")) {
     const double at = in.number("level", level);
-    return stirred ? at_rest(in, at, pores, mill) : at_level(at);
+    return stirred ? at_rest(in, at, balls, pores, mill) : at_level(at);
   }
   if (in.has("volume")) {
     start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",
@@ -411,7 +412,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.coupling = read_coupling(in, flow);
   if (mill.geometry.impeller) refuse_for_stirred(in, flow);
   flow.steady = read_steady_end(in, flow, mill.turn());
-  flow.start = read_start(in, slurry, mill);
+  flow.start = read_start(in, slurry, flow.balls, mill);
   check_room(in, flow, mill);
   const double feed = in.number(
       "feed",

@@ -34,28 +34,31 @@ struct Line {
   double size;  ///< m
 };
 
-/// Size of the cells at a place: that of a line, and more with the distance from it.
+/// Size of the cells at a place, m: that of the nearest lines, and more with the distance from them.
 double size_at(double at, const std::vector<Line>& lines, double largest) {
   double size = largest;
   for (const Line& line : lines) size = std::min(size, line.size + growth * std::abs(at - line.at));
   return size;
 }
 
-/// Lines from one place to another: their distances are in proportion to the sizes.
+/// Appends lines (m) after `from` up to `to`, whose distances are in proportion to the sizes (m).
+/// @param size  size of the cells at a place
+/// @param fixed  number of cells; 0: as many as the sizes give
 template <typename Size>
 void append_between(std::vector<double>& lines, double from, double to, const Size& size, int fixed) {
   constexpr int steps = 400;
+  const auto at = [](int number) { return static_cast<std::size_t>(number); };
   std::vector<double> sum(steps + 1, 0);
   for (int i = 0; i < steps; ++i)
-    sum[static_cast<std::size_t>(i + 1)] =
-        sum[static_cast<std::size_t>(i)] + (to - from) / steps / size(from + (to - from) * (i + 0.5) / steps);
+    sum[at(i + 1)] = sum[at(i)] + (to - from) / steps / size(from + (to - from) * (i + 0.5) / steps);
   const int cells = fixed > 0 ? fixed : std::max(1, static_cast<int>(std::lround(sum.back())));
+  lines.reserve(lines.size() + at(cells));
   int step = 0;
   for (int cell = 1; cell < cells; ++cell) {
     const double wanted = sum.back() * cell / cells;
-    while (sum[static_cast<std::size_t>(step + 1)] < wanted) ++step;
-    const double before = sum[static_cast<std::size_t>(step)];
-    const double share = (wanted - before) / (sum[static_cast<std::size_t>(step + 1)] - before);
+    while (sum[at(step + 1)] < wanted) ++step;
+    const double before = sum[at(step)];
+    const double share = (wanted - before) / (sum[at(step + 1)] - before);
     lines.push_back(from + (to - from) * (step + share) / steps);
   }
   lines.push_back(to);

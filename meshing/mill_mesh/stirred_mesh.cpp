@@ -22,8 +22,7 @@ constexpr double reach_of_circle = 3;
 /// Height over which the lines of cells go back from a pin's angles, over its diameter; at the shaft they do
 /// between the pin and the shaft's end.
 constexpr double height_of_return = 3;
-/// Slope of the lines' angles at a pin over that of equal angles: cells next to a pin are at least and at
-/// most so wide as these shares of equal ones.
+/// Width of the columns next to a pin over that of equal columns between two pins: smallest and largest.
 constexpr double narrowest = 0.8;
 constexpr double widest = 1.8;
 /// Layers of cells over which a flat tip moves points towards the shaft.
@@ -80,7 +79,7 @@ class StirredMesh {
     return std::asin(std::min(half / radius, 1.0));
   }
 
-  /// By how much a level's pins turn a line of the grid from the equal angles, rad.
+  /// By how much a level's pins turn a line of the grid from the equal angles, rad; radius in m.
   double shift(std::size_t level, int column, double radius) const {
     const PinLevel& pins = impeller_.pins[level];
     const double equal = 2 * pi / lines_.around, half = half_angle(level, radius);
@@ -93,7 +92,8 @@ class StirredMesh {
       const double next_angle = a + 1 < pins.arms ? (first + a + 1)->angle : first->angle + 2 * pi;
       int from = column;  // the same line, at or after this arm's
       const int begin = arm.column - across / 2;
-      from += lines_.around * static_cast<int>(std::ceil((begin - from) / double(lines_.around)));
+      from +=
+          lines_.around * static_cast<int>(std::ceil((begin - from) / static_cast<double>(lines_.around)));
       const double turns = equal * (from - column);
       if (from <= arm.column + across / 2) {
         const double share = 2.0 * (from - arm.column) / across;
@@ -104,7 +104,7 @@ class StirredMesh {
       const int cells = end - (arm.column + across / 2);
       const double length = next_angle - arm.angle - 2 * half;
       const double slope = std::clamp(2 * half / across * cells, narrowest * length, widest * length);
-      const double x = double(from - arm.column - across / 2) / cells;
+      const double x = static_cast<double>(from - arm.column - across / 2) / cells;
       const double angle = slope * x + (length - slope) * x * x * (3 - 2 * x);
       return arm.angle + half + angle - turns - equal * column;
     }
@@ -192,8 +192,8 @@ class StirredMesh {
     const int tip = lines_.pin_tips[arm.level];
     const double reach = pins.length / 2;
     const double flat = std::hypot(reach, moved.x()) - reach;
-    const double fade =
-        ring > tip ? roundness(arm.level, ring) : std::max(0.0, 1 - double(tip - ring) / layers_of_tip);
+    const double fade = ring > tip ? roundness(arm.level, ring)
+                                   : std::max(0.0, 1 - static_cast<double>(tip - ring) / layers_of_tip);
     radius += fade * (inner > 1 ? (1 - outer) / (1 - outer / inner) : 1) * flat;
     angle = arm.angle + std::asin(std::clamp(moved.x() / radius, -1.0, 1.0));
   }
@@ -253,8 +253,8 @@ class StirredMesh {
     parts_.push_back(parts);
   }
 
-  /// The O-grid of a row's lower or upper points: of a level of heights, in the first row's numbering of
-  /// quadrilaterals.
+  /// The O-grid below the shaft at the lower side of a row. Appends its points to the mesh, and to `numbers`
+  /// the numbers of the section's points in the mesh.
   CrossSection core_at(int row, std::vector<int>& numbers) {
     CrossSection section;
     std::vector<int> rim;

@@ -5,6 +5,7 @@
 
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 

@@ -82,7 +82,7 @@ void write_for_dry_run(const MillDescription& description, const WallSurface& su
   write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
 }
 
-/// The mesh of a stirred mill's flow.
+/// The mesh of a stirred mill's flow: its quality and, unless walls alone are wanted, its files.
 void mesh_stirred(const Options& options, const MillDescription& description) {
   const Mill& mill = description.mill;
   const VolumeMesh mesh = make_stirred_mesh(mill.geometry, mill.resolution.cell_size);
@@ -90,7 +90,7 @@ void mesh_stirred(const Options& options, const MillDescription& description) {
   const Openings none;
   std::cout << mesh_report(mill, mesh, q, none, stirred_limits) << std::flush;
   require_quality(q, flow_volume(mill.geometry), std::numeric_limits<double>::infinity(), stirred_limits);
-  if (options.case_folder.empty()) return;
+  if (options.case_folder.empty() || options.walls_only) return;
   const fs::path folder = options.case_folder;
   const double time = mesh_time(options, mill);
   write_poly_mesh(turned(mesh, mill.angular_velocity * time), folder);
@@ -111,8 +111,9 @@ void run_stirred(const Options& options, const MillDescription& description) {
             << wall_report(surface, volume, closed_form, allowed_stirred_volume_error) << std::flush;
   require_stirred_volume(volume, closed_form);
   require_no_needles(surface);
+  // A mesh that is refused shall not cost a dry run
+  if (mill.has_flow()) mesh_stirred(options, description);
   if (!options.case_folder.empty()) write_for_dry_run(description, surface, volume, options.case_folder);
-  if (!options.walls_only) mesh_stirred(options, description);
 }
 
 void run(const Options& options) {

@@ -13,6 +13,7 @@ from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.foam import read_field, read_mesh, times
 from millfoam.files.mill import read_mill
 from millfoam.files.tables import read_columns
+from millfoam.run import RunError
 
 MILL = """
 title: small stirred mill with slurry
@@ -68,7 +69,6 @@ class StirredFlow(unittest.TestCase):
         start = self.mill.derived("flow", "start", "volume_m3")
         self.assertAlmostEqual(self.balance["holdUp"][0] / start, 1, delta=1e-6)
         self.assertLess(np.abs(self.balance["missing"]).max() / start, 1e-10)
-        # Nothing passes the walls that are at rest, although their faces turn
         self.assertLess(np.abs(self.balance["discharge"]).max() * 0.06 / start, 1e-12)
 
     def test_balls_are_those_of_the_dry_run(self):
@@ -78,7 +78,11 @@ class StirredFlow(unittest.TestCase):
     def test_impeller_drives_the_slurry_and_the_shell_holds_it(self):
         late = self.balance["Time"] > 0.03
         # Clockwise, so that what drives it is negative
-        self.assertLess(self.balance["torque_shell"][late].mean() * -1, 0)
+        self.assertLess(self.balance["torque_impeller"][late].mean(), 0)
+        self.assertGreater(self.balance["torque_shell"][late].mean(), 0)
+        np.testing.assert_allclose(self.balance["power"], self.balance["power_impeller"], rtol=1e-12)
+        np.testing.assert_allclose(self.balance["power_impeller"], -0.8 / 0.025 * self.balance["torque_impeller"],
+                                   rtol=1e-9)
         for part in ("shell", "base", "lid"):
             self.assertEqual(np.abs(self.balance[f"power_{part}"]).max(), 0)
         folder = times(self.case)[-1][1]
@@ -95,6 +99,14 @@ class StirredFlow(unittest.TestCase):
         share = read_field(self.case / "0" / "alpha.slurry", len(volume))
         full = share > 1 - 1e-9
         self.assertLess(centre[full, 2].max(), centre[share < 1e-9, 2].min() + 0.004)
+
+    def test_dictionaries_of_another_machine_are_refused(self):
+        other = self.folder / "other"
+        shutil.copytree(self.case / "0.orig", other / "0.orig")
+        path = other / "0.orig" / "U"
+        path.write_text(path.read_text().replace("restingWallVelocity", "movingWallVelocity"))
+        with self.assertRaisesRegex(RunError, "its walls are those of a tumbling mill"):
+            run_mill(other, self.folder / "mill.yaml", "flow.balls=false", until="mesh")
 
     def test_an_up_to_date_flow_is_kept_and_reported(self):
         text = run_mill(self.case, self.folder / "mill.yaml")

@@ -30,14 +30,14 @@ SPECKS = 0.02  # share of slurry below which a bin of the map shows none
 @dataclass
 class Flow:
     """The written times of a flow from its averages' start on, in the impeller's frame. Of each cell: centre [n, 3]
-    (m), volume [n] (m3), share of slurry, solidity [n], velocity of slurry and balls [n, 3] along r, theta, z (m/s):
-    means over the times, velocities weighted by the slurry; slips: of each time, its median over cells, m/s."""
+    (m), volume [n] (m3), share of slurry, solidity [n], velocity of the slurry [n, 3] along r, theta, z (m/s): means
+    over the times, the velocity weighted by the slurry; slips, reynolds: of each time, the median of the slip between
+    slurry and balls (m/s) and of its Reynolds number over the cells, NaN where no balls are in slurry."""
     centre: np.ndarray
     volume: np.ndarray
     share: np.ndarray
     solidity: np.ndarray
     velocity: np.ndarray
-    balls: np.ndarray
     slips: list[float]
     reynolds: list[float]
     times: list[float]
@@ -53,7 +53,9 @@ def along_cylinder(centre: np.ndarray, velocity: np.ndarray, angle: float) -> np
 
 
 def median(values: np.ndarray, weights: np.ndarray) -> float:
-    """Value that half of the weight lies below."""
+    """Value that half of the weight lies below; NaN without values."""
+    if not len(values):
+        return np.nan
     order = np.argsort(values)
     return float(values[order][np.searchsorted(np.cumsum(weights[order]), weights.sum() / 2)])
 
@@ -72,21 +74,29 @@ def read_flow(case: Path, mill: Mill) -> Flow:
     chosen = [(time, folder) for time, folder in foam.times(case) if time >= start and time > 0]
     if not chosen:
         sys.exit(f"stirred_flow: {case}: no written time from {start:g} s on (flow.averages.start); expected one")
-    share, moved, slips, numbers = np.zeros(len(volume)), np.zeros((len(volume), 3)), [], []
+    share, dense, moved, slips, numbers = np.zeros(len(volume)), np.zeros(len(volume)), np.zeros_like(centre), [], []
     for time, folder in chosen:
         alpha = foam.read_field(folder / "alpha.slurry", mesh.cells)
-        solidity = foam.read_field(folder / "solidity", mesh.cells)
         velocity = along_cylinder(centre, foam.read_field(folder / "U", mesh.cells), omega * time)
-        balls = along_cylinder(centre, foam.read_field(folder / "solidsVelocity", mesh.cells), omega * time)
         share += alpha
         moved += alpha[:, None] * velocity
+        if not (folder / "solidity").is_file():
+            continue
+        solidity = foam.read_field(folder / "solidity", mesh.cells)
+        balls = along_cylinder(centre, foam.read_field(folder / "solidsVelocity", mesh.cells), omega * time)
+        dense += solidity
         wet = (alpha > 0.5) & (solidity > DENSE)
         slip, weight = np.linalg.norm(velocity - balls, axis=1)[wet], (volume * solidity)[wet]
         slips.append(median(slip, weight))
         numbers.append(median(density * slip * diameter * (1 - solidity[wet]) / viscosity, weight))
     mean = moved / np.maximum(share, 1e-9)[:, None]
-    return Flow(at_zero, volume, share / len(chosen), solidity, mean, balls, slips, numbers,
+    return Flow(at_zero, volume, share / len(chosen), dense / len(chosen), mean, slips or [np.nan], numbers or [np.nan],
                 [time for time, _ in chosen])
+
+
+def deviation(values: list[float]) -> float:
+    """Standard deviation; NaN of a single value."""
+    return float(np.std(values, ddof=1)) if len(values) > 1 else np.nan
 
 
 def numbers_of(case: Path, mill: Mill, flow: Flow) -> dict[str, float]:
@@ -94,31 +104,29 @@ def numbers_of(case: Path, mill: Mill, flow: Flow) -> dict[str, float]:
     start = mill.derived("flow", "averages_start_s")
     columns = read_columns(case, "slurryBalance")
     time, step = columns["Time"], np.diff(columns["Time"], prepend=0)
-    even = np.arange(start, time[-1], step.min())
+    even = np.arange(start, time[-1], np.median(step))
     found: dict[str, float] = {"begin_s": start, "end_s": float(time[-1]), "turns": (time[-1] - start) / mill.turn}
     for part in ("impeller", "shell", "base", "lid", "all"):
         torque = mean_from(even, np.interp(even, time, columns[f"torque_{part}"]), start, mill.turn)
         found[f"torque_{part}_Nm"], found[f"torque_{part}_error_Nm"] = torque.value, torque.error
-    # What balls give: all that walls do not
-    found["torque_balls_Nm"] = found["torque_all_Nm"] - sum(
+    # What walls do not give; it also has the error of the stress at curved walls
+    found["torque_rest_Nm"] = found["torque_all_Nm"] - sum(
         found[f"torque_{part}_Nm"] for part in ("impeller", "shell", "base", "lid"))
-    omega = mill.derived("speed", "angular_velocity_rad_s")
-    found["power_impeller_W"] = omega * found["torque_impeller_Nm"]
-    found["power_slurry_W"] = omega * (found["torque_impeller_Nm"] + found["torque_balls_Nm"])
-    dry = read_json(case / "dumps" / "results.json", "charge")["power_W"] if (case / "dumps").is_dir() else np.nan
-    found["power_dry_charge_W"] = dry
-    found["slurry_share_of_power"] = found["power_slurry_W"] / (found["power_slurry_W"] + dry)
+    found["power_impeller_W"] = mill.derived("speed", "angular_velocity_rad_s") * found["torque_impeller_Nm"]
+    results = case / "dumps" / "results.json"
+    found["power_dry_charge_W"] = read_json(results, "charge")["power_W"] if results.is_file() else np.nan
+    found["slurry_over_charge"] = found["power_impeller_W"] / found["power_dry_charge_W"]
     found["missing_over_hold_up"] = float(np.abs(columns["missing"]).max() / columns["holdUp"][0])
     found["centre_z_m"] = float(np.interp(even, time, columns["z"]).mean())
     balls = mill.derived("materials", "ball", "density_kg_m3")
     slurry = mill.derived("slurry", "density_kg_m3")
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
-    found["slip_m_s"], found["slip_deviation_m_s"] = float(np.mean(flow.slips)), float(np.std(flow.slips))
+    found["slip_m_s"], found["slip_deviation_m_s"] = float(np.mean(flow.slips)), deviation(flow.slips)
     found["froude"] = found["slip_m_s"] / float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
     # As the thesis' code computes them: times the root, and with a tenfold viscosity
     found["froude_as_printed"] = found["slip_m_s"] * float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
     found["reynolds_as_printed"] = float(np.mean(flow.reynolds)) / 10
-    found["reynolds"], found["reynolds_deviation"] = float(np.mean(flow.reynolds)), float(np.std(flow.reynolds))
+    found["reynolds"], found["reynolds_deviation"] = float(np.mean(flow.reynolds)), deviation(flow.reynolds)
     return found
 
 
@@ -209,7 +217,7 @@ def vortex_figure(case: Path, mill: Mill, flow: Flow) -> plt.Figure:
     image = axis.pcolormesh(1e3 * x, 1e3 * z, np.where(share > 0.5, speed, np.nan), cmap="viridis", vmin=0)
     figure.colorbar(image, ax=axis, label="speed of the slurry, m/s (mean over time)")
     axis.contour(1e3 * x, 1e3 * z, share, [0.5], colors="tab:blue", linewidths=1.2)
-    if (case / "dumps").is_dir():
+    if any((case / "dumps").glob("dump.*")):
         balls = last_balls(case, mill)
         half = mill.derived("charge", "largest_diameter_m") / 2
         away = balls @ across

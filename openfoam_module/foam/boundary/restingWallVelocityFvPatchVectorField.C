@@ -66,13 +66,15 @@ void Foam::restingWallVelocityFvPatchVectorField::updateCoeffs()
     {
         return;
     }
+    vectorField velocity(size(), Zero);
     if (internalField().mesh().moving())
     {
         const auto& U = static_cast<const volVectorField&>(internalField());
         const scalarField swept(
             patch().patchField<surfaceScalarField, scalar>(fvc::meshPhi(U)));
-        operator==(patch().nf() * swept / patch().magSf());
+        velocity = patch().nf() * swept / patch().magSf();
     }
+    operator==(velocity);
     fixedValueFvPatchVectorField::updateCoeffs();
 }
 

@@ -40,23 +40,24 @@ static List<bool> restingOf(
     const polyBoundaryMesh& patches, const labelList& walls,
     const dictionary& dict)
 {
-    const wordRes names(dict.lookupOrDefault<wordRes>("resting", wordRes()));
-    const labelHashSet found(patches.patchSet(names, false));
-    List<bool> result(walls.size());
-    forAll(walls, i)
+    List<bool> result(walls.size(), false);
+    for (const wordRe& name :
+         dict.lookupOrDefault<wordRes>("resting", wordRes()))
     {
-        result[i] = found.found(walls[i]);
-    }
-    label inWalls = 0;
-    for (const bool one : result)
-    {
-        inWalls += one;
-    }
-    if (inWalls < names.size())
-    {
-        FatalIOErrorInFunction(dict)
-            << "resting is " << names << "; expected patches of walls"
-            << exit(FatalIOError);
+        bool isWall = false;
+        forAll(walls, i)
+        {
+            const bool named = name.match(patches[walls[i]].name());
+            result[i] = result[i] || named;
+            isWall = isWall || named;
+        }
+        if (!isWall)
+        {
+            FatalIOErrorInFunction(dict)
+                << "resting has " << name
+                << ", which is none of the walls; expected patches of walls"
+                << exit(FatalIOError);
+        }
     }
     return result;
 }
@@ -173,12 +174,7 @@ Foam::scalarField Foam::slurryTorque::powers(const scalarField& torques) const
 Foam::scalar
 Foam::slurryTorque::power(const scalar all, const scalarField& torques) const
 {
-    scalar atRest = 0;
-    forAll(torques, i)
-    {
-        atRest += resting_[i] ? torques[i] : 0;
-    }
-    return speed_ * (all - atRest);
+    return resting_.found(true) ? sum(powers(torques)) : speed_ * all;
 }
 
 
