@@ -19,9 +19,8 @@ using namespace Foam;
 TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
 {
     smallCase box;
-    volVectorField U(
-        IOobject("U", box.time().timeName(), box.mesh()), box.mesh(),
-        dimensionedVector(dimVelocity, vector::zero), "restingWallVelocity");
+    volVectorField U(box.field<vector>(
+        "U", dimVelocity, vector::zero, "restingWallVelocity"));
     ++box.time();
     pointField points(box.mesh().points());
     const scalar angle = 0.02;
@@ -60,9 +59,8 @@ TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
 TEST(restingWallVelocity, isAtRestWhereTheMeshIs)
 {
     smallCase box;
-    volVectorField U(
-        IOobject("U", box.time().timeName(), box.mesh()), box.mesh(),
-        dimensionedVector(dimVelocity, vector::one), "restingWallVelocity");
+    volVectorField U(box.field<vector>(
+        "U", dimVelocity, vector::one, "restingWallVelocity"));
     ++box.time();
     U.correctBoundaryConditions();
     forAll(box.mesh().boundary(), patchi)
