@@ -43,9 +43,9 @@ def make_run(folder, name, torque=TORQUE, speed=SPEED, falling=0.0):
     mill = read_mill(place, "stirred")
     end, turn = mill.asked("dem", "duration"), mill.turn
     times = STEP * RECORDS * np.arange(1, int(end / STEP / RECORDS) + 1)
-    drift = DRIFT * (np.floor((times - end + 5 * turn) / turn + 1e-9) - 2)
-    late = times > end - 5 * turn
-    early = np.where(late, 0, 10)  # what must not be read
+    # A value is that of the time since the record before
+    drift = DRIFT * (np.clip(np.floor((times - STEP * RECORDS / 2 - end + 5 * turn) / turn), 0, 4) - 2)
+    early = np.where(times >= end - 5 * turn - 1e-6, 0, 10)  # what must not be read
     columns = {"time_s": times, "impeller_Nm": -torque - drift - early, "shell_Nm": SHELL + 0.975 * drift,
                "base_Nm": 0.975 * torque - SHELL + 0 * times, "lid_Nm": 0 * times}
     write_table(place / "dumps" / "torques.csv", columns)
@@ -102,10 +102,11 @@ class Numbers(unittest.TestCase):
         self.assertAlmostEqual(one.begin, 0.8, delta=1e-5)
         for found, value, by in ((one.torques["impeller"], -TORQUE, 1), (one.torques["shell"], SHELL, 0.975),
                                  (one.power, TORQUE * 1.846 / 0.0705, 1.846 / 0.0705), (one.speed, SPEED, 1)):
-            self.assertAlmostEqual(found.value, value, delta=1e-6 * abs(value))
-            self.assertAlmostEqual(found.error, by * error, delta=1e-6 * by)
+            # Turns have 24 records each; the last turn ends with the last record, up to a record before the end
+            self.assertAlmostEqual(found.value, value, delta=2e-3 * abs(value))
+            self.assertAlmostEqual(found.error, by * error, delta=0.05 * by * error)
         self.assertAlmostEqual(one.at_rest.value, 0.975, delta=1e-6)
-        self.assertAlmostEqual(one.at_rest.error, 0.025 * error / TORQUE, delta=1e-6)
+        self.assertAlmostEqual(one.at_rest.error, 0.025 * error / TORQUE, delta=0.05 * 0.025 * error / TORQUE)
 
     def test_a_drift_in_the_turns_that_are_read_is_named(self):
         self.assertEqual(self.one.drifting, ())

@@ -8,15 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from millfoam.files.data_files import read_csv, read_json
-from millfoam.files.dumps import numbered_dumps, read_timestep
 from millfoam.files.mill import Mill, read_mill
 from millfoam.readings.batches import batch_means
 from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.stirred_power import mean_from, mean_speed, scaled
 
 from runs import Run
 
 DRIFT = 0.02  # of a mean, by which the last turns may differ from the first ones
 ERRORS = 3  # or as many standard errors
+ROUNDED = 1e-3  # of a turn: a record is at a time that is rounded to steps
 
 
 @dataclass(frozen=True)
@@ -43,21 +44,6 @@ class Numbers:
         return self.mill.derived("charge", "volume_m3")
 
 
-def speeds_of(dumps: Path, begin: float) -> tuple[np.ndarray, np.ndarray]:
-    """DEM times (s) of the dumps from `begin` on, and the mean speed of all balls at each (m/s)."""
-    step = read_timestep(dumps)
-    times, speeds = [], []
-    for number, path in numbered_dumps(dumps):
-        if number * step < begin * (1 - 1e-9):
-            continue
-        with open(path) as file:
-            names = next(line for line in file if line.startswith("ITEM: ATOMS")).split()[2:]
-            velocity = np.loadtxt(file, usecols=[names.index(name) for name in ("vx", "vy", "vz")], ndmin=2)
-        times.append(number * step)
-        speeds.append(np.linalg.norm(velocity, axis=1).mean())
-    return np.array(times), np.array(speeds)
-
-
 def drifts(means: np.ndarray) -> bool:
     """Whether the means of turns drift: those of the last half of the turns and of the first one differ by more than
     DRIFT of the mean, and by more than ERRORS standard errors. Of fewer than four turns the errors are not known."""
@@ -77,20 +63,19 @@ def read_numbers(run: Run, folder: Path) -> Numbers:
     if turns < 1:
         raise RuntimeError(f"{folder}: averaged over less than a turn of the impeller, {mill.turn:.4g} s")
     begin = end - turns * mill.turn
+    since = begin - ROUNDED * mill.turn
     columns, energy = (read_csv(folder / "dumps" / name) for name in ("torques.csv", "energy.csv"))
 
-    def by_turns(times: np.ndarray, values: np.ndarray) -> np.ndarray:
-        return batch_means(times, values, begin, mill.turn, turns)
-
     def mean(values: np.ndarray) -> Mean:
-        return block_mean(by_turns(columns["time_s"], values))
+        return mean_from(columns["time_s"], values, since, mill.turn)
     parts = list(results["part_torques_Nm"])
     torques = {part: mean(columns[f"{part}_Nm"]) for part in parts}
     impeller = torques["impeller"]
     missing = mean(np.sum([columns[f"{part}_Nm"] for part in parts], axis=0))
     return Numbers(run, mill, results["balls"], turns, begin, torques,
-                   Mean(-impeller.value * mill.omega, impeller.error * abs(mill.omega)),
+                   scaled(Mean(abs(impeller.value), impeller.error), abs(mill.omega)),
                    Mean(1 - missing.value / impeller.value, abs(missing.error / impeller.value)),
-                   block_mean(by_turns(*speeds_of(folder / "dumps", begin))),
+                   mean_speed(folder / "dumps", since, mill.turn),
                    tuple(name for name in ("power_W", "kinetic_J", "potential_J")
-                         if drifts(by_turns(energy["time_s"], energy[name]))), results["steady"])
+                         if drifts(batch_means(energy["time_s"], energy[name], begin, mill.turn, turns))),
+                   results["steady"])

@@ -16,7 +16,7 @@ MILLS = {"A": (), "B": ("variant=mill_B",), "C": ("variant=mill_C",)}  # name ->
 SPEEDS = {"1.8": 1.846, "2.2": 2.215, "1.5": 1.477}  # as the runs name it -> of the pins' tips, m/s
 STARTING, TURNS = 0.8, 5  # s from the start of the impeller that are not read; turns of it that are
 QUICK_STARTING, QUICK_TURNS = 0.1, 2
-# A dump takes 1 to 3 MB
+# A dump of mill C takes 3 MB
 ALWAYS = ("dem.record_interval=0.01",)
 
 
