@@ -35,10 +35,9 @@ enum class Interpolation {
 /// not empty. The window's fields must have the grid's size.
 LocalSolids sample(const BoxGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation);
-/// The same on a cylinder, whose own coordinates are r, theta and z.
-/// @param time  DEM time, s, at which the point is at `point`: a cylinder that turns is sampled where the
-///              point is in its frame. Velocities along r, theta and z are interpolated as such, and turned
-///              to x and y at the point's own azimuth.
+/// The same on a cylinder, whose own coordinates are r, theta and z. `time` is the DEM time, s, at which the
+/// point is at `point`: a cylinder that turns is sampled where the point is in its frame. Velocities along r,
+/// theta and z are interpolated as such, and turned to x and y at the point's own azimuth.
 LocalSolids sample(const CylinderGrid& grid, const SolidsWindow& window, const Vector3& point,
                    Interpolation interpolation, double time = 0);
 

@@ -195,9 +195,9 @@ struct Voxels {
 /// Voxels of a cylinder about the axis, from the base to the lid and from the axis to the shell.
 struct Rings {
   bool turning = false;  ///< with the impeller
-  int radial = 0;        ///< numbers along r, around the axis and along z
-  int azimuthal = 0;
-  int axial = 0;
+  int radial = 0;        ///< number along r
+  int azimuthal = 0;     ///< number around the axis
+  int axial = 0;         ///< number along z
 };
 
 /// How the charge is averaged for the flow.

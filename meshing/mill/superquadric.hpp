@@ -37,13 +37,13 @@ double surface(const Superquadric& body);
 /// that mean.
 double sphericity(const Superquadric& body);
 
-/// Area of the body's shadow along a direction, m^2.
-/// @param along  the direction in the body's frame; of any length above 0
+/// Area of the body's shadow along a direction, m^2. `along` is the direction in the body's frame, of any
+/// length above 0.
 double cross_section(const Superquadric& body, const std::array<double, 3>& along);
 
 /// Mean curvature of the surface where the ray from the centre in a direction leaves the body, 1/m:
 /// (|∇S|^2 tr H - ∇S^T H ∇S)/(2 |∇S|^3), of S = Σ|x/a|^N and its Hessian H. A sphere has 1/R.
-/// @param direction  of the ray in coordinates over the half axes; of any length above 0
+/// `direction` is that of the ray in coordinates over the half axes, of any length above 0.
 double mean_curvature(const Superquadric& body, const std::array<double, 3>& direction);
 
 /// The least radius of curvature, m: 1 over the largest mean curvature of the surface.

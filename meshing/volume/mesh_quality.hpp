@@ -57,9 +57,9 @@ inline constexpr double allowed_volume_error = 0.005;
 /// What a mesh may have at most, and what to change otherwise; by default of a tumbling mill.
 struct QualityLimits {
   double non_orthogonality = allowed_non_orthogonality;  ///< degrees
-  double skewness = allowed_skewness;
-  double volume_ratio = allowed_volume_ratio;
-  double volume_error = allowed_volume_error;
+  double skewness = allowed_skewness;                    ///< as of MeshQuality
+  double volume_ratio = allowed_volume_ratio;            ///< of two neighbouring cells
+  double volume_error = allowed_volume_error;            ///< relative
   const char* advice =
       "choose another resolution, lifters that are less high or less wide, or openings whose circles are "
       "further from each other and from the lifters";  ///< for messages

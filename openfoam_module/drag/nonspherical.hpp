@@ -25,8 +25,8 @@ double hoelzer_sommerfeld(double phi, double re, const Shape& shape);
 /// other balls use the coefficient below.
 const Law& hoelzer_sommerfeld_law();
 
-/// Exchange coefficient beta (kg/(m^3 s)) by this law of a bed of solidity phi at slip v (m/s).
-/// @param diameter  of the sphere of equal volume, m
+/// Exchange coefficient beta (kg/(m^3 s)) by this law of a bed of solidity phi at a slip (m/s), of balls
+/// with this `shape` in a `fluid`. `diameter` is that of the sphere of equal volume, m.
 double exchange_coefficient(const Shape& shape, double phi, double slip, double diameter, const Fluid& fluid);
 
 }  // namespace millfoam::drag
