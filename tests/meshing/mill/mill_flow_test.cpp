@@ -321,8 +321,9 @@ TEST(Set, of_two_alternatives_is_refused) {
                           const std::string& message) {
     EXPECT_NE(refusal_of(text, set).find(message), std::string::npos) << refusal_of(text, set);
   };
-  refused(example_mill, {"charge.fill=0.3", "charge.classes=[{diameter: 0.005, mass: 0.1}]"},
-          "--set charge.fill=0.3: key 'charge.fill' = 0.3: expected either classes, or fill, diameter and shape");
+  refused(
+      example_mill, {"charge.fill=0.3", "charge.classes=[{diameter: 0.005, mass: 0.1}]"},
+      "--set charge.fill=0.3: key 'charge.fill' = 0.3: expected either classes, or fill, diameter and shape");
   refused(example_mill, {"charge.fill=0.3", "charge.classes[0].mass=0.1"},
           "'charge.fill' = 0.3: expected either classes, or fill, diameter and shape");
   refused(example_mill, {"charge.fill=0.3", "charge.reference_length=0.1"},
