@@ -104,7 +104,8 @@ class StirredMesh {
       const int cells = end - (arm.column + across / 2);
       const double length = next_angle - arm.angle - 2 * half;
       const double slope = std::clamp(2 * half / across * cells, narrowest * length, widest * length);
-      const double x = static_cast<double>(from - arm.column - across / 2) / cells;
+      const int beyond = from - arm.column - across / 2;
+      const double x = static_cast<double>(beyond) / cells;
       const double angle = slope * x + (length - slope) * x * x * (3 - 2 * x);
       return arm.angle + half + angle - turns - equal * column;
     }
