@@ -183,8 +183,13 @@ class Statements(unittest.TestCase):
     def test_published_numbers(self):
         words = "the mean speed of the balls is the published one"
         self.assertEqual(self.verdict(words, self.found(A_1x8=0.52, B_1x8=0.4)), [CONFIRMED, CONTRADICTED])
-        words = "the ratio of mean speeds"
+        words = "the ratio of mean speeds to"
         self.assertEqual(self.verdict(words, self.found(A_1x8=0.5, A_2x2=0.6, B_1x8=0.3)), [CONFIRMED, CONTRADICTED])
+
+    def test_dry_runs_with_other_balls(self):
+        words = "the ratio of powers of B and A is that of published dry runs"
+        self.assertEqual(self.verdict(words, self.found(A_1x8=0.5, B_1x8=0.65)), [CONFIRMED])
+        self.assertEqual(self.verdict(words, self.found(A_1x8=0.5, B_1x8=0.5)), [CONTRADICTED])
 
     def test_torque_must_balance(self):
         words = "the walls at rest take"

@@ -37,6 +37,8 @@ PUBLISHED = {("A", "1.5"): Published(0.46, 275e3 / 60, 375e3 / 60),
              ("A", "1.8"): Published(0.60, 410e3 / 60, 558e3 / 60),
              ("A", "2.2"): Published(0.73, 531e3 / 60, 792e3 / 60),
              ("B", "1.8"): Published(0.59, 405e3 / 60, 524e3 / 60)}
+# Published dry runs at 1.8 m/s with balls of another shape (superquadrics, group 3): mean speed, m/s; power, W / 60
+SHAPED = {("A", "1.8"): (0.545, 673 / 60), ("B", "1.8"): (0.500, 883 / 60)}
 # The same mill by LIGGGHTS alone, with the same modulus, from 0.6 to 1.2 s
 INDEPENDENT = ("A", "2.2"), 24.9, 0.635  # run, W, m/s
 
@@ -118,6 +120,15 @@ def published_speeds(found: Found) -> Iterator[Verdict]:
                      judge)
 
 
+def shaped_ratios(found: Found) -> Iterator[Verdict]:
+    """Ratios of mean speed and power of mill B to mill A are those of dry runs with balls of another shape."""
+    small, large = SHAPED
+    for k, (words, read) in enumerate((("mean speeds", speed), ("powers", power))):
+        expected = SHAPED[large][k] / SHAPED[small][k]
+        yield tested(f"the ratio of {words} of B and A is that of published dry runs with balls of another shape "
+                     f"within {100 * NEAR:g} %", found, (small, large), has_ratio(read, expected))
+
+
 def published_ratios(found: Found) -> Iterator[Verdict]:
     """Ratios of mean speeds and of powers per volume of two runs are those of the published ones, by the balls."""
     base = ("A", "1.8")
@@ -126,14 +137,16 @@ def published_ratios(found: Found) -> Iterator[Verdict]:
             if place == base:
                 continue
             expected = getattr(PUBLISHED[place], known) / getattr(PUBLISHED[base], known)
-
-            def judge(first: Numbers, one: Numbers, read: Reading = read,
-                      expected: float = expected) -> tuple[str, str]:
-                over = ratio(read(one), read(first))
-                return within(over.value, expected, NEAR), (
-                    f"{over.value:.3f} ± {over.error:.3f}, published {expected:.3f}")
             yield tested(f"the ratio of {words} to that of A at 1.8 m/s is the published one within {100 * NEAR:g} %",
-                         found, (base, place), judge)
+                         found, (base, place), has_ratio(read, expected))
+
+
+def has_ratio(read: Reading, expected: float) -> Callable[[Numbers, Numbers], tuple[str, str]]:
+    """A judge of two runs: whether what is read of the second over that of the first is a published ratio."""
+    def judge(first: Numbers, second: Numbers) -> tuple[str, str]:
+        over = ratio(read(second), read(first))
+        return within(over.value, expected, NEAR), f"{over.value:.3f} ± {over.error:.3f}, published {expected:.3f}"
+    return judge
 
 
 def ratio(one: Mean, other: Mean) -> Mean:
@@ -158,4 +171,4 @@ def own_checks(found: Found) -> Iterator[Verdict]:
 def verdicts(found: Found) -> list[Verdict]:
     """All verdicts on runs, name -> Numbers."""
     return [*order_of_speeds(found), *order_of_mills(found), *published_speeds(found), *published_ratios(found),
-            *own_checks(found)]
+            *shaped_ratios(found), *own_checks(found)]
