@@ -2,6 +2,7 @@
 """The slurry in a small stirred mill: its mesh, start and flow between the balls of the dry run, from one mill.yaml."""
 import os
 import shutil
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,7 +14,7 @@ from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.foam import read_field, read_mesh, times
 from millfoam.files.mill import read_mill
 from millfoam.files.tables import read_columns
-from millfoam.run import RunError
+from millfoam.run import RunError, run
 
 MILL = """
 title: small stirred mill with slurry
@@ -98,6 +99,16 @@ class StirredFlow(unittest.TestCase):
         share = read_field(self.case / "0" / "alpha.slurry", len(volume))
         full = share > 1 - 1e-9
         self.assertLess(centre[full, 2].max(), centre[share < 1e-9, 2].min() + 0.004)
+
+    def test_its_numbers_are_written_and_drawn(self):
+        script = Path(__file__).resolve().parents[2] / "cases" / "mills" / "stirred_A" / "stirred_flow.py"
+        run(self.case, sys.executable, script, ".")
+        numbers = read_csv(self.case / "flow.csv")
+        late = self.balance["Time"] > 0.03
+        self.assertAlmostEqual(numbers["torque_shell_Nm"][0] / self.balance["torque_shell"][late].mean(), 1, delta=0.02)
+        self.assertGreater(numbers["reynolds"][0], 0)
+        for name in ("flow_maps.png", "vortex.png"):
+            self.assertGreater((self.case / name).stat().st_size, 10000)
 
     def test_dictionaries_of_another_machine_are_refused(self):
         other = self.folder / "other"

@@ -4,7 +4,6 @@
 impeller's frame: maps.png (r-z plane), slices.png (around the pins), profiles.png (radial, in three bands), boxes.png
 (speeds and solidity); torques.png (torques against time)."""
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -13,12 +12,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.files.data_files import read_csv, read_json
-from millfoam.files.dumps import numbered_dumps, read_timestep
+from millfoam.files.dumps import numbered_dumps, read_balls, read_timestep
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.rings_file import read_rings
 from millfoam.plots.stirred_plots import boxes_figure, meridian_figure, profiles_figure, slices_figure
 from millfoam.readings.stirred import Box, ball_boxes, charge_boxes
 from millfoam.readings.stirred_power import mean_from, mean_speed
+from number_table import write_numbers
 
 BALANCED = 0.03  # of the impeller's torque, which may be missing on the walls at rest
 LEAST_TURNS = 3  # of the averaged time, to judge that
@@ -29,9 +29,7 @@ def late_balls(case: Path, begin: float) -> list[tuple[np.ndarray, np.ndarray]]:
     timestep, records = read_timestep(case / "dumps"), []
     for step, path in numbered_dumps(case / "dumps"):
         if step * timestep >= begin:
-            names = path.read_text().split("ITEM: ATOMS", 1)[1].split("\n", 1)[0].split()
-            columns = [names.index(name) for name in ("x", "y", "z", "vx", "vy", "vz")]
-            balls = np.loadtxt(path, skiprows=9, usecols=columns)
+            balls = read_balls(path, "x", "y", "z", "vx", "vy", "vz")
             records.append((balls[:, :3], balls[:, 3:]))
     return records
 
@@ -81,13 +79,8 @@ def main() -> None:
     records = late_balls(case, begin)
     boxes = ball_boxes(*(np.concatenate(parts) for parts in zip(*records)))
     numbers = numbers_of(case, mill, results, begin) | speeds_of(boxes)
-    with open(case / "stirred.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(numbers))
-        writer.writeheader()
-        writer.writerow(numbers)
-    for name, value in numbers.items():
-        # Of less than two turns the error is not known
-        print(f"{name:<28}" + ("–" if np.isnan(value) else f"{value:.5g}"))
+    # Of less than two turns an error is not known
+    write_numbers(case / "stirred.csv", numbers)
     rings = read_rings(case / "solids.h5")
     boxes["solidity"] = charge_boxes(rings)["solidity"]
     for name, figure in (("maps", meridian_figure(mill, rings)), ("slices", slices_figure(mill, rings)),

@@ -3,7 +3,9 @@
 from pathlib import Path
 from typing import Any
 
-from .data_files import number, read_json
+import numpy as np
+
+from .data_files import number, read_json, read_text
 
 
 def read_notes(dumps: Path | str) -> dict[str, Any]:
@@ -27,3 +29,18 @@ def numbered_dumps(folder: Path | str, kind: str = "dump") -> list[tuple[int, Pa
             kind == "dump" and notes.is_file() and read_notes(folder).get("dumps") == 0) else ""
         raise RuntimeError(f"{folder}: no {kind}.<step>.txt{reason}")
     return found
+
+
+def read_balls(path: Path, *columns: str) -> np.ndarray:
+    """Columns of a dump by their names -> [balls, columns], in the dump's units; RuntimeError names the file and what
+    it does not have."""
+    parts = read_text(path).split("ITEM: ATOMS", 1)
+    if len(parts) != 2:
+        raise RuntimeError(f"{path}: no line 'ITEM: ATOMS'; expected a dump of balls")
+    head, rows = parts[1].split("\n", 1)
+    names = head.split()
+    missing = [name for name in columns if name not in names]
+    if missing:
+        raise RuntimeError(f"{path}: no column {', '.join(missing)}; it has {', '.join(names)}")
+    values = np.array(rows.split(), dtype=float).reshape(-1, len(names))
+    return values[:, [names.index(name) for name in columns]]

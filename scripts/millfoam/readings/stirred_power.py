@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files.data_files import read_csv, read_text
-from ..files.dumps import numbered_dumps, read_timestep
+from ..files.data_files import read_csv
+from ..files.dumps import numbered_dumps, read_balls, read_timestep
 from ..files.stirred_case import StirredCase
 from .batches import batch_means
 from .means import Mean
@@ -41,10 +41,7 @@ def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
 
 def speed_in(path: Path) -> float:
     """Mean speed of the balls in a dump, m/s."""
-    head, rows = read_text(path).split("ITEM: ATOMS", 1)[1].split("\n", 1)
-    columns = [head.split().index(name) for name in ("vx", "vy", "vz")]
-    values = np.array(rows.split(), dtype=float).reshape(-1, len(head.split()))
-    return float(np.linalg.norm(values[:, columns], axis=1).mean())
+    return float(np.linalg.norm(read_balls(path, "vx", "vy", "vz"), axis=1).mean())
 
 
 def power_number(power: float, density: float, omega: float, diameter: float) -> float:

@@ -72,9 +72,14 @@ def last_turn(seconds: float, turn: float) -> str:
 
 def charge_section(case: MillCase, readings: Readings) -> list[str]:
     """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
-    cards = charge_maps(case, readings) if case.solids else []
+    return (charge_maps(case, readings) if case.solids else []) + dry_run_cards(case, "walls")
+
+
+def dry_run_cards(case: MillCase, driven: str) -> list[str]:
+    """Cards of the energies and the overlaps of the dry run; driven: what the drive turns, in words."""
+    cards = []
     if case.energy:
-        cards.append(page.picture(figures.energy(case), "Power from the torque on the walls, and the charge's "
+        cards.append(page.picture(figures.energy(case), f"Power from the torque on the {driven}, and the balls' "
                                                         "energies. Dashed: begin of the steady time.",
                                   title="Dry run"))
     if case.overlaps is not None:

@@ -12,7 +12,7 @@ from ..readings.stirred_power import StirredNumbers, read_stirred
 from . import figures, page, stirred_figures
 from .case_readings import Rows
 from .comparison import verdict_table
-from .sections import run_section
+from .sections import dry_run_cards, run_section
 from .verdict import Check
 from .words import uncertain
 
@@ -78,16 +78,7 @@ def time_section(case: StirredCase) -> list[str]:
         cards.append(page.picture(stirred_figures.torques(case), "Thin: records; thick: mean over the turn before. "
                                   "The balls resist the impeller and pass its torque on to the walls at rest. Dashed: "
                                   "begin of the averages.", title="Torque on each part"))
-    if case.energy:
-        cards.append(page.picture(figures.energy(case), "Power from the torque on the impeller, and the balls' "
-                                                        "energies. Dashed: begin of the steady time.",
-                                  title="Dry run"))
-    if case.overlaps is not None:
-        cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts, at about every tenth record. "
-                                                          "Balls are stiff enough if few contacts are far to the "
-                                                          "right.",
-                                  title="Overlaps"))
-    return cards
+    return cards + dry_run_cards(case, "impeller")
 
 
 def charge_section(case: StirredCase) -> list[str]:

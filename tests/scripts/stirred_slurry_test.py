@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Readings of the slurry in a stirred mill: frames, medians, what the impeller takes; columns of a dump."""
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.files.dumps import read_balls
+from millfoam.readings.stirred_slurry import along_cylinder, in_impeller, median
+
+
+class Impeller:
+    """What in_impeller reads of a mill."""
+    impeller = {"shaft_diameter_m": 0.02, "shaft_end_m": 0.01,
+                "pins": [{"height_m": 0.03, "length_m": 0.1, "thickness_m": 0.01, "angle_deg": 90, "arms": 1}],
+                "discs": [{"height_m": 0.06, "diameter_m": 0.08, "thickness_m": 0.004}]}
+
+
+class Frames(unittest.TestCase):
+    def test_a_rigid_rotation_has_a_tangential_velocity_alone_at_any_angle(self):
+        centre = np.array([[0.02, 0, 0.1], [0, -0.03, 0.2], [0.01, 0.02, 0]])
+        angle, omega = 0.7, 5.0
+        turn = np.array([[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        x, y, _ = (centre @ turn).T
+        velocity = np.stack([-omega * y, omega * x, np.full(3, 0.3)], axis=1)
+        radius = np.hypot(centre[:, 0], centre[:, 1])
+        expected = np.stack([np.zeros(3), omega * radius, np.full(3, 0.3)], axis=1)
+        np.testing.assert_allclose(along_cylinder(centre, velocity, angle), expected, atol=1e-14)
+
+    def test_a_median_is_by_weight(self):
+        self.assertEqual(median(np.array([3.0, 1.0, 2.0]), np.array([1.0, 1.0, 5.0])), 2)
+        self.assertEqual(median(np.array([3.0, 1.0, 2.0]), np.array([9.0, 1.0, 1.0])), 3)
+        self.assertTrue(np.isnan(median(np.array([]), np.array([]))))
+
+
+class Solid(unittest.TestCase):
+    def test_shaft_pins_and_discs_are_solid(self):
+        inside = [[0.009, 0, 0.2], [0, 0.049, 0.03], [0.004, 0.03, 0.031], [-0.039, 0, 0.061]]
+        outside = [[0.009, 0, 0.009], [0, 0.051, 0.03], [0, -0.03, 0.03], [0.004, 0.03, 0.034], [0.039, 0, 0.063]]
+        self.assertTrue(in_impeller(Impeller(), np.array(inside)).all())
+        self.assertFalse(in_impeller(Impeller(), np.array(outside)).any())
+
+
+class Dumps(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = Path(folder.name) / "dump.1.txt"
+
+    def test_columns_are_found_by_name(self):
+        self.path.write_text("ITEM: TIMESTEP\n1\nITEM: ATOMS id vz x\n1 2 3\n4 5 6\n")
+        np.testing.assert_array_equal(read_balls(self.path, "x", "vz"), [[3, 2], [6, 5]])
+
+    def test_what_is_missing_is_named(self):
+        self.path.write_text("ITEM: ATOMS id x\n1 2\n")
+        with self.assertRaisesRegex(RuntimeError, "no column vx, vy; it has id, x"):
+            read_balls(self.path, "vx", "vy")
+        self.path.write_text("text")
+        with self.assertRaisesRegex(RuntimeError, "no line 'ITEM: ATOMS'"):
+            read_balls(self.path, "x")
+
+
+if __name__ == "__main__":
+    unittest.main()
