@@ -15,31 +15,16 @@ from millfoam.files.foam import read_field, read_mesh, times
 from millfoam.files.mill import read_mill
 from millfoam.files.tables import read_columns
 from millfoam.run import RunError, run
+from stirred_mill import small_mill
 
-MILL = """
-title: small stirred mill with slurry
-machine: stirred
-geometry:
-  diameter: 0.06
-  height: 0.09
-  impeller:
-    shaft: {diameter: 0.012, end: 0.008}
-    pins:
-      - {height: 0.013, length: 0.050, thickness: 0.006}
-      - {height: 0.033, length: 0.050, thickness: 0.006, angle: 90}
-speed: {tip_speed: 0.8, sense: clockwise}
-charge: {level: 0.036, share: 0.5, diameter: 0.0045}
-materials:
-  ball: {density: 2700, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
-  ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
+MILL = small_mill("""
 dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.2, record_interval: 0.005}
 averages: {start: 0.1}
 slurry: {density: 1379, plastic_viscosity: 0.1, yield_stress: 0, level: 0.036}
 resolution: {cell_size: 0.0035}
 flow: {duration: 0.06, write_interval: 0.03, averages: {start: 0.03}}
-"""
+""", ("height: 0.025", "height: 0.033"), ("level: 0.035", "level: 0.036"),
+                  ("tip_speed: 0.8", "tip_speed: 0.8, sense: clockwise"))
 os.environ["MILLFOAM_NP"] = "1"
 
 

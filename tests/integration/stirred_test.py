@@ -17,29 +17,13 @@ from millfoam.files.mill import NoMill, read_mill
 from millfoam.files.rings_file import read_rings
 from millfoam.files.wall_forces import read_wall_forces
 from millfoam.run import RunError, run
+from stirred_mill import small_mill
 
-MILL = """
-title: small stirred mill
-machine: stirred
-geometry:
-  diameter: 0.06
-  height: 0.09
-  impeller:
-    shaft: {diameter: 0.012, end: 0.008}
-    pins:
-      - {height: 0.013, length: 0.050, thickness: 0.006}
-      - {height: 0.025, length: 0.050, thickness: 0.006, angle: 90}
-speed: {tip_speed: 0.8}
-charge: {level: 0.035, share: 0.5, diameter: 0.0045}
-materials:
-  ball: {density: 2700, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
-  ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
+MILL = small_mill("""
 dem: {youngs_modulus: 1.0e7, settle_time: 0.1, duration: 0.5, record_interval: 0.005,
       contact_statistics: true}
 averages: {start: 0.2}
-"""
+""")
 # Two discs, one of them at the shaft's end
 DISCS = ("geometry.impeller={shaft: {diameter: 0.012, end: 0.008}, discs: [{height: 0.010, diameter: 0.044, "
          "thickness: 0.004}, {height: 0.022, diameter: 0.040, thickness: 0.004}]}")

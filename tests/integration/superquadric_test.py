@@ -18,6 +18,7 @@ import numpy as np
 from mill_case import run_mill
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.run import RunError, run
+from stirred_mill import UPPER_PINS, small_mill
 
 NOT_BUILT = 77  # CTest's SKIP_RETURN_CODE
 PROGRAM = shutil.which("millLiggghtsSuperquadric")
@@ -25,26 +26,10 @@ os.environ["MILLFOAM_NP"] = "1"  # on one rank a resumed run is the same to roun
 
 DENSITY, DIAMETER = 2700.0, 0.0045
 MASS = DENSITY * np.pi / 6 * DIAMETER ** 3
-MILL = """
-title: small stirred mill
-machine: stirred
-geometry:
-  diameter: 0.06
-  height: 0.09
-  impeller:
-    shaft: {diameter: 0.012, end: 0.008}
-    pins:
-      - {height: 0.013, length: 0.047, thickness: 0.006}
-speed: {tip_speed: 0.8}
-charge: {level: 0.016, share: 0.5, diameter: 0.0045}
-materials:
-  ball: {density: 2700, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  wall: {density: 7850, youngs_modulus: 1.0e9, poisson_ratio: 0.3}
-  ball_ball: {restitution: 0.6, friction: 0.4, rolling_friction: 0}
-  ball_wall: {restitution: 0.5, friction: 0.3, rolling_friction: 0}
+MILL = small_mill("""
 dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
 averages: {start: 0.2, window: 0.3}
-"""
+""", (UPPER_PINS, ""), ("length: 0.050", "length: 0.047"), ("level: 0.035", "level: 0.016"))
 ROUND = "charge.shape={half_axes: [1, 1, 1], blockiness: 2}"  # a sphere, computed as a superquadric
 BLOCK = "charge.shape={half_axes: [2.55269, 2.04215, 2.04215], roundness: 0.571429}"
 
