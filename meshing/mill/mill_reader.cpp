@@ -6,6 +6,7 @@
 
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/materials.hpp"
+#include "meshing/mill/mill_averages.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_document.hpp"
 #include "meshing/mill/mill_fingerprints.hpp"

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "meshing/mill/mill.hpp"
+#include "meshing/mill/yaml_section.hpp"
+
+namespace millfoam::meshing {
+
+/// Windows of averages in a turn of a tumbling mill where mill.yaml leaves them open: short against a turn,
+/// with 25 records.
+inline constexpr double windows_per_turn = 20;
+
+/// Most voxels or slices along an axis, which memory and files can hold.
+inline constexpr int most_along_axis = 10000;
+
+/// Length along the axis that slurry and balls can reach, m.
+double axial_reach(const Geometry& geometry);
+
+/// Voxels across and along the mill, by `voxel_size` or `counts`; an even number across unless counted.
+/// @param usual_along  number along the axis; 0: by voxel_size
+/// @param in  the map that has these keys
+/// @param usual_size  m, where neither is given
+Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int usual_along);
+
+/// The map `averages` under the root. `mill` has everything but averages and flow; defaults follow from its
+/// geometry, charge and speed. Throws MillError for averages that are impossible.
+Averages read_averages(const Section& root, const Mill& mill);
+
+}  // namespace millfoam::meshing
