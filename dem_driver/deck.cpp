@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "dem_driver/deck_outputs.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
@@ -95,12 +96,8 @@ class AtomTypes {
   std::vector<double> moduli_;
 };
 
-double largest_diameter(const DemPlan& plan) {
-  return plan.charge.classes.front().diameter;
-}
-
 void write_style(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, int ranks) {
-  const RankGrid grid = split_ranks(ranks, mill.geometry.length, largest_diameter(plan));
+  const RankGrid grid = split_ranks(ranks, mill.geometry.length, plan.charge.classes.front().diameter);
   out << "units si\natom_style " << (plan.charge.has_shapes() ? "superquadric" : "granular")
       << "\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
       << "processors " << grid.x << ' ' << grid.y << ' ' << grid.z << '\n';
@@ -167,42 +164,6 @@ void write_walls(std::ostream& out, const meshing::Mill& mill, const DemPlan& pl
   out << "fix walls all wall/" << model_of(plan) << " mesh n_meshes " << parts.size() << " meshes";
   for (const auto& part : parts) out << ' ' << part;
   out << settings_of(mill, plan) << '\n';
-}
-
-/// What LIGGGHTS computes of every contact. It allows one such compute for pairs of balls and one for walls,
-/// so that the histograms of the overlaps and the dumps of the contacts share them.
-struct ContactTable {
-  const char* compute;     ///< its name in the deck
-  const char* style;       ///< of the compute
-  const char* properties;  ///< in the order of the columns, which does not depend on that of the request
-  int columns;             ///< the last of which is the overlap
-};
-
-ContactTable ball_table(const DemPlan& plan) {
-  if (plan.contact_steps == 0) return {"ballOverlaps", "pair/gran/local", "delta", 1};
-  return {"ballOverlaps", "pair/gran/local", "id force torque delta", 10};
-}
-
-ContactTable wall_table(const DemPlan& plan) {
-  if (plan.contact_steps == 0) return {"wallOverlaps", "wall/gran/local", "delta", 1};
-  return {"wallOverlaps", "wall/gran/local", "pos vel id force torque delta", 22};
-}
-
-/// The column of a table, as LIGGGHTS calls it.
-std::string column(const ContactTable& table, int number) {
-  return std::string("c_") + table.compute + '[' + std::to_string(number) + ']';
-}
-
-std::string overlap_column(const ContactTable& table) {
-  return column(table, table.columns);
-}
-
-void write_thermo(std::ostream& out, const DemPlan& plan) {
-  for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
-    out << "compute " << table.compute << " all " << table.style << ' ' << table.properties << '\n';
-  out << "compute overlap all reduce max " << overlap_column(ball_table(plan)) << "\n"
-      << "thermo_style custom step atoms ke c_overlap\n"
-      << "thermo_modify lost ignore norm no flush yes\nthermo " << plan.thermo_steps << '\n';
 }
 
 /// Size and shape in LIGGGHTS' words. It has one kind of balls in a run: a sphere among superquadrics is one
@@ -274,73 +235,6 @@ void write_charge(std::ostream& out, const meshing::Mill& mill, const DemPlan& p
     out << "fix motion all " << motion_of(plan) << "\nrun "
         << (i + 1 < rounds.size() ? plan.round_steps : plan.settle_steps) << '\n';
   }
-}
-
-/// Torque of the charge on the walls that turn about the axis, and in a stirred mill also on each part, mean
-/// over every step of a record; kinetic and potential energy at every record; histograms of the overlaps, for
-/// which LIGGGHTS computes all contacts once more.
-void write_results(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
-                   const std::vector<std::string>& parts, long start) {
-  const long record = plan.step.steps_per_record;
-  const long sample = plan.overlap_steps();
-  const double range = overlap_range * largest_diameter(plan);
-  out << "variable torque equal 0";
-  for (const auto& part : turning_parts(mill, parts)) out << "+f_" << part << "[6]";
-  out << "\nfix torque all ave/time 1 " << record << ' ' << record << " v_torque file torque." << start
-      << ".txt\n";
-  if (is_stirred(mill)) {
-    out << "fix " << part_torques_kind << " all ave/time 1 " << record << ' ' << record;
-    for (const auto& part : parts) out << " f_" << part << "[6]";
-    out << " file " << part_torques_kind << '.' << start << ".txt\n";
-  }
-  out << "compute kinetic all ke\nvariable height atom mass*" << meshing::gravity << '*'
-      << (is_stirred(mill) ? 'z' : 'y') << "\ncompute potential all reduce sum v_height\n"
-      << "fix energy all ave/time " << record << " 1 " << record << " c_kinetic c_potential file energy."
-      << start << ".txt\n";
-  for (const ContactTable& table : {ball_table(plan), wall_table(plan)})
-    out << "fix " << table.compute << "Histogram all ave/histo " << sample << ' '
-        << plan.restart_steps / sample << ' ' << plan.restart_steps << " 0 " << range << ' ' << overlap_bins
-        << " " << overlap_column(table) << " mode vector file " << table.compute << '.' << start << ".txt\n";
-}
-
-/// One dump of a table of contacts, with as many digits as directions and powers need.
-void write_contact_dump(std::ostream& out, const DemPlan& plan, const ContactTable& table, const char* kind) {
-  out << "dump " << kind << " all local " << plan.contact_steps << " ../contacts/" << kind << ".*.txt";
-  for (int number = 1; number <= table.columns; ++number) out << ' ' << column(table, number);
-  out << "\ndump_modify " << kind << " format \"%.9g";
-  for (int number = 2; number <= table.columns; ++number) out << " %.9g";
-  out << "\"\n";
-}
-
-/// The contacts and, because LIGGGHTS writes no spin of a contact's balls, the balls at the same steps.
-void write_contacts(std::ostream& out, const DemPlan& plan) {
-  if (plan.contact_steps == 0) return;
-  out << "shell mkdir ../contacts\n";
-  write_contact_dump(out, plan, ball_table(plan), "pairs");
-  write_contact_dump(out, plan, wall_table(plan), "walls");
-  out << "dump contactBalls all custom " << plan.contact_steps
-      << " ../contacts/balls.*.txt id type x y z vx vy vz omegax omegay omegaz radius\n"
-      << "dump_modify contactBalls format \"%d %d %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\"\n";
-}
-
-/// The balls' averages are made by millLiggghts, which finds the settings next to the deck.
-void write_averages(std::ostream& out, const DemPlan& plan) {
-  if (plan.averages.empty()) return;
-  out << "# averages";
-  for (const std::string& id : plan.averages) out << ' ' << id;
-  out << ": need millLiggghts and averages.json\nfix " << averages_fix << " all external pf/callback 1 1\n";
-}
-
-/// The balls of every record; of superquadrics `radius` is that of the sphere around one.
-void write_dumps(std::ostream& out, const DemPlan& plan) {
-  if (plan.dumps == 0) return;
-  out << "dump balls all custom " << plan.step.steps_per_record
-      << " ../dumps/dump.*.txt id type x y z vx vy vz radius";
-  if (plan.charge.has_shapes())
-    out << " shapex shapey shapez blockiness1 blockiness2 quat1 quat2 quat3 quat4";
-  out << "\ndump_modify balls format \"%d %d";
-  for (int number = 0; number < (plan.charge.has_shapes() ? 16 : 7); ++number) out << " %.10g";
-  out << "\"\n";
 }
 
 /// From step `start` on, which is 0 or that of a restart file.

@@ -16,10 +16,9 @@ inline constexpr int most_along_axis = 10000;
 /// Length along the axis that slurry and balls can reach, m.
 double axial_reach(const Geometry& geometry);
 
-/// Voxels across and along the mill, by `voxel_size` or `counts`; an even number across unless counted.
-/// @param usual_along  number along the axis; 0: by voxel_size
-/// @param in  the map that has these keys
-/// @param usual_size  m, where neither is given
+/// Voxels across and along the mill, by the keys `voxel_size` or `counts` of a map; an even number across
+/// unless counted. Where neither is given, their size is `usual_size`, m. `usual_along` is their number along
+/// the axis; 0: by their size.
 Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int usual_along);
 
 /// The map `averages` under the root. `mill` has everything but averages and flow; defaults follow from its

@@ -14,8 +14,8 @@ namespace millfoam::meshing {
 /// what each of its faces is part of if no other cell has it: below, above, and those over the four sides of
 /// the lower face, from the first on.
 struct Hexahedron {
-  std::array<int, 8> points = {};
-  std::array<int, 6> parts = {};  ///< numbers of patches
+  std::array<int, 8> points = {};  ///< indices
+  std::array<int, 6> parts = {};   ///< numbers of patches
 };
 
 /// The mesh of these cells, in their order; faces with the same points join two of them. Points that no cell

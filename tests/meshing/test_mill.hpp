@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -85,6 +86,22 @@ class TemporaryFolder {
 inline MillDescription describe(const std::string& text, const std::vector<std::string>& set = {}) {
   const TemporaryFolder folder;
   return describe_mill(folder.write("mill.yaml", text), set);
+}
+
+/// The message with which a mill is refused; empty for one that is accepted.
+inline std::string refusal(const std::string& text, const std::vector<std::string>& set = {}) {
+  try {
+    describe(text, set);
+  } catch (const MillError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Whether a message has a part, with both in the failure.
+inline ::testing::AssertionResult says(const std::string& message, const std::string& part) {
+  if (message.find(part) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << message << "' does not say '" << part << "'";
 }
 
 }  // namespace millfoam::meshing

@@ -107,6 +107,13 @@ class flowCase : public smallCase
         }
     }
 
+    //- Turn the fluid as a whole about z, with this angular speed, rad/s
+    void turn(const scalar omega)
+    {
+        set(U, [=](const point& x)
+            { return vector(-omega * x.y(), omega * x.x(), 0); });
+    }
+
     //- Numbers of the last line of a file in postProcessing
     std::vector<double> lastLine(const std::string& name) const
     {
@@ -134,9 +141,7 @@ TEST(slurryTorque, aBodyThatTurnsHasItsMomentOfInertia)
 {
     flowCase box;
     const scalar omega = 3;
-    box.set(
-        box.U, [=](const point& x)
-        { return vector(-omega * x.y(), omega * x.x(), 0); });
+    box.turn(omega);
     const slurryFields fields(box.mesh(), dictionary::null);
     const slurryTorque torque(fields, entriesOf("speed 1;"));
 
@@ -178,9 +183,7 @@ TEST(slurryTorque, wallsThatTurnWithTheFluidGiveNoFriction)
 {
     flowCase box;
     const scalar omega = 3;
-    box.set(
-        box.U, [=](const point& x)
-        { return vector(-omega * x.y(), omega * x.x(), 0); });
+    box.turn(omega);
     const slurryFields fields(box.mesh(), dictionary::null);
     const slurryTorque turning(fields, entriesOf("speed 3;"));
     const slurryTorque resting(

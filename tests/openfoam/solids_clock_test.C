@@ -12,6 +12,7 @@ Description
 
 #include "movingBed.H"
 #include "smallCase.H"
+#include "solidsWindow.H"
 #include "solidsClock.H"
 
 using namespace Foam;
@@ -53,13 +54,7 @@ void writeSolids(const std::filesystem::path& path)
                 window.mean.velocity.push_back(u);
             }
         }
-        window.mean.diameter.assign(n, 0.01);
-        window.mean.diameter43.assign(n, 0.01);
-        window.number.assign(n, 1);
-        window.solidity_deviation.assign(n, 0);
-        window.velocity_deviation.assign(3 * n, 0);
-        window.granular_temperature.assign(n, 0);
-        window.ledger.volume_in = window.ledger.deposited = 1.01;
+        completeWindow(window, n, 1.01);
         writer.append(window);
     }
     writer.finish();

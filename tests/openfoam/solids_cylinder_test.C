@@ -13,6 +13,7 @@ Description
 #include "averaging/files/solids_file.hpp"
 #include "movingBed.H"
 #include "smallCase.H"
+#include "solidsWindow.H"
 
 using namespace Foam;
 
@@ -59,13 +60,7 @@ class ringCase : public smallCase
                 window.mean.velocity.push_back(u);
             }
         }
-        window.mean.diameter.assign(n, 0.01);
-        window.mean.diameter43.assign(n, 0.01);
-        window.number.assign(n, 1);
-        window.solidity_deviation.assign(n, 0);
-        window.velocity_deviation.assign(3 * n, 0);
-        window.granular_temperature.assign(n, 0);
-        window.ledger.volume_in = window.ledger.deposited = volume();
+        completeWindow(window, n, volume());
         SolidsWriter writer(path, grid, header);
         writer.append(window);
         writer.finish();

@@ -13,21 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The message with which a mill is refused.
-std::string shape_refusal(const std::vector<std::string>& set, const std::string& text = stirred_mill) {
-  try {
-    describe(text, set);
-  } catch (const MillError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-::testing::AssertionResult tells(const std::string& message, const std::string& part) {
-  if (message.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "'" << message << "' does not say '" << part << "'";
-}
-
 TEST(BallShape, HalfAxesAreScaledToTheDiameterOfEqualVolume) {
   const auto mill =
       describe(stirred_mill, {"charge.shape={half_axes: [2.70274, 2.00172, 1.67844], roundness: 0.333333}"});
@@ -90,36 +75,38 @@ TEST(BallShape, BallsOfATumblingMillHaveThemToo) {
 }
 
 TEST(BallShape, ImpossibleShapesAreRefused) {
-  const auto with_shape = [](const std::string& shape) { return shape_refusal({"charge.shape=" + shape}); };
+  const auto with_shape = [](const std::string& shape) {
+    return refusal(stirred_mill, {"charge.shape=" + shape});
+  };
   EXPECT_TRUE(
-      tells(with_shape("cube"), "key 'charge.shape' = cube: expected sphere, or a map with half_axes"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [3, 2], blockiness: 3}"),
-                    "key 'charge.shape.half_axes' = […]: expected a list of 3 numbers, each a length"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [3, 2, -2], blockiness: 3}"),
-                    "key 'charge.shape.half_axes[2]' = -2: expected a length above 0"));
-  EXPECT_TRUE(
-      tells(with_shape("{half_axes: [3, 2, 2], blockiness: 1.5}"),
-            "key 'charge.shape.blockiness' = 1.5: expected a blockiness from 2, which is that of an"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [3, 2, 2]}"), "key 'charge.shape.blockiness' is missing"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [3, 2, 2], roundness: 0.1}"),
-                    "key 'charge.shape.roundness' = 0.1: expected a roundness from 0.166667 to 1"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [3, 2, 2], roundness: 0.5, blockiness: 4}"),
-                    "expected either this key or blockiness, which is 2/roundness"));
-  EXPECT_TRUE(tells(with_shape("{half_axes: [9, 2, 2], blockiness: 3}"),
-                    "is below the gap between the impeller and the shell, 0.007 m"));
+      says(with_shape("cube"), "key 'charge.shape' = cube: expected sphere, or a map with half_axes"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2], blockiness: 3}"),
+                   "key 'charge.shape.half_axes' = […]: expected a list of 3 numbers, each a length"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, -2], blockiness: 3}"),
+                   "key 'charge.shape.half_axes[2]' = -2: expected a length above 0"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], blockiness: 1.5}"),
+                   "key 'charge.shape.blockiness' = 1.5: expected a blockiness from 2, which is that of an"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2]}"), "key 'charge.shape.blockiness' is missing"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], roundness: 0.1}"),
+                   "key 'charge.shape.roundness' = 0.1: expected a roundness from 0.166667 to 1"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], roundness: 0.5, blockiness: 4}"),
+                   "expected either this key or blockiness, which is 2/roundness"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [9, 2, 2], blockiness: 3}"),
+                   "is below the gap between the impeller and the shell, 0.007 m"));
 }
 
 TEST(BallShape, EdgesThatHertzLawDoesNotBearAreRefused) {
-  EXPECT_TRUE(
-      tells(shape_refusal({"charge.shape={half_axes: [1, 1, 1], blockiness: 11}", "charge.diameter=0.004"}),
-            "expected a shape whose least mean radius of curvature, here 0.000"));
+  EXPECT_TRUE(says(
+      refusal(stirred_mill, {"charge.shape={half_axes: [1, 1, 1], blockiness: 11}", "charge.diameter=0.004"}),
+      "expected a shape whose least mean radius of curvature, here 0.000"));
 }
 
 TEST(BallShape, WhatReadsContactsOfSpheresIsRefused) {
   const std::string shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}";
-  EXPECT_TRUE(tells(shape_refusal({shape, "dem.contact_interval=0.01"}), "expected 0 for superquadrics"));
   EXPECT_TRUE(
-      tells(shape_refusal({"dem.curvature_limit=5"}), "expected this key with a shape in the charge only"));
+      says(refusal(stirred_mill, {shape, "dem.contact_interval=0.01"}), "expected 0 for superquadrics"));
+  EXPECT_TRUE(says(refusal(stirred_mill, {"dem.curvature_limit=5"}),
+                   "expected this key with a shape in the charge only"));
 }
 
 }  // namespace

@@ -22,22 +22,6 @@ Mill read(const std::string& text, const std::vector<std::string>& set = {}) {
   return describe(text, set).mill;
 }
 
-/// The message with which a mill is refused.
-std::string refusal(const std::string& text, const std::vector<std::string>& set = {}) {
-  try {
-    read(text, set);
-  } catch (const MillError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// Names a part of the message, without the name of the temporary file.
-::testing::AssertionResult says(const std::string& message, const std::string& part) {
-  if (message.find(part) != std::string::npos) return ::testing::AssertionSuccess();
-  return ::testing::AssertionFailure() << "'" << message << "' does not say '" << part << "'";
-}
-
 TEST(StirredMill, turns_its_impeller_in_a_shell_at_rest) {
   const Mill mill = read(stirred_mill);
   EXPECT_EQ(mill.machine(), Machine::stirred);
