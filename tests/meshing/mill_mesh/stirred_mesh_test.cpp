@@ -58,23 +58,37 @@ PatchMeasure measure_patch(const VolumeMesh& mesh, const std::string& name) {
   return found;
 }
 
-/// Distance of a point from the laboratory mill's impeller's surface, m.
-double distance_from_impeller(const Geometry& geometry, const Eigen::Vector3d& at) {
+/// Slack of a surface's edges, m.
+constexpr double slack = 1e-6;
+
+/// Whether a point lies on the side or the flat tip of an arm.
+bool is_on_arm(const Geometry& geometry, const PinLevel& level, int arm, const Eigen::Vector3d& at) {
+  const double angle = level.angle * pi / 180 + 2 * pi * arm / level.arms;
+  const double along = std::cos(angle) * at.x() + std::sin(angle) * at.y();
+  const double across = -std::sin(angle) * at.x() + std::cos(angle) * at.y();
+  const double away = std::hypot(across, at.z() - level.height), reach = level.length / 2;
+  const bool is_outside = at.head<2>().norm() >= geometry.impeller->shaft_diameter / 2 - slack;
+  const bool is_on_side = std::abs(away - level.thickness / 2) < slack && along > 0 && along < reach + slack;
+  const bool is_on_tip = std::abs(along - reach) < slack && away < level.thickness / 2 + slack;
+  return is_outside && (is_on_side || is_on_tip);
+}
+
+/// Whether a point lies on an impeller's surface.
+bool is_on_impeller(const Geometry& geometry, const Eigen::Vector3d& at) {
   const Impeller& impeller = *geometry.impeller;
-  double nearest = std::abs(at.head<2>().norm() - impeller.shaft_diameter / 2);
-  nearest = std::min(nearest, std::abs(at.z() - impeller.shaft_end));
-  for (const PinLevel& level : impeller.pins) {
-    const double angle = level.angle * pi / 180;
-    const double along = std::cos(angle) * at.x() + std::sin(angle) * at.y();
-    const double across = -std::sin(angle) * at.x() + std::cos(angle) * at.y();
-    nearest = std::min(nearest, std::abs(std::hypot(across, at.z() - level.height) - level.thickness / 2));
-    nearest = std::min(nearest, std::abs(std::abs(along) - level.length / 2));
-  }
+  const double r = at.head<2>().norm(), shaft = impeller.shaft_diameter / 2, end = impeller.shaft_end;
+  if (std::abs(r - shaft) < slack && at.z() > end - slack) return true;
+  if (std::abs(at.z() - end) < slack && r < shaft + slack) return true;
+  for (const PinLevel& level : impeller.pins)
+    for (int arm = 0; arm < level.arms; ++arm)
+      if (is_on_arm(geometry, level, arm, at)) return true;
   for (const Disc& disc : impeller.discs) {
-    nearest = std::min(nearest, std::abs(std::abs(at.z() - disc.height) - disc.thickness / 2));
-    nearest = std::min(nearest, std::abs(at.head<2>().norm() - disc.diameter / 2));
+    const double away = std::abs(at.z() - disc.height);
+    const bool is_on_face = std::abs(away - disc.thickness / 2) < slack && r < disc.diameter / 2 + slack;
+    const bool is_on_rim = std::abs(r - disc.diameter / 2) < slack && away < disc.thickness / 2 + slack;
+    if (is_on_face || is_on_rim) return true;
   }
-  return nearest;
+  return false;
 }
 
 TEST(StirredMesh, is_good_for_mills_of_three_sizes) {
@@ -121,12 +135,18 @@ TEST(StirredMesh, patches_have_the_walls_areas) {
 }
 
 TEST(StirredMesh, points_of_the_impeller_lie_on_it) {
-  Geometry mill = laboratory_mill();
-  mill.impeller->pins[1].angle = 70;
-  mill.impeller->discs = {{0.11, 0.12, 0.005}};
-  const VolumeMesh mesh = make_stirred_mesh(mill, 0.0045);
-  for (const int point : measure_patch(mesh, "impeller").points)
-    EXPECT_LT(distance_from_impeller(mill, mesh.points[static_cast<std::size_t>(point)]), 1e-6);
+  Geometry pins_and_disc = laboratory_mill();
+  pins_and_disc.impeller->pins[1].angle = -70;
+  pins_and_disc.impeller->discs = {{0.11, 0.12, 0.005}};
+  Geometry three_arms = laboratory_mill();
+  three_arms.impeller->pins = {{0.0304, 0.141, 0.010, 10, 3}, {0.0700, 0.120, 0.008, 40, 1}};
+  for (const Geometry& mill : {laboratory_mill(), pins_and_disc, three_arms}) {
+    const VolumeMesh mesh = make_stirred_mesh(mill, 0.0055);
+    for (const int point : measure_patch(mesh, "impeller").points) {
+      const Eigen::Vector3d& at = mesh.points[static_cast<std::size_t>(point)];
+      ASSERT_TRUE(is_on_impeller(mill, at)) << at.transpose();
+    }
+  }
 }
 
 TEST(StirredMesh, faces_are_in_openfoams_order) {
