@@ -13,6 +13,10 @@ namespace millfoam::dem_driver {
 /// Where `program` is on PATH, or nothing.
 std::optional<std::filesystem::path> find_on_path(const std::string& program);
 
+/// The largest resident memory, in bytes, of a program that this one has waited for, or of those that such a
+/// program started.
+double largest_child_memory();
+
 /// A program that runs at the same time as this one; its output is read line by line. It is started without
 /// a shell, so that no character of an argument or a folder has a meaning. It writes to a pseudo-terminal,
 /// because programs buffer their output when they write to a pipe. Its stdin is empty. Destroying a child

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/forecast.hpp"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <sstream>
 
 #include "dem_driver/case_folder.hpp"
+#include "dem_driver/child_process.hpp"
 #include "dem_driver/contact_order.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
@@ -100,13 +100,6 @@ double contact_bytes_per_ball(const CaseFolder& folder, const DemPlan& plan) {
   return bytes / static_cast<double>(plan.contact_dumps * plan.charge.balls());
 }
 
-/// Of the largest process that this one has waited for, bytes.
-double largest_child() {
-  rusage usage{};
-  getrusage(RUSAGE_CHILDREN, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 /// Balls times steps of the whole run: those of a round move from their insertion on.
 double work_of(const DemPlan& plan) {
   double inserted = 0;
@@ -183,7 +176,7 @@ Cost measure_in(const CaseFolder& folder, const meshing::Mill& mill, int ranks) 
   std::ostringstream unseen;
   run_liggghts(folder, plan, ranks, {unseen, false});
   return {logged_rate(folder.log()), dump_bytes_per_ball(folder, plan),
-          largest_child() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks,
+          largest_child_memory() - memory_per_ball * static_cast<double>(plan.charge.balls()) / ranks,
           contact_bytes_per_ball(folder, plan)};
 }
 

@@ -150,6 +150,7 @@ RunResult run_liggghts(const CaseFolder& folder, const DemPlan& plan, int ranks,
         (of_mpirun ? ", its first lines:\n" + log.first_lines() : ", its last lines:\n" + log.last_lines()));
   }
   result.wall_time += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.memory = ranks * largest_child_memory();
   result.balls = log.balls();
   result.liggghts = log.version();
   result.dumps = find_dumps(folder).size();

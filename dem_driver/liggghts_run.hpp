@@ -16,6 +16,7 @@ namespace millfoam::dem_driver {
 struct RunResult {
   double wall_time = 0;   ///< s, of a resumed run with all earlier parts
   int ranks = 1;          ///< processes of LIGGGHTS, of a resumed run those of its last part
+  double memory = 0;      ///< bytes, of its last part: ranks times the largest resident memory of a process
   long balls = 0;         ///< that LIGGGHTS counted at the end
   std::size_t dumps = 0;  ///< of balls, those of the earlier parts of a resumed run too
   std::string liggghts;   ///< its version

@@ -119,6 +119,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"modulus_Pa", plan.step.stiffness.modulus},
                {"ranks", results.run.ranks},
                {"wall_time_s", results.run.wall_time},
+               {"memory_bytes", results.run.memory},
                {"steady", results.steady()},
                {"steady_from_s", results.steady_from()},
                {"power_W", results.power_steadiness.mean},

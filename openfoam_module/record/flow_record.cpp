@@ -170,6 +170,10 @@ void FlowRecord::add(StepRow row) {
   }
 }
 
+void FlowRecord::set_memory(double bytes) {
+  memory_ = bytes;
+}
+
 void FlowRecord::set_stages(StageClock::Times stages) {
   stages_ = std::move(stages);
 }
@@ -223,6 +227,7 @@ std::string FlowRecord::summary(bool complete) const {
   result["stages_s"] = Json::object();
   for (const auto& [stage, time] : stages_) result["stages_s"][stage] = time;
   result["ranks"] = setup_.ranks;
+  result["memory_bytes"] = memory_;
   result["openfoam"] = {{"version", text(setup_.openfoam_version)},
                         {"patch", text(setup_.openfoam_patch)},
                         {"build", text(setup_.openfoam_build)}};

@@ -91,6 +91,9 @@ class FlowRecord {
   /// What the stages of the steps have taken so far, for flow.json.
   void set_stages(StageClock::Times stages);
 
+  /// The memory of all ranks so far, bytes, for flow.json.
+  void set_memory(double bytes);
+
   /// Writes flow.json by all steps so far. Throws std::runtime_error when it cannot be written.
   /// @param complete  whether the run has come to its end
   void write(bool complete) const;
@@ -117,6 +120,7 @@ class FlowRecord {
   StepTable table_;
   StageClock::Times stages_;
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  double memory_ = 0;
   long long steps_ = 0;
   StepRow first_;
   StepRow last_;

@@ -330,6 +330,7 @@ class DemRun(unittest.TestCase):
         peak = self.run_and_watch(case)
         self.assertLess(max(predicted["memory"] / peak, peak / predicted["memory"]), 1.5)
         results = read_json(case / "dumps" / "results.json")
+        self.assertLess(abs(results["memory_bytes"] / 1e9 / peak - 1), 0.5)
         self.assertEqual(plan["steps"], results["steps"])
         self.assertEqual({key: value for key, value in read_json(case / "dem" / "plan.json").items() if key in plan},
                          {key: value for key, value in plan.items() if key not in FORECAST})

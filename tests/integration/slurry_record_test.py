@@ -106,12 +106,15 @@ class Steps(SlurryTest):
         self.assertLess(steps["pressure_residual"].max(), 1e-11)
 
     def test_two_ranks_leave_the_same(self):
-        _, alone, _, _ = self.run_pool()
+        _, alone, of_one, _ = self.run_pool()
         case = self.pool()
         case.decompose_into(2, 1, 1)
         self.assert_runs(case, "decomposePar")
         self.assert_runs(case, "slurryFoam", ranks=2)
         self.assertEqual(case.record()["ranks"], 2)
+        # Of so few cells, libraries and MPI take nearly all of it
+        self.assertGreater(of_one["memory_bytes"], 3e7)
+        self.assertGreater(case.record()["memory_bytes"], 1.5 * of_one["memory_bytes"])
         for column in ("time_s", "courant", "courant_surface", "slurry_m3", "fluid_m3", "solids_m3", "beyond_law",
                        "force_mean"):
             np.testing.assert_allclose(case.steps()[column], alone[column], rtol=1e-4, err_msg=column)

@@ -92,8 +92,10 @@ TEST_F(Flow, TellsWhatItsStagesTook) {
   FlowRecord record(folder.path, "0", setup);
   record.add(row(0.3, 0.3));
   record.set_stages({{"pressure", 1.5}, {"surface", 0.25}});
+  record.set_memory(3e8);
   record.write(true);
   EXPECT_EQ(summary()["stages_s"], (Json{{"pressure", 1.5}, {"surface", 0.25}}));
+  EXPECT_EQ(summary()["memory_bytes"], 3e8);
   EXPECT_EQ(summary()["largest"]["courant_air"], 2.5);
 }
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The study mill_30cm_published: its runs are mills that can be made, and what it reads of a slurry whose answers are
 known."""
+import json
 import subprocess
 import sys
 import tempfile
@@ -203,6 +204,21 @@ class Tables(unittest.TestCase):
         self.assertEqual(found, {})
         self.assertRegex(missing[0], "dry_75: .*mill.json")
         self.assertEqual(missing[1], "dry_60: not begun")
+
+    def test_cost_of_a_dry_run_stands_beside_its_plan(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        run = folder / "dry_75"
+        (run / "dumps").mkdir(parents=True)
+        subprocess.run(["millMesh", ROOT / "cases/mills/mill_30cm/mill.yaml", "--resolved", run / "mill.json"],
+                       check=True)
+        results = {"format": "millfoam-charge", "mill": {}, "wall_time_s": 120.0, "memory_bytes": 3e8}
+        (run / "dumps" / "results.json").write_text(json.dumps(results))
+        plan = {"format": "millfoam-plan", "stages": [{"stage": "charge", "time_s": 90.0}],
+                "total": {"memory_bytes": 4e8, "disk_bytes": 5e9}}
+        (run / "plan.json").write_text(json.dumps(plan))
+        row = study.cost_row(RUNS["dry_75"], folder)
+        self.assertEqual((row["dry run, min"], row["planned charge, min"], row["planned flow, min"]), (2, 1.5, None))
+        self.assertEqual((row["memory, GB"], row["planned memory, GB"], row["planned disk, GB"]), (0.3, 0.4, 5))
 
     def test_cells_have_errors_where_they_are_known(self):
         rows = [{"run": "a", **study.pair("drop", "Pa", Mean(1.234, 0.056))},

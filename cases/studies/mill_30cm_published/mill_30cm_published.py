@@ -92,10 +92,12 @@ def cost_row(run: Run, root: Path) -> Row:
     folder = place_of(root, run)
     case = MillCase(folder)
     summaries = [one for _, one in case.record.summaries] if case.flow else []
+    memory = [one.get("memory_bytes") for one in (summaries if case.flow else [case.results or {}])]
     row: Row = {"run": run.name, "cells": case.flow.mesh.cells if case.flow else None,
                 "steps": sum(one["steps"] for one in summaries) or None,
                 "flow, min": sum(one["wall_s"] for one in summaries) / 60 or None,
                 "dry run, min": case.result("wall_time_s") / 60 if run.way == "dry" else None,
+                "memory, GB": max(memory) / 1e9 if all(memory) else None,
                 "disk, GB": sum(one.stat().st_size for one in (root / run.name).rglob("*")
                                 if one.is_file() and not one.is_symlink()) / 1e9}
     plan = root / run.name / "plan.json"

@@ -9,9 +9,12 @@
 #include "meshRotation.H"
 #include "optionalDictionary.H"
 #include "Pstream.H"
+#include "PstreamReduceOps.H"
 #include "timeStep.H"
 #include "untrapped.H"
 #include "openfoam_module/record/rotation.hpp"
+
+#include <sys/resource.h>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -39,6 +42,14 @@ static void complete(millfoam::record::FlowSetup& setup, const Time& time)
     setup.mill_averages =
         mill.lookupOrDefault<string>("averagesFingerprint", "");
     setup.mill_flow = mill.lookupOrDefault<string>("flowFingerprint", "");
+}
+
+//- Sum of the largest resident memory of each rank, bytes. Call it on all ranks
+static scalar usedMemory()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return returnReduce(1024.0 * scalar(usage.ru_maxrss), sumOp<scalar>());
 }
 
 } // End namespace Foam
@@ -90,12 +101,14 @@ void Foam::flowRecorder::add(
     row.surface_courant = courant.surface;
     row.air_courant = courant.air;
     row.voidage_change = courant.voidageChange;
+    const scalar memory = time_.writeTime() ? usedMemory() : 0;
     onMaster(
         [&]
         {
             record_->add(row);
             if (time_.writeTime())
             {
+                record_->set_memory(memory);
                 record_->write(false);
             }
         });
@@ -110,7 +123,13 @@ void Foam::flowRecorder::setStages(const millfoam::record::StageClock& clock)
 
 void Foam::flowRecorder::end()
 {
-    onMaster([this] { record_->write(true); });
+    const scalar memory = usedMemory();
+    onMaster(
+        [&]
+        {
+            record_->set_memory(memory);
+            record_->write(true);
+        });
 }
 
 
