@@ -112,7 +112,7 @@ std::string in_words(const FluidSettings& fluid) {
 
 ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin,
                           long end) {
-  const meshing::Voxels& voxels = mill.averages.voxels;
+  const meshing::Voxels& voxels = mill.flow.coupling.voxels.value_or(mill.averages.voxels);
   const bool periodic = mill.geometry.ends == meshing::Ends::periodic;
   ExchangeOrder order{{voxels.lower, voxels.upper, voxels.shape, {false, false, periodic}}};
   order.exact = mill.averages.method == "exact";

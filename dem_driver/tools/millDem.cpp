@@ -175,11 +175,10 @@ void run(const Options& options, const meshing::MillDescription& description) {
   auto plan = dem_driver::plan_dem(mill);
   dem_driver::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
-  const bool has_fluid = !options.fluid.empty() || !options.with_flow.empty();
-  if (has_fluid && mill.machine() == meshing::Machine::stirred)
-    throw dem_driver::KeyError(
-        "machine", "stirred",
-        "a tumbling mill with --fluid and --with-flow, because a stirred one has no flow");
+  if (!options.fluid.empty() && mill.machine() == meshing::Machine::stirred)
+    throw dem_driver::KeyError("machine", "stirred",
+                               "a tumbling mill with --fluid: the voxels of slurry.h5 do not turn with the "
+                               "impeller; take --with-flow");
   if (!options.fluid.empty() && mill.dem.pool_level)
     throw dem_driver::KeyError("dem.fluid", "buoyancy",
                                "none with --fluid, which has the buoyancy of its flow");

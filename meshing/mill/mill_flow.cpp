@@ -7,6 +7,7 @@
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/flow_start.hpp"
 #include "meshing/mill/mill_averages.hpp"
+#include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
@@ -44,6 +45,10 @@ const UsualFlow& usual_of(const Mill& mill) {
 /// seven balls), up to 5.1 % at single times of a smooth course between windows that differ; where averages
 /// do not fit the mesh it is tens of per cent.
 constexpr double usual_largest_correction = 0.08;
+
+/// Over the Sauter diameter: voxels on which balls and slurry of a stirred mill meet hold about nine balls,
+/// and are smaller than its pins.
+constexpr double exchange_voxel = 2;
 
 /// Factor on the drag, with which balls and slurry move as one.
 constexpr double largest_multiplier = 1000;
@@ -166,7 +171,23 @@ int slices_along(const Mill& mill) {
 /// What only tumbling mills have.
 void refuse_for_stirred(const Section& in, const Flow& flow) {
   if (flow.solver != "slurryFoam") in.refuse("solver", "slurryFoam for a stirred mill");
-  if (flow.coupling.both_ways()) in.refuse("coupling", "one_way for a stirred mill");
+  if (flow.coupling.kind == CouplingKind::iterated)
+    in.refuse("coupling", "one_way or direct for a stirred mill");
+}
+
+/// Voxels on which balls and slurry of a stirred mill meet. Averages of a moment need larger cells than those
+/// of a whole run; the averages themselves are on rings that turn.
+void read_exchange(const Section& flow_section, const Mill& mill, Coupling& coupling) {
+  const bool has_voxels = mill.machine() == Machine::stirred && coupling.kind == CouplingKind::direct;
+  if (flow_section.has("exchange") && !has_voxels)
+    flow_section.refuse("exchange", "this key with flow.coupling direct of a stirred mill only");
+  if (!has_voxels) return;
+  if (mill.charge.has_shapes())
+    flow_section.refuse("coupling", "one_way for superquadrics: the forces of the flow are those on spheres");
+  Section in = flow_section.optional_section("exchange", {"voxel_size", "counts"});
+  const ChargeNumbers charge = count_charge(mill);
+  const double size = std::max(charge.largest_diameter, exchange_voxel * charge.sauter_diameter);
+  coupling.voxels = read_voxels(in, mill.geometry, std::min(size, mill.geometry.radius()), 0);
 }
 
 FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, const Mill& mill) {
@@ -204,6 +225,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
                                               "mixed_drag",
                                               "out_of_range",
                                               "coupling",
+                                              "exchange",
                                               "passes",
                                               "steady",
                                               "relaxation",
@@ -226,6 +248,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
   flow.coupling = read_coupling(in, flow);
   if (mill.machine() == Machine::stirred) refuse_for_stirred(in, flow);
+  read_exchange(in, mill, flow.coupling);
   flow.steady = read_steady_end(in, flow, mill.turn());
   flow.start = read_flow_start(in, slurry, flow.balls, mill);
   const double feed = in.number(

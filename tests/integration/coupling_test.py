@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balls and slurry in turn: two passes of a small mill by its stages, a pass that is killed, changes of its keys, and
 what is refused."""
-import fcntl
 import os
 import re
 import shutil
-import signal
-import subprocess
 import tempfile
 import unittest
 from pathlib import Path
@@ -16,13 +13,12 @@ from unittest.mock import patch
 import h5py
 import numpy as np
 
-from mill_case import SCRIPTS, STAGES, run_mill
+from mill_case import kill_mill_when, run_mill
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.flow_record import read_flow_record, starts
 from millfoam.files.foam import read_field
 from millfoam.readings.fluid_on_balls import fluid_on_balls
 from millfoam.run import RunError
-from waiting import wait_for
 
 MILL = """
 geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
@@ -35,16 +31,6 @@ averages: {voxel_size: 0.008, window: 0.05, start: 0.4}
 resolution: {cell_size: 0.006, layers: 2}
 flow: {duration: 0.5, coupling: iterated, passes: 2, averages: {start: 0.2}}
 """
-
-
-def is_free(lock):
-    """Whether no process holds this file any more."""
-    with open(lock) as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-    return True
 
 
 def last_restart(folder):
@@ -135,20 +121,6 @@ class Passes(unittest.TestCase):
         self.addCleanup(shutil.rmtree, case)
         return case
 
-    def kill_when(self, case, condition):
-        """Starts or resumes all stages and kills every process when the condition comes true; what they said."""
-        with open(case / "output", "w+") as output:
-            process = subprocess.Popen(["bash", "-c", STAGES, "run_mill", case, SCRIPTS, ".", "mill.yaml"], cwd=case,
-                                       stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
-            self.addCleanup(process.wait)
-            came = wait_for(lambda: condition() or process.poll() is not None, 120)
-            ended = process.poll() is not None
-            os.killpg(process.pid, signal.SIGKILL)
-            self.assertTrue(came and not ended, (case / "output").read_text())
-        locks = [case / ".stages" / "lock", *case.glob("pass_2/dem/lock")]
-        self.assertTrue(wait_for(lambda: all(map(is_free, locks)), 30), "a process outlives Allrun")
-        return (case / "output").read_text()
-
     def assert_same_charge(self, found, expected):
         """All records, windows and numbers of one run."""
         for name in ("energy.csv", "fluid.csv", "overlaps.csv"):
@@ -187,11 +159,11 @@ class Passes(unittest.TestCase):
             file.unlink()
 
         begin = last_restart(case)
-        output = self.kill_when(case, lambda: last_restart(second) > begin)
+        output = kill_mill_when(case, "mill.yaml", lambda: last_restart(second) > begin)
         self.assertEqual(stages("Running", output), ["forces", "walls", "charge"])
         self.assertFalse((second / "dumps" / "run.json").exists())
 
-        output = self.kill_when(case, lambda: len(written_times(second)) > 1)
+        output = kill_mill_when(case, "mill.yaml", lambda: len(written_times(second)) > 1)
         self.assertEqual(stages("Running", output), ["charge", "average", "mesh", "check", "start", "flow"])
         self.assertIn("resumed at step", (second / "log.charge").read_text())
         self.assertFalse((second / "slurry.h5").exists())

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the stages of a mill's case as its Allrun does; changes its dictionaries."""
+import fcntl
+import os
 import re
+import signal
+import subprocess
 from pathlib import Path
 
 from millfoam.run import run
+from waiting import wait_for
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 STAGES = 'cd "$1"; . "$2/case_functions"; . "$2/mill_stages"; shift 2; run_mill "$@"'
@@ -18,6 +23,36 @@ def run_mill(folder, mill, *changes, until=None, charge=None):
     options += ["--until", until] if until else []
     options += ["--charge", charge] if charge else []
     return run(folder, "bash", "-c", STAGES, "run_mill", folder, SCRIPTS, ".", mill, *options)
+
+
+def is_free(lock):
+    """Whether no process holds this file any more."""
+    with open(lock) as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return False
+    return True
+
+
+def kill_mill_when(folder, mill, condition):
+    """Starts or resumes all stages of the mill in a mill.yaml, kills every process when the condition comes true, and
+    gives what they said. AssertionError if they end before."""
+    folder = Path(folder)
+    said = folder / "output"
+    with open(said, "w+") as output:
+        process = subprocess.Popen(["bash", "-c", STAGES, "run_mill", folder, SCRIPTS, ".", mill], cwd=folder,
+                                   stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+        came = wait_for(lambda: condition() or process.poll() is not None, 120)
+        ended = process.poll() is not None
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    if ended or not came:
+        raise AssertionError(said.read_text())
+    locks = [folder / ".stages" / "lock", *folder.glob("**/dem/lock")]
+    if not wait_for(lambda: all(map(is_free, locks)), 30):
+        raise AssertionError("a process outlives Allrun")
+    return said.read_text()
 
 
 def replace(path, *changes):

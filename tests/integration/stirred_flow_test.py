@@ -6,10 +6,11 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
-from mill_case import run_mill
+from mill_case import kill_mill_when, run_mill
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.foam import read_field, read_mesh, times
 from millfoam.files.mill import read_mill
@@ -22,7 +23,7 @@ dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.2, record_interval: 0
 averages: {start: 0.1}
 slurry: {density: 1379, plastic_viscosity: 0.1, yield_stress: 0, level: 0.036}
 resolution: {cell_size: 0.0035}
-flow: {duration: 0.06, write_interval: 0.03, averages: {start: 0.03}}
+flow: {duration: 0.04, write_interval: 0.02, averages: {start: 0.02}}
 """, ("height: 0.025", "height: 0.033"), ("level: 0.035", "level: 0.036"),
                   ("tip_speed: 0.8", "tip_speed: 0.8, sense: clockwise"))
 os.environ["MILLFOAM_NP"] = "1"
@@ -55,14 +56,14 @@ class StirredFlow(unittest.TestCase):
         start = self.mill.derived("flow", "start", "volume_m3")
         self.assertAlmostEqual(self.balance["holdUp"][0] / start, 1, delta=1e-6)
         self.assertLess(np.abs(self.balance["missing"]).max() / start, 1e-10)
-        self.assertLess(np.abs(self.balance["discharge"]).max() * 0.06 / start, 1e-12)
+        self.assertLess(np.abs(self.balance["discharge"]).max() * 0.04 / start, 1e-12)
 
     def test_balls_are_those_of_the_dry_run(self):
         steps = read_csv(next((self.case / "postProcessing" / "flow").glob("*/steps.csv")))
         np.testing.assert_allclose(steps["solids_m3"], self.mill.derived("charge", "volume_m3"), rtol=1e-3)
 
     def test_slurry_turns_with_the_balls_and_the_shell_holds_it(self):
-        late = self.balance["Time"] > 0.03
+        late = self.balance["Time"] > 0.02
         # Clockwise, so that what holds it is positive
         self.assertGreater(self.balance["torque_shell"][late].mean(), 0)
         np.testing.assert_allclose(self.balance["power"], self.balance["power_impeller"], rtol=1e-12)
@@ -79,6 +80,51 @@ class StirredFlow(unittest.TestCase):
         self.assertLess(mean, -0.01)
         self.assertGreater(mean, -0.8)
 
+    def test_walls_and_balls_give_what_the_slurry_takes(self):
+        late = self.balance["Time"] > 0.02
+        mean = {name: self.balance[f"torque_{name}"][late].mean()
+                for name in ("impeller", "shell", "base", "lid", "balls", "all")}
+        # Clockwise balls drive the slurry and walls at rest hold it. On this coarse mesh the moments of pressures at
+        # the pins miss a quarter of it
+        self.assertLess(mean["balls"], -1e-3)
+        rest = mean["all"] - sum(value for name, value in mean.items() if name != "all")
+        self.assertLess(abs(rest), 0.35 * abs(mean["balls"]))
+
+    def test_two_ranks_give_the_same(self):
+        with patch.dict(os.environ, MILLFOAM_NP="2"):
+            run_mill(self.folder / "two", self.folder / "mill.yaml", charge=self.case, until="flow")
+        other = read_columns(self.folder / "two", "slurryBalance")
+        self.assertAlmostEqual(other["Time"][-1], self.balance["Time"][-1], delta=1e-9)
+        for name, limit in (("holdUp", 1e-12), ("z", 1e-4), ("torque_shell", 0.01), ("torque_balls", 0.01)):
+            late = [columns[name][columns["Time"] > 0.02].mean() for columns in (other, self.balance)]
+            self.assertLess(abs(late[0] / late[1] - 1), limit, name)
+        share = [read_field(times(folder)[-1][1] / "alpha.slurry") for folder in (self.folder / "two", self.case)]
+        self.assertLess(np.abs(share[0] - share[1]).mean(), 1e-3)
+
+    def test_a_killed_flow_resumes_to_the_same_numbers(self):
+        case = self.folder / "killed"
+        shutil.copytree(self.case, case, symlinks=True)
+        shutil.rmtree(case / "postProcessing")
+        for _, folder in times(case):
+            shutil.rmtree(folder)
+        (case / ".stages" / "start").unlink()
+        (case / "log.flow").unlink()
+        kill_mill_when(case, self.folder / "mill.yaml",
+                       lambda: (case / "log.flow").exists() and "\nTime = 0.03" in (case / "log.flow").read_text())
+        output = run_mill(case, self.folder / "mill.yaml", until="flow")
+        self.assertIn("Running flow", output)
+        self.assertNotIn("Running start", output)
+        resumed = read_columns(case, "slurryBalance")
+        np.testing.assert_allclose(resumed["Time"], self.balance["Time"], rtol=1e-9)
+        for name in ("z", "torque_impeller", "torque_balls", "holdUp"):
+            np.testing.assert_allclose(resumed[name], self.balance[name], rtol=1e-6, err_msg=name)
+
+    def test_the_report_has_a_section_of_the_slurry(self):
+        page = (self.case / "report.html").read_text()
+        for words in ("Numbers of the slurry", "torque on the slurry by balls", "Reynolds number of the slip",
+                      "Vortex", "of the radius and of the torque", "one-way"):
+            self.assertTrue(words in page, words)
+
     def test_gravity_is_along_the_axis(self):
         centre, volume = read_mesh(self.case).centres_and_volumes()
         share = read_field(self.case / "0" / "alpha.slurry", len(volume))
@@ -89,7 +135,7 @@ class StirredFlow(unittest.TestCase):
         script = Path(__file__).resolve().parents[2] / "cases" / "mills" / "stirred_A" / "stirred_flow.py"
         run(self.case, sys.executable, script, ".")
         numbers = read_csv(self.case / "flow.csv")
-        late = self.balance["Time"] > 0.03
+        late = self.balance["Time"] > 0.02
         self.assertAlmostEqual(numbers["torque_shell_Nm"][0] / self.balance["torque_shell"][late].mean(), 1, delta=0.02)
         self.assertGreater(numbers["reynolds"][0], 0)
         for name in ("flow_maps.png", "vortex.png"):

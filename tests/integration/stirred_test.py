@@ -231,7 +231,7 @@ class Stirred(unittest.TestCase):
             run_mill(self.case, self.folder / "mill.yaml", until="flow")
         with self.assertRaisesRegex(RunError, "expected a mill with slurry, because this one has no flow"):
             run_mill(self.folder / "other", self.folder / "mill.yaml", charge=self.case)
-        with self.assertRaisesRegex(RunError, "a stirred one has no flow"):
+        with self.assertRaisesRegex(RunError, "voxels of slurry.h5 do not turn with the impeller"):
             run(self.case, "millDem", "mill.json", "--case", ".", "--fluid", "slurry.h5")
         with self.assertRaisesRegex(RunError, "a stirred mill has no OpenFOAM case"):
             run(self.case, ROOT / "scripts" / "new_mill", "mill.json", self.folder / "new")

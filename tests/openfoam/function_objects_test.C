@@ -198,6 +198,43 @@ TEST(slurryTorque, wallsThatTurnWithTheFluidGiveNoFriction)
     EXPECT_NEAR(turning.power(2, turning.ofWalls()), 3 * 2, 1e-12);
 }
 
+TEST(slurryTorque, ballsBetweenWallsAtRestGiveTheOppositeOfWhatTheyFeel)
+{
+    flowCase box;
+    box.turn(2);
+    const vectorField& C = box.mesh().C();
+    const scalarField& V = box.mesh().V();
+    const scalar phi = 0.3, exchange = 1e4, gradient = 50;
+    const auto feel = [&]
+    {
+        // Balls at rest in the fluid that turns, and a pressure that falls along y
+        return ballForces{
+            scalarField(C.size(), phi),
+            vectorField(C.size(), vector(0, gradient, 0)),
+            scalarField(C.size(), exchange), vectorField(C.size(), Zero),
+            scalarField(C.size(), 0.005)};
+    };
+    const dictionary resting(entriesOf("walls (top); resting (top); speed 2;"));
+    const slurryFields fields(box.mesh(), dictionary::null);
+    EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
+    {
+        const fluidOnBalls mixed(
+            box.mesh(), {"Hill", true, density, 1.2, gravity}, feel);
+        EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
+    }
+    const fluidOnBalls onBalls(
+        box.mesh(), {"Hill", false, density, 1.2, gravity}, feel);
+    EXPECT_FALSE(slurryTorque(fields, entriesOf("speed 2;")).knowsBalls());
+
+    const slurryTorque torque(fields, resting);
+    ASSERT_TRUE(torque.knowsBalls());
+    const scalar drag =
+        phi * exchange * 2 *
+        sum(V * (sqr(C.component(vector::X)) + sqr(C.component(vector::Y))));
+    const scalar pressure = phi * gradient * depth * 0.5;
+    EXPECT_NEAR(torque.ofBalls(), -drag - pressure, 1e-9 * drag);
+}
+
 TEST(slurryTorque, refusesRestingPatchesThatAreNoWalls)
 {
     flowCase box;

@@ -45,6 +45,10 @@ void Foam::functionObjects::slurryBalance::begin()
     {
         writeTabbed(file(), "torque_" + patch + "_Nm");
     }
+    if (torque_.knowsBalls())
+    {
+        writeTabbed(file(), "torque_balls_Nm");
+    }
     writeTabbed(file(), "torque_all_Nm");
     for (const word& patch : torque_.names())
     {
@@ -187,6 +191,10 @@ bool Foam::functionObjects::slurryBalance::write()
     for (const scalar value : walls)
     {
         file() << tab << value;
+    }
+    if (torque_.knowsBalls())
+    {
+        file() << tab << torque_.ofBalls();
     }
     file() << tab << torqueAll_;
     for (const scalar value : torque_.powers(walls))

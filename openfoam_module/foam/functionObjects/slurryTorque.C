@@ -79,6 +79,14 @@ static scalar speedOf(const fvMesh& mesh, const dictionary& dict)
     return speed;
 }
 
+//- What balls between walls at rest feel, if that is all that acts on the fluid
+static const fluidOnBalls* ballsOf(const fvMesh& mesh, const bool resting)
+{
+    const auto* balls = mesh.findObject<fluidOnBalls>(fluidOnBalls::typeName);
+    return resting && balls && !balls->flow().polydispersity ? balls : nullptr;
+}
+
+
 //- Component along z of the sum of moments
 static scalar moment(const vectorField& places, const vectorField& forces)
 {
@@ -125,7 +133,8 @@ Foam::slurryTorque::slurryTorque(
 : fields_(fields),
   walls_(wallsOf(fields.mesh().boundaryMesh(), dict)),
   resting_(restingOf(fields.mesh().boundaryMesh(), walls_, dict)),
-  speed_(speedOf(fields.mesh(), dict))
+  speed_(speedOf(fields.mesh(), dict)),
+  balls_(ballsOf(fields.mesh(), resting_.found(true)))
 {
 }
 
@@ -154,6 +163,19 @@ Foam::scalarField Foam::slurryTorque::ofWalls() const
         result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
     }
     return result;
+}
+
+
+Foam::scalar Foam::slurryTorque::ofBalls() const
+{
+    const fvMesh& mesh = fields_.mesh();
+    const ballForces feel(balls_->present());
+    const vectorField force(
+        feel.solidity * mesh.V() *
+        (feel.pressure +
+         feel.exchange * (fields_.U().primitiveField() - feel.velocity)));
+    return -returnReduce(
+        moment(mesh.C().primitiveField(), force), sumOp<scalar>());
 }
 
 

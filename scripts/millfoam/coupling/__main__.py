@@ -72,9 +72,10 @@ def run_direct(case: Path, before: Path, ranks: int, resume: bool) -> None:
 def judge_direct(case: Path) -> None:
     """Writes coupling.json of balls and flow that ran at the same time, and prints what they gave to each other."""
     folder = case / "direct"
-    found = passes.read_pass(2, folder)
+    found = passes.direct_case(folder)
     exchanged = passes.exchanged_forces(folder)
-    write_json(case / "coupling.json", table.direct_result(read_mill(folder), found, exchanged))
+    load = found.load[0] if found.load else None
+    write_json(case / "coupling.json", table.direct_result(found.mill, folder.name, load, exchanged))
     print(f"mean force of the flow on the balls: {exchanged.given:.4g} N by the flow, {exchanged.taken:.4g} N by the "
           f"balls; they differ by {exchanged.disagreement:.2%}")
 

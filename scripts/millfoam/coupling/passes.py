@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from ..files.data_files import read_csv
+from ..files.mill import read_mill
 from ..files.mill_case import MillCase
 from ..files.slurry_file import read_ball_forces
 from ..files.solids_file import SolidsMap, mean_map
+from ..files.stirred_case import StirredCase
 from ..readings.batches import error_over_turns
 from ..readings.charge import charge_with_errors, circulation_centre
 from ..readings.compare import difference
@@ -178,11 +180,19 @@ def given_force(case: MillCase) -> np.ndarray:
     return np.array([np.average(steps[f"given_force_{axis}_N"], weights=length) for axis in "xyz"])
 
 
+def direct_case(folder: Path) -> MillCase:
+    """The case of balls and flow that ran at the same time, of either machine. RuntimeError if it is not complete."""
+    case = StirredCase(folder) if read_mill(folder, None).machine == StirredCase.machine else MillCase(folder)
+    if case.flow is None or case.results is None:
+        raise RuntimeError(f"{folder}: the flow or the results of the balls are missing; run it to its end")
+    return case
+
+
 def exchanged_forces(folder: Path) -> Exchanged:
     """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without steps.csv or fluid.csv.
 
     Both forces are means over all time-steps: one of the flow acts on the balls until the next one."""
-    case = MillCase(folder)
+    case = direct_case(folder)
     assert case.flow is not None
     given = given_force(case)
     rows = read_csv(folder / "dumps" / "fluid.csv")

@@ -54,10 +54,11 @@ def result(mill: Mill, passes: Sequence[Pass], changes: Sequence[Change], settle
             "folders": [one.folder.name if one.number > 1 else "." for one in passes]}
 
 
-def direct_result(mill: Mill, one: Pass, exchanged: Exchanged) -> dict[str, Any]:
-    """Content of coupling.json (FORMATS.md) of balls and flow that ran at the same time."""
+def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchanged) -> dict[str, Any]:
+    """Content of coupling.json (FORMATS.md) of balls and flow that ran at the same time, in a folder of the case; load:
+    force of the fluid on the balls over their weight, None if it is not known."""
     return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
-            "coupling": "direct", "folders": [".", one.folder.name], "force_over_weight": known(one.load),
+            "coupling": "direct", "folders": [".", folder], "force_over_weight": known(load),
             "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
             "force_disagreement": known(exchanged.disagreement)}
 

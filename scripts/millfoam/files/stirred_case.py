@@ -23,6 +23,12 @@ class StirredCase(MillCase):
         return None
 
     @cached_property
+    def charge_folders(self) -> list[Path]:
+        """Folders in which the charge may have been made: the case's, and that of solids.h5 if this is a link."""
+        averages = (self.folder / "solids.h5").resolve()
+        return list(dict.fromkeys([self.folder.resolve()] + ([averages.parent] if averages.is_file() else [])))
+
+    @cached_property
     def rings(self) -> Rings | None:
         """Averages of the balls in solids.h5, over all its windows; None without them, or if `unusable` reports that
         they cannot be read."""

@@ -39,7 +39,7 @@ def report_case(folder: Path | str, begin: float | None = None, measured: Path |
 
 
 def report_stirred(case: StirredCase) -> str:
-    """HTML text of the report of a stirred mill's dry run."""
+    """HTML text of the report of a stirred mill."""
     found = all_checks(case)
     sections = [(name, heading, section(case)) for name, heading, section in stirred_sections.SECTIONS]
     sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))

@@ -10,7 +10,11 @@ from .words import decimals
 NAME = "The flow is steady"
 GAP = 0.02  # of the feed that may stay in the mill
 DRIFT = 3.0  # standard errors between the two halves of the averages
-WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y"}
+WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y", "z": "centre's height",
+         "torque_impeller": "torque of the impeller"}
+# Columns of slurryBalance that must be steady, their units and scales, by machine
+QUANTITIES = {"tumbling": (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)),
+              "stirred": (("holdUp", "ml", 1e6), ("z", "mm", 1e3), ("torque_impeller", "mN m", 1e3))}
 
 
 def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:
@@ -55,18 +59,21 @@ def discharge_gap(columns: dict[str, np.ndarray], begin: float, turn: float) -> 
     return 1 - gone / fed, error_about_line(times, columns["discharge"], begin, turn) / rate
 
 
-def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float) -> Check:
-    """Whether hold-up and centre of the slurry agree between the two halves of the time from `begin` (s) on, and
-    whether, with a feed (m3/s), as much slurry leaves as enters. columns: of slurryBalance; turn: of the mill, its time
-    in s; radius: of the mill, m."""
+def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float,
+                     machine: str = "tumbling") -> Check:
+    """Whether hold-up and centre of the slurry, of a stirred mill also the torque of its impeller, agree between the
+    two halves of the time from `begin` (s) on, and whether, with a feed (m3/s), as much slurry leaves as enters.
+    columns: of slurryBalance; turn: of the mill, its time in s; radius: of the mill, m; machine: a key of
+    QUANTITIES."""
     drifts, words = [], []
-    for key, unit, scale in (("holdUp", "ml", 1e6), ("x", "mm", 1e3), ("y", "mm", 1e3)):
+    for key, unit, scale in QUANTITIES[machine]:
         difference, error = halves(columns["Time"], columns[key], begin, turn)
-        # A drift below 1 % of the hold-up or of the radius does not matter
-        floor = 0.01 * (columns[key].mean() if key == "holdUp" else radius)
+        # A drift below 1 % of the hold-up, of the radius or of the torque does not matter
+        floor = 0.01 * (radius if key in "xyz" else abs(columns[key][columns["Time"] >= begin].mean()))
         drifts.append(abs(difference) / np.maximum(error * DRIFT, floor))
         words.append(f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}")
-    limits = f"limit {DRIFT:g} standard errors, or 1 % of the hold-up and of the radius"
+    own = ", of the radius and of the torque" if machine == "stirred" else " and of the radius"
+    limits = f"limit {DRIFT:g} standard errors, or 1 % of the hold-up{own}"
     gap = ""
     if feed > 0:
         share, error = discharge_gap(columns, begin, turn)
@@ -85,4 +92,5 @@ def flow_steadiness(case: MillCase) -> Check:
     if columns is None or (columns["Time"] >= case.begin).sum() < 20:
         return Check(NAME, "unknown", "the time series of slurryBalance is missing or too short",
                      "Add slurryBalance to controlDict, or run longer.")
-    return judge_steadiness(columns, case.begin, case.turn, case.radius, case.mill.flow("feed_m3_s", 0.0))
+    return judge_steadiness(columns, case.begin, case.turn, case.radius, case.mill.flow("feed_m3_s", 0.0),
+                            case.machine)

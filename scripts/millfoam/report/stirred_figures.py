@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of the report of a stirred mill's dry run: torques against time, spectra of the contacts by partner."""
+"""Figures of the report of a stirred mill: torques on walls and slurry against time, spectra of the contacts by
+partner."""
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,7 +8,7 @@ from matplotlib.figure import Figure
 
 from ..files.stirred_case import StirredCase
 from ..readings.partner_spectra import PartnerSpectra
-from .figures import BLUE, COLOURS, GREY, ORANGE, Curve, axes_of, lines_against, running_mean
+from .figures import BLUE, COLOURS, GREY, ORANGE, Curve, axes_of, lines_against, quarter_turns, running_mean
 
 
 def torques(case: StirredCase) -> Figure:
@@ -20,6 +21,19 @@ def torques(case: StirredCase) -> Figure:
         axis.plot(times, running_mean(times, values, case.turn), color=colour, label=part)
     axis.axvline(case.span[0], color=GREY, ls="--", lw=1)
     axis.set(xlabel="time since the mill began to turn, s", ylabel="torque of the balls about +z, N m")
+    axis.legend(loc="center right")
+    return figure
+
+
+def slurry_torques(case: StirredCase) -> Figure:
+    """Torque of each wall and of the balls on the slurry against time, means over a quarter turn before each time."""
+    figure, (axis,) = axes_of()
+    parts = [name for name in case.balance if name.startswith("torque_") and name != "torque_all"]
+    for name, colour in zip(parts, COLOURS):
+        times, mean = quarter_turns(case, name)
+        axis.plot(times, 1e3 * mean, color=colour, label=name.removeprefix("torque_"))
+    axis.axvline(case.begin, color=GREY, ls="--", lw=1)
+    axis.set(xlabel="flow time, s", ylabel="torque on the slurry about +z, mN m")
     axis.legend(loc="center right")
     return figure
 

@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sections of the report of a stirred mill's dry run, and of the comparison of several. Each function returns cards, or
-none if the case lacks what it shows."""
+"""Sections of the report of a stirred mill's dry run and flow, and of the comparison of several. Each function returns
+cards, or none if the case lacks what it shows."""
 from collections.abc import Sequence
 
 import numpy as np
 
 from ..files.stirred_case import StirredCase
 from ..plots.stirred_plots import meridian_figure, slices_figure
+from ..plots.stirred_slurry_plots import maps_figure, vortex_figure
 from ..readings.partner_spectra import BALLS, PartnerSpectra, Peak, read_partner_spectra
+from ..readings.stirred_flow import read_stirred_flow
 from ..readings.stirred_power import StirredNumbers, read_stirred
+from ..readings.stirred_slurry import read_slurry_flow
 from . import figures, page, stirred_figures
 from .case_readings import Rows
 from .comparison import verdict_table
@@ -20,6 +23,12 @@ NUMBERS_NOTE = ("±: standard errors over whole turns; of power and torques with
                 "turns from ten batches of equal time. Power number: P/(ρ N³ D⁵), N in turns per second, D from tip "
                 "to tip; torque coefficient: T/(ρ ω² R⁵), R = D/2. ρ is the bulk density of the resting balls. Torque "
                 "over weight: T/(m g R), m the balls' mass.")
+
+
+FLOW_NOTE = ("±: standard errors over whole turns; of slip and Reynolds number standard deviations between the "
+             "written times. Torque that is not balanced: rate of the slurry's angular momentum, minus the torques of "
+             "walls and balls; it is the error of mesh and time-step. Slip, Froude and Reynolds number: medians over "
+             "the cells with balls in slurry. Fr = slip/√(g d (ρ_b/ρ − 1)), Re = ρ (1 − φ) slip d/μ.")
 
 
 def key_numbers(case: StirredCase) -> Rows:
@@ -55,12 +64,36 @@ def specific(found: StirredNumbers) -> Rows:
     return [(name, uncertain(scale * mean.value, scale * mean.error, unit)) for name, mean, scale, unit in rows]
 
 
+def flow_numbers(case: StirredCase) -> Rows:
+    """Rows (name, text) of the slurry's numbers; none without a flow."""
+    if case.flow is None:
+        return []
+    found = read_stirred_flow(case, read_slurry_flow(case.folder, case.mill))
+    rows = [(f"torque on the slurry by {'the ' if part not in ('balls', 'all') else ''}{part}", mean, 1e3, "mN m")
+            for part, mean in found.torques.items()]
+    rows += [("torque on the slurry that is not balanced", found.unbalanced, 1e3, "mN m")] if found.unbalanced else []
+    rows += [("power of the impeller to the slurry", found.slurry_power, 1.0, "W"),
+             (f"power of the impeller to the {balls_words(case)}", found.ball_power, 1.0, "W"),
+             ("height of the slurry's centre", found.centre, 1e3, "mm"),
+             ("slip of slurry and balls", found.slip, 1.0, "m/s")]
+    return [(name, uncertain(scale * mean.value, scale * mean.error, unit)) for name, mean, scale, unit in rows] + [
+        ("slurry's share of the power", f"{100 * found.slurry_share:.3g} %"),
+        ("Froude number of the slip", f"{found.froude:.3g}"),
+        ("Reynolds number of the slip", uncertain(found.reynolds.value, found.reynolds.error, "").strip())]
+
+
+def balls_words(case: StirredCase) -> str:
+    """The balls whose power stands beside the slurry's, in words."""
+    return "balls" if case.mill.flow("coupling") == "direct" else "balls of the dry run"
+
+
 def summary(case: StirredCase) -> str:
     """One line on a case: what was run."""
     mill = case.mill
     return ", ".join([f"stirred mill, {2e3 * mill.radius:.4g} × {1e3 * mill.length:.4g} mm",
                       f"impeller of {2e3 * case.tip_radius:.4g} mm, {mill.sense} at {case.tip_speed:.4g} m/s at its "
-                      f"tips ({abs(mill.omega):.2f} rad/s)", f"{int(case.result('balls'))} balls"])
+                      f"tips ({abs(mill.omega):.2f} rad/s)", f"{int(case.result('balls'))} balls",
+                      *([f"slurry {mill.slurry('density_kg_m3'):.4g} kg/m³, drag: {case.law}"] if case.law else [])])
 
 
 def overview(case: StirredCase) -> list[str]:
@@ -93,6 +126,24 @@ def charge_section(case: StirredCase) -> list[str]:
     if case.mill.impeller.get("pins"):
         cards.append(page.picture(slices_figure(case.mill, rings, ("solidity", "axial")),
                                   f"At the pins, seen from above. {words}", title="Around the pins"))
+    return cards
+
+
+def flow_section(case: StirredCase) -> list[str]:
+    """Cards of the slurry's numbers, torques and pictures; none without a flow."""
+    if case.flow is None:
+        return []
+    flow = read_slurry_flow(case.folder, case.mill)
+    times = f"flow time {flow.times[0]:.3g} to {flow.times[-1]:.3g} s"
+    cards = [page.table(None, flow_numbers(case), title="Numbers of the slurry",
+                        note=f"Means from flow time {case.begin:.3g} s on. {FLOW_NOTE}"),
+             page.picture(vortex_figure(case.folder, case.mill, flow), "Section through the first pins, with the "
+                          f"slurry's speed, mean of {times}, and the balls of the last record.", title="Vortex"),
+             page.picture(maps_figure(case.mill, flow), f"Means over the azimuth and {times}.",
+                          title="Slurry in the r-z plane")]
+    if case.balance is not None:
+        cards.append(page.picture(stirred_figures.slurry_torques(case), "Means over the quarter turn before. Dashed: "
+                                  "begin of the averages.", title="Torque on the slurry"))
     return cards
 
 
@@ -148,17 +199,19 @@ def partner_row(name: str, collisions: float, powers: np.ndarray, whole: float,
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Balls", charge_section),
-            ("time", "Against time", time_section), ("contacts", "Contacts", contact_section),
+            ("flow", "Slurry", flow_section), ("time", "Against time", time_section),
+            ("contacts", "Contacts", contact_section),
             ("run", "How it was run", lambda case: run_section(case, None)))
 
 
 def compared(cases: Sequence[StirredCase], names: Sequence[str], found: Sequence[list[Check]]) -> list[page.Section]:
     """(id, heading, [cards]) of a comparison of cases, their names and lists of checks."""
-    columns = [dict(key_numbers(case)) for case in cases]
+    columns = [dict([*key_numbers(case), *flow_numbers(case)]) for case in cases]
     keys = list(dict.fromkeys(key for column in columns for key in column))
     rows = [("run", *(summary(case) for case in cases))]
     rows += [(key, *(column.get(key, "–") for column in columns)) for key in keys]
-    cards = [page.table(["", *names], rows, wide=True, note=NUMBERS_NOTE)]
+    note = f"{NUMBERS_NOTE} {FLOW_NOTE}" if any(case.flow for case in cases) else NUMBERS_NOTE
+    cards = [page.table(["", *names], rows, wide=True, note=note)]
     return [("numbers", "Numbers", cards),
             ("checks", "Can they be believed?", [verdict_table(found, names)]),
             ("time", "Against time", compared_torques(cases, names)),

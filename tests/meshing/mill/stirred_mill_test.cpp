@@ -162,7 +162,7 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   const auto wet = [&](const std::string& change) {
     return refusal(stirred_mill, {slurry + "0.0775}", change});
   };
-  EXPECT_TRUE(says(wet("flow.coupling=iterated"), "one_way for a stirred mill"));
+  EXPECT_TRUE(says(wet("flow.coupling=iterated"), "one_way or direct for a stirred mill"));
   EXPECT_TRUE(says(wet("flow.solver=interFoam"), "slurryFoam for a stirred mill"));
   EXPECT_TRUE(says(wet("resolution.cell_size=0.05"), "from a sixtieth of the radius"));
   EXPECT_TRUE(says(wet("resolution.layers=9"), "'resolution.layers' is unknown"));
@@ -205,6 +205,31 @@ TEST(StirredMill, balls_are_averaged_over_the_run_on_rings_that_turn_with_the_im
   EXPECT_EQ(derived["frame"], "impeller");
   EXPECT_EQ(derived["whole_run"], true);
   EXPECT_EQ(derived["radii_m"], (Json{0, 0.0775}));
+}
+
+TEST(StirredMill, balls_and_slurry_meet_on_voxels_at_rest_that_cover_the_shell) {
+  const std::string slurry = "slurry={density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: 0.0775}";
+  const std::string direct = "flow.coupling=direct", size = "flow.exchange.voxel_size=0.0155";
+  EXPECT_FALSE(read(stirred_mill, {slurry}).flow.coupling.voxels);
+  const Voxels usual = read(stirred_mill, {slurry, direct}).flow.coupling.voxels.value();
+  // Two balls of 5 mm
+  EXPECT_EQ(usual.shape, (std::array<int, 3>{16, 16, 32}));
+  EXPECT_DOUBLE_EQ(usual.lower[0], -0.08);
+  EXPECT_DOUBLE_EQ(usual.upper[1], 0.08);
+  EXPECT_DOUBLE_EQ(usual.upper[2], 0.315);
+  EXPECT_EQ(read(stirred_mill, {slurry, direct, size}).flow.coupling.voxels.value().shape,
+            (std::array<int, 3>{10, 10, 20}));
+  const Json derived = resolved_mill(describe(stirred_mill, {slurry, direct}), "test")["derived"]["flow"];
+  EXPECT_EQ(derived["exchange"]["shape"], (Json{16, 16, 32}));
+  EXPECT_EQ(derived["coupling"], "direct");
+  // Its own key alone
+  EXPECT_NE(read(stirred_mill, {slurry, direct, size}).fingerprint.flow,
+            read(stirred_mill, {slurry, direct}).fingerprint.flow);
+  EXPECT_TRUE(says(refusal(stirred_mill, {slurry, size}), "flow.coupling direct of a stirred mill only"));
+  EXPECT_TRUE(says(refusal(stirred_mill, {slurry, direct, "flow.exchange.voxel_size=0.5"}), "up to the radius"));
+  EXPECT_TRUE(says(refusal(stirred_mill,
+                           {slurry, direct, "charge.shape={half_axes: [1.1, 1, 0.9], blockiness: 3}"}),
+                   "the forces of the flow are those on spheres"));
 }
 
 TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
