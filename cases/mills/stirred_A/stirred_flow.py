@@ -15,6 +15,8 @@ from millfoam.readings.stirred_slurry import read_slurry_flow
 from number_table import write_numbers
 
 CONSERVED = 1e-8  # of the hold-up
+# Viscosity in the published tables over that of the text
+PRINTED_VISCOSITY = 10.0
 
 
 def numbers_of(found: StirredFlowNumbers) -> dict[str, float]:
@@ -28,9 +30,10 @@ def numbers_of(found: StirredFlowNumbers) -> dict[str, float]:
             "power_balls_W": found.ball_power.value, "power_balls_error_W": found.ball_power.error,
             "slurry_share": found.slurry_share, "missing_over_hold_up": found.missing,
             "centre_z_m": found.centre.value, "slip_m_s": found.slip.value, "slip_deviation_m_s": found.slip.error,
-            "froude": found.froude, "froude_as_printed": found.froude_as_printed,
-            "reynolds": found.reynolds.value, "reynolds_deviation": found.reynolds.error,
-            "reynolds_as_printed": found.reynolds_as_printed}
+            "froude": found.froude, "reynolds": found.reynolds.value, "reynolds_deviation": found.reynolds.error,
+            # The published tables multiply the slip by the root that it is divided by
+            "froude_as_printed": found.slip.value**2 / found.froude,
+            "reynolds_as_printed": found.reynolds.value / PRINTED_VISCOSITY}
 
 
 def show(case: Path) -> None:

@@ -12,8 +12,6 @@ from .stirred_power import mean_from
 from .stirred_slurry import SlurryFlow
 
 WALLS = ("impeller", "shell", "base", "lid")
-# Viscosity in the published tables of stirred_A over that of the text
-PRINTED_VISCOSITY = 10.0
 
 
 @dataclass(frozen=True)
@@ -25,8 +23,7 @@ class StirredFlowNumbers:
     slurry in the same time, else of the dry run. missing: slurry over the hold-up. centre: height of its centre, m.
     slip (m/s), froude, reynolds: medians over the cells, means over the written times; their errors are standard
     deviations between these times. froude: slip over the root of g d (ball density over slurry's - 1), NaN for balls
-    that float; froude_as_printed, reynolds_as_printed: as the published tables
-    of cases/mills/stirred_A have them."""
+    that float."""
     begin: float
     end: float
     turns: float
@@ -38,9 +35,7 @@ class StirredFlowNumbers:
     centre: Mean
     slip: Mean
     froude: float
-    froude_as_printed: float
     reynolds: Mean
-    reynolds_as_printed: float
 
     @property
     def slurry_share(self) -> float:
@@ -86,4 +81,4 @@ def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers
         begin, float(time[-1]), (time[-1] - begin) / case.turn, torques,
         mean(columns["torque_all"] - given) if "balls" in torques else None, mean(columns["power"]),
         power_on_balls(case, begin, float(time[-1])), float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
-        mean(columns["z"]), slip, slip.value / root, slip.value * root, reynolds, reynolds.value / PRINTED_VISCOSITY)
+        mean(columns["z"]), slip, slip.value / root, reynolds)
