@@ -67,7 +67,8 @@ class StirredDirect(unittest.TestCase):
         page = (self.case / "report.html").read_text()
         for words in ("The balls feel the slurry", "power of the impeller to the balls", "Vortex"):
             self.assertTrue(words in page, words)
-        for words in ("The slurry would not move the balls", "balls of the dry run"):
+        for words in ("The slurry would not move the balls", "balls of the dry run",
+                      "Walls at rest take the impeller"):
             self.assertFalse(words in page, words)
         run(self.direct, sys.executable, SCRIPT, ".")
         numbers = read_csv(self.direct / "flow.csv")
