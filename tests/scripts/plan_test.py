@@ -132,6 +132,18 @@ class Arithmetic(Folder):
             self.assertGreater(content["flow_time_step_s"], 0.9 * expected)
         self.assertLess(content["flow_time_step_s"], 0.001)
 
+    def test_a_stirred_mill_has_its_own_walls_and_cells_like_cubes(self):
+        stubs = self.folder / "stubs"
+        (stubs / "millMesh").write_text("#!/bin/sh\n" + MILL_MESH.replace(f'section": {SECTION_CELLS}', 'section": 0'))
+        (stubs / "slurryFoam").write_text(f"#!/bin/sh\ngrep -q restingWallVelocity 0/U || exit 1\n{FLOW}\n")
+        content = mill(max_courant=0.1)
+        content["derived"]["machine"] = "stirred"
+        self.write(content)
+        planned, _, _ = self.planned()
+        expected = 0.1 * 1.05 * (VOLUME / CELLS) ** (1 / 3) / (4 * 9.81 * RADIUS) ** 0.5
+        self.assertLessEqual(planned["flow_time_step_s"], expected)
+        self.assertGreater(planned["flow_time_step_s"], 0.9 * expected)
+
     def test_two_processes_reconstruct_and_keep_all_twice(self):
         self.write(mill())
         one = self.planned()[1]["flow"]

@@ -70,7 +70,7 @@ def main() -> None:
         parser.error(f"-np {options.ranks}: expected 1 or more")
     before = os.getloadavg()[0]
     try:
-        mill = read_mill(options.folder)
+        mill = read_mill(options.folder, None)
         stages, plan, mesh = make_stages(mill, options.ranks, options.charge)
         write_plan(Path(options.folder) / "plan.json", mill, options.ranks, options.charge, stages, plan, mesh)
     except (NoMill, DataError, RunError) as error:

@@ -72,7 +72,9 @@ def typical_time_step(mill: Mill, cell: float) -> float:
 
 def plan_flow(mill: Mill, mesh: MeshTrial) -> FlowPlan:
     """FlowPlan of a Mill on a MeshTrial's mesh. Steps are shortened so that they end at the written times."""
-    cell = math.sqrt(mesh.volume / mill.length / mesh.cells_in_section)
+    # A stirred mill's cells are in no layers, and about cubes
+    cell = (math.sqrt(mesh.volume / mill.length / mesh.cells_in_section) if mesh.cells_in_section
+            else (mesh.volume / mesh.cells) ** (1 / 3))
     time_step = typical_time_step(mill, cell)
     duration, interval = flow_number(mill, "duration_s"), flow_number(mill, "write_interval_s")
     time_step = interval / math.ceil(interval / time_step - 1e-6)
@@ -156,7 +158,7 @@ def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list
         dry = try_charge(folder, path, ranks) if mill.flow("balls") and not charge else None
         case = Path(folder) / "case"
         case.mkdir()
-        mesh = try_mesh(case, path)
+        mesh = try_mesh(case, path, mill.machine)
         trial = try_flow(case, mill.flow("solver"), flow_number(mill, "max_time_step_s"), ranks)
     plan = plan_flow(mill, mesh)
     made = Cost(mesh.cost.time, mesh.cost.memory)

@@ -29,8 +29,8 @@ class Cost:
 
 @dataclass(frozen=True)
 class MeshTrial:
-    """A mesh made here: its cost; its cells, faces and cells of a cross-section; its volume in m3; disk of walls and
-    mesh in bytes."""
+    """A mesh made here: its cost; its cells, faces and cells of a cross-section (0: in no layers); its volume in m3;
+    disk of walls and mesh in bytes."""
     cost: Cost
     cells: int
     faces: int
@@ -97,11 +97,14 @@ def try_charge(folder: Path | str, mill: Path | str, ranks: int) -> dict[str, An
     return read_json(file, "dem-plan")
 
 
-def try_mesh(folder: Path | str, mill: Path | str) -> MeshTrial:
-    """Makes `folder` a case of the mill without balls, with its mesh, and returns its MeshTrial."""
+def try_mesh(folder: Path | str, mill: Path | str, machine: str = "tumbling") -> MeshTrial:
+    """Makes `folder` a case of the mill without balls, with its mesh, and returns its MeshTrial; machine: tumbling or
+    stirred, whose walls need other dictionaries."""
     folder = Path(folder)
     for part in ("0.orig", "constant", "system"):
         shutil.copytree(TEMPLATE / part, folder / part)
+    if machine != "tumbling":
+        shutil.copytree(TEMPLATE / machine, folder, dirs_exist_ok=True)
     cost = run_measured(folder, "millMesh", mill, "--set", "flow.balls=no", "--case", ".")
     file = folder / "mesh.json"
     mesh = read_json(file, "mesh")
