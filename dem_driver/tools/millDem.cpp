@@ -179,6 +179,9 @@ void run(const Options& options, const meshing::MillDescription& description) {
     throw dem_driver::KeyError("machine", "stirred",
                                "a tumbling mill with --fluid: the voxels of slurry.h5 do not turn with the "
                                "impeller; take --with-flow");
+  if (!options.with_flow.empty() && mill.machine() == meshing::Machine::stirred && !mill.flow.coupling.voxels)
+    throw dem_driver::KeyError("flow.coupling", "one_way",
+                               "direct with --with-flow: it gives the voxels on which balls and slurry meet");
   if (!options.fluid.empty() && mill.dem.pool_level)
     throw dem_driver::KeyError("dem.fluid", "buoyancy",
                                "none with --fluid, which has the buoyancy of its flow");

@@ -233,6 +233,8 @@ class Stirred(unittest.TestCase):
             run_mill(self.folder / "other", self.folder / "mill.yaml", charge=self.case)
         with self.assertRaisesRegex(RunError, "voxels of slurry.h5 do not turn with the impeller"):
             run(self.case, "millDem", "mill.json", "--case", ".", "--fluid", "slurry.h5")
+        with self.assertRaisesRegex(RunError, "direct with --with-flow"):
+            run(self.case, "millDem", "mill.json", "--case", ".", "--with-flow", "exchange")
         with self.assertRaisesRegex(RunError, "a stirred mill has no OpenFOAM case"):
             run(self.case, ROOT / "scripts" / "new_mill", "mill.json", self.folder / "new")
         with self.assertRaisesRegex(NoMill, "the mill is stirred; expected a tumbling one"):
