@@ -67,7 +67,7 @@ def runs(quick: bool) -> dict[str, Run]:
     if not quick:
         paraboloid = (f"speed.angular_velocity={PARABOLOID}", "geometry.height=0.15",
                       "geometry.impeller.shaft.diameter=0.02", "slurry.plastic_viscosity=2", "flow.max_time_step=0.002",
-                      "flow.duration=3", f"resolution.cell_size={0.0775 / 14:.6g}")
+                      "flow.duration=3", f"resolution.cell_size={0.0775 / 20:.6g}")
         found["turning vessel"] = Run(own, paraboloid, "vessel", True, False)
     return found
 
