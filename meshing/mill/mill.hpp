@@ -243,8 +243,8 @@ struct Coupling {
   CouplingKind kind = CouplingKind::one_way;  ///< and how
   int passes = 0;         ///< `iterated`: of balls and slurry, at most, the dry one included
   double relaxation = 0;  ///< `iterated`: share of the latest flow's forces in those that the balls feel next
-  /// `direct`, of a stirred mill: of the lab frame, on which balls and slurry meet; a tumbling mill's are those
-  /// of its averages.
+  /// `direct`, of a stirred mill: of the lab frame, on which balls and slurry meet; a tumbling mill's are
+  /// those of its averages.
   std::optional<Voxels> voxels;
   bool both_ways() const { return kind != CouplingKind::one_way; }  ///< whether the balls feel the slurry
 };

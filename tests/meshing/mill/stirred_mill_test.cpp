@@ -208,7 +208,8 @@ TEST(StirredMill, balls_are_averaged_over_the_run_on_rings_that_turn_with_the_im
 }
 
 TEST(StirredMill, balls_and_slurry_meet_on_voxels_at_rest_that_cover_the_shell) {
-  const std::string slurry = "slurry={density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: 0.0775}";
+  const std::string slurry =
+      "slurry={density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: 0.0775}";
   const std::string direct = "flow.coupling=direct", size = "flow.exchange.voxel_size=0.0155";
   EXPECT_FALSE(read(stirred_mill, {slurry}).flow.coupling.voxels);
   const Voxels usual = read(stirred_mill, {slurry, direct}).flow.coupling.voxels.value();
@@ -226,10 +227,11 @@ TEST(StirredMill, balls_and_slurry_meet_on_voxels_at_rest_that_cover_the_shell) 
   EXPECT_NE(read(stirred_mill, {slurry, direct, size}).fingerprint.flow,
             read(stirred_mill, {slurry, direct}).fingerprint.flow);
   EXPECT_TRUE(says(refusal(stirred_mill, {slurry, size}), "flow.coupling direct of a stirred mill only"));
-  EXPECT_TRUE(says(refusal(stirred_mill, {slurry, direct, "flow.exchange.voxel_size=0.5"}), "up to the radius"));
-  EXPECT_TRUE(says(refusal(stirred_mill,
-                           {slurry, direct, "charge.shape={half_axes: [1.1, 1, 0.9], blockiness: 3}"}),
-                   "the forces of the flow are those on spheres"));
+  EXPECT_TRUE(
+      says(refusal(stirred_mill, {slurry, direct, "flow.exchange.voxel_size=0.5"}), "up to the radius"));
+  EXPECT_TRUE(
+      says(refusal(stirred_mill, {slurry, direct, "charge.shape={half_axes: [1.1, 1, 0.9], blockiness: 3}"}),
+           "the forces of the flow are those on spheres"));
 }
 
 TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
