@@ -28,8 +28,8 @@ def case(**parts):
     record = FlowRecord(steps, [(Path("flow.json"), {"limits": limits})] if limits else [])
     results = parts.get("results") or {}
     mill = SimpleNamespace(fingerprint={}, flow=lambda key, default=None: {"feed_m3_s": feed}.get(key, default))
-    return SimpleNamespace(**{"begin": 2.0, "radius": 0.15, "turn": 9.0, "mill": mill, "unusable": [], "results": None,
-                              "averages": None,
+    return SimpleNamespace(**{"begin": 2.0, "radius": 0.15, "turn": 9.0, "mill": mill, "machine": "tumbling",
+                              "unusable": [], "results": None, "averages": None,
                               "solids": None, "slurry": None, "flow": None, "law": None, "balance": None,
                               "folder": Path(),
                               "charge_folders": [], "record": record, "result": results.get,
@@ -72,13 +72,13 @@ class Flow(Verdicts):
             self.check(checks.conservation(case(balance=columns)), state)
         self.check(checks.conservation(case()), "unknown")
 
-    def steadiness(self, drift=0.0, noise=0.0, **others):
+    def steadiness(self, drift=0.0, noise=0.0, machine="tumbling", **others):
         """Of a hold-up of 1 l that drifts by a share of itself in the whole time."""
         time = np.linspace(0, 6, 1201)
         wobble = np.random.default_rng(3).normal(0, 1, time.shape)
         columns = {"Time": time, "holdUp": 1e-3 * (1 + drift * time / 4 + noise * wobble), "x": 0 * time,
                    "y": 0 * time, **others}
-        return checks.flow_steadiness(case(balance=columns))
+        return checks.flow_steadiness(case(balance=columns, machine=machine))
 
     def test_a_drift_of_the_hold_up(self):
         # The second half's mean differs by half of the drift from the first's; 1 % of the hold-up is not a drift that
@@ -95,6 +95,15 @@ class Flow(Verdicts):
         time = np.linspace(0, 6, 1201)
         self.check(self.steadiness(y=-0.01 * time), "fails")
         self.check(self.steadiness(x=np.full(1201, np.nan)), "fails")
+
+    def test_a_stirred_mill_has_the_height_of_the_centre_and_the_torque_of_its_impeller(self):
+        time = np.linspace(0, 6, 1201)
+        still, torque = 0 * time, np.full(1201, 0.02)
+        self.check(self.steadiness(machine="stirred", z=still, torque_impeller=torque, y=-0.01 * time), "holds")
+        self.check(self.steadiness(machine="stirred", z=0.01 * time, torque_impeller=torque), "fails")
+        falling = self.steadiness(machine="stirred", z=still, torque_impeller=0.02 * (1 - 0.05 * time))
+        self.check(falling, "fails")
+        self.assertIn("torque of the impeller", falling.found)
 
     def test_too_few_times_or_none_are_unknown(self):
         time = np.linspace(0, 2.1, 30)
