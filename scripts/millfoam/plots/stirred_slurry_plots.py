@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the slurry in a stirred mill: means in the r-z plane, and a section through the pins with the balls."""
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from scipy.spatial import cKDTree
 
 from ..files.mill import Mill
-from ..readings.stirred_slurry import SlurryFlow, in_impeller, last_balls, meridian_means
+from ..readings.stirred_slurry import SlurryFlow, in_impeller, meridian_means
 from .stirred_plots import DARK, draw_impeller
 
 RADIAL, AXIAL = 40, 80  # places of a map in the r-z plane
@@ -50,9 +48,9 @@ def maps_figure(mill: Mill, flow: SlurryFlow) -> plt.Figure:
     return figure
 
 
-def vortex_figure(case: Path, mill: Mill, flow: SlurryFlow) -> plt.Figure:
-    """A vertical section through the first pins, in the impeller's frame: speed of the slurry, the balls that the
-    section cuts in the last record (where there are dumps), and the impeller."""
+def vortex_figure(mill: Mill, flow: SlurryFlow, balls: np.ndarray | None = None) -> plt.Figure:
+    """A vertical section through the first pins, in the impeller's frame: speed of the slurry, the impeller, and, of
+    balls [n, 3] (m) in this frame, those that the section cuts."""
     angle = np.radians(mill.impeller["pins"][0]["angle_deg"]) if mill.impeller["pins"] else 0.0
     along = np.array([np.cos(angle), np.sin(angle), 0])
     x, z = np.linspace(-mill.radius, mill.radius, PIXELS), np.linspace(0, _shown_height(mill, flow), PIXELS)
@@ -65,8 +63,8 @@ def vortex_figure(case: Path, mill: Mill, flow: SlurryFlow) -> plt.Figure:
     image = axis.pcolormesh(1e3 * x, 1e3 * z, np.where(share > 0.5, speed, np.nan), cmap="viridis", vmin=0)
     figure.colorbar(image, ax=axis, label="speed of the slurry, m/s (mean over time)")
     axis.contour(1e3 * x, 1e3 * z, share, [0.5], colors="tab:blue", linewidths=1.2)
-    if any((case / "dumps").glob("dump.*")):
-        _draw_balls(axis, mill, last_balls(case, mill), along)
+    if balls is not None:
+        _draw_balls(axis, mill, balls, along)
     axis.contourf(1e3 * x, 1e3 * z, in_impeller(mill, points), [0.5, 1.5], colors=[DARK], zorder=3)
     axis.set(xlim=(-1e3 * mill.radius, 1e3 * mill.radius), ylim=(0, 1e3 * z[-1]), xlabel="along the first pins, mm",
              ylabel="z, mm", aspect="equal")

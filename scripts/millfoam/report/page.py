@@ -43,9 +43,10 @@ def text(words: str) -> str:
 
 
 def encode(figure: Figure, dpi: int = 140, colours: int = 256) -> str:
-    """A matplotlib figure as a data URL of a PNG with a palette of `colours` colours."""
+    """A matplotlib figure, which is closed, as a data URL of a PNG with a palette of `colours` colours."""
     drawn, buffer = io.BytesIO(), io.BytesIO()
     figure.savefig(drawn, dpi=dpi, format="png")
+    plt.close(figure)
     image = Image.open(drawn).convert("RGB").quantize(colours, dither=Image.Dither.NONE)
     image.save(buffer, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
