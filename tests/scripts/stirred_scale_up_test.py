@@ -17,13 +17,15 @@ from millfoam.files.mill import read_mill
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
+from millstudies.stirred_runs import drifts, read_all, read_numbers
+from millstudies.stirred_tables import lines_of
+from millstudies.stirred_verdicts import ratio
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "studies" / "stirred_scale_up"))
 
 import scale_up_verdicts  # noqa: E402, in the study's folder
 import stirred_scale_up as study  # noqa: E402
-from run_numbers import drifts, read_numbers  # noqa: E402
 from runs import FILE, RUNS, SPEEDS  # noqa: E402
 
 STEP, RECORDS = 1e-4, 100  # s; steps between records
@@ -93,7 +95,7 @@ class Numbers(unittest.TestCase):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="scale-up-")))
         make_run(cls.folder, "A_1.8_dry")
         make_run(cls.folder, "A_2.2_dry", 1.5 * TORQUE, 1.2 * SPEED, falling=0.02)
-        cls.one = read_numbers(RUNS["A_1.8_dry"], cls.folder / "A_1.8_dry")
+        cls.one = read_numbers(cls.folder / "A_1.8_dry")
 
     def test_are_means_of_the_last_five_turns(self):
         one = self.one
@@ -110,7 +112,7 @@ class Numbers(unittest.TestCase):
 
     def test_a_drift_in_the_turns_that_are_read_is_named(self):
         self.assertEqual(self.one.drifting, ())
-        self.assertEqual(read_numbers(RUNS["A_2.2_dry"], self.folder / "A_2.2_dry").drifting, ("kinetic_J",))
+        self.assertEqual(read_numbers(self.folder / "A_2.2_dry").drifting, ("kinetic_J",))
 
     def test_a_drift_is_more_than_a_share_and_more_than_the_scatter(self):
         self.assertFalse(drifts(np.array([1.0, 1.0, 1.01, 1.01, 1.015])))
@@ -121,7 +123,7 @@ class Numbers(unittest.TestCase):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         place = make_run(folder, "C_1.5_dry")
         write_json(place / "dumps" / "results.json", {"format": "millfoam-charge", "duration_s": 1.0})
-        found, missing = study.read_all(folder)
+        found, missing = read_all(folder, RUNS)
         self.assertEqual(found, {})
         self.assertIn("C_1.5_dry", missing[-1])
         self.assertIn("the run ends at 1 s; expected 3.278 s", missing[-1])
@@ -134,7 +136,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual((row["mill"], row["slurry"], row["millDem: steady"]), ("A", "dry", "no"))
         # Volume of the balls, which is that of the published slurry: 696 cm3
         self.assertAlmostEqual(row["power per volume of slurry, kW/m3"], row["power, W"] / 0.696, delta=0.05)
-        lines = list(study.lines_of([row, row | {"run": "B_1.5_dry", "published with slurry, m/s": None}]))
+        lines = list(lines_of([row, row | {"run": "B_1.5_dry", "published with slurry, m/s": None}]))
         self.assertEqual(lines[0].split(), ["run", "A_1.8_dry", "B_1.5_dry"])
         self.assertEqual(lines[-2].split()[-2:], ["0.6", "–"])
 
@@ -152,12 +154,12 @@ class Statements(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="scale-up-")))
-        cls.one = read_numbers(RUNS["B_2.2_dry"], make_run(cls.folder, "B_2.2_dry"))
+        cls.one = read_numbers(make_run(cls.folder, "B_2.2_dry"))
 
     def found(self, **speeds):
         """Runs with these mean speeds (m/s) and powers 30 times as high, by name without `_dry`."""
         return {f"{name.replace('x', '.')}_dry": replace(
-            self.one, run=RUNS[f"{name.replace('x', '.')}_dry"], speed=Mean(value, 0.01), power=Mean(30 * value, 0.3))
+            self.one, name=f"{name.replace('x', '.')}_dry", speed=Mean(value, 0.01), power=Mean(30 * value, 0.3))
             for name, value in speeds.items()}
 
     def verdict(self, statement, found):
@@ -199,7 +201,7 @@ class Statements(unittest.TestCase):
         self.assertEqual(self.verdict(words, lost), [CONTRADICTED])
 
     def test_errors_of_ratios(self):
-        found = scale_up_verdicts.ratio(Mean(2.0, 0.06), Mean(4.0, 0.16))
+        found = ratio(Mean(2.0, 0.06), Mean(4.0, 0.16))
         self.assertAlmostEqual(found.value, 0.5)
         self.assertAlmostEqual(found.error, 0.5 * 0.05)
 

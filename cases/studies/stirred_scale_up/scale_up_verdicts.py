@@ -4,24 +4,20 @@
 Source: Ssebunnya, PhD thesis, University of Cape Town, 2024. Its powers are printed 60 times too high (turns a minute
 taken as turns a second); they are divided by 60 here. They do not agree with the power that its torques give, so that
 only ratios between runs are compared. Its mean speeds are over the last five turns of runs of 5 s."""
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
 from millfoam.readings.means import Mean
-from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Verdict, by_sign
+from millstudies.compared_runs import Verdict
+from millstudies.stirred_runs import Numbers
+from millstudies.stirred_verdicts import Found, balanced, has_ratio, has_value, higher, power, speed, tested
 
-from run_numbers import Numbers
 from runs import MILLS, SPEEDS
 
-BALANCED = 0.03  # of the impeller's torque, which may be missing on the walls at rest
 NEAR = 0.15  # between a mean speed, or a ratio of two runs, and the published one: dry runs and wet ones
 SAME = 0.05  # between a run and an independent one of the same mill
 
 Place = tuple[str, str]  # mill and speed, as runs name them
-Found = dict[str, Numbers]
-Reading = Callable[[Numbers], Mean]
 
 
 @dataclass(frozen=True)
@@ -43,51 +39,14 @@ SHAPED = {("A", "1.8"): (0.545, 673 / 60), ("B", "1.8"): (0.500, 883 / 60)}
 INDEPENDENT = ("A", "2.2"), 24.9, 0.635  # run, W, m/s
 
 
-def name_of(place: Place) -> str:
-    """Name of the dry run of a mill at a speed."""
-    return "_".join((*place, "dry"))
-
-
-def tested(statement: str, found: Found, places: tuple[Place, ...],
-           judge: Callable[..., tuple[str, str]]) -> Verdict:
-    """The verdict of judge(numbers of the dry runs at these places), if all of them are complete and steady."""
-    names = [name_of(place) for place in places]
-    gone = [name for name in names if name not in found]
-    if gone:
-        return Verdict(statement, ", ".join(names), NOT_TESTED, "not finished: " + ", ".join(gone))
-    verdict, figure = judge(*(found[name] for name in names))
-    moving = [f"{name} drifts in {', '.join(found[name].drifting)}" for name in names if found[name].drifting]
-    if moving:
-        return Verdict(statement, ", ".join(names), UNDECIDED, "; ".join([figure, *moving]))
-    return Verdict(statement, ", ".join(names), verdict, figure)
-
-
-def within(value: float, expected: float, tolerance: float) -> str:
-    """Whether a number is another within a share of it."""
-    return CONFIRMED if abs(value / expected - 1) <= tolerance else CONTRADICTED
-
-
-def speed(one: Numbers) -> Mean:
-    """Mean speed of the balls, m/s."""
-    return one.speed
-
-
-def power(one: Numbers) -> Mean:
-    """Power of the drive, W."""
-    return one.power
+def names_of(*places: Place) -> tuple[str, ...]:
+    """Names of the dry runs of mills at their speeds."""
+    return tuple("_".join((*place, "dry")) for place in places)
 
 
 def density(one: Numbers) -> Mean:
     """Power of the drive for each m3 of slurry, W/m3."""
     return Mean(one.power.value / one.volume, one.power.error / one.volume)
-
-
-def higher(read: Reading, unit: str, scale: float = 1.0) -> Callable[[Numbers, Numbers], tuple[str, str]]:
-    """A judge of two runs: whether what is read of the second is higher by more than twice the error."""
-
-    def judge(low: Numbers, high: Numbers) -> tuple[str, str]:
-        return by_sign(read(high) - read(low)), " and ".join(read(one).text(unit, scale, ".3f") for one in (low, high))
-    return judge
 
 
 def order_of_speeds(found: Found) -> Iterator[Verdict]:
@@ -96,8 +55,8 @@ def order_of_speeds(found: Found) -> Iterator[Verdict]:
     for words, read, unit in (("the mean speed of the balls", speed, "m/s"), ("the power", power, "W")):
         for mill in MILLS:
             for low, high in zip(rising, rising[1:]):
-                yield tested(f"{words} is higher at {high} than at {low} m/s", found, ((mill, low), (mill, high)),
-                             higher(read, unit))
+                yield tested(f"{words} is higher at {high} than at {low} m/s", found,
+                             names_of((mill, low), (mill, high)), higher(read, unit))
 
 
 def order_of_mills(found: Found) -> Iterator[Verdict]:
@@ -106,18 +65,15 @@ def order_of_mills(found: Found) -> Iterator[Verdict]:
                                      ("the power per volume", density, "kW/m3", 1e-3)):
         for at in SPEEDS:
             for small, large in zip(list(MILLS), list(MILLS)[1:]):
-                yield tested(f"{words} is higher in mill {small} than in {large}", found, ((large, at), (small, at)),
-                             higher(read, unit, scale))
+                yield tested(f"{words} is higher in mill {small} than in {large}", found,
+                             names_of((large, at), (small, at)), higher(read, unit, scale))
 
 
 def published_speeds(found: Found) -> Iterator[Verdict]:
     """Mean speeds of dry runs are those of the published ones with slurry."""
     for place, known in PUBLISHED.items():
-        def judge(one: Numbers, known: Published = known) -> tuple[str, str]:
-            return within(one.speed.value, known.speed, NEAR), (
-                f"{one.speed.text('m/s', 1, '.3f')}, published {known.speed:g}")
-        yield tested(f"the mean speed of the balls is the published one within {100 * NEAR:g} %", found, (place,),
-                     judge)
+        yield tested(f"the mean speed of the balls is the published one within {100 * NEAR:g} %", found,
+                     names_of(place), has_value(speed, "m/s", known.speed, NEAR))
 
 
 def shaped_ratios(found: Found) -> Iterator[Verdict]:
@@ -126,7 +82,8 @@ def shaped_ratios(found: Found) -> Iterator[Verdict]:
     for k, (words, read) in enumerate((("mean speeds", speed), ("powers", power))):
         expected = SHAPED[large][k] / SHAPED[small][k]
         yield tested(f"the ratio of {words} of B and A is that of published dry runs with balls of another shape "
-                     f"within {100 * NEAR:g} %", found, (small, large), has_ratio(read, expected))
+                     f"within {100 * NEAR:g} %", found, names_of(small, large),
+                     has_ratio(read, expected, NEAR * expected))
 
 
 def published_ratios(found: Found) -> Iterator[Verdict]:
@@ -138,34 +95,16 @@ def published_ratios(found: Found) -> Iterator[Verdict]:
                 continue
             expected = getattr(PUBLISHED[place], known) / getattr(PUBLISHED[base], known)
             yield tested(f"the ratio of {words} to that of A at 1.8 m/s is the published one within {100 * NEAR:g} %",
-                         found, (base, place), has_ratio(read, expected))
-
-
-def has_ratio(read: Reading, expected: float) -> Callable[[Numbers, Numbers], tuple[str, str]]:
-    """A judge of two runs: whether what is read of the second over that of the first is a published ratio."""
-    def judge(first: Numbers, second: Numbers) -> tuple[str, str]:
-        over = ratio(read(second), read(first))
-        return within(over.value, expected, NEAR), f"{over.value:.3f} ± {over.error:.3f}, published {expected:.3f}"
-    return judge
-
-
-def ratio(one: Mean, other: Mean) -> Mean:
-    """A mean over another, with the error that theirs give."""
-    value = one.value / other.value
-    return Mean(value, float(abs(value) * np.hypot(one.error / one.value, other.error / other.value)))
+                         found, names_of(base, place), has_ratio(read, expected, NEAR * expected))
 
 
 def own_checks(found: Found) -> Iterator[Verdict]:
     """What each run must hold, and what another program found."""
-    for name, one in found.items():
-        missing = abs(1 - one.at_rest.value)
-        yield Verdict(f"the walls at rest take the impeller's torque within {100 * BALANCED:g} %", name,
-                      CONFIRMED if missing <= BALANCED else CONTRADICTED, f"{one.at_rest.value:.4f} of it")
+    yield from balanced(found)
     place, watts, metres = INDEPENDENT
-    yield tested(f"power is that of LIGGGHTS alone within {100 * SAME:g} %", found, (place,), lambda one: (
-        within(one.power.value, watts, SAME), f"{one.power.text('W', 1, '.2f')}, expected {watts:g}"))
-    yield tested(f"mean speed is that of LIGGGHTS alone within {100 * SAME:g} %", found, (place,), lambda one: (
-        within(one.speed.value, metres, SAME), f"{one.speed.text('m/s', 1, '.3f')}, expected {metres:g}"))
+    for words, read, unit, expected in (("power", power, "W", watts), ("mean speed", speed, "m/s", metres)):
+        yield tested(f"{words} is that of LIGGGHTS alone within {100 * SAME:g} %", found, names_of(place),
+                     has_value(read, unit, expected, SAME))
 
 
 def verdicts(found: Found) -> list[Verdict]:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read of a run: power, the torque on each part, the mean speed of the balls, and whether the run is steady.
+"""What is read of a dry run of a stirred mill: power, the torque on each part, the mean speed of the balls, and whether
+the run is steady.
 
 All are means over the whole turns of the impeller at the run's end, with errors from the means of the turns."""
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,8 +15,6 @@ from millfoam.readings.batches import batch_means
 from millfoam.readings.means import Mean, block_mean
 from millfoam.readings.stirred_power import mean_from, mean_speed, scaled
 
-from runs import Run
-
 DRIFT = 0.02  # of a mean, by which the last turns may differ from the first ones
 ERRORS = 3  # or as many standard errors
 ROUNDED = 1e-3  # of a turn: a record is at a time that is rounded to steps
@@ -22,11 +22,11 @@ ROUNDED = 1e-3  # of a turn: a record is at a time that is rounded to steps
 
 @dataclass(frozen=True)
 class Numbers:
-    """A complete run: its mill; number of balls; turns that are read, and the DEM time at which they begin, s;
+    """A complete run: its name; its mill; number of balls; turns that are read, and the DEM time at which they begin, s;
     torques about +z on each part, N m; power of the drive, W; torque on all parts at rest over that of the impeller;
     mean speed of the balls, m/s; which of power and energies drift in these turns; and millDem's own verdict, which
     judges the whole run."""
-    run: Run
+    name: str
     mill: Mill
     balls: int
     turns: int
@@ -53,8 +53,8 @@ def drifts(means: np.ndarray) -> bool:
     return abs(apart.value) > DRIFT * abs(means.mean()) and not abs(apart.value) <= ERRORS * apart.error
 
 
-def read_numbers(run: Run, folder: Path) -> Numbers:
-    """Numbers of a run in its folder. RuntimeError if it is not complete."""
+def read_numbers(folder: Path) -> Numbers:
+    """Numbers of a run in its folder, which has its name. RuntimeError if it is not complete."""
     mill, results = read_mill(folder, "stirred"), read_json(folder / "dumps" / "results.json", "charge")
     end = float(mill.asked("dem", "duration"))
     if results["duration_s"] < end * (1 - 1e-6):
@@ -72,10 +72,25 @@ def read_numbers(run: Run, folder: Path) -> Numbers:
     torques = {part: mean(columns[f"{part}_Nm"]) for part in parts}
     impeller = torques["impeller"]
     missing = mean(np.sum([columns[f"{part}_Nm"] for part in parts], axis=0))
-    return Numbers(run, mill, results["balls"], turns, begin, torques,
+    return Numbers(folder.name, mill, results["balls"], turns, begin, torques,
                    scaled(Mean(abs(impeller.value), impeller.error), abs(mill.omega)),
                    Mean(1 - missing.value / impeller.value, abs(missing.error / impeller.value)),
                    mean_speed(folder / "dumps", since, mill.turn),
                    tuple(name for name in ("power_W", "kinetic_J", "potential_J")
                          if drifts(batch_means(energy["time_s"], energy[name], begin, mill.turn, turns))),
                    results["steady"])
+
+
+def read_all(root: Path, names: Iterable[str]) -> tuple[dict[str, Numbers], list[str]]:
+    """Name -> Numbers of the complete runs among these, in their order, each in its folder in `root`; and why the
+    others are not complete."""
+    found, missing = {}, []
+    for name in names:
+        if not (root / name / "mill.json").is_file():
+            missing.append(f"{name}: not begun")
+            continue
+        try:
+            found[name] = read_numbers(root / name)
+        except RuntimeError as error:
+            missing.append(f"{name}: {error}")
+    return found, missing
