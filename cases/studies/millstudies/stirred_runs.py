@@ -22,8 +22,8 @@ ROUNDED = 1e-3  # of a turn: a record is at a time that is rounded to steps
 
 @dataclass(frozen=True)
 class Numbers:
-    """A complete run: its name; its mill; number of balls; turns that are read, and the DEM time at which they begin, s;
-    torques about +z on each part, N m; power of the drive, W; torque on all parts at rest over that of the impeller;
+    """A complete run: its name; its mill; number of balls; turns that are read, and the DEM time at which they begin,
+    s; torques about +z on each part, N m; power of the drive, W; torque on all parts at rest over that of the impeller;
     mean speed of the balls, m/s; which of power and energies drift in these turns; and millDem's own verdict, which
     judges the whole run."""
     name: str

@@ -77,6 +77,7 @@ def published_solidity(found: Found, solidity: dict[str, dict[str, float]]) -> I
     name = "A_group_3"
     for band, (low, high) in SOLIDITY.items():
         place = "below the lower pins" if band == "below" else "from there to the pins' top"
+
         def judge(one: Numbers, band: str = band, low: float = low, high: float = high) -> tuple[str, str]:
             value = solidity[one.name][band]
             return near(value, (low + high) / 2, (high - low) / 2), f"{value:.3f}, published {low:g} to {high:g}"

@@ -123,7 +123,8 @@ def draw_balls(chosen: Sequence[Numbers], root: Path) -> plt.Figure:
         axis.set_facecolor("0.95")
         image = axis.pcolormesh(1e3 * across, 1e3 * up, speeds, cmap="viridis", vmin=0, vmax=1.2)
         shaft, end = mill.impeller["shaft_diameter_m"] / 2, mill.impeller["shaft_end_m"]
-        low, thickness, reach = lower["height_m"] - lower["thickness_m"] / 2, lower["thickness_m"], lower["length_m"] / 2
+        thickness, reach = lower["thickness_m"], lower["length_m"] / 2
+        low = lower["height_m"] - thickness / 2
         axis.add_patch(plt.Rectangle((-1e3 * shaft, 1e3 * end), 2e3 * shaft, 1e3 * SHOWN, fc=DARK, ec="none"))
         axis.add_patch(plt.Rectangle((-1e3 * reach, 1e3 * low), 2e3 * reach, 1e3 * thickness, fc=DARK, ec="none"))
         axis.set(xlim=(-1e3 * mill.radius, 1e3 * mill.radius), ylim=(0, 1e3 * SHOWN), aspect="equal",
