@@ -116,7 +116,8 @@ double work_of(const DemPlan& plan) {
 void take_trial_slice(const meshing::Mill& mill, const DemPlan& whole, int ranks, meshing::Mill& trial) {
   const double largest = whole.charge.classes.front().diameter;
   const double shortest = std::min(mill.geometry.length, std::max(2.5, 1.6 * ranks) * largest);
-  const double wanted = mill.geometry.length * trial_balls / static_cast<double>(whole.charge.balls());
+  const double balls = whole.charge.has_shapes() ? trial_shaped_balls : trial_balls;
+  const double wanted = mill.geometry.length * balls / static_cast<double>(whole.charge.balls());
   trial.geometry.length = std::clamp(wanted, shortest, mill.geometry.length);
   trial.geometry.ends = meshing::Ends::periodic;
   trial.geometry.inlet.reset();
@@ -126,6 +127,27 @@ void take_trial_slice(const meshing::Mill& mill, const DemPlan& whole, int ranks
   for (auto& size : trial.charge.classes)
     size.mass = std::max(size.mass * trial.geometry.length / mill.geometry.length,
                          meshing::ball_mass(trial, size.diameter));
+}
+
+/// The stirred mill smaller, with the same speed of the tips, so that fewer of the same balls fill it as
+/// high.
+void shrink_stirred_mill(const meshing::Mill& mill, const DemPlan& whole, meshing::Mill& trial) {
+  const double scale = std::cbrt(trial_shaped_balls / static_cast<double>(whole.charge.balls()));
+  if (scale >= 1) return;
+  meshing::Geometry& geometry = trial.geometry;
+  meshing::Impeller& impeller = *geometry.impeller;
+  std::vector<double*> lengths = {&geometry.diameter,         &geometry.length,
+                                  &impeller.shaft_diameter,   &impeller.shaft_end,
+                                  &trial.charge.start_radius, &trial.charge.start_length,
+                                  &trial.charge.start_bottom, &trial.charge.start_core};
+  for (auto& pins : impeller.pins)
+    lengths.insert(lengths.end(), {&pins.height, &pins.length, &pins.thickness});
+  for (auto& disc : impeller.discs)
+    lengths.insert(lengths.end(), {&disc.height, &disc.diameter, &disc.thickness});
+  for (double* length : lengths) *length *= scale;
+  trial.angular_velocity /= scale;
+  for (auto& size : trial.charge.classes)
+    size.mass = std::max(size.mass * std::pow(scale, 3), meshing::ball_mass(mill, size.diameter));
 }
 
 meshing::WallSurface walls_of(const meshing::Mill& mill) {
@@ -146,8 +168,11 @@ meshing::Mill trial_mill(const meshing::Mill& mill, int ranks) {
   trial.dem.pool_level.reset();
 
   const DemPlan whole = plan_dem(trial);
-  // A stirred mill has no slice: its trial is the whole mill
-  if (mill.machine() == meshing::Machine::tumbling) take_trial_slice(mill, whole, ranks, trial);
+  // A stirred mill has no slice: its trial is the whole mill, or a smaller one where a step takes longer
+  if (mill.machine() == meshing::Machine::tumbling)
+    take_trial_slice(mill, whole, ranks, trial);
+  else if (whole.charge.has_shapes())
+    shrink_stirred_mill(mill, whole, trial);
 
   trial.dem.settle_time = 0.1;
   trial.dem.record_interval = trial_steps / 10 * whole.step.value;

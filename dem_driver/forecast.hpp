@@ -27,12 +27,18 @@ struct Forecast {
 /// Balls of a trial mill, where the mill has so many.
 inline constexpr double trial_balls = 3000;
 
-/// A short periodic slice of the mill with about `trial_balls` balls, long enough to be split as the mill is,
+/// Of these in a stirred mill, where not all balls are spheres: a step of a ball takes 10 to 100 times as
+/// long.
+inline constexpr double trial_shaped_balls = 1000;
+
+/// A short periodic slice of the mill with about that many balls, long enough to be split as the mill is,
 /// soft and quickly settled: it costs as much per ball and step as the whole mill. Each size class keeps one
-/// ball at least. Throws KeyError as plan_dem does.
+/// ball at least. Of a stirred mill, the whole mill; where not all balls are spheres, the mill smaller in all
+/// lengths, with the same speed of the tips. Throws KeyError as plan_dem does.
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
-/// Runs the trial mill in a temporary folder and measures it, half a minute. Throws RunError as run_liggghts
+/// Runs the trial mill in a temporary folder and measures it, half a minute; two minutes where balls are
+/// superquadrics. Throws RunError as run_liggghts
 /// does; only then the folder stays, with the log that the message names.
 Cost measure_cost(const meshing::Mill& mill, int ranks);
 

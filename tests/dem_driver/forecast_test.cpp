@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "meshing/mill/mill_charge.hpp"
 #include "small_mill.hpp"
@@ -55,6 +56,59 @@ TEST(Forecast, AClassOfOneBallIsInTheTrialToo) {
   ASSERT_LT(trial.geometry.length, 0.7 * mill.geometry.length);
   EXPECT_EQ(plan_charge(trial).classes.front().count, 1);
   EXPECT_EQ(plan_charge(trial).classes.front().diameter, 0.004);
+}
+
+/// 8000 blunt balls of 1 mm in a stirred mill.
+meshing::Mill shaped_stirred_mill() {
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.length = 0.2;
+  mill.geometry.impeller =
+      meshing::Impeller{0.008, 0.004, {{0.012, 0.03, 0.004, 0, 2}}, {{0.02, 0.028, 0.002}}};
+  mill.charge.start_radius = 0.0195;
+  mill.charge.start_core = 0.0045;
+  mill.charge.start_bottom = 0.0215;
+  mill.charge.start_length = 0.17;
+  mill.charge.classes = {
+      {0.001, 8000 * meshing::ball_mass(mill, 0.001), meshing::scaled_to({{1.5, 1, 1}, 4}, 0.001)}};
+  mill.dem.curvature_limit = 10;
+  return mill;
+}
+
+TEST(Forecast, TheTrialOfAStirredMillWithShapesIsAnEighthOfItWithTheSameSpeedOfTheTips) {
+  const auto mill = shaped_stirred_mill();
+  const auto trial = trial_mill(mill, 1);
+  EXPECT_EQ(plan_charge(trial).balls(), trial_shaped_balls);
+  const auto &whole = *mill.geometry.impeller, &half = *trial.geometry.impeller;
+  for (const auto& [one, other] : {std::pair{trial.geometry.diameter, mill.geometry.diameter},
+                                   {trial.geometry.length, mill.geometry.length},
+                                   {half.shaft_diameter, whole.shaft_diameter},
+                                   {half.shaft_end, whole.shaft_end},
+                                   {half.pins[0].height, whole.pins[0].height},
+                                   {half.pins[0].length, whole.pins[0].length},
+                                   {half.pins[0].thickness, whole.pins[0].thickness},
+                                   {half.discs[0].height, whole.discs[0].height},
+                                   {half.discs[0].diameter, whole.discs[0].diameter},
+                                   {half.discs[0].thickness, whole.discs[0].thickness},
+                                   {trial.charge.start_bottom, mill.charge.start_bottom}})
+    EXPECT_NEAR(one, other / 2, 1e-12);
+  EXPECT_NEAR(trial.angular_velocity, 2 * mill.angular_velocity, 1e-12);
+  EXPECT_EQ(trial.charge.classes[0].diameter, 0.001);
+}
+
+TEST(Forecast, TheTrialOfAStirredMillWithSpheresIsTheMillItself) {
+  auto mill = shaped_stirred_mill();
+  mill.charge.classes[0].shape.reset();
+  const auto trial = trial_mill(mill, 1);
+  EXPECT_EQ(trial.geometry.diameter, mill.geometry.diameter);
+  EXPECT_EQ(plan_charge(trial).balls(), 8000);
+}
+
+TEST(Forecast, TheTrialSliceOfATumblingMillHasFewerBallsOfOtherShapes) {
+  auto mill = long_mill();
+  for (auto& size : mill.charge.classes) size.shape = meshing::scaled_to({{1.5, 1, 1}, 4}, size.diameter);
+  mill.dem.curvature_limit = 10;
+  EXPECT_NEAR(static_cast<double>(plan_charge(trial_mill(mill, 1)).balls()), trial_shaped_balls, 2);
 }
 
 TEST(Forecast, ATrialThatFailsLeavesTheLogThatItNames) {
