@@ -36,7 +36,10 @@ WallCells ContactOrder::cells() const {
 ContactOrder contact_order_of(const meshing::Mill& mill, const DemPlan& plan,
                               const std::vector<std::string>& parts, const fs::path& walls) {
   ContactOrder order;
-  for (const auto& size : plan.charge.classes) order.diameters.push_back(size.diameter);
+  // Shapes of the same volume are one class
+  for (const auto& size : plan.charge.classes)
+    if (std::find(order.diameters.begin(), order.diameters.end(), size.diameter) == order.diameters.end())
+      order.diameters.push_back(size.diameter);
   order.parts = parts;
   order.turning_parts = turning_parts(mill, parts);
   order.timestep = plan.step.value;

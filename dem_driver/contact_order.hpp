@@ -14,7 +14,7 @@ namespace millfoam::dem_driver {
 
 /// What millLiggghts needs besides the deck to follow the contacts of a run.
 struct ContactOrder {
-  std::vector<double> diameters;           ///< of the classes of balls, m
+  std::vector<double> diameters;           ///< of the classes of balls, m, each once
   std::vector<std::string> parts;          ///< of the walls
   std::vector<std::string> turning_parts;  ///< those of them that turn; the others are at rest
   double timestep = 0;                     ///< s

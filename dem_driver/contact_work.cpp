@@ -27,16 +27,18 @@ Triple tangential_force(const ContactForce& contact) {
 
 ContactWork work_of(const ContactForce& contact, const ContactMotion& motion, double timestep) {
   const Triple tangential = tangential_force(contact);
-  // The torque of the tangential force is -arm (n x F) on both bodies
-  const Triple lever = cross(contact.normal, tangential);
-  Triple rolling, roll, turn;
+  const Triple turn = cross(motion.spin, contact.arm),
+               other_turn = cross(motion.other_spin, contact.other_arm);
+  const Triple of_force = cross(contact.arm, contact.force);
+  Triple velocity, rolling, roll;
   for (std::size_t k = 0; k < 3; ++k) {
-    rolling[k] = contact.torque[k] + contact.arm * lever[k];
+    velocity[k] = motion.velocity[k] + turn[k] - other_turn[k];
+    // What the torque has besides that of the force acts on both bodies
+    rolling[k] = contact.torque[k] - of_force[k];
     roll[k] = motion.spin[k] - motion.other_spin[k];
-    turn[k] = contact.arm * motion.spin[k] + contact.other_arm * motion.other_spin[k];
   }
-  return {-contact.push * dot(contact.normal, motion.velocity) * timestep,
-          -(dot(tangential, motion.velocity) - dot(lever, turn)) * timestep, -dot(rolling, roll) * timestep};
+  return {-contact.push * dot(contact.normal, velocity) * timestep, -dot(tangential, velocity) * timestep,
+          -dot(rolling, roll) * timestep};
 }
 
 }  // namespace millfoam::dem_driver

@@ -25,12 +25,12 @@ struct ContactWork {
 /// The force of a contact on its first body, which is a ball. The second one, a ball or a wall, feels the
 /// opposite force.
 struct ContactForce {
-  std::array<double, 3> normal = {};  ///< unit vector from the second body to the first
-  double push = 0;                    ///< the force along the normal, N; positive: pushes apart
-  std::array<double, 3> force = {};   ///< whole force, N
-  std::array<double, 3> torque = {};  ///< whole torque, N m
-  double arm = 0;                     ///< from the first centre to the tangential force, m
-  double other_arm = 0;               ///< of the second centre, m; 0 of a wall
+  std::array<double, 3> normal = {};     ///< unit vector from the second body to the first
+  double push = 0;                       ///< the force along the normal, N; positive: pushes apart
+  std::array<double, 3> force = {};      ///< whole force, N
+  std::array<double, 3> torque = {};     ///< whole torque, N m
+  std::array<double, 3> arm = {};        ///< from the first centre to the point at which the force acts, m
+  std::array<double, 3> other_arm = {};  ///< of the second centre, m; 0 of a wall
 };
 
 /// The motion of the two bodies of a contact.

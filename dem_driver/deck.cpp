@@ -23,11 +23,14 @@ namespace {
 // within 5 %.
 constexpr char contact_model[] = "gran model hertz tangential history rolling_friction cdt";
 
-/// The same model, whose contacts are followed, or of superquadrics.
+/// The same model, of superquadrics, or such whose contacts are followed: millLiggghts adds that surface to
+/// the spheres of LIGGGHTS, millLiggghtsSuperquadric to its superquadrics.
 std::string model_of(const DemPlan& plan) {
   std::string model = contact_model;
-  if (plan.watches_contacts) model += std::string(" surface ") + watched_surface_model;
-  if (plan.charge.has_shapes()) model += " surface superquadric";
+  if (plan.watches_contacts)
+    model += std::string(" surface ") + watched_surface_model;
+  else if (plan.charge.has_shapes())
+    model += " surface superquadric";
   return model;
 }
 

@@ -6,10 +6,10 @@
 #   LIGGGHTS_LIBRARY        the library
 #   LIGGGHTS::LIGGGHTS      both, with MPI
 #
-# Debian's library has no superquadrics. scripts/setup --superquadrics builds one that has them, for the same headers:
+# Debian's library has no superquadrics. scripts/setup --superquadrics builds one that has them:
 #
 #   LIGGGHTS_SUPERQUADRIC_LIBRARY      that library, if there is one
-#   LIGGGHTS::LIGGGHTS_SUPERQUADRIC    it, with the headers and their flags
+#   LIGGGHTS::LIGGGHTS_SUPERQUADRIC    it, with its headers and their flags
 
 find_path(LIGGGHTS_INCLUDE_DIR liggghts/library.h)
 find_library(LIGGGHTS_LIBRARY liggghts)
@@ -35,7 +35,8 @@ find_library(LIGGGHTS_SUPERQUADRIC_LIBRARY liggghts-superquadric
 if(LIGGGHTS_FOUND AND LIGGGHTS_SUPERQUADRIC_LIBRARY AND NOT TARGET LIGGGHTS::LIGGGHTS_SUPERQUADRIC)
   add_library(LIGGGHTS::LIGGGHTS_SUPERQUADRIC SHARED IMPORTED)
   set_target_properties(LIGGGHTS::LIGGGHTS_SUPERQUADRIC PROPERTIES IMPORTED_LOCATION "${LIGGGHTS_SUPERQUADRIC_LIBRARY}")
-  target_include_directories(LIGGGHTS::LIGGGHTS_SUPERQUADRIC SYSTEM INTERFACE "${LIGGGHTS_INCLUDE_DIR}")
+  cmake_path(GET LIGGGHTS_SUPERQUADRIC_LIBRARY PARENT_PATH superquadric_folder)
+  target_include_directories(LIGGGHTS::LIGGGHTS_SUPERQUADRIC SYSTEM INTERFACE "${superquadric_folder}/../include")
   # As the library was compiled: they change the layout of its classes
   target_compile_definitions(LIGGGHTS::LIGGGHTS_SUPERQUADRIC INTERFACE
                              SUPERQUADRIC_ACTIVE_FLAG NONSPHERICAL_ACTIVE_FLAG OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)

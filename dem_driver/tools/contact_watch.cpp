@@ -203,12 +203,19 @@ class WatchFix : public LAMMPS_NS::Fix {
       if (is_here(contact)) statistics_.put(contact);
   }
 
+  /// Diameter of the sphere of a ball's volume, m: by mass and density, which the other ranks' balls have
+  /// too.
+  double diameter_of(std::size_t ball) const {
+    if (!atom->superquadric_flag) return 2 * atom->radius[ball];
+    return std::cbrt(6 * atom->rmass[ball] / (std::acos(-1.0) * atom->density[ball]));
+  }
+
   /// The class of each ball, ghosts too: that of the nearest diameter.
   void find_classes() {
     classes_.resize(static_cast<std::size_t>(atom->nlocal + atom->nghost));
     const auto& all = order_.diameters;
     for (std::size_t i = 0; i < classes_.size(); ++i) {
-      const double diameter = 2 * atom->radius[i];
+      const double diameter = diameter_of(i);
       const auto nearer = [&](double a, double b) { return std::abs(a - diameter) < std::abs(b - diameter); };
       classes_[i] = static_cast<int>(std::min_element(all.begin(), all.end(), nearer) - all.begin());
     }
@@ -249,6 +256,11 @@ class WatchFix : public LAMMPS_NS::Fix {
     double energy = 0;
     for (int i = 0; i < atom->nlocal; ++i) {
       const double* spin = atom->omega[i];
+      if (atom->superquadric_flag) {
+        const double* momentum = atom->angmom[i];
+        energy += (spin[0] * momentum[0] + spin[1] * momentum[1] + spin[2] * momentum[2]) / 2;
+        continue;
+      }
       energy += atom->rmass[i] * atom->radius[i] * atom->radius[i] / 5 *
                 (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
     }

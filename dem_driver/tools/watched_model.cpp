@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/tools/watched_model.hpp"
 
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+// LIGGGHTS' model of superquadrics takes these names without their scope
+#include <liggghts/math_extra_liggghts_nonspherical.h>
+using namespace MathExtraLiggghtsNonspherical;
+#endif
 // The contact models come first: they need the lists of models that CMakeLists.txt writes
 #include <liggghts/contact_models.h>
 // This one before the next, which lacks it
@@ -27,6 +32,22 @@ Triple minus(const double* first, const double* second) {
   return {first[0] - second[0], first[1] - second[1], first[2] - second[2]};
 }
 
+/// The arms of a contact's force: from the centres of two balls, of which the second may be a wall.
+std::array<Triple, 2> arms_of(const models::SurfacesIntersectData& data, const LAMMPS_NS::Atom& atom) {
+  std::array<Triple, 2> arms = {};
+#ifdef NONSPHERICAL_ACTIVE_FLAG
+  arms[0] = minus(data.contact_point, atom.x[data.i]);
+  if (!data.is_wall) arms[1] = minus(data.contact_point, atom.x[data.j]);
+#else
+  static_cast<void>(atom);
+  for (std::size_t k = 0; k < 3; ++k) {
+    arms[0][k] = -data.cri * data.en[k];
+    if (!data.is_wall) arms[1][k] = data.crj * data.en[k];
+  }
+#endif
+  return arms;
+}
+
 void collect(const models::SurfacesIntersectData& data, const models::ForceData& on_ball) {
   Collector& into = collector();
   const LAMMPS_NS::Atom* atom = into.followed();
@@ -37,23 +58,31 @@ void collect(const models::SurfacesIntersectData& data, const models::ForceData&
   seen.ball = data.i;
   seen.other = data.j;
   seen.energy = data.meff * data.vn * data.vn / 2 + 0.4 * data.kn * data.deltan * data.deltan;
-  seen.contact = {triple_of(data.en),
-                  data.Fn,
-                  triple_of(on_ball.delta_F),
-                  triple_of(on_ball.delta_torque),
-                  data.cri,
-                  data.is_wall ? 0 : data.crj};
+  const auto [arm, other_arm] = arms_of(data, *atom);
+  seen.contact = {
+      triple_of(data.en), data.Fn, triple_of(on_ball.delta_F), triple_of(on_ball.delta_torque), arm,
+      other_arm};
   if (!data.is_wall) {
     into.balls.push_back(seen);
     return;
   }
-  into.walls.push_back({seen, data.fix_mesh, data.fix_mesh->triMesh()->id(data.j), triple_of(data.v_j),
-                        minus(atom->x[data.i], data.delta)});
+#ifdef NONSPHERICAL_ACTIVE_FLAG
+  const Triple point = triple_of(data.contact_point);
+#else
+  const Triple point = minus(atom->x[data.i], data.delta);
+#endif
+  into.walls.push_back(
+      {seen, data.fix_mesh, data.fix_mesh->triMesh()->id(data.j), triple_of(data.v_j), point});
 }
 
 constexpr int watched_surface = 41;  // of LIGGGHTS' numbers up to 63 one that is free
+#ifdef SUPERQUADRIC_ACTIVE_FLAG
+constexpr int surface = models::SURFACE_SUPERQUADRIC;
+#else
+constexpr int surface = models::SURFACE_DEFAULT;
+#endif
 using Style = models::GranStyle<models::HERTZ, models::TANGENTIAL_HISTORY, models::COHESION_OFF,
-                                models::ROLLING_CDT, models::SURFACE_DEFAULT>;
+                                models::ROLLING_CDT, surface>;
 using WatchedStyle = models::GranStyle<models::HERTZ, models::TANGENTIAL_HISTORY, models::COHESION_OFF,
                                        models::ROLLING_CDT, watched_surface>;
 

@@ -123,8 +123,6 @@ void read_shapes_dem(const Section& in, Dem& dem) {
                 usual_curvature_limit);
   if (dem.contact_interval > 0)
     in.refuse("contact_interval", "0 for superquadrics: the readings of contacts are those of spheres");
-  if (dem.contact_statistics)
-    in.refuse("contact_statistics", "false for superquadrics: contacts of spheres alone are followed");
 }
 
 Dem read_dem(Section& in, const Geometry& geometry, const Charge& charge, double turn) {

@@ -28,7 +28,7 @@ TEST(ContactWorkOf, ABallThatSlidesOnAWallLosesForceTimesSlip) {
   contact.normal = {0, 1, 0};
   contact.push = 2;
   contact.force = {-0.5, 2, 0};  // the wall brakes the slip along x
-  contact.arm = 0.01;
+  contact.arm = {0, -0.01, 0};
   contact.torque = {0, 0, -0.005};  // arm x force of the tangential part, no rolling friction
   const ContactMotion sliding{{0.3, 0, 0}, {0, 0, 0}, {}};
   const ContactWork work = work_of(contact, sliding, 0.1);
@@ -42,7 +42,7 @@ TEST(ContactWorkOf, ABallThatRollsWithoutSlipLosesRollingFrictionOnly) {
   contact.normal = {0, 1, 0};
   contact.push = 2;
   contact.force = {-0.5, 2, 0};
-  contact.arm = 0.01;
+  contact.arm = {0, -0.01, 0};
   contact.torque = {0, 0, -0.005 + 0.0007};
   const ContactMotion rolling{{0.3, 0, 0}, {0, 0, -30}, {}};
   const ContactWork work = work_of(contact, rolling, 0.1);
@@ -60,22 +60,21 @@ TEST(ContactWorkOf, ItIsWhatForceAndTorqueTakeFromBothBodies) {
   contact.push = 3;
   const auto slide = vector();
   const double along = dot(slide, contact.normal);
-  std::array<double, 3> tangential{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    tangential[k] = slide[k] - along * contact.normal[k];
-    contact.force[k] = tangential[k] + 3 * contact.normal[k];
-  }
-  contact.arm = 0.4;
-  contact.other_arm = 0.7;
+  for (std::size_t k = 0; k < 3; ++k)
+    contact.force[k] = slide[k] - along * contact.normal[k] + 3 * contact.normal[k];
+  contact.arm = vector();  // of a ball that is no sphere, not along the normal
+  contact.other_arm = vector();
   const auto roll = vector(), velocity = vector(), spin = vector(), other_spin = vector();
-  const auto& n = contact.normal;
-  const std::array<double, 3> lever{n[1] * tangential[2] - n[2] * tangential[1],
-                                    n[2] * tangential[0] - n[0] * tangential[2],
-                                    n[0] * tangential[1] - n[1] * tangential[0]};
+  const auto cross = [](const auto& a, const auto& b) {
+    return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                 a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto torque = cross(contact.arm, contact.force),
+             other_torque = cross(contact.other_arm, contact.force);
   double power = dot(contact.force, velocity);
   for (std::size_t k = 0; k < 3; ++k) {
-    contact.torque[k] = -0.4 * lever[k] + roll[k];
-    power += contact.torque[k] * spin[k] + (-0.7 * lever[k] - roll[k]) * other_spin[k];
+    contact.torque[k] = torque[k] + roll[k];
+    power += contact.torque[k] * spin[k] - (other_torque[k] + roll[k]) * other_spin[k];
   }
   EXPECT_NEAR(work_of(contact, {velocity, spin, other_spin}, 0.1).total(), -0.1 * power, 1e-14);
 }

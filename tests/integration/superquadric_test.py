@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Superquadrics in the dry run: two bodies, a body on a plane, a small stirred mill against spheres, its averages, and
-a killed run. Ends with 77 where LIGGGHTS with superquadrics is not built; the refusal in words is tested anyway."""
+"""Superquadrics in the dry run: two bodies, a body on a plane, a small stirred mill against spheres, its averages and
+contacts, and a killed run. Ends with 77 where LIGGGHTS with superquadrics is not built; the refusal in words is tested anyway."""
 import math
 import os
 import shutil
@@ -185,7 +185,7 @@ class StirredMill(unittest.TestCase):
         for name, changes in (("spheres", ()), ("round", (ROUND,))):
             run_mill(cls.folder / name, cls.folder / "mill.yaml", *changes, until="charge")
         cls.short = ("dem.settle_time=0.02", "dem.duration=0.05", "dem.record_interval=0.0025", "averages.start=0.025",
-                     "averages.window=0.025")
+                     "averages.window=0.025", "dem.contact_statistics=true")
         run_mill(cls.folder / "block", cls.folder / "mill.yaml", BLOCK, *cls.short)
 
     def results(self, name):
@@ -215,6 +215,16 @@ class StirredMill(unittest.TestCase):
         for kind in ("ball_contacts", "wall_contacts"):
             means = [(table["overlap_m"] * table[kind]).sum() / table[kind].sum() for table in overlaps]
             self.assertAlmostEqual(means[1] / means[0], 1, delta=0.15)
+
+    def test_contacts_of_blocks_dissipate_what_the_impeller_gives(self):
+        contacts = self.results("block")["contacts"]
+        self.assertAlmostEqual(contacts["dissipated_over_drive"], 1, delta=0.01)
+        self.assertLess(abs(contacts["gain_W"]), 0.5 * contacts["dissipated_W"])
+        for partner in ("balls", "impeller", "shell", "base"):
+            self.assertGreater(contacts["power"][partner]["tangential_W"], 0)
+            self.assertAlmostEqual(contacts["power"][partner]["rolling_W"], 0, delta=1e-9 * contacts["dissipated_W"])
+        spectra = read_csv(self.folder / "block" / "dumps" / "contact_spectra.csv")
+        self.assertEqual(set(spectra["large_m"]) - {0.0}, {DIAMETER})
 
     def test_averages_have_all_of_the_blocks_volume(self):
         case = self.folder / "block"
