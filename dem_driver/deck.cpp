@@ -100,7 +100,9 @@ class AtomTypes {
 };
 
 void write_style(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan, int ranks) {
-  const RankGrid grid = split_ranks(ranks, mill.geometry.length, plan.charge.classes.front().diameter);
+  const RankGrid grid = is_stirred(mill)
+                            ? split_ranks_across(ranks)
+                            : split_ranks(ranks, mill.geometry.length, plan.charge.classes.front().diameter);
   out << "units si\natom_style " << (plan.charge.has_shapes() ? "superquadric" : "granular")
       << "\natom_modify map array\nnewton off\ncommunicate single vel yes\n"
       << "processors " << grid.x << ' ' << grid.y << ' ' << grid.z << '\n';
@@ -285,10 +287,14 @@ RankGrid split_ranks(int ranks, double length, double largest_diameter) {
   const double thinnest = 1.5 * largest_diameter;
   int z = std::clamp(static_cast<int>(length / thinnest), 1, ranks);
   while (ranks % z != 0) --z;
-  const int across = ranks / z;
-  int x = static_cast<int>(std::sqrt(across));
-  while (across % x != 0) --x;
-  return {x, across / x, z};
+  const RankGrid across = split_ranks_across(ranks / z);
+  return {across.x, across.y, z};
+}
+
+RankGrid split_ranks_across(int ranks) {
+  int x = static_cast<int>(std::sqrt(ranks));
+  while (ranks % x != 0) --x;
+  return {x, ranks / x, 1};
 }
 
 void write_deck(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,

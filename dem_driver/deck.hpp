@@ -87,6 +87,9 @@ struct RankGrid {
 /// @param largest_diameter  of the balls, m
 RankGrid split_ranks(int ranks, double length, double largest_diameter);
 
+/// The same of a stirred mill, whose balls lie at the base: across y, then x.
+RankGrid split_ranks_across(int ranks);
+
 /// Words that begin the deck's own lines in the log, which `LiggghtsLog` reads. This one follows every
 /// insertion: `… ASKED of DIAMETER total BALLS`, with the diameter in m and all balls then in the mill.
 inline constexpr char inserted_mark[] = "millFoam inserted";

@@ -77,6 +77,13 @@ TEST(Deck, OfAStirredMillTheImpellerAloneTurnsUnderGravityAlongTheAxis) {
             std::string::npos);
 }
 
+TEST(Deck, RanksSplitAStirredMillAcrossItsAxis) {
+  std::ostringstream out;
+  const auto mill = stirred_mill();
+  write_deck(out, mill, plan_dem(mill), {"impeller", "shell", "base", "lid"}, 6);
+  EXPECT_TRUE(has_line(out.str(), "processors 2 3 1"));
+}
+
 TEST(Deck, OfAStirredMillBallsAreReleasedAroundTheShaftAboveThePins) {
   const std::string deck = deck_of(stirred_mill(), {"impeller", "shell", "base", "lid"});
   // The largest balls have a diameter of 3 mm
