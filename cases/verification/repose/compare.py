@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs the piles and compares their slopes: repose.txt and repose.png. Exits 1 if superquadrics that are spheres have
+another slope than spheres, or if blunt bodies do not pile up steeper. Piles that are complete are kept."""
+import argparse
+import json
+import shutil
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+
+from millfoam.readings.means import Mean, block_mean
+from repose import DIAMETER, Ledge, Shape, run_pile, slope
+
+HERE = Path(__file__).parent.resolve()
+SPHERES, ROUND, BLUNT = SHAPES = (Shape("spheres"), Shape("round", (1.0, 1.0, 1.0)),
+                                  Shape("blunt", (2.70274, 2.00172, 1.67844), 6.0))
+LEDGE, QUICK_LEDGE = Ledge(16, 5, 25), Ledge(10, 4, 15)
+SEEDS, QUICK_SEEDS = (1, 2), (1,)
+SAME = 2.0  # degrees between spheres and round superquadrics, besides twice the error
+STEEPER = 2.0  # degrees that blunt bodies pile up steeper at least
+
+
+def pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
+    """x, z of the balls of a pile [n, 2], m, which is made unless it is complete."""
+    done = folder / "pile.json"
+    if not done.exists():
+        shutil.rmtree(folder, ignore_errors=True)
+        balls = run_pile(folder, shape, ledge, seed)
+        done.with_suffix(".part").write_text(json.dumps(balls.tolist()))
+        done.with_suffix(".part").rename(done)
+    return np.array(json.loads(done.read_text()))
+
+
+def draw(piles: dict[str, np.ndarray], angles: dict[str, Mean], ledge: Ledge) -> plt.Figure:
+    """Figure: the balls of the first pile of each shape, from the side, with the slope."""
+    figure, axes = plt.subplots(len(piles), 1, figsize=(6, 2.6 * len(piles)), layout="constrained", sharex=True)
+    for axis, (name, balls) in zip(axes, piles.items()):
+        axis.plot(balls[:, 0] / DIAMETER, balls[:, 1] / DIAMETER, "o", ms=4, mfc="0.8", mec="0.4")
+        reach = np.array([0, ledge.length])
+        axis.plot(reach, 1 + (ledge.length - reach) * np.tan(np.radians(angles[name].value)), "r-")
+        axis.set(title=f"{name}: {angles[name].value:.1f}°", ylabel="z, diameters", aspect="equal",
+                 xlim=(0, ledge.length), ylim=(0, None))
+    axes[-1].set(xlabel="x, diameters (red: the mean slope, from the lip)")
+    return figure
+
+
+def verdicts(angles: dict[str, Mean]) -> list[tuple[bool, str]]:
+    """(holds, sentence) of what is compared."""
+    apart = angles[ROUND.name] - angles[SPHERES.name]
+    allowed = SAME + (2 * apart.error if np.isfinite(apart.error) else 0)
+    steeper = angles[BLUNT.name] - angles[SPHERES.name]
+    return [(abs(apart.value) <= allowed, f"round superquadrics less spheres: {apart.value:+.2f} degrees, expected 0 "
+                                          f"within {allowed:.2f}"),
+            (steeper.value >= STEEPER, f"blunt bodies less spheres: {steeper.value:+.2f} degrees, expected "
+                                       f"{STEEPER:g} or more")]
+
+
+def main() -> None:
+    matplotlib.use("Agg")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--quick", action="store_true", help="one smaller pile of each shape, in the folder quick/")
+    parser.add_argument("--jobs", type=int, default=1, help="piles at the same time")
+    options = parser.parse_args()
+    root, ledge, seeds = ("quick", QUICK_LEDGE, QUICK_SEEDS) if options.quick else ("runs", LEDGE, SEEDS)
+    with ThreadPoolExecutor(options.jobs) as pool:
+        jobs = {(shape.name, seed): pool.submit(pile, HERE / root / f"{shape.name}_{seed}", shape, ledge, seed)
+                for seed in seeds for shape in SHAPES[::-1]}
+        found = {key: job.result() for key, job in jobs.items()}
+    slopes = {shape.name: [slope(found[shape.name, seed], ledge) for seed in seeds] for shape in SHAPES}
+    angles = {name: block_mean(values) for name, values in slopes.items()}
+    lines = [f"{name:<8} {angles[name].value:6.2f} degrees ± {angles[name].error:.2f}, piles: "
+             + ", ".join(f"{one:.2f}" for one in values) for name, values in slopes.items()]
+    judged = verdicts(angles)
+    lines += [f"{'holds' if holds else 'FAILS'}: {sentence}" for holds, sentence in judged]
+    (HERE / "repose.txt").write_text("\n".join(lines) + "\n")
+    draw({shape.name: found[shape.name, seeds[0]] for shape in SHAPES}, angles, ledge).savefig(
+        HERE / "repose.png", dpi=130)
+    if not all(holds for holds, _ in judged):
+        parser.exit(1, "\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()
