@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The verification case repose: the slope of made-up piles, its balls, and its verdicts."""
+import math
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from millfoam.readings.means import Mean
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "cases" / "verification" / "repose"))
+
+import compare  # noqa: E402, in the case's folder
+from repose import DIAMETER, Ledge, Shape, place_balls, scaled_axes, slope  # noqa: E402
+
+LEDGE = Ledge(16, 5, 10)
+
+
+def heap(angle):
+    """x, z of balls in a wedge with a slope of `angle` degrees down to a lip of a diameter at the edge."""
+    random = np.random.default_rng(1)
+    places = random.uniform(0, LEDGE.length * DIAMETER, 40000)
+    heights = random.uniform(0, LEDGE.length * DIAMETER, 40000)
+    top = DIAMETER + (LEDGE.length * DIAMETER - places) * np.tan(np.radians(angle))
+    return np.stack([places, heights], axis=1)[heights < top]
+
+
+class Slope(unittest.TestCase):
+    def test_of_a_wedge_is_its_angle(self):
+        for angle in (10, 25, 40):
+            self.assertAlmostEqual(slope(heap(angle), LEDGE), angle, delta=1.0, msg=str(angle))
+
+    def test_a_pile_that_is_too_low_is_refused(self):
+        with self.assertRaisesRegex(RuntimeError, "0 columns; expected 4 or more"):
+            slope(np.array([[0.01, 0.002]]), LEDGE)
+
+
+class Balls(unittest.TestCase):
+    def test_have_the_volume_of_a_sphere(self):
+        for axes, blockiness in (((1, 1, 1), 2), ((2.7, 2.0, 1.7), 6), ((3, 2, 1), 4)):
+            a, b, c = scaled_axes(Shape("one", axes, blockiness))
+            part = 1 / blockiness
+            volume = 8 * a * b * c * math.gamma(1 + part)**3 / math.gamma(1 + 3 * part)
+            self.assertAlmostEqual(volume / (np.pi / 6 * DIAMETER**3), 1, delta=1e-12)
+        np.testing.assert_allclose(scaled_axes(Shape("round", (1, 1, 1))), DIAMETER / 2, rtol=1e-12)
+
+    def test_are_as_many_of_every_shape_and_at_the_same_places(self):
+        def places(shape):
+            return [line for line in place_balls(shape, LEDGE, 3)[0] if line.startswith("create_atoms")]
+        self.assertEqual(len(places(Shape("spheres"))), 12 * 3 * 10)
+        self.assertEqual(places(Shape("spheres")), places(Shape("round", (1, 1, 1))))
+
+
+class Verdicts(unittest.TestCase):
+    def holds(self, spheres, round_ones, blunt, error=0.2):
+        angles = zip(("spheres", "round", "blunt"), (spheres, round_ones, blunt))
+        return [held for held, _ in compare.verdicts({name: Mean(value, error) for name, value in angles})]
+
+    def test_round_bodies_are_spheres_and_blunt_ones_are_steeper(self):
+        self.assertEqual(self.holds(25, 25.8, 30), [True, True])
+        self.assertEqual(self.holds(25, 28, 26), [False, False])
+
+    def test_single_piles_have_no_error(self):
+        self.assertEqual(self.holds(25, 26.9, 27, error=np.nan), [True, True])
+        self.assertEqual(self.holds(25, 27.1, 26.9, error=np.nan), [False, False])
+
+
+if __name__ == "__main__":
+    unittest.main()
