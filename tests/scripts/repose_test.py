@@ -20,12 +20,10 @@ LEDGE = Ledge(16, 5, 10)
 
 
 def heap(angle):
-    """x, z of balls in a wedge with a slope of `angle` degrees down to a lip of a diameter at the edge."""
-    random = np.random.default_rng(1)
-    places = random.uniform(0, LEDGE.length * DIAMETER, 40000)
-    heights = random.uniform(0, LEDGE.length * DIAMETER, 40000)
-    top = DIAMETER + (LEDGE.length * DIAMETER - places) * np.tan(np.radians(angle))
-    return np.stack([places, heights], axis=1)[heights < top]
+    """Balls in a wedge with a slope of `angle` degrees down to a lip of a diameter at the edge."""
+    length = LEDGE.length * DIAMETER
+    balls = np.random.default_rng(1).uniform((0, 0, 0), (length, LEDGE.width * DIAMETER, length), (200000, 3))
+    return balls[balls[:, 2] < DIAMETER + (length - balls[:, 0]) * np.tan(np.radians(angle))]
 
 
 class Slope(unittest.TestCase):
@@ -34,8 +32,8 @@ class Slope(unittest.TestCase):
             self.assertAlmostEqual(slope(heap(angle), LEDGE), angle, delta=1.0, msg=str(angle))
 
     def test_a_pile_that_is_too_low_is_refused(self):
-        with self.assertRaisesRegex(RuntimeError, "0 columns; expected 4 or more"):
-            slope(np.array([[0.01, 0.002]]), LEDGE)
+        with self.assertRaisesRegex(RuntimeError, "diameters at the wall; expected 2.5 or more"):
+            slope(heap(2), LEDGE)
 
 
 class Balls(unittest.TestCase):

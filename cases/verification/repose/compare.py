@@ -18,14 +18,14 @@ from repose import DIAMETER, Ledge, Shape, run_pile, slope
 HERE = Path(__file__).parent.resolve()
 SPHERES, ROUND, BLUNT = SHAPES = (Shape("spheres"), Shape("round", (1.0, 1.0, 1.0)),
                                   Shape("blunt", (2.70274, 2.00172, 1.67844), 6.0))
-LEDGE, QUICK_LEDGE = Ledge(16, 5, 25), Ledge(10, 4, 15)
-SEEDS, QUICK_SEEDS = (1, 2), (1,)
+LEDGE, QUICK_LEDGE = Ledge(14, 5, 34), Ledge(10, 4, 26)
+SEEDS, QUICK_SEEDS = (1, 2, 3), (1, 2)
 SAME = 2.0  # degrees between spheres and round superquadrics, besides twice the error
 STEEPER = 2.0  # degrees that blunt bodies pile up steeper at least
 
 
 def pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
-    """x, z of the balls of a pile [n, 2], m, which is made unless it is complete."""
+    """Places of the balls of a pile [n, 3], m, which is made unless it is complete."""
     done = folder / "pile.json"
     if not done.exists():
         shutil.rmtree(folder, ignore_errors=True)
@@ -39,7 +39,7 @@ def draw(piles: dict[str, np.ndarray], angles: dict[str, Mean], ledge: Ledge) ->
     """Figure: the balls of the first pile of each shape, from the side, with the slope."""
     figure, axes = plt.subplots(len(piles), 1, figsize=(6, 2.6 * len(piles)), layout="constrained", sharex=True)
     for axis, (name, balls) in zip(axes, piles.items()):
-        axis.plot(balls[:, 0] / DIAMETER, balls[:, 1] / DIAMETER, "o", ms=4, mfc="0.8", mec="0.4")
+        axis.plot(balls[:, 0] / DIAMETER, balls[:, 2] / DIAMETER, "o", ms=4, mfc="0.8", mec="0.4")
         reach = np.array([0, ledge.length])
         axis.plot(reach, 1 + (ledge.length - reach) * np.tan(np.radians(angles[name].value)), "r-")
         axis.set(title=f"{name}: {angles[name].value:.1f}°", ylabel="z, diameters", aspect="equal",
@@ -62,7 +62,7 @@ def verdicts(angles: dict[str, Mean]) -> list[tuple[bool, str]]:
 def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--quick", action="store_true", help="one smaller pile of each shape, in the folder quick/")
+    parser.add_argument("--quick", action="store_true", help="two smaller piles of each shape, in the folder quick/")
     parser.add_argument("--jobs", type=int, default=1, help="piles at the same time")
     options = parser.parse_args()
     root, ledge, seeds = ("quick", QUICK_LEDGE, QUICK_SEEDS) if options.quick else ("runs", LEDGE, SEEDS)

@@ -22,9 +22,9 @@ SETTLE, RUN_OUT = 0.3, 1.2  # s, before and after the gate opens
 CURVATURE_LIMIT = 10
 MODEL = "gran model hertz tangential history rolling_friction cdt"
 PLACED = 1.3  # distance of the lattice, in diameters: the longest ball with room to turn
-MARGIN = 2.0  # diameters from the wall and from the edge, which the slope leaves out
+MARGIN = 2  # diameters from the wall and from the edge, which the slope leaves out
 SLOW, MOVING = 0.05, 0.03  # m/s; share of the balls that may be faster: single ones roll down for long
-LEAST_HEIGHT = 1.0  # diameters, of the surface
+LEAST_HEIGHT = 2.5  # diameters, of the surface at the wall
 
 DECK = """units si
 atom_style {style}
@@ -124,7 +124,8 @@ def place_balls(shape: Shape, ledge: Ledge, seed: int) -> tuple[list[str], float
 
 
 def run_pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
-    """Makes a pile in a new folder. x, z of the balls that stay on the ledge [n, 2], m. RunError if LIGGGHTS fails."""
+    """Makes a pile in a new folder. Places of the balls that stay on the ledge [n, 3], m. RunError if LIGGGHTS fails;
+    RuntimeError if the pile does not come to rest."""
     folder.mkdir(parents=True)
     lines, height = place_balls(shape, ledge, seed)
     length, width, top = ledge.length * DIAMETER, ledge.width * DIAMETER, height + 2 * DIAMETER
@@ -148,13 +149,13 @@ def run_pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
         wall_model=model, settings=settings, timestep=TIMESTEP, balls="\n".join(lines), settle=steps(SETTLE),
         run_out=steps(RUN_OUT), end=last, motion=motion))
     run(folder, shape.program, "-in", "in.pile", "-log", "none")
-    balls = read_balls(folder / f"dump.{last}.txt", "x", "z", "vx", "vy", "vz")
-    stay = balls[(balls[:, 1] > 0) & (balls[:, 0] < length)]
-    moving = (np.linalg.norm(stay[:, 2:], axis=1) > SLOW).mean()
+    balls = read_balls(folder / f"dump.{last}.txt", "x", "y", "z", "vx", "vy", "vz")
+    stay = balls[(balls[:, 2] > 0) & (balls[:, 0] < length)]
+    moving = (np.linalg.norm(stay[:, 3:], axis=1) > SLOW).mean()
     if not moving < MOVING:
         raise RuntimeError(f"{folder}: {100 * moving:.2g} % of {len(stay)} balls on the ledge move faster than {SLOW} "
                            f"m/s; expected a pile at rest, less than {100 * MOVING:g} %")
-    return stay[:, :2]
+    return stay[:, :3]
 
 
 def steps(time: float) -> int:
@@ -163,16 +164,18 @@ def steps(time: float) -> int:
 
 
 def slope(balls: np.ndarray, ledge: Ledge) -> float:
-    """Angle of the surface of a pile against the horizontal, degrees: a straight line through the highest ball of each
-    column of a diameter, without MARGIN at both ends and where the surface is lower than LEAST_HEIGHT. RuntimeError if
-    fewer than four columns are left."""
-    columns = np.arange(MARGIN, ledge.length - MARGIN) * DIAMETER
-    places, heights = [], []
-    for left in columns:
-        inside = balls[(balls[:, 0] >= left) & (balls[:, 0] < left + DIAMETER)]
-        if len(inside) and inside[:, 1].max() > LEAST_HEIGHT * DIAMETER:
-            places.append(left + DIAMETER / 2)
-            heights.append(inside[:, 1].max())
-    if len(places) < 4:
-        raise RuntimeError(f"a pile with a surface in {len(places)} columns; expected 4 or more: a longer ledge")
-    return float(np.degrees(np.arctan(-np.polyfit(places, heights, 1)[0])))
+    """Angle of the surface of a pile of balls [n, 3] (m) against the horizontal, degrees: a plane along y through the
+    highest ball of each column of a diameter squared, without MARGIN at both ends. RuntimeError if that is less than
+    LEAST_HEIGHT high at the wall: a longer ledge is needed."""
+    cells = (balls[:, :2] / DIAMETER).astype(int)
+    cells[:, 1] = np.clip(cells[:, 1], 0, ledge.width - 1)  # periodic: a ball may be just outside
+    highest = np.full((ledge.length, ledge.width), -np.inf)
+    np.maximum.at(highest, (cells[:, 0], cells[:, 1]), balls[:, 2])
+    middles = np.broadcast_to((np.arange(ledge.length)[:, None] + 0.5) * DIAMETER, highest.shape)
+    chosen = np.isfinite(highest)
+    chosen[:MARGIN] = chosen[ledge.length - MARGIN:] = False
+    line = np.polyfit(middles[chosen], highest[chosen], 1)
+    if line[1] < LEAST_HEIGHT * DIAMETER:
+        raise RuntimeError(f"a pile of {line[1] / DIAMETER:.2g} diameters at the wall; expected {LEAST_HEIGHT:g} or "
+                           "more: a longer ledge")
+    return float(np.degrees(np.arctan(-line[0])))
