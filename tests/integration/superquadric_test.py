@@ -219,7 +219,6 @@ class StirredMill(unittest.TestCase):
     def test_contacts_of_blocks_dissipate_what_the_impeller_gives(self):
         contacts = self.results("block")["contacts"]
         self.assertAlmostEqual(contacts["dissipated_over_drive"], 1, delta=0.01)
-        self.assertLess(abs(contacts["gain_W"]), 0.5 * contacts["dissipated_W"])
         for partner in ("balls", "impeller", "shell", "base"):
             self.assertGreater(contacts["power"][partner]["tangential_W"], 0)
             self.assertAlmostEqual(contacts["power"][partner]["rolling_W"], 0, delta=1e-9 * contacts["dissipated_W"])

@@ -129,7 +129,7 @@ def run_pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
     folder.mkdir(parents=True)
     lines, height = place_balls(shape, ledge, seed)
     length, width, top = ledge.length * DIAMETER, ledge.width * DIAMETER, height + 2 * DIAMETER
-    over = (-width, 2 * width)  # walls reach beyond the periodic box
+    over = (0.0, width)
     floor = triangles((0, over[0], 0), (length, over[0], 0), (length, over[1], 0), (0, over[1], 0))
     wall = triangles((0, over[0], 0), (0, over[1], 0), (0, over[1], top), (0, over[0], top))
     gate = triangles((length, over[0], DIAMETER), (length, over[1], DIAMETER), (length, over[1], top),
