@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Superquadrics in the dry run: two bodies, a body on a plane, a small stirred mill against spheres, its averages and
-contacts, and a killed run. Ends with 77 where LIGGGHTS with superquadrics is not built; the refusal in words is tested anyway."""
+contacts, and a killed run. Ends with 77 where LIGGGHTS with superquadrics is not built; the refusal in words is tested
+anyway."""
 import math
 import os
 import shutil

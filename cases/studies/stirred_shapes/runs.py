@@ -19,8 +19,8 @@ SHAPES = (SPHERES, "group_1", "group_2", "group_3")  # the groups are variants o
 STARTING, TURNS = 0.5, 3  # s from the start of the impeller that are not read; turns of it that are
 QUICK_STARTING, QUICK_TURNS = 0.1, 1
 RECORD = 0.01  # s between records, as published
-# The Rayleigh time of edges of 0.6 mm would halve the time-step of group 3. With these, the tenth of the shortest contact
-# limits it, as with the other shapes
+# The Rayleigh time of edges of 0.6 mm would halve the time-step of group 3. With these, the tenth of the shortest
+# contact limits it, as with the other shapes
 SLOW_SHAPES = {"group_3": ("dem.rayleigh_fraction=0.45", "dem.settle_time=0.05")}
 
 
