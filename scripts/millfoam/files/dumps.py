@@ -31,16 +31,25 @@ def numbered_dumps(folder: Path | str, kind: str = "dump") -> list[tuple[int, Pa
     return found
 
 
-def read_balls(path: Path, *columns: str) -> np.ndarray:
-    """Columns of a dump by their names -> [balls, columns], in the dump's units; RuntimeError names the file and what
-    it does not have."""
+def read_columns(path: Path) -> dict[str, np.ndarray]:
+    """All columns [balls] of a dump by their names, in the dump's units; RuntimeError if it is no dump of balls."""
     parts = read_text(path).split("ITEM: ATOMS", 1)
     if len(parts) != 2:
         raise RuntimeError(f"{path}: no line 'ITEM: ATOMS'; expected a dump of balls")
     head, rows = parts[1].split("\n", 1)
     names = head.split()
-    missing = [name for name in columns if name not in names]
+    return dict(zip(names, np.array(rows.split(), dtype=float).reshape(-1, len(names)).T))
+
+
+def read_balls(path: Path, *columns: str) -> np.ndarray:
+    """Columns of a dump by their names -> [balls, columns], in the dump's units; RuntimeError names the file and what
+    it does not have."""
+    return columns_of(read_columns(path), path, *columns)
+
+
+def columns_of(read: dict[str, np.ndarray], path: Path, *columns: str) -> np.ndarray:
+    """As read_balls, of the columns that were `read` from path."""
+    missing = [name for name in columns if name not in read]
     if missing:
-        raise RuntimeError(f"{path}: no column {', '.join(missing)}; it has {', '.join(names)}")
-    values = np.array(rows.split(), dtype=float).reshape(-1, len(names))
-    return values[:, [names.index(name) for name in columns]]
+        raise RuntimeError(f"{path}: no column {', '.join(missing)}; it has {', '.join(read)}")
+    return np.stack([read[name] for name in columns], axis=1)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..files.dumps import read_balls
+from ..files.dumps import columns_of, read_columns
 
 SIZES = ("shapex", "shapey", "shapez", "blockiness1", "blockiness2")
 PLACES = ("x", "y", "z", "vx", "vy", "vz", "radius")
@@ -33,7 +33,9 @@ def section(dump: Path, along: np.ndarray, across: np.ndarray, up: np.ndarray) -
     dump: of LIGGGHTS, with `radius`, and for superquadrics with their half axes, blockiness and quaternions; a dump
     without blockiness has ellipsoids. along: unit vector [3] of the plane's horizontal direction; across, up: equally
     spaced places along it and along z, m. RuntimeError if the dump cannot be read."""
-    balls, sizes, turned = _read(dump)
+    read = read_columns(dump)
+    balls = columns_of(read, dump, *PLACES)
+    shapes = _shapes(read, dump)
     normal = np.array([-along[1], along[0], 0.0])
     speeds = np.linalg.norm(balls[:, 3:6], axis=1)
     found = np.full((len(up), len(across)), np.nan)
@@ -42,22 +44,19 @@ def section(dump: Path, along: np.ndarray, across: np.ndarray, up: np.ndarray) -
         columns = slice(*np.searchsorted(across, centre @ along + np.array([-radius, radius])))
         rows = slice(*np.searchsorted(up, centre[2] + np.array([-radius, radius])))
         offset = (across[columns][None, :, None] * along + up[rows][:, None, None] * np.array([0.0, 0.0, 1.0])) - centre
-        if sizes is None:
+        if shapes is None:
             hit = np.linalg.norm(offset, axis=-1) <= radius
         else:
+            sizes, turned = shapes
             hit = inside(offset @ turned[k], sizes[k, :3], (sizes[k, 3], sizes[k, 4]))
         found[rows, columns][hit] = speeds[k]
     return found
 
 
-def _read(dump: Path) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
-    """PLACES [n, 7] of a dump; of superquadrics SIZES [n, 5] and rotations [n, 3, 3], of spheres None."""
-    with open(dump) as file:
-        names = next((line.split()[2:] for line in file if line.startswith("ITEM: ATOMS")), [])
-    places = read_balls(dump, *PLACES)
-    if "shapex" not in names:
-        return places, None, None
-    sizes = read_balls(dump, *(SIZES if "blockiness1" in names else SIZES[:3]))
-    if sizes.shape[1] == 3:
-        sizes = np.hstack([sizes, np.full((len(sizes), 2), 2.0)])
-    return places, sizes, rotations(read_balls(dump, "quat1", "quat2", "quat3", "quat4"))
+def _shapes(read: dict[str, np.ndarray], dump: Path) -> tuple[np.ndarray, np.ndarray] | None:
+    """SIZES [n, 5] and rotations [n, 3, 3] of superquadrics; of spheres None."""
+    if "shapex" not in read:
+        return None
+    sizes = columns_of({"blockiness1": np.full(len(read["shapex"]), 2.0),
+                        "blockiness2": np.full(len(read["shapex"]), 2.0), **read}, dump, *SIZES)
+    return sizes, rotations(columns_of(read, dump, "quat1", "quat2", "quat3", "quat4"))
