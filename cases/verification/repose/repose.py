@@ -2,9 +2,9 @@
 """A pile of balls on a ledge: LIGGGHTS fills a box, whose gate opens, and what stays is a slope.
 
 The ledge reaches from a wall at x = 0 to its edge, which has a lip of one diameter that holds the lowest layer: on a
-smooth floor that would roll away. The box is periodic along y. Balls are placed on a lattice at
-random distances and orientations, fall, and come to rest. Then the gate above the edge is taken away, balls run over
-the edge, and leave. The slope of those that stay is the angle of repose."""
+smooth floor that would roll away. The box is periodic along y. Balls are placed on a lattice at random distances and
+orientations, fall, and come to rest. Then the gate above the edge is taken away, balls run over the edge, and leave.
+The slope of those that stay is the angle of repose."""
 from dataclasses import dataclass
 from math import gamma
 from pathlib import Path
