@@ -37,9 +37,9 @@ inline constexpr double trial_shaped_balls = 1000;
 /// lengths, with the same speed of the tips. Throws KeyError as plan_dem does.
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
-/// Runs the trial mill in a temporary folder and measures it, half a minute; two minutes where balls are
-/// superquadrics. Throws RunError as run_liggghts
-/// does; only then the folder stays, with the log that the message names.
+/// Runs the trial mill in a temporary folder and measures it, in about half a minute; blunt superquadrics
+/// take longer. Throws RunError as run_liggghts does; only then the folder stays, with the log that the
+/// message names.
 Cost measure_cost(const meshing::Mill& mill, int ranks);
 
 /// Steps times balls at that rate, insertion round by round, and what is written.

@@ -10,13 +10,11 @@
 namespace millfoam::dem_driver {
 
 /// Radius of the sphere that has the volume of a ball of LIGGGHTS, m. LIGGGHTS' own radius of a superquadric
-/// is that of the sphere around it.
-/// @param number  of the ball on this rank
+/// is that of the sphere around it. The volume is by mass and density, which ghosts have too.
+/// @param number  of the ball on this rank, which may be a ghost
 inline double ball_radius(const LAMMPS_NS::Atom& atom, int number) {
-#ifdef SUPERQUADRIC_ACTIVE_FLAG
-  if (atom.superquadric_flag) return std::cbrt(0.75 / pi * atom.volume[number]);
-#endif
-  return atom.radius[number];
+  if (!atom.superquadric_flag) return atom.radius[number];
+  return std::cbrt(0.75 / pi * atom.rmass[number] / atom.density[number]);
 }
 
 }  // namespace millfoam::dem_driver

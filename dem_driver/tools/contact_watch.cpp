@@ -24,6 +24,7 @@
 #include "dem_driver/contact_order.hpp"
 #include "dem_driver/contact_record.hpp"
 #include "dem_driver/deck.hpp"
+#include "dem_driver/tools/ball_radius.hpp"
 #include "dem_driver/tools/stop.hpp"
 #include "dem_driver/tools/watched_model.hpp"
 
@@ -203,19 +204,12 @@ class WatchFix : public LAMMPS_NS::Fix {
       if (is_here(contact)) statistics_.put(contact);
   }
 
-  /// Diameter of the sphere of a ball's volume, m: by mass and density, which the other ranks' balls have
-  /// too.
-  double diameter_of(std::size_t ball) const {
-    if (!atom->superquadric_flag) return 2 * atom->radius[ball];
-    return std::cbrt(6 * atom->rmass[ball] / (std::acos(-1.0) * atom->density[ball]));
-  }
-
   /// The class of each ball, ghosts too: that of the nearest diameter.
   void find_classes() {
     classes_.resize(static_cast<std::size_t>(atom->nlocal + atom->nghost));
     const auto& all = order_.diameters;
     for (std::size_t i = 0; i < classes_.size(); ++i) {
-      const double diameter = diameter_of(i);
+      const double diameter = 2 * ball_radius(*atom, static_cast<int>(i));
       const auto nearer = [&](double a, double b) { return std::abs(a - diameter) < std::abs(b - diameter); };
       classes_[i] = static_cast<int>(std::min_element(all.begin(), all.end(), nearer) - all.begin());
     }
