@@ -116,7 +116,8 @@ class Readings(InFolder):
     def test_bands_are_below_at_and_above_the_impeller(self):
         speed = np.zeros((5, 1, 1, 3))
         speed[:, 0, 0, 1] = np.arange(5)
-        found = bands(self.rings(0.2, speed), 0.04, 0.12)
+        mill = mill_of([], [{"height_m": 0.08, "thickness_m": 0.08, "diameter_m": 0.12}], top=0.12)
+        found = bands(mill, self.rings(0.2, speed))
         for name, expected in (("below", 0), ("impeller", 1.5), ("above", 3.5)):
             np.testing.assert_allclose(found[name].velocity[:, 1], expected, atol=1e-15)
 
@@ -158,10 +159,10 @@ PINS = [{"height_m": 0.03, "thickness_m": 0.02, "length_m": 0.14, "angle_deg": 0
         {"height_m": 0.1, "thickness_m": 0.02, "length_m": 0.14, "angle_deg": 90.0, "arms": 2}]
 
 
-def mill_of(pins, discs=()):
+def mill_of(pins, discs=(), top=0.11):
     """What the pictures read of a mill."""
     derived = {"geometry": {"radius_m": R, "length_m": HEIGHT, "impeller": {
-        "shaft_diameter_m": 0.02, "shaft_end_m": 0.015, "top_m": 0.11, "pins": pins,
+        "shaft_diameter_m": 0.02, "shaft_end_m": 0.015, "top_m": top, "pins": pins,
         "discs": list(discs)}}, "speed": {}, "charge": {}}
     return Mill("mill.json", {"derived": derived, "mill": {name: {} for name in ("geometry", "speed", "charge")}})
 

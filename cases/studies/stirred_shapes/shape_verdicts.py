@@ -30,7 +30,7 @@ PUBLISHED = {"A_group_1": Published(0.713, 498 / 60), "A_group_3": Published(0.5
 # Published with slurry, in A: mean speed of the balls, m/s
 WITH_SLURRY = {"A_spheres": 0.60, "A_group_1": 0.668, "A_group_3": 0.573}
 # Published solidity of group 3, dry: under the lower pins, and above that
-SOLIDITY = {"below": (0.6, 0.8), "pins": (0.3, 0.6)}
+SOLIDITY = {"below": (0.6, 0.8), "impeller": (0.3, 0.6)}
 
 
 def published_speeds(found: Found) -> Iterator[Verdict]:

@@ -18,11 +18,13 @@ from millfoam.files.rings_file import Rings, read_rings
 from millfoam.plots.ball_sections import section
 from millfoam.plots.stirred_plots import DARK, draw_meridian, label_of
 from millfoam.readings.means import Mean
-from millfoam.readings.stirred import radial_profile
+from millfoam.readings.stirred import bands
+from millfoam.readings.stirred_slurry import in_impeller
 from millstudies.stirred_runs import Numbers, read_all
+from millstudies.stirred_settings import MILLS
 from millstudies.stirred_tables import Row, drive_columns, pair, write_study
 
-from runs import MILLS, RUNS, SHAPES
+from runs import RUNS, SHAPES
 from shape_verdicts import PUBLISHED, WITH_SLURRY, over_spheres, shape_of, verdicts
 
 COLOURS = dict(zip(MILLS, ("#0072B2", "#009E73", "#D55E00")))
@@ -35,21 +37,9 @@ def sphericity(one: Numbers) -> float:
     return one.mill.derived("charge", "sphericity")
 
 
-def impeller_span(mill: Mill) -> tuple[float, float]:
-    """z of the lowest and of the highest edge of the pins, m."""
-    edges = [pins["height_m"] + side * pins["thickness_m"] / 2 for pins in mill.impeller["pins"] for side in (-1, 1)]
-    return min(edges), max(edges)
-
-
 def solidity_of(mill: Mill, rings: Rings) -> dict[str, float]:
-    """Mean solidity below the lower pins, and from their lowest edge up to the upper pins' highest one: `below`,
-    `pins`."""
-    low, high = impeller_span(mill)
-    found = {}
-    for band, span in (("below", (0.0, low)), ("pins", (low, high))):
-        mean = radial_profile(rings, *span)
-        found[band] = float(mean.balls.sum() / mean.room.sum())
-    return found
+    """Mean solidity by bands of the height: below the lower pins `below`, at the pins `impeller`, and `above`."""
+    return {band: float(mean.balls.sum() / mean.room.sum()) for band, mean in bands(mill, rings).items()}
 
 
 def row_of(one: Numbers, found: dict[str, Numbers], solidity: dict[str, float]) -> Row:
@@ -62,7 +52,7 @@ def row_of(one: Numbers, found: dict[str, Numbers], solidity: dict[str, float]) 
     row |= pair("mean speed of balls", "m/s", one.speed)
     return row | {"published, m/s": known.speed if known else None,
                   "published with slurry, m/s": WITH_SLURRY.get(one.name),
-                  "solidity below the pins": solidity["below"], "solidity at the pins": solidity["pins"]}
+                  "solidity below the pins": solidity["below"], "solidity at the pins": solidity["impeller"]}
 
 
 def draw_numbers(found: dict[str, Numbers], solidity: dict[str, dict[str, float]]) -> plt.Figure:
@@ -80,7 +70,7 @@ def draw_numbers(found: dict[str, Numbers], solidity: dict[str, dict[str, float]
                              color=colour, label=f"{mill}, dry")
         axes[1].errorbar(places, [one.speed.value for one in runs], [one.speed.error for one in runs], fmt="o-",
                          capsize=3, color=colour, label=f"{mill}, dry")
-        for band, mark in (("below", "v-"), ("pins", "o--")):
+        for band, mark in (("below", "v-"), ("impeller", "o--")):
             axes[2].plot(places, [solidity[one.name][band] for one in runs], mark, color=colour,
                          label=f"{mill}, {'below the pins' if band == 'below' else 'at the pins'}")
         for known, label, mark in (({name: one.speed for name, one in PUBLISHED.items()}, "published", "s"),
@@ -117,16 +107,15 @@ def draw_balls(chosen: Sequence[Numbers], root: Path) -> plt.Figure:
         mill, dumps = one.mill, root / one.name / "dumps"
         step, path = numbered_dumps(dumps)[-1]
         lower = min(mill.impeller["pins"], key=lambda pins: float(pins["height_m"]))
-        angle = np.radians(lower["angle_deg"]) + mill.omega * step * read_timestep(dumps)
+        pins_at = np.radians(lower["angle_deg"])  # in the impeller's frame
+        angle = pins_at + mill.omega * step * read_timestep(dumps)
         across, up = np.linspace(-mill.radius, mill.radius, PIXELS), np.arange(0, SHOWN, 2 * mill.radius / PIXELS)
-        speeds = section(path, np.array([np.cos(angle), np.sin(angle), 0.0]), across, up)
+        along, still = (np.array([np.cos(turned), np.sin(turned), 0.0]) for turned in (angle, pins_at))
+        speeds = section(path, along, across, up)
         axis.set_facecolor("0.95")
         image = axis.pcolormesh(1e3 * across, 1e3 * up, speeds, cmap="viridis", vmin=0, vmax=1.2)
-        shaft, end = mill.impeller["shaft_diameter_m"] / 2, mill.impeller["shaft_end_m"]
-        thickness, reach = lower["thickness_m"], lower["length_m"] / 2
-        low = lower["height_m"] - thickness / 2
-        axis.add_patch(plt.Rectangle((-1e3 * shaft, 1e3 * end), 2e3 * shaft, 1e3 * SHOWN, fc=DARK, ec="none"))
-        axis.add_patch(plt.Rectangle((-1e3 * reach, 1e3 * low), 2e3 * reach, 1e3 * thickness, fc=DARK, ec="none"))
+        points = across[None, :, None] * still + up[:, None, None] * np.array([0, 0, 1])
+        axis.contourf(1e3 * across, 1e3 * up, in_impeller(mill, points), [0.5, 1.5], colors=[DARK])
         axis.set(xlim=(-1e3 * mill.radius, 1e3 * mill.radius), ylim=(0, 1e3 * SHOWN), aspect="equal",
                  xlabel="along the lower pins, mm", ylabel="z, mm")
         axis.set_title(shape_of(one.name), fontsize=10, loc="left")

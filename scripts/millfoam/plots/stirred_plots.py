@@ -220,9 +220,7 @@ def slices_figure(mill: Mill, rings: Rings, quantities: Iterable[str] = ("solidi
 
 def profiles_figure(mill: Mill, rings: Rings) -> Figure:
     """Solidity and the three velocities over the radius, in the bands below, at and above the pins or discs."""
-    low = min((one["height_m"] - one["thickness_m"] / 2 for one in _pins(mill) + _discs(mill)),
-              default=mill.impeller["shaft_end_m"])
-    found = bands(rings, low, mill.impeller["top_m"])
+    found = bands(mill, rings)
     r = rings.middles()[0] / mill.radius
     figure, axes = plt.subplots(1, 4, figsize=(15, 3.6), layout="constrained", sharex=True)
     for axis, name in zip(axes, ("solidity", *COMPONENTS)):

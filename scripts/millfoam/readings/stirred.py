@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..files.mill import Mill
 from ..files.rings_file import Rings
 
 FAINT = 1e-3  # solidity below which a mean has no velocity: only an edge of a few balls was there
@@ -64,9 +65,12 @@ def radial_profile(rings: Rings, low: float, high: float) -> Means:
     return _means(rings, _within(rings.z, low, high)[:, None, None], (0, 1))
 
 
-def bands(rings: Rings, low: float, high: float) -> dict[str, Means]:
-    """Radial profiles below the impeller's lowest edge `low`, at the impeller, and above its highest edge `high` (m):
-    `below`, `impeller`, `above`."""
+def bands(mill: Mill, rings: Rings) -> dict[str, Means]:
+    """Radial profiles below the lowest edge of the pins and discs (of the shaft, without these), from there to the
+    highest one, and above: `below`, `impeller`, `above`."""
+    low = min((one["height_m"] - one["thickness_m"] / 2 for one in mill.impeller["pins"] + mill.impeller["discs"]),
+              default=mill.impeller["shaft_end_m"])
+    high = mill.impeller["top_m"]
     return {name: radial_profile(rings, *span) for name, span in (
         ("below", (rings.z[0], low)), ("impeller", (low, high)), ("above", (high, rings.z[-1])))}
 
