@@ -18,15 +18,17 @@ from millfoam.readings.means import Mean
 from millfoam.run import set_options
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
 from millstudies.stirred_runs import drifts, read_all, read_numbers
+from millstudies.stirred_settings import FILE
 from millstudies.stirred_tables import lines_of
 from millstudies.stirred_verdicts import ratio
+from stirred_studies import assert_are_mills
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "studies" / "stirred_scale_up"))
 
 import scale_up_verdicts  # noqa: E402, in the study's folder
 import stirred_scale_up as study  # noqa: E402
-from runs import FILE, RUNS, SPEEDS  # noqa: E402
+from runs import RUNS, SPEEDS  # noqa: E402
 
 STEP, RECORDS = 1e-4, 100  # s; steps between records
 BALLS = 4
@@ -76,12 +78,7 @@ def write_table(path, columns):
 
 class Runs(unittest.TestCase):
     def test_each_is_a_mill_in_both_forms(self):
-        for run in RUNS.values():
-            for quick in (False, True):
-                with self.subTest(run=run.name, quick=quick):
-                    done = subprocess.run(["millMesh", FILE, *set_options(run.settings(quick)), "--resolved", "-"],
-                                          capture_output=True, text=True)
-                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+        assert_are_mills(self, RUNS)
 
     def test_are_three_mills_at_three_speeds(self):
         self.assertEqual(len(RUNS), 9)

@@ -1,18 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The runs of the study: their names, and what each changes in the file of mill A."""
-import argparse
-import json
-import subprocess
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
-from millfoam.run import set_options
+from millstudies.stirred_settings import MILLS, print_settings, resolved
 
-FILE = Path(__file__).resolve().parents[2] / "mills" / "stirred_A" / "mill.yaml"
-MILLS = {"A": (), "B": ("variant=mill_B",), "C": ("variant=mill_C",)}  # name -> changes of mill A
 SPEEDS = {"1.8": 1.846, "2.2": 2.215, "1.5": 1.477}  # as the runs name it -> of the pins' tips, m/s
 STARTING, TURNS = 0.8, 5  # s from the start of the impeller that are not read; turns of it that are
 QUICK_STARTING, QUICK_TURNS = 0.1, 2
@@ -37,16 +31,9 @@ class Run:
         CalledProcessError if millMesh cannot read the mill."""
         mill = (*MILLS[self.mill], f"speed.tip_speed={SPEEDS[self.speed]}")
         starting, turns = (QUICK_STARTING, QUICK_TURNS) if quick else (STARTING, TURNS)
-        averaged = turns * turn_of(mill)
+        averaged = turns * resolved(mill)["derived"]["speed"]["turn_s"]
         return (*mill, *ALWAYS, f"dem.duration={starting + averaged:.6f}", f"averages.start={starting}",
                 f"averages.window={averaged:.6f}")
-
-
-def turn_of(settings: tuple[str, ...]) -> float:
-    """Time of a turn of the impeller of mill A with these changes, s."""
-    resolved = subprocess.run(["millMesh", str(FILE), *set_options(settings), "--resolved", "-"], check=True,
-                              stdout=subprocess.PIPE, text=True).stdout
-    return float(json.loads(resolved)["derived"]["speed"]["turn_s"])
 
 
 def all_runs() -> Iterator[Run]:
@@ -59,16 +46,5 @@ def all_runs() -> Iterator[Run]:
 RUNS = {run.name: run for run in all_runs()}
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--names", action="store_true", help="prints the names of all runs")
-    what.add_argument("--settings", choices=RUNS, metavar="RUN", help="prints its settings, one in a line")
-    parser.add_argument("--quick", action="store_true", help="settings of the short form")
-    options = parser.parse_args()
-    print(*(RUNS if options.names else RUNS[options.settings].settings(options.quick)), sep="\n")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(print_settings(RUNS, __doc__))

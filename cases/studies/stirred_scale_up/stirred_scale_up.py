@@ -12,9 +12,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millstudies.stirred_runs import Numbers, read_all
+from millstudies.stirred_settings import MILLS
 from millstudies.stirred_tables import Row, drive_columns, pair, write_study
 
-from runs import MILLS, RUNS, SPEEDS
+from runs import RUNS, SPEEDS
 from scale_up_verdicts import PUBLISHED, density, verdicts
 
 COLOURS = dict(zip(MILLS, ("#0072B2", "#009E73", "#D55E00")))

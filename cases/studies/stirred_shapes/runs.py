@@ -1,19 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The runs of the study: their names, and what each changes in the file of mill A."""
-import argparse
 import json
 import math
-import subprocess
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
-from millfoam.run import set_options
+from millstudies.stirred_settings import MILLS, print_settings, resolved
 
-FILE = Path(__file__).resolve().parents[2] / "mills" / "stirred_A" / "mill.yaml"
-MILLS = {"A": (), "B": ("variant=mill_B",), "C": ("variant=mill_C",)}  # name -> changes of mill A
 SPHERES = "spheres"
 SHAPES = (SPHERES, "group_1", "group_2", "group_3")  # the groups are variants of mill A
 STARTING, TURNS = 0.5, 3  # s from the start of the impeller that are not read; turns of it that are
@@ -60,27 +55,10 @@ class Run:
         return (*MILLS[self.mill], "charge=" + json.dumps({"classes": classes}))
 
 
-def resolved(settings: tuple[str, ...]) -> dict[str, Any]:
-    """The resolved mill A with these changes. CalledProcessError if millMesh cannot read it."""
-    return json.loads(subprocess.run(["millMesh", str(FILE), *set_options(settings), "--resolved", "-"], check=True,
-                                     stdout=subprocess.PIPE, text=True).stdout)
-
-
 # The first two are compared with the published power; then spheres, and what takes longest
 RUNS = {run.name: run for run in (*(Run("A", shape) for shape in ("group_1", "group_3", SPHERES, "group_2")),
                                   *(Run(mill, shape) for shape in (SPHERES, "group_3") for mill in ("B", "C")))}
 
 
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__)
-    what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--names", action="store_true", help="prints the names of all runs")
-    what.add_argument("--settings", choices=RUNS, metavar="RUN", help="prints its settings, one in a line")
-    parser.add_argument("--quick", action="store_true", help="settings of the short form")
-    options = parser.parse_args()
-    print(*(RUNS if options.names else RUNS[options.settings].settings(options.quick)), sep="\n")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(print_settings(RUNS, __doc__))
