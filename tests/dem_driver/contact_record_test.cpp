@@ -72,6 +72,17 @@ TEST_F(ContactRecordTest, TheOrderIsReadBackAsItWasWritten) {
             std::string::npos);
 }
 
+TEST_F(ContactRecordTest, ShapesOfTheSameVolumeAreOneClass) {
+  auto mill = small_mill();
+  const auto sizes = contact_order_of(mill, plan_dem(mill), {"shell"}, folder_.walls()).diameters;
+  auto same = mill.charge.classes.back();
+  same.shape = meshing::scaled_to({{1.5, 1, 1}, 4}, same.diameter);
+  mill.charge.classes.push_back(same);
+  mill.dem.curvature_limit = 10;
+  ASSERT_EQ(plan_dem(mill).charge.classes.size(), sizes.size() + 1);
+  EXPECT_EQ(contact_order_of(mill, plan_dem(mill), {"shell"}, folder_.walls()).diameters, sizes);
+}
+
 TEST_F(ContactRecordTest, TheStateIsReadBackAsItWasWritten) {
   ContactState state{{{3, 7, 1, 0, {1.0 / 3, 2e-9, -1e-20}}, {4, -2, 0, 0, {}}}, 12, {0, 0, 1.5, 0, -2}};
   write_contact_state(folder_.dem(), 30, state);
