@@ -11,7 +11,7 @@ from millstudies.stirred_settings import MILLS, print_settings, resolved
 
 SPHERES = "spheres"
 SHAPES = (SPHERES, "group_1", "group_2", "group_3")  # the groups are variants of mill A
-STARTING, TURNS = 0.5, 3  # s from the start of the impeller that are not read; turns of it that are
+STARTING, TURNS = 0.5, 5  # s from the start of the impeller that are not read; turns of it that are
 QUICK_STARTING, QUICK_TURNS = 0.1, 1
 RECORD = 0.01  # s between records, as published
 # The Rayleigh time of edges of 0.6 mm would halve the time-step of group 3. With these, the tenth of the shortest
