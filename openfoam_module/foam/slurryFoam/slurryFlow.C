@@ -198,6 +198,7 @@ Foam::slurryFlow::slurryFlow(
       fluidsOf(mixture_)),
   forces_(
       continued<volVectorField>("forceAcceleration", mesh, dimAcceleration)),
+  turning_(U_, g_.value()),
   projectedInertia_(
       IOobject("projectedInertia", mesh.time().timeName(), mesh),
       pressure_.inertia().internalField()),
@@ -283,6 +284,7 @@ void Foam::slurryFlow::enter()
     {
         swept_.update();
     }
+    turning_.turn(U_, forces_);
 }
 
 

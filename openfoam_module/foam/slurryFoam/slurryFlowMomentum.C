@@ -200,6 +200,10 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
         before * U_.oldTime().internalField() +
             density.internalField() * forces_.internalField() +
             fvOptions_(density, U_));
+    if (auto lack = turning_.lack())
+    {
+        equation -= density.internalField() * lack;
+    }
     equation.relax();
     fvOptions_.constrain(equation);
     equation.solve(mesh_.solver(U_.select(pimple.finalInnerIter())));

@@ -75,6 +75,7 @@ void Foam::slurryFlow::transport()
         fvc::reconstruct(phi_)().primitiveField() / voidage_.primitiveField());
     carrySlurry(relative);
 
+    turning_.keep();
     massMoved_ = mesh_.time().deltaT() *
                  (slurryFlux_ * (mixture_.rho1() - mixture_.rho2()) +
                   phi_ * mixture_.rho2());

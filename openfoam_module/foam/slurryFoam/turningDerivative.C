@@ -1,0 +1,89 @@
+/*---------------------------------------------------------------------------*\
+    millFoam: slurry flow in tumbling mills
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "turningDerivative.H"
+#include "meshRotation.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Rotation by an angle (rad) about z, right-handed
+static tensor turnAboutZ(const scalar angle)
+{
+    const scalar c = std::cos(angle);
+    const scalar s = std::sin(angle);
+    return tensor(c, -s, 0, s, c, 0, 0, 0, 1);
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::turningDerivative::turningDerivative(
+    const volVectorField& U, const vector& gravity)
+: U_(U),
+  angle_(0)
+{
+    const bool upright =
+        mag(gravity.x()) + mag(gravity.y()) <= SMALL * mag(gravity.z());
+    if (upright && meshRotation(U.time()) != 0)
+    {
+        U.oldTime(); // before turn() changes U
+        last_.reset(new volVectorField(
+            IOobject(
+                "stepAcceleration", U.time().timeName(), U.mesh(),
+                IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE),
+            U.mesh(), dimensionedVector(dimAcceleration, Zero)));
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::turningDerivative::turn(volVectorField& U, volVectorField& forces)
+{
+    if (last_.valid())
+    {
+        const pointField& before = U_.mesh().oldPoints();
+        const pointField& now = U_.mesh().points();
+        const vector cross(gSum((before ^ now)()));
+        const tensor dot(gSum((before * now)()));
+        angle_ = std::atan2(cross.z(), dot.xx() + dot.yy());
+        const tensor turn = turnAboutZ(angle_);
+        U.primitiveFieldRef() = turn & U.primitiveField();
+        U.correctBoundaryConditions();
+        forces.primitiveFieldRef() = turn & forces.primitiveField();
+        forces.correctBoundaryConditions();
+    }
+}
+
+
+Foam::tmp<Foam::volVectorField::Internal> Foam::turningDerivative::lack() const
+{
+    if (!last_.valid())
+    {
+        return nullptr;
+    }
+    const tensor turn = turnAboutZ(angle_) - turnAboutZ(1.5 * angle_);
+    return tmp<volVectorField::Internal>::New(
+        "turningLack", turn & last_->internalField());
+}
+
+
+void Foam::turningDerivative::keep()
+{
+    if (last_.valid())
+    {
+        last_.ref() = (U_ - U_.oldTime()) / U_.time().deltaT();
+    }
+}
+
+
+// ************************************************************************* //
