@@ -50,6 +50,7 @@ def profiles(flows: Sequence[Flow]) -> Figure:
             axis.legend(fontsize=8)
         else:
             axis.text(0.5, 0.5, "no complete run", ha="center", transform=axis.transAxes)
+            axis.set(xticks=[], yticks=[])
     figure.suptitle("Points: slices of 10 mm; thin lines: Gaussians through those in front of the grates "
                     "(grey); shaded: standard deviation of the turns", fontsize=10)
     return figure
