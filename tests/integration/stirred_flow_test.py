@@ -122,7 +122,7 @@ class StirredFlow(unittest.TestCase):
     def test_the_report_has_a_section_of_the_slurry(self):
         page = (self.case / "report.html").read_text()
         for words in ("Numbers of the slurry", "torque on the slurry by balls", "The last turn", "Reynolds number",
-                      "Vortex", "of the radius and of the torque", "one-way"):
+                      "Vortex", "of the radius and of the torque", "one-way", "torques are balanced"):
             self.assertTrue(words in page, words)
 
     def test_gravity_is_along_the_axis(self):

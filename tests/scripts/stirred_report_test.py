@@ -17,6 +17,7 @@ from millfoam.readings.partner_spectra import read_partner_spectra
 from millfoam.readings.stirred_power import mean_speed, power_number, read_stirred, torque_coefficient
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.checks import all_checks
+from millfoam.report.flow_checks import slurry_torques
 from report_cases import PRINTS, RESULTS, change_json, write_dry, write_json
 
 OMEGA, TURN, RADIUS, MASS = 10 * np.pi, 0.2, 0.07, 1.5
@@ -143,6 +144,20 @@ class StirredReport(unittest.TestCase):
         states = {check.name: check.state for check in all_checks(StirredCase(self.case))}
         self.assertEqual(states["Walls at rest take the impeller's torque"], "fails")
         self.assertEqual(states["Contacts dissipate what the drive gives"], "fails")
+
+    def test_torque_on_the_slurry_that_nothing_takes_is_seen(self):
+        case = StirredCase(self.case, begin=1.0)
+        time = np.linspace(0, 3, 301)
+        # Walls and balls give 0.03 N m, which is 3 % of 1 N m on balls and slurry
+        torques = {"impeller": 1 - 25 / OMEGA, "shell": -0.15, "base": 0.0, "lid": 0.0,
+                   "balls": 0.03 + 0.15 - (1 - 25 / OMEGA), "all": 0.0}
+        for scale, state, words in ((1, "holds", r"give 30 mN m more .* 3 % of"), (-2, "fails", "give 60 mN m less")):
+            shift = {"balls": 0.03 * (scale - 1)}
+            case.__dict__["balance"] = {"Time": time} | {
+                f"torque_{part}": np.full_like(time, torque + shift.get(part, 0)) for part, torque in torques.items()}
+            check = slurry_torques(case)
+            self.assertEqual(check.state, state)
+            self.assertRegex(check.found, words)
 
     def test_a_run_without_contacts_or_with_a_damaged_file_has_a_report(self):
         self.assertNotIn("Spectra of energy", report_case(write_stirred(self.folder / "plain")))

@@ -59,26 +59,51 @@ def power_on_balls(case: StirredCase, begin: float, end: float) -> Mean:
     return mean_from(energy["time_s"][within], energy["power_W"][within], case.flow.time0 + begin, case.turn)
 
 
-def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers:
-    """StirredFlowNumbers of a case and its written fields. RuntimeError without slurryBalance or the dry run."""
+def averaged(case: StirredCase, time: np.ndarray, values: np.ndarray) -> Mean:
+    """Mean of values at the times (s) of time-steps, from the begin of the averages on."""
+    even = np.arange(case.begin, time[-1], np.median(np.diff(time)))
+    return mean_from(even, np.interp(even, time, values), case.begin, case.turn)
+
+
+@dataclass(frozen=True)
+class FlowTorques:
+    """Means over the averaged time, N m about +z: torques and unbalanced as in StirredFlowNumbers; impeller: torque of
+    the impeller on balls and slurry together."""
+    torques: dict[str, Mean]
+    unbalanced: Mean | None
+    impeller: float
+
+
+def read_flow_torques(case: StirredCase) -> FlowTorques:
+    """FlowTorques of a case. RuntimeError without slurryBalance."""
     columns = case.balance
     if columns is None:
         raise RuntimeError(f"{case.folder}: no table of slurryBalance; add it to controlDict")
-    mill, begin, time = case.mill, case.begin, columns["Time"]
-    even = np.arange(begin, time[-1], np.median(np.diff(time)))
+    time = columns["Time"]
 
     def mean(values: np.ndarray) -> Mean:
-        return mean_from(even, np.interp(even, time, values), begin, case.turn)
+        return averaged(case, time, values)
 
     parts = [*WALLS, "balls", "all"] if "torque_balls" in columns else [*WALLS, "all"]
     torques = {part: mean(columns[f"torque_{part}"]) for part in parts}
     given = np.sum([columns[f"torque_{part}"] for part in parts if part != "all"], axis=0)
+    on_balls = power_on_balls(case, case.begin, float(time[-1])).value / case.mill.omega
+    return FlowTorques(torques, mean(columns["torque_all"] - given) if "balls" in torques else None,
+                       on_balls + torques["impeller"].value)
+
+
+def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers:
+    """StirredFlowNumbers of a case and its written fields. RuntimeError without slurryBalance or the dry run."""
+    found = read_flow_torques(case)
+    columns = case.balance
+    assert columns is not None
+    mill, begin, time = case.mill, case.begin, columns["Time"]
     balls, slurry = mill.ball_density, mill.slurry("density_kg_m3")
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
     root = float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
     slip, reynolds = over_times(flow.slips), over_times(flow.reynolds)
     return StirredFlowNumbers(
-        begin, float(time[-1]), (time[-1] - begin) / case.turn, torques,
-        mean(columns["torque_all"] - given) if "balls" in torques else None, mean(columns["power"]),
+        begin, float(time[-1]), (time[-1] - begin) / case.turn, found.torques, found.unbalanced,
+        averaged(case, time, columns["power"]),
         power_on_balls(case, begin, float(time[-1])), float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
-        mean(columns["z"]), slip, slip.value / root, reynolds)
+        averaged(case, time, columns["z"]), slip, slip.value / root, reynolds)

@@ -4,11 +4,14 @@ import numpy as np
 
 from ..files.data_files import number
 from ..files.mill_case import MillCase
+from ..files.stirred_case import StirredCase
+from ..readings.stirred_flow import read_flow_torques
 from .verdict import Check, judged
 
 CONSERVED = 1e-6  # of the hold-up that may be missing
 CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
+TORQUES = 0.05  # of the impeller's torque on balls and slurry that the slurry's balance may miss
 CONTINUITY = 15.0  # % of the slip, of the flow that the balls' averages drive by not being continuous
 LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
 # Share of the time-steps that may go beyond a multiple of a limit. A step follows from the one before, so some go
@@ -33,6 +36,20 @@ def conservation(case: MillCase) -> Check:
     return judged(name, share, CONSERVED, f"at most {share:.1e} of the hold-up is missing (limit {CONSERVED:.0e})",
                   "Look in steps.csv for steps in which alpha is outside [0, 1] (alpha_min, alpha_max_minus_1), and "
                   "give the limiter more iterations (nLimiterIter).")
+
+
+def slurry_torques(case: MillCase) -> Check:
+    """Whether walls and balls of a stirred mill give what changes the slurry's angular momentum."""
+    assert isinstance(case, StirredCase)
+    found = read_flow_torques(case)
+    assert found.unbalanced is not None
+    share = abs(found.unbalanced.value / found.impeller)
+    return judged("The slurry's torques are balanced", share, TORQUES,
+                  f"walls and balls give {1e3 * abs(found.unbalanced.value):.3g} mN m "
+                  f"{'less' if found.unbalanced.value * case.mill.omega > 0 else 'more'} than the slurry takes: "
+                  f"{100 * share:.2g} % of the impeller's torque on balls and slurry (limit {100 * TORQUES:.0f} %)",
+                  "Take smaller cells (resolution.cell_size) and time-steps (flow.max_time_step).",
+                  meaning="Torque and power of the impeller on the slurry have at least this error.")
 
 
 def column(case: MillCase, name: str) -> np.ndarray | None:
