@@ -107,13 +107,25 @@ void write_start(Entries& out, const FlowStart& start) {
   out.close();
 }
 
+/// The classes of balls as `((share sphericity sphericity) …)`, by volume; in random orientation the crosswise
+/// sphericity is the same.
+std::string shapes_of(const ChargeNumbers& charge) {
+  std::string words;
+  for (const BallCount& ball : charge.classes) {
+    if (!ball.simulated || ball.count == 0) continue;
+    const std::string round = exact(ball.shape ? sphericity(*ball.shape) : 1);
+    words += (words.empty() ? "(" : " (") + exact(ball.mass / charge.mass) + ' ' + round + ' ' + round + ')';
+  }
+  return words.empty() ? "((1 1 1))" : '(' + words + ')';
+}
+
 void write_flow(Entries& out, const Mill& mill) {
   const Flow& flow = mill.flow;
   out.word("flowSolver", flow.solver);
   out.number("flowDuration", flow.duration);
   out.truth("flowBalls", flow.balls);
   out.word("dragLaw", flow.law);
-  out.number("dragSphericity", count_charge(mill).sphericity);
+  out.word("dragShapes", shapes_of(count_charge(mill)));
   out.number("dragMultiplier", flow.multiplier);
   out.word("dragViscosity", flow.viscosity);
   out.truth("dragPolydispersity", flow.polydispersity);

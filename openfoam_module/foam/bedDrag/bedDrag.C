@@ -81,22 +81,36 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
 }
 
 
-//- The balls' shape
-static millfoam::drag::Shape readShape(const dictionary& dict)
+//- The balls' shapes with their shares of the volume
+static List<Tuple2<scalar, millfoam::drag::Shape>>
+readShapes(const dictionary& dict)
 {
-    const millfoam::drag::Shape shape{
-        dict.lookupOrDefault<scalar>("sphericity", 1),
-        dict.lookupOrDefault<scalar>("crosswiseSphericity", 1)};
-    if (!(shape.sphericity > 0 && shape.sphericity <= 1 &&
-          shape.crosswise_sphericity > 0))
+    const auto entries = dict.lookupOrDefault<List<vector>>(
+        "shapes", List<vector>(1, vector::one));
+    List<Tuple2<scalar, millfoam::drag::Shape>> shapes;
+    scalar sum = 0;
+    for (const vector& entry : entries)
+    {
+        const scalar share = entry.x();
+        const millfoam::drag::Shape shape{entry.y(), entry.z()};
+        if (!(share >= 0 && shape.sphericity > 0 && shape.sphericity <= 1 &&
+              shape.crosswise_sphericity > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << "shapes has " << entry << "; expected a share of the balls'"
+                << " volume of 0 or above, a sphericity above 0 and up to 1,"
+                << " and a crosswise sphericity above 0" << exit(FatalIOError);
+        }
+        sum += share;
+        shapes.append({share, shape});
+    }
+    if (!(mag(sum - 1) < 1e-6))
     {
         FatalIOErrorInFunction(dict)
-            << "sphericity is " << shape.sphericity
-            << " and crosswiseSphericity is " << shape.crosswise_sphericity
-            << "; expected the first above 0 and up to 1, the second above 0"
-            << exit(FatalIOError);
+            << "the shares of volume in shapes add up to " << sum
+            << "; expected 1" << exit(FatalIOError);
     }
-    return shape;
+    return shapes;
 }
 
 } // End namespace Foam
@@ -127,9 +141,17 @@ Foam::scalar Foam::bedDrag::lawAt(
 {
     using millfoam::drag::exchange_coefficient;
 
-    return law_ == &millfoam::drag::hoelzer_sommerfeld_law()
-               ? exchange_coefficient(shape_, phi, v, d, fluid)
-               : exchange_coefficient(*law_, phi, v, d, fluid);
+    if (law_ != &millfoam::drag::hoelzer_sommerfeld_law())
+    {
+        return exchange_coefficient(*law_, phi, v, d, fluid);
+    }
+    scalar result = 0;
+    for (const auto& shape : shapes_)
+    {
+        result += shape.first() *
+                  exchange_coefficient(shape.second(), phi, v, d, fluid);
+    }
+    return result;
 }
 
 
@@ -155,7 +177,7 @@ Foam::scalar Foam::bedDrag::exchangeAt(
 
 Foam::bedDrag::bedDrag(const dictionary& dict, const bedFluids& fluids)
 : law_(readLaw(dict)),
-  shape_(readShape(dict)),
+  shapes_(readShapes(dict)),
   range_(*law_),
   fluids_(fluids),
   viscosity_(dict, fluids.slurry),
@@ -185,8 +207,7 @@ Foam::bedDrag::bedDrag(const dictionary& dict)
 
 Foam::wordList Foam::bedDrag::entries()
 {
-    return {"law",       "sphericity",     "crosswiseSphericity",
-            "viscosity", "polydispersity", "multiplier",
+    return {"law", "shapes", "viscosity", "polydispersity", "multiplier",
             "mixed"};
 }
 

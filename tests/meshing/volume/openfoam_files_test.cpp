@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
+#include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/results/mill_properties.hpp"
@@ -112,6 +114,38 @@ TEST(MillProperties, hold_one_plain_line_per_number) {
   EXPECT_DOUBLE_EQ(number("omega"), -0.5 * std::sqrt(9.81 / 0.06));
   EXPECT_DOUBLE_EQ(number("slurryKinematicViscosity"), 0.0014 / 1239);
   EXPECT_DOUBLE_EQ(number("airKinematicViscosity"), 1.8e-5 / 1.2);
+}
+
+TEST(MillProperties, hold_the_shapes_of_the_balls_with_their_shares_of_the_volume) {
+  const TemporaryFolder folder;
+  MillDescription mill = describe_mill(folder.write("mill.yaml", example_mill));
+  // Share of the volume, sphericity and crosswise sphericity of each class
+  const auto shapes = [&] {
+    write_mill_properties(mill, {}, 0, folder.path());
+    const std::string text = text_of(folder.path() / "constant" / "millProperties");
+    const auto begin = text.find("((", text.find("\ndragShapes ")), end = text.find("))", begin);
+    std::string line = text.substr(begin, end - begin);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+    std::istringstream words(line);
+    return std::vector<double>(std::istream_iterator<double>(words), {});
+  };
+  SizeClass& size = mill.mill.charge.classes.front();
+  mill.mill.charge.classes.resize(1);
+  EXPECT_EQ(shapes(), (std::vector<double>{1, 1, 1}));
+  // Four balls of one size, three of them blunt
+  SizeClass blunt = size;
+  size.mass = ball_mass(mill.mill, size.diameter);
+  blunt.shape = Superquadric{{size.diameter / 2, size.diameter / 2, size.diameter / 2}, 4};
+  blunt.mass = 3 * size.mass;
+  mill.mill.charge.classes.push_back(blunt);
+  const std::vector<double> found = shapes();
+  ASSERT_EQ(found.size(), 6U);
+  EXPECT_NEAR(found[0], 0.25, 1e-12);
+  EXPECT_EQ(found[1], 1);
+  EXPECT_NEAR(found[3], 0.75, 1e-12);
+  EXPECT_EQ(found[4], sphericity(*blunt.shape));
+  EXPECT_EQ(found[5], found[4]);
 }
 
 TEST(MillProperties, hold_the_openings_of_a_mill_that_has_them) {
