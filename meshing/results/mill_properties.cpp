@@ -107,8 +107,8 @@ void write_start(Entries& out, const FlowStart& start) {
   out.close();
 }
 
-/// The classes of balls as `((share sphericity sphericity) …)`, by volume; in random orientation the crosswise
-/// sphericity is the same.
+/// The classes of balls as `((share sphericity sphericity) …)`, by volume; in random orientation the
+/// crosswise sphericity is the same.
 std::string shapes_of(const ChargeNumbers& charge) {
   std::string words;
   for (const BallCount& ball : charge.classes) {
