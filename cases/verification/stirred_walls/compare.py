@@ -65,9 +65,10 @@ def runs(quick: bool) -> dict[str, Run]:
              "Couette, mesh at rest": Run(own, couette, "rest", False, True),
              "pool at rest": Run(STIRRED, still, "pool", False, False)}
     if not quick:
+        # The shaft ends near the surface, because cells grow above the impeller
         paraboloid = (f"speed.angular_velocity={PARABOLOID}", "geometry.height=0.15",
-                      "geometry.impeller.shaft.diameter=0.02", "slurry.plastic_viscosity=2", "flow.max_time_step=0.002",
-                      "flow.duration=3", f"resolution.cell_size={0.0775 / 20:.6g}")
+                      "geometry.impeller.shaft={diameter: 0.02, end: 0.06}", "slurry.plastic_viscosity=2",
+                      "flow.max_time_step=0.002", "flow.duration=3", f"resolution.cell_size={0.0775 / 20:.6g}")
         found["turning vessel"] = Run(own, paraboloid, "vessel", True, False)
     return found
 
