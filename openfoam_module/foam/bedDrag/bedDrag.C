@@ -207,8 +207,8 @@ Foam::bedDrag::bedDrag(const dictionary& dict)
 
 Foam::wordList Foam::bedDrag::entries()
 {
-    return {"law", "shapes", "viscosity", "polydispersity", "multiplier",
-            "mixed"};
+    return {"law",        "shapes", "viscosity", "polydispersity",
+            "multiplier", "mixed"};
 }
 
 
