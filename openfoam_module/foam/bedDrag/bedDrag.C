@@ -81,12 +81,35 @@ static const millfoam::drag::Law* readLaw(const dictionary& dict)
 }
 
 
+//- The list of vectors of that name, empty without it. Not by OpenFOAM's own
+//  reader, which frees what it read by another type
+static DynamicList<vector> readVectors(const dictionary& dict, const word& name)
+{
+    DynamicList<vector> result;
+    if (!dict.found(name))
+    {
+        return result;
+    }
+    ITstream& stream = dict.lookup(name);
+    stream.readBeginList(name.c_str());
+    for (token next(stream); next != token::END_LIST; stream >> next)
+    {
+        stream.putBack(next);
+        result.append(vector(stream));
+    }
+    return result;
+}
+
+
 //- The balls' shapes with their shares of the volume
 static List<Tuple2<scalar, millfoam::drag::Shape>>
 readShapes(const dictionary& dict)
 {
-    const auto entries = dict.lookupOrDefault<List<vector>>(
-        "shapes", List<vector>(1, vector::one));
+    const DynamicList<vector> entries(readVectors(dict, "shapes"));
+    if (entries.empty())
+    {
+        return {{1, {1, 1}}};
+    }
     List<Tuple2<scalar, millfoam::drag::Shape>> shapes;
     scalar sum = 0;
     for (const vector& entry : entries)
