@@ -128,6 +128,28 @@ TEST(bedDrag, refusesALawThatNobodyPublished)
     EXPECT_NE(error.find("Beetstra"), std::string::npos) << error;
 }
 
+TEST(bedDrag, refusesShapesThatAreNotPossible)
+{
+    const auto refusal = [](const string& shapes)
+    {
+        return errorOf(
+            [&] {
+                exchangeOf(
+                    "law HoelzerSommerfeld; shapes " + shapes + ";", 1, 0);
+            });
+    };
+    for (const auto& [shapes, words] :
+         {std::pair("((0.5 1 1) (0.4 0.9 0.9))", "add up to 0.9; expected 1"),
+          std::pair("((1 1.1 1))", "sphericity above 0 and up to 1"),
+          std::pair("((1 0.9 0))", "crosswise sphericity above 0"),
+          std::pair("((1.5 1 1) (-0.5 1 1))", "volume of 0 or above"),
+          std::pair("(1 0.9 0.9)", "shapes has 1 where a vector begins")})
+    {
+        const std::string error = refusal(shapes);
+        EXPECT_NE(error.find(words), std::string::npos) << error;
+    }
+}
+
 TEST(bedDrag, aBallFeelsTheTablesCoefficientOverItsVolume)
 {
     using namespace millfoam::drag;

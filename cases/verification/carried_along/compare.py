@@ -58,8 +58,8 @@ class Run:
         return HALF if self.half else FULL
 
 
-# A mesh that turns passes the bed forwards and backwards. A surface that passes through its cells is of first order in
-# time, so that half-full cylinders on such meshes have smaller steps.
+# A mesh that turns passes the bed forwards and backwards. Where a surface passes through its cells, the error is
+# largest on a fast mesh with long steps, so that half-full cylinders on such meshes have smaller steps.
 RUNS = [Run(True, False, turns, step) for turns, step in ((1.5, 1e-3), (-0.5, 2e-3), (0, 4e-3))]
 RUNS += [Run(False, falling, turns, 1e-3) for falling in (False, True) for turns in (0, 3, -3)]
 

@@ -94,6 +94,13 @@ static DynamicList<vector> readVectors(const dictionary& dict, const word& name)
     stream.readBeginList(name.c_str());
     for (token next(stream); next != token::END_LIST; stream >> next)
     {
+        if (next != token::BEGIN_LIST)
+        {
+            FatalIOErrorInFunction(dict)
+                << name << " has " << next
+                << " where a vector begins; expected ((x y z) ...)"
+                << exit(FatalIOError);
+        }
         stream.putBack(next);
         result.append(vector(stream));
     }

@@ -65,38 +65,38 @@ def averaged(case: StirredCase, time: np.ndarray, values: np.ndarray) -> Mean:
     return mean_from(even, np.interp(even, time, values), case.begin, case.turn)
 
 
+def balance_of(case: StirredCase) -> dict[str, np.ndarray]:
+    """Columns of slurryBalance; RuntimeError without them."""
+    if case.balance is None:
+        raise RuntimeError(f"{case.folder}: no table of slurryBalance; add it to controlDict")
+    return case.balance
+
+
 @dataclass(frozen=True)
 class FlowTorques:
-    """Means over the averaged time, N m about +z: torques and unbalanced as in StirredFlowNumbers; impeller: torque of
-    the impeller on balls and slurry together."""
+    """Means over the averaged time: torques and unbalanced as in StirredFlowNumbers, N m about +z; ball_power as there,
+    W; impeller: torque of the impeller on balls and slurry together, N m."""
     torques: dict[str, Mean]
     unbalanced: Mean | None
+    ball_power: Mean
     impeller: float
 
 
 def read_flow_torques(case: StirredCase) -> FlowTorques:
-    """FlowTorques of a case. RuntimeError without slurryBalance."""
-    columns = case.balance
-    if columns is None:
-        raise RuntimeError(f"{case.folder}: no table of slurryBalance; add it to controlDict")
+    """FlowTorques of a case. RuntimeError without slurryBalance or the dry run."""
+    columns = balance_of(case)
     time = columns["Time"]
-
-    def mean(values: np.ndarray) -> Mean:
-        return averaged(case, time, values)
-
     parts = [*WALLS, "balls", "all"] if "torque_balls" in columns else [*WALLS, "all"]
-    torques = {part: mean(columns[f"torque_{part}"]) for part in parts}
+    torques = {part: averaged(case, time, columns[f"torque_{part}"]) for part in parts}
     given = np.sum([columns[f"torque_{part}"] for part in parts if part != "all"], axis=0)
-    on_balls = power_on_balls(case, case.begin, float(time[-1])).value / case.mill.omega
-    return FlowTorques(torques, mean(columns["torque_all"] - given) if "balls" in torques else None,
-                       on_balls + torques["impeller"].value)
+    unbalanced = averaged(case, time, columns["torque_all"] - given) if "balls" in torques else None
+    ball_power = power_on_balls(case, case.begin, float(time[-1]))
+    return FlowTorques(torques, unbalanced, ball_power, ball_power.value / case.mill.omega + torques["impeller"].value)
 
 
 def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers:
     """StirredFlowNumbers of a case and its written fields. RuntimeError without slurryBalance or the dry run."""
-    found = read_flow_torques(case)
-    columns = case.balance
-    assert columns is not None
+    found, columns = read_flow_torques(case), balance_of(case)
     mill, begin, time = case.mill, case.begin, columns["Time"]
     balls, slurry = mill.ball_density, mill.slurry("density_kg_m3")
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
@@ -104,6 +104,6 @@ def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers
     slip, reynolds = over_times(flow.slips), over_times(flow.reynolds)
     return StirredFlowNumbers(
         begin, float(time[-1]), (time[-1] - begin) / case.turn, found.torques, found.unbalanced,
-        averaged(case, time, columns["power"]),
-        power_on_balls(case, begin, float(time[-1])), float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
+        averaged(case, time, columns["power"]), found.ball_power,
+        float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
         averaged(case, time, columns["z"]), slip, slip.value / root, reynolds)
