@@ -49,6 +49,7 @@ void unpack(std::vector<double> numbers, RecordSums& sums) {
 
 FlowExchange::FlowExchange(const FluidOrder& order, long step, RankGroup& ranks)
     : order_(order.exchange.value()),
+      shapes_(order.fluid.shapes),
       timestep_(order.timestep),
       record_steps_(order.record_steps),
       folder_(order.fluid.file.string()),
@@ -168,7 +169,7 @@ void FlowExchange::meet(const ParticleRecord& record) {
 }
 
 FluidForce FlowExchange::on(const BallInFluid& ball) const {
-  return force_on(ball, field_->over(ball.position, ball.diameter), polydispersity_);
+  return force_on(ball, field_->over(ball.position, ball.diameter), polydispersity_, shapes_);
 }
 
 }  // namespace millfoam::dem_driver

@@ -69,6 +69,7 @@ class FlowExchange final : public FluidForces {
   void check(const averaging::BallFields& fields) const;
 
   const ExchangeOrder order_;
+  const ShapeDrag shapes_;
   const double timestep_;
   const long record_steps_;
   const std::string folder_;

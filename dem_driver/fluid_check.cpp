@@ -103,6 +103,7 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   fluid.file = std::filesystem::absolute(file);
   fluid.file_id = file_hash(file);
   fluid.time = time;
+  fluid.shapes = shape_drag_of(mill);
   return fluid;
 }
 

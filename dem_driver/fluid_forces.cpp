@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "averaging/files/slurry_file.hpp"
 #include "dem_driver/case_folder.hpp"
@@ -32,7 +33,7 @@ std::unique_ptr<FluidForces> make_fluid_forces(const FluidSettings& fluid) {
     if (file_hash(fluid.file) != fluid.file_id)
       throw averaging::SlurryFileError(fluid.file.string() +
                                        ": has changed since millDem checked it, run millDem again");
-    return std::make_unique<VoxelForces>(fluid.file, fluid.time);
+    return std::make_unique<VoxelForces>(fluid.file, fluid.time, fluid.shapes);
   }
   return std::make_unique<PoolForces>(fluid.level, fluid.density);
 }
@@ -42,7 +43,8 @@ double mixture_factor(double y, double solidity) {
   return voidage / y + solidity + 0.064 * voidage * y;
 }
 
-VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time) : reader_(file), time_(time) {
+VoxelForces::VoxelForces(const std::filesystem::path& file, FluidTime time, ShapeDrag shapes)
+    : reader_(file), time_(time), shapes_(std::move(shapes)) {
   if (time == FluidTime::windows && reader_.header().windows == 0)
     throw averaging::SlurryFileError(
         file.string() +
@@ -77,13 +79,30 @@ void VoxelForces::set_time(double time) {
   blend_ = length > 0 ? std::clamp((time - begin) / length, 0.0, 1.0) : 0;
 }
 
-FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity) {
+namespace {
+
+/// Between a ball and the fluid that it feels, m/s.
+double slip_of(const BallInFluid& ball, const FeltFluid& felt) {
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double slip = felt.drag[k] / felt.exchange - ball.velocity[k];
+    square += slip * slip;
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity,
+                    const ShapeDrag& shapes) {
   FluidForce force;
   force.known = felt.known;
   if (!felt.known) return force;
   double factor = 1;
   if (polydispersity && felt.diameter > 0)
     factor = mixture_factor(ball.diameter / felt.diameter, felt.solidity);
+  if (!shapes.bed.empty() && felt.exchange > 0)
+    factor *= shapes.factor(ball.sphericity, felt.solidity, slip_of(ball, felt), ball.diameter);
   const double volume = ball.volume();
   for (std::size_t k = 0; k < 3; ++k) {
     force.pressure[k] = volume * felt.pressure[k];
@@ -106,7 +125,7 @@ FluidForce VoxelForces::on(const BallInFluid& ball) const {
       felt = late;
     }
   }
-  return force_on(ball, felt, reader_.header().polydispersity);
+  return force_on(ball, felt, reader_.header().polydispersity, shapes_);
 }
 
 }  // namespace millfoam::dem_driver

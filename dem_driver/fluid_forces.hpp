@@ -18,7 +18,8 @@ namespace millfoam::dem_driver {
 struct BallInFluid {
   Vector position = {};   ///< of its centre, lab frame, m
   Vector velocity = {};   ///< m/s
-  double diameter = 0;    ///< m
+  double diameter = 0;    ///< of the sphere of equal volume, m
+  double sphericity = 1;  ///< in random orientation
   double volume() const;  ///< m^3
 };
 
@@ -62,7 +63,10 @@ double share_below(double height, double radius);
 /// The force on a ball where it feels this: F = V (pressure_force + drag_force - K v). With polydispersity,
 /// drag_force and K of a ball of diameter d are e/y + phi + 0.064 e y times those of the flow, y = d/d32, phi
 /// the solidity, e = 1 - phi (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
-FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity);
+/// With shapes, they are also as many times those of the flow as `ShapeDrag::factor` says at the ball's own
+/// slip |drag_force/K - v|.
+FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity,
+                    const ShapeDrag& shapes = {});
 
 /// The forces of a flow, from slurry.h5, by `force_on` of a VoxelField.
 ///
@@ -70,7 +74,7 @@ FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydis
 class VoxelForces final : public FluidForces {
  public:
   /// Throws averaging::SlurryFileError where the file cannot be read.
-  VoxelForces(const std::filesystem::path& file, FluidTime time);
+  VoxelForces(const std::filesystem::path& file, FluidTime time, ShapeDrag shapes = {});
   void set_time(double time) override;
   FluidForce on(const BallInFluid& ball) const override;
 
@@ -79,6 +83,7 @@ class VoxelForces final : public FluidForces {
 
   averaging::SlurryReader reader_;
   FluidTime time_;
+  ShapeDrag shapes_;
   std::optional<VoxelField> early_, late_;  ///< the mean, or the windows before and after the time
   std::size_t window_ = std::numeric_limits<std::size_t>::max();  ///< of early_
   double blend_ = 0;                                              ///< share of late_

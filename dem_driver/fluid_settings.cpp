@@ -66,6 +66,26 @@ ExchangeOrder read_exchange(const Json& json, const fs::path& file) {
   return order;
 }
 
+void add_shapes(Json& json, const ShapeDrag& shapes) {
+  if (shapes.bed.empty()) return;
+  json["slurry"] = {{"density_kg_m3", shapes.slurry.density}, {"viscosity_Pa_s", shapes.slurry.viscosity}};
+  for (const drag::ShapeShare& part : shapes.bed)
+    json["shapes"].push_back({{"share", part.share}, {"sphericity", part.shape.sphericity}});
+}
+
+ShapeDrag read_shapes(const Json& json, const fs::path& file) {
+  ShapeDrag shapes;
+  if (!json.contains("shapes")) return shapes;
+  const auto slurry = value_of<Json>(json, "slurry", file);
+  shapes.slurry = {value_of<double>(slurry, "density_kg_m3", file),
+                   value_of<double>(slurry, "viscosity_Pa_s", file)};
+  for (const auto& part : value_of<std::vector<Json>>(json, "shapes", file)) {
+    const auto sphericity = value_of<double>(part, "sphericity", file);
+    shapes.bed.push_back({value_of<double>(part, "share", file), {sphericity, sphericity}});
+  }
+  return shapes;
+}
+
 }  // namespace
 
 std::string name_of(FluidKind kind) {
@@ -146,6 +166,7 @@ void write_fluid_order(const fs::path& file, const meshing::Mill& mill, const Fl
     json["file_id"] = fluid.file_id;
     json["time"] = name_of(fluid.time);
   }
+  add_shapes(json, fluid.shapes);
   write_json(file, json);
 }
 
@@ -176,6 +197,7 @@ FluidOrder read_fluid_order(const fs::path& file) {
     const bool windows = value_of<std::string>(json, "time", file) == name_of(FluidTime::windows);
     order.fluid.time = windows ? FluidTime::windows : FluidTime::mean;
   }
+  order.fluid.shapes = read_shapes(json, file);
   return order;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "averaging/grids/box_grid.hpp"
+#include "dem_driver/shape_drag.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -33,6 +34,7 @@ struct FluidSettings {
   std::filesystem::path file = {};   ///< slurry.h5, or the folder of the exchange with a flow
   std::string file_id = {};          ///< hash of the file's bytes (FNV-1a, 16 hexadecimal digits)
   FluidTime time = FluidTime::mean;  ///< of slurry.h5
+  ShapeDrag shapes = {};             ///< of the flow's drag
   /// Whether it acts on balls that are inserted and settle, too: a pool does, a flow only on a turning mill.
   bool acts_at_rest() const { return kind == FluidKind::buoyancy; }
 };

@@ -16,7 +16,7 @@
 
 #include "averaging/run/live_averages.hpp"
 #include "dem_driver/averages_order.hpp"
-#include "dem_driver/tools/ball_radius.hpp"
+#include "dem_driver/tools/ball_shape.hpp"
 
 namespace millfoam::dem_driver {
 

@@ -24,7 +24,7 @@
 #include "dem_driver/contact_order.hpp"
 #include "dem_driver/contact_record.hpp"
 #include "dem_driver/deck.hpp"
-#include "dem_driver/tools/ball_radius.hpp"
+#include "dem_driver/tools/ball_shape.hpp"
 #include "dem_driver/tools/stop.hpp"
 #include "dem_driver/tools/watched_model.hpp"
 

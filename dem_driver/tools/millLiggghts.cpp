@@ -31,7 +31,7 @@
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"
 #include "dem_driver/tools/averages_fix.hpp"
-#include "dem_driver/tools/ball_radius.hpp"
+#include "dem_driver/tools/ball_shape.hpp"
 #include "dem_driver/tools/contact_watch.hpp"
 #include "dem_driver/tools/stop.hpp"
 #include "dem_driver/tools/wall_velocities.hpp"
@@ -126,7 +126,8 @@ class FluidFix {
     for (int i = 0; i < balls; ++i) {
       const double* x = position[i];
       const double* v = atom.v[i];
-      const BallInFluid ball{{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * ball_radius(atom, i)};
+      const BallInFluid ball{
+          {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * ball_radius(atom, i), sphericities_.of(atom, i)};
       const FluidForce felt = forces_->on(ball);
       for (std::size_t k = 0; k < 3; ++k) force[i][k] = felt.pressure[k] + felt.drag[k];
       if (counts) sums_.add(ball, felt);
@@ -170,6 +171,7 @@ class FluidFix {
   bool keeps_ledger_ = false;
   std::optional<FluidLedgerFile> ledger_;  ///< of the first rank
   FluidSums sums_;
+  Sphericities sphericities_;
   long steps_ = 0;  ///< in the sums
 };
 

@@ -268,6 +268,14 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
   return charge;
 }
 
+std::vector<ShapeShare> shape_shares(const ChargeNumbers& charge) {
+  std::vector<ShapeShare> shares;
+  for (const BallCount& ball : charge.classes)
+    if (ball.simulated && ball.count > 0)
+      shares.push_back({ball.mass / charge.mass, ball.shape ? sphericity(*ball.shape) : 1});
+  return shares;
+}
+
 double ball_mass(const Mill& mill, double diameter) {
   return sphere_mass(mill.ball.density, diameter);
 }

@@ -182,8 +182,6 @@ void read_exchange(const Section& flow_section, const Mill& mill, Coupling& coup
   if (flow_section.has("exchange") && !has_voxels)
     flow_section.refuse("exchange", "this key with flow.coupling direct of a stirred mill only");
   if (!has_voxels) return;
-  if (mill.charge.has_shapes())
-    flow_section.refuse("coupling", "one_way for superquadrics: the forces of the flow are those on spheres");
   Section in = flow_section.optional_section("exchange", {"voxel_size", "counts"});
   const ChargeNumbers charge = count_charge(mill);
   const double size = std::max(charge.largest_diameter, exchange_voxel * charge.sauter_diameter);

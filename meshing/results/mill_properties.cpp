@@ -111,10 +111,9 @@ void write_start(Entries& out, const FlowStart& start) {
 /// crosswise sphericity is the same.
 std::string shapes_of(const ChargeNumbers& charge) {
   std::string words;
-  for (const BallCount& ball : charge.classes) {
-    if (!ball.simulated || ball.count == 0) continue;
-    const std::string round = exact(ball.shape ? sphericity(*ball.shape) : 1);
-    words += (words.empty() ? "(" : " (") + exact(ball.mass / charge.mass) + ' ' + round + ' ' + round + ')';
+  for (const ShapeShare& part : shape_shares(charge)) {
+    const std::string round = exact(part.sphericity);
+    words += (words.empty() ? "(" : " (") + exact(part.share) + ' ' + round + ' ' + round + ')';
   }
   return words.empty() ? "((1 1 1))" : '(' + words + ')';
 }

@@ -25,6 +25,13 @@ double hoelzer_sommerfeld(double phi, double re, const Shape& shape) {
   return single_ball(re, shape) * di_felice(phi, re) / di_felice(0, re);
 }
 
+double drag_over_mean(double re, const Shape& shape, const std::vector<ShapeShare>& bed) {
+  assert(!bed.empty());
+  double mean = 0;
+  for (const ShapeShare& part : bed) mean += part.share * single_ball(re, part.shape);
+  return single_ball(re, shape) / mean;
+}
+
 const Law& hoelzer_sommerfeld_law() {
   static const Law law = {"HoelzerSommerfeld",
                           [](double phi, double re) {

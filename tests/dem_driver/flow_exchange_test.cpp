@@ -11,6 +11,8 @@
 #include <string>
 
 #include "dem_driver/deck.hpp"
+#include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/superquadric.hpp"
 #include "meshing/surface/pi.hpp"
 #include "millfoam_version.hpp"
 #include "tests/dem_driver/small_mill.hpp"
@@ -320,6 +322,36 @@ TEST(FluidOrderOfAFlow, comes_back_from_its_file) {
   EXPECT_EQ(found.exchange->angular_velocity, mill.angular_velocity);
   EXPECT_EQ(found.exchange->ball_density, mill.ball.density);
   EXPECT_EQ(found.exchange->end, plan.end_step());
+  EXPECT_TRUE(found.fluid.shapes.bed.empty());
+}
+
+TEST(FluidOrderOfAFlow, has_the_shapes_of_the_balls_with_the_law_that_knows_them) {
+  const tests::TemporaryFolder folder;
+  meshing::Mill mill = tests::small_mill();
+  meshing::SizeClass& size = mill.charge.classes.front();
+  mill.charge.classes.resize(1);
+  meshing::SizeClass blunt = size;
+  size.mass = meshing::ball_mass(mill, size.diameter);
+  blunt.shape = meshing::Superquadric{{size.diameter / 2, size.diameter / 2, size.diameter / 2}, 4};
+  blunt.mass = 3 * size.mass;
+  mill.charge.classes.push_back(blunt);
+  EXPECT_TRUE(shape_drag_of(mill).bed.empty());
+  mill.flow.law = "HoelzerSommerfeld";
+  FluidOrder order{{}, 1e-5, 1, std::nullopt};
+  order.fluid.kind = FluidKind::slurry;
+  order.fluid.shapes = shape_drag_of(mill);
+  const auto file = folder.path() / "fluid.json";
+  write_fluid_order(file, mill, order);
+  const ShapeDrag found = read_fluid_order(file).fluid.shapes;
+  ASSERT_EQ(found.bed.size(), 2U);
+  EXPECT_DOUBLE_EQ(found.bed[0].share, 0.25);
+  EXPECT_DOUBLE_EQ(found.bed[0].shape.sphericity, 1);
+  EXPECT_DOUBLE_EQ(found.bed[1].share, 0.75);
+  EXPECT_DOUBLE_EQ(found.bed[1].shape.sphericity, meshing::sphericity(*blunt.shape));
+  EXPECT_EQ(found.slurry.density, mill.slurry.density);
+  EXPECT_EQ(found.slurry.viscosity, mill.slurry.plastic_viscosity);
+  mill.charge.classes.resize(1);
+  EXPECT_TRUE(shape_drag_of(mill).bed.empty());
 }
 
 TEST(FluidOrderOfAFlow, has_a_restart_file_at_least_at_every_record) {

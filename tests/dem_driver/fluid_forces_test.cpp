@@ -206,6 +206,39 @@ TEST_F(FluidForcesTest, OfAMixtureGiveEachSizeItsOwnDrag) {
   EXPECT_NEAR(forces.on(large).drag[0], large.volume() * factor * 200, 1e-9 * large.volume() * 200);
 }
 
+TEST_F(FluidForcesTest, GiveEachShapeItsOwnDrag) {
+  const auto uniform = [](const Vector&) {
+    Felt felt;
+    felt.pressure = {0, 3, 0};
+    felt.fluid_velocity = {0.1, 0, 0};
+    felt.exchange = 2000;
+    felt.solidity = 0.6;
+    return felt;
+  };
+  const drag::Shape round{1, 1}, blunt{0.8, 0.8};
+  const drag::Fluid slurry{1239, 0.0014};
+  FluidSettings fluid;
+  fluid.kind = FluidKind::slurry;
+  fluid.file = write({uniform});
+  fluid.file_id = file_hash(fluid.file);
+  fluid.shapes = {{{0.4, round}, {0.6, blunt}}, slurry};
+  const auto forces = make_fluid_forces(fluid);
+  // A slip of 0.1 - 0.4 m/s along x and 0.4 along y
+  BallInFluid ball{{0.2, 0.2, 0.1}, {0.4, -0.4, 0}, 0.004};
+  const double re = drag::reynolds(0.6, 0.5, ball.diameter, slurry), volume = ball.volume();
+  const auto law = [&](const drag::Shape& shape) { return drag::hoelzer_sommerfeld(0.6, re, shape); };
+  double mean = 0;
+  for (const drag::Shape& shape : {round, blunt}) {
+    ball.sphericity = shape.sphericity;
+    const FluidForce found = forces->on(ball);
+    const double expected = law(shape) / (0.4 * law(round) + 0.6 * law(blunt)) * volume * 2000;
+    expect_near(found.drag, {-0.3 * expected, 0.4 * expected, 0}, 1e-9 * expected);
+    EXPECT_NEAR(found.pressure[1], 3 * volume, 1e-12 * volume);
+    mean += (shape.sphericity == 1 ? 0.4 : 0.6) * found.drag[1];
+  }
+  EXPECT_NEAR(mean, volume * 2000 * 0.4, 1e-9 * mean);
+}
+
 TEST_F(FluidForcesTest, OfAFileWithoutWindowsAreTheMean) {
   // forces.h5 of a coupled mill
   const auto file = write({pushing});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "openfoam_module/drag/drag_laws.hpp"
 
@@ -37,6 +38,20 @@ TEST(Nonspherical, CoefficientHasTheShapesFactor) {
   const double spheres = drag::exchange_coefficient(drag::hoelzer_sommerfeld_law(), phi, v, d, slurry);
   EXPECT_DOUBLE_EQ(drag::exchange_coefficient(drag::Shape{1, 1}, phi, v, d, slurry), spheres);
   EXPECT_LT(spheres, expected);
+}
+
+TEST(Nonspherical, OneShapesDragOverTheMeanIsThatOfTheLaw) {
+  const drag::Shape round{1, 1}, blunt{0.8, 0.85};
+  const std::vector<drag::ShapeShare> bed{{0.25, round}, {0.75, blunt}};
+  for (const double phi : {0.0, 0.3, 0.6})
+    for (const double re : {0.0, 1.0, 150.0, 1e4}) {
+      const double of_round = drag::hoelzer_sommerfeld(phi, re, round);
+      const double of_blunt = drag::hoelzer_sommerfeld(phi, re, blunt);
+      const double mean = 0.25 * of_round + 0.75 * of_blunt;
+      EXPECT_NEAR(drag::drag_over_mean(re, round, bed), of_round / mean, 1e-13) << re;
+      EXPECT_NEAR(drag::drag_over_mean(re, blunt, bed), of_blunt / mean, 1e-13) << re;
+    }
+  EXPECT_EQ(drag::drag_over_mean(100, blunt, {{1, blunt}}), 1);
 }
 
 TEST(Nonspherical, SpheresInABedFeelAtMost23PerCentLessThanDiFelices) {

@@ -16,8 +16,8 @@ MAY_USE = {
     "meshing/surface": {"meshing/files"},
     "meshing": {"meshing/files", "meshing/surface",
                 "openfoam_module/drag"},  # the names of the laws, which are only in its table
-    # A flow's file, out of which balls take their forces
-    "dem_driver": {"averaging", "meshing", "meshing/files", "meshing/surface"},
+    # A flow's file, out of which balls take their forces; the drag of each shape
+    "dem_driver": {"averaging", "meshing", "meshing/files", "meshing/surface", "openfoam_module/drag"},
     # millDem takes the options of millAverage
     "dem_driver/tools": {"dem_driver", "averaging", "averaging/tools", "meshing", "meshing/files", "meshing/surface"},
     "averaging": {"meshing/files", "meshing/surface"},

@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 from mill_case import run_mill
+from millfoam.coupling.passes import direct_case, given_force
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.run import RunError, run
 from stirred_mill import UPPER_PINS, small_mill
@@ -31,6 +32,13 @@ MILL = small_mill("""
 dem: {youngs_modulus: 5.0e6, settle_time: 0.1, duration: 0.5, record_interval: 0.005}
 averages: {start: 0.2, window: 0.3}
 """, (UPPER_PINS, ""), ("length: 0.050", "length: 0.047"), ("level: 0.035", "level: 0.016"))
+SLURRY_MILL = small_mill("""
+dem: {youngs_modulus: 5.0e6, settle_time: 0.05, duration: 0.04, record_interval: 0.0025}
+averages: {start: 0.02}
+slurry: {density: 1379, plastic_viscosity: 0.1, yield_stress: 0, level: 0.036}
+resolution: {cell_size: 0.0035}
+flow: {law: HoelzerSommerfeld, duration: 0.015, write_interval: 0.0075, averages: {start: 0.005}, coupling: direct}
+""", ("height: 0.025", "height: 0.033"), ("level: 0.035", "level: 0.036"))
 ROUND = "charge.shape={half_axes: [1, 1, 1], blockiness: 2}"  # a sphere, computed as a superquadric
 BLOCK = "charge.shape={half_axes: [2.55269, 2.04215, 2.04215], roundness: 0.571429}"
 
@@ -259,6 +267,44 @@ class StirredMill(unittest.TestCase):
         # LIGGGHTS searches the points of contact once more where a run resumes, so that round-off grows from there
         for column in ("kinetic_J", "torque_Nm"):
             np.testing.assert_allclose(parts[column][:record + 3], whole[column][:record + 3], rtol=1e-3)
+
+
+@unittest.skipUnless(PROGRAM, "not built: scripts/setup --superquadrics")
+class InSlurry(unittest.TestCase):
+    """Balls of two shapes and slurry at the same time, by the law that knows shapes."""
+    CHARGE = ("charge={classes: [{diameter: 0.0036, number: 200}, {diameter: 0.0036, number: 600, shape: {half_axes: "
+              "[2.70274, 2.00172, 1.67844], roundness: 0.333333}}]}")
+
+    @classmethod
+    def setUpClass(cls):
+        cls.case = Path(tempfile.mkdtemp(prefix="superquadrics-in-slurry-"))
+        cls.addClassCleanup(shutil.rmtree, cls.case)
+        (cls.case / "mill.yaml").write_text(SLURRY_MILL)
+        run_mill(cls.case, cls.case / "mill.yaml", cls.CHARGE)
+        cls.direct = cls.case / "direct"
+
+    def test_the_balls_take_what_the_flow_gives(self):
+        given = given_force(direct_case(self.direct))
+        rows = read_csv(self.direct / "dumps" / "fluid.csv")
+        within = rows["time_s"] > 0.04 + 0.005
+        taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
+        # The balls feel each of the flow's steps one step later
+        self.assertLess(np.linalg.norm(given - taken) / np.linalg.norm(given), 0.08)
+        self.assertEqual(np.max(rows["balls_without_field"]), 0)
+
+    def test_the_balls_know_all_shapes_and_the_slurry(self):
+        order = read_json(self.direct / "dem" / "fluid.json", "fluid")
+        self.assertEqual(order["slurry"], {"density_kg_m3": 1379, "viscosity_Pa_s": 0.1})
+        np.testing.assert_allclose([part["share"] for part in order["shapes"]], [0.25, 0.75], rtol=1e-12)
+        charge = read_json(self.case / "mill.json", "mill")["derived"]["charge"]
+        np.testing.assert_allclose([part["sphericity"] for part in order["shapes"]],
+                                   [1, charge["classes"][1]["shape"]["sphericity"]], rtol=1e-12)
+
+    def test_the_flow_sees_the_volume_of_the_balls(self):
+        steps = read_csv(self.direct / "postProcessing" / "flow" / "0" / "steps.csv")
+        # But for what the spheres that stand for flat balls reach into the walls
+        np.testing.assert_allclose(steps["solids_m3"] + steps["without_room_m3"], 800 * np.pi / 6 * 0.0036 ** 3,
+                                   rtol=0.01)
 
 
 class WithoutTheProgram(unittest.TestCase):
