@@ -27,6 +27,14 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 }
 
 
+Foam::tmp<Foam::volScalarField> Foam::slurryFlow::carriedMass() const
+{
+    const surfaceFilms& films = surface_.films();
+    return voidage_ * (1 - films.loose() - films.film()) *
+           (pressure_.inertia() - pressure_.density());
+}
+
+
 Foam::tmp<Foam::volScalarField> Foam::slurryFlow::dragForce(
     const volScalarField& alpha, const volVectorField& U,
     volVectorField& solids) const
@@ -203,6 +211,10 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
     if (auto lack = turning_.lack())
     {
         equation -= density.internalField() * lack;
+    }
+    if (auto centripetal = turning_.centripetal())
+    {
+        equation -= carriedMass()().internalField() * centripetal;
     }
     equation.relax();
     fvOptions_.constrain(equation);

@@ -77,6 +77,27 @@ Foam::tmp<Foam::volVectorField::Internal> Foam::turningDerivative::lack() const
 }
 
 
+Foam::tmp<Foam::volVectorField::Internal>
+Foam::turningDerivative::centripetal() const
+{
+    if (!last_.valid())
+    {
+        return nullptr;
+    }
+    auto tresult = tmp<volVectorField::Internal>::New(
+        IOobject("centripetal", U_.time().timeName(), U_.mesh()), U_.mesh(),
+        dimensionedVector(dimAcceleration, Zero));
+    const vectorField& centres = U_.mesh().cellCentres();
+    forAll(centres, celli)
+    {
+        const vector arm(centres[celli].x(), centres[celli].y(), 0);
+        const scalar spin = (arm ^ U_[celli]).z() / max(magSqr(arm), VSMALL);
+        tresult.ref()[celli] = -sqr(spin) * arm;
+    }
+    return tresult;
+}
+
+
 void Foam::turningDerivative::keep()
 {
     if (last_.valid())
