@@ -11,7 +11,7 @@ namespace millfoam::dem_driver {
 /// Drag on balls of several shapes in a flow whose drag is the mean over the shapes.
 struct ShapeDrag {
   std::vector<drag::ShapeShare> bed = {};  ///< all shapes; empty: each ball feels the mean
-  drag::Fluid slurry = {};                 ///< its plastic viscosity
+  drag::Fluid slurry = {};                 ///< with its plastic viscosity
 
   /// Drag on a ball over the mean; 1 without a bed.
   /// @param sphericity  of the ball, in random orientation
