@@ -77,6 +77,15 @@ Foam::tmp<Foam::volVectorField::Internal> Foam::turningDerivative::lack() const
 }
 
 
+Foam::vector Foam::turningDerivative::centripetal(
+    const point& x, const vector& u, const scalar size)
+{
+    const vector arm(x.x(), x.y(), 0);
+    const scalar spin = (arm ^ u).z() / max(magSqr(arm), sqr(size));
+    return -sqr(spin) * arm;
+}
+
+
 Foam::tmp<Foam::volVectorField::Internal>
 Foam::turningDerivative::centripetal() const
 {
@@ -90,9 +99,8 @@ Foam::turningDerivative::centripetal() const
     const vectorField& centres = U_.mesh().cellCentres();
     forAll(centres, celli)
     {
-        const vector arm(centres[celli].x(), centres[celli].y(), 0);
-        const scalar spin = (arm ^ U_[celli]).z() / max(magSqr(arm), VSMALL);
-        tresult.ref()[celli] = -sqr(spin) * arm;
+        const scalar size = cbrt(U_.mesh().V()[celli]);
+        tresult.ref()[celli] = centripetal(centres[celli], U_[celli], size);
     }
     return tresult;
 }
