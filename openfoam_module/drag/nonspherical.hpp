@@ -31,6 +31,7 @@ double hoelzer_sommerfeld(double phi, double re, const Shape& shape);
 
 /// Drag on a ball of one shape over the mean drag on the balls of a bed, all of one volume and at one Re, by
 /// the law above: the function of the voidage is the same for all.
+/// @param re  Reynolds number as in drag_laws.hpp
 /// @param shape  of the ball
 /// @param bed  shapes of the bed's balls with their shares, which add up to 1; not empty
 double drag_over_mean(double re, const Shape& shape, const std::vector<ShapeShare>& bed);
