@@ -123,8 +123,8 @@ void FlowExchange::check(const BallFields& fields) const {
     if (const auto voxel = not_finite(*values, width, fields.inside))
       throw SlurryFileError(source + " are not finite in " + voxel_in_words(order_.grid, *voxel) +
                             ": the flow has diverged");
-  const DragLimits limits{polydispersity_, order_.smallest_ball, order_.ball_density, timestep_,
-                          order_.rayleigh_fraction};
+  const DragLimits limits{polydispersity_, order_.smallest_ball,     order_.ball_density,
+                          timestep_,       order_.rayleigh_fraction, shapes_.largest_factor()};
   require_slow_drag(fields, order_.grid, limits, source);
 }
 

@@ -65,7 +65,8 @@ void require_slow_drag(const averaging::BallFields& fields, const averaging::Box
     if (!(fields.inside[i] > 0)) continue;
     const double d32 = fields.diameter[i];
     const bool mixture = limits.polydispersity && d32 > 0;
-    const double factor = mixture ? mixture_factor(limits.smallest_ball / d32, fields.solidity[i]) : 1;
+    const double size = mixture ? mixture_factor(limits.smallest_ball / d32, fields.solidity[i]) : 1;
+    const double factor = size * limits.shape_factor;
     if (factor * fields.exchange[i] <= strongest) continue;
     strongest = factor * fields.exchange[i];
     where = i;
@@ -88,8 +89,12 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   const averaging::SlurryReader reader(file);
   require_mill(reader, mill);
   require_cover(reader, mill.geometry);
-  const DragLimits limits{reader.header().polydispersity, smallest_simulated(mill), mill.ball.density,
-                          plan.step.value, mill.dem.rayleigh_fraction};
+  const DragLimits limits{reader.header().polydispersity,
+                          smallest_simulated(mill),
+                          mill.ball.density,
+                          plan.step.value,
+                          mill.dem.rayleigh_fraction,
+                          shape_drag_of(mill).largest_factor()};
   const std::string source = reader.path().string();
   if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader.grid(), limits, source);

@@ -23,6 +23,7 @@ struct DragLimits {
   double ball_density = 0;       ///< kg/m^3
   double timestep = 0;           ///< of the DEM run, s
   double rayleigh_fraction = 0;  ///< dem.rayleigh_fraction, by which the time-step is chosen
+  double shape_factor = 1;       ///< largest exchange of a ball over that of the flow, by its shape
 };
 
 /// Throws averaging::SlurryFileError where the drag stops the smallest ball within too few steps; the message

@@ -19,7 +19,7 @@ struct BallInFluid {
   Vector position = {};   ///< of its centre, lab frame, m
   Vector velocity = {};   ///< m/s
   double diameter = 0;    ///< of the sphere of equal volume, m
-  double sphericity = 1;  ///< in random orientation
+  double sphericity = 1;  ///< also crosswise, as orientations are random
   double volume() const;  ///< m^3
 };
 
@@ -63,8 +63,7 @@ double share_below(double height, double radius);
 /// The force on a ball where it feels this: F = V (pressure_force + drag_force - K v). With polydispersity,
 /// drag_force and K of a ball of diameter d are e/y + phi + 0.064 e y times those of the flow, y = d/d32, phi
 /// the solidity, e = 1 - phi (R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53 (2007) 489).
-/// With shapes, they are also as many times those of the flow as `ShapeDrag::factor` says at the ball's own
-/// slip |drag_force/K - v|.
+/// With shapes, they are also multiplied by `ShapeDrag::factor` at the ball's own slip |drag_force/K - v|.
 FluidForce force_on(const BallInFluid& ball, const FeltFluid& felt, bool polydispersity,
                     const ShapeDrag& shapes = {});
 

@@ -14,11 +14,14 @@ struct ShapeDrag {
   drag::Fluid slurry = {};                 ///< with its plastic viscosity
 
   /// Drag on a ball over the mean; 1 without a bed.
-  /// @param sphericity  of the ball, in random orientation
+  /// @param sphericity  of the ball, also crosswise
   /// @param solidity  around the ball
   /// @param slip  m/s
   /// @param diameter  of the sphere of equal volume, m
   double factor(double sphericity, double solidity, double slip, double diameter) const;
+
+  /// The largest factor of a ball, which the least spherical ones have at high Reynolds numbers.
+  double largest_factor() const;
 };
 
 /// Of a mill with balls that are not spheres and the law that knows shapes; else without a bed.

@@ -268,8 +268,8 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
   return charge;
 }
 
-std::vector<ShapeShare> shape_shares(const ChargeNumbers& charge) {
-  std::vector<ShapeShare> shares;
+std::vector<ClassShape> class_shapes(const ChargeNumbers& charge) {
+  std::vector<ClassShape> shares;
   for (const BallCount& ball : charge.classes)
     if (ball.simulated && ball.count > 0)
       shares.push_back({ball.mass / charge.mass, ball.shape ? sphericity(*ball.shape) : 1});

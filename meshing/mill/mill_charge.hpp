@@ -59,13 +59,13 @@ struct ChargeNumbers {
 ChargeNumbers count_charge(const Mill& mill);
 
 /// Balls of one class, as their drag needs them.
-struct ShapeShare {
+struct ClassShape {
   double share = 0;       ///< of the volume of all balls
-  double sphericity = 1;  ///< in random orientation also crosswise
+  double sphericity = 1;  ///< also crosswise, as orientations are random
 };
 
 /// The classes that are simulated and have balls; empty without balls.
-std::vector<ShapeShare> shape_shares(const ChargeNumbers& charge);
+std::vector<ClassShape> class_shapes(const ChargeNumbers& charge);
 
 /// Mass of one ball, density π/6 d³, kg.
 double ball_mass(const Mill& mill, double diameter);

@@ -111,7 +111,7 @@ void write_start(Entries& out, const FlowStart& start) {
 /// crosswise sphericity is the same.
 std::string shapes_of(const ChargeNumbers& charge) {
   std::string words;
-  for (const ShapeShare& part : shape_shares(charge)) {
+  for (const ClassShape& part : class_shapes(charge)) {
     const std::string round = exact(part.sphericity);
     words += (words.empty() ? "(" : " (") + exact(part.share) + ' ' + round + ' ' + round + ')';
   }

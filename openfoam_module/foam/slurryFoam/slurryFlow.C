@@ -199,6 +199,7 @@ Foam::slurryFlow::slurryFlow(
   forces_(
       continued<volVectorField>("forceAcceleration", mesh, dimAcceleration)),
   turning_(U_, g_.value()),
+  carryingForce_(),
   projectedInertia_(
       IOobject("projectedInertia", mesh.time().timeName(), mesh),
       pressure_.inertia().internalField()),

@@ -27,11 +27,13 @@ Foam::tmp<Foam::volScalarField> Foam::slurryFlow::massDensity() const
 }
 
 
-Foam::tmp<Foam::volScalarField> Foam::slurryFlow::carriedMass() const
+Foam::tmp<Foam::volScalarField::Internal>
+Foam::slurryFlow::carriedDensity() const
 {
     const surfaceFilms& films = surface_.films();
-    return voidage_ * (1 - films.loose() - films.film()) *
-           (pressure_.inertia() - pressure_.density());
+    return (1 - films.loose().internalField() - films.film().internalField()) *
+           (pressure_.inertia().internalField() -
+            pressure_.density().internalField());
 }
 
 
@@ -77,11 +79,17 @@ Foam::tmp<Foam::vectorField> Foam::slurryFlow::pressureForce() const
     const volVectorField contraction(
         pressure_.reconstruct(contractionFlux_) /
         (mesh_.time().deltaT() * voidage_));
-    return projectedInertia_.field() *
-               (forces_.primitiveField() - contraction.primitiveField() -
-                g_.value()) +
-           force.primitiveField() *
-               (U_.primitiveField() - solids.primitiveField());
+    tmp<vectorField> tresult =
+        projectedInertia_.field() *
+            (forces_.primitiveField() - contraction.primitiveField() -
+             g_.value()) +
+        force.primitiveField() *
+            (U_.primitiveField() - solids.primitiveField());
+    if (carryingForce_.valid())
+    {
+        tresult.ref() += carryingForce_().field();
+    }
+    return tresult;
 }
 
 
@@ -214,7 +222,9 @@ void Foam::slurryFlow::predict(const pimpleControl& pimple)
     }
     if (auto centripetal = turning_.centripetal())
     {
-        equation -= carriedMass()().internalField() * centripetal;
+        carryingForce_ = carriedDensity() * centripetal;
+        equation -=
+            density.internalField() / rho_.internalField() * carryingForce_();
     }
     equation.relax();
     fvOptions_.constrain(equation);

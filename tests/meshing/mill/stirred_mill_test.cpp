@@ -229,9 +229,8 @@ TEST(StirredMill, balls_and_slurry_meet_on_voxels_at_rest_that_cover_the_shell) 
   EXPECT_TRUE(says(refusal(stirred_mill, {slurry, size}), "flow.coupling direct of a stirred mill only"));
   EXPECT_TRUE(
       says(refusal(stirred_mill, {slurry, direct, "flow.exchange.voxel_size=0.5"}), "up to the radius"));
-  EXPECT_TRUE(
-      says(refusal(stirred_mill, {slurry, direct, "charge.shape={half_axes: [1.1, 1, 0.9], blockiness: 3}"}),
-           "the forces of the flow are those on spheres"));
+  const std::string shape = "charge.shape={half_axes: [1.1, 1, 0.9], blockiness: 3}";
+  EXPECT_TRUE(read(stirred_mill, {slurry, direct, shape}).flow.coupling.voxels);
 }
 
 TEST(StirredMill, rings_can_be_at_rest_and_have_other_numbers) {
