@@ -89,12 +89,13 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   const averaging::SlurryReader reader(file);
   require_mill(reader, mill);
   require_cover(reader, mill.geometry);
+  const ShapeDrag shapes = shape_drag_of(mill);
   const DragLimits limits{reader.header().polydispersity,
                           smallest_simulated(mill),
                           mill.ball.density,
                           plan.step.value,
                           mill.dem.rayleigh_fraction,
-                          shape_drag_of(mill).largest_factor()};
+                          shapes.largest_factor()};
   const std::string source = reader.path().string();
   if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader.grid(), limits, source);
@@ -108,7 +109,7 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   fluid.file = std::filesystem::absolute(file);
   fluid.file_id = file_hash(file);
   fluid.time = time;
-  fluid.shapes = shape_drag_of(mill);
+  fluid.shapes = shapes;
   return fluid;
 }
 

@@ -7,6 +7,10 @@ import signal
 import subprocess
 from pathlib import Path
 
+import numpy as np
+
+from millfoam.coupling.passes import direct_case, given_force
+from millfoam.files.data_files import read_csv
 from millfoam.run import run
 from waiting import wait_for
 
@@ -23,6 +27,16 @@ def run_mill(folder, mill, *changes, until=None, charge=None):
     options += ["--until", until] if until else []
     options += ["--charge", charge] if charge else []
     return run(folder, "bash", "-c", STAGES, "run_mill", folder, SCRIPTS, ".", mill, *options)
+
+
+def force_difference(direct, begin):
+    """Relative difference between the mean force that a flow gives to balls that move at the same time, and the one
+    that they take from a DEM time on, s; direct: folder of both."""
+    given = given_force(direct_case(direct))
+    rows = read_csv(direct / "dumps" / "fluid.csv")
+    within = rows["time_s"] > begin
+    taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
+    return np.linalg.norm(given - taken) / np.linalg.norm(given)
 
 
 def is_free(lock):
