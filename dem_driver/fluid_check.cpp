@@ -90,12 +90,9 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   require_mill(reader, mill);
   require_cover(reader, mill.geometry);
   const ShapeDrag shapes = shape_drag_of(mill);
-  const DragLimits limits{reader.header().polydispersity,
-                          smallest_simulated(mill),
-                          mill.ball.density,
-                          plan.step.value,
-                          mill.dem.rayleigh_fraction,
-                          shapes.largest_factor()};
+  const DragLimits limits{
+      reader.header().polydispersity, smallest_simulated(mill), mill.ball.density, plan.step.value,
+      mill.dem.rayleigh_fraction,     shapes.largest_factor()};
   const std::string source = reader.path().string();
   if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader.grid(), limits, source);
