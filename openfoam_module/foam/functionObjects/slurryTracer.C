@@ -6,20 +6,8 @@
 #include "slurryTracer.H"
 #include "addToRunTimeSelectionTable.H"
 #include "clock.H"
-#include "CMULES.H"
-#include "fvcFlux.H"
-#include "fvcSurfaceIntegrate.H"
-#include "fvmSup.H"
-#include "gaussConvectionScheme.H"
-#include "gaussLaplacianScheme.H"
 #include "IOdictionary.H"
-#include "linear.H"
-#include "mixedFvPatchFields.H"
-#include "oneField.H"
 #include "Switch.H"
-#include "uncorrectedSnGrad.H"
-#include "upwind.H"
-#include "zeroField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -38,26 +26,8 @@ addToRunTimeSelectionTable(functionObject, slurryTracer, dictionary);
 namespace Foam
 {
 
-//- Share of a cell below which it holds no slurry that has a concentration
-static constexpr scalar empty_ = 1e-9;
-
 //- Share of a cell from which on its slurry's concentration is judged
 static constexpr scalar judged_ = 1e-3;
-
-//- Patch types: coupled ones keep theirs, others get a value or its gradient
-static wordList tracerPatches(const fvMesh& mesh)
-{
-    wordList types(mesh.boundary().size(), mixedFvPatchField<scalar>::typeName);
-    forAll(types, patchi)
-    {
-        const fvPatch& patch = mesh.boundary()[patchi];
-        if (polyPatch::constraintType(patch.type()))
-        {
-            types[patchi] = patch.type();
-        }
-    }
-    return types;
-}
 
 } // End namespace Foam
 
@@ -81,9 +51,9 @@ void Foam::functionObjects::slurryTracer::check(const dictionary& dict) const
     {
         refuse("length", length_, "more than 0 s");
     }
-    if (!(D_ >= 0))
+    if (!(tracer_.D() >= 0))
     {
-        refuse("D", D_, "0 m2/s or more");
+        refuse("D", tracer_.D(), "0 m2/s or more");
     }
     fields_.requireWholeFlux();
     const auto* bed = mesh_.findObject<IOdictionary>("bedProperties");
@@ -141,26 +111,8 @@ void Foam::functionObjects::slurryTracer::begin()
             << ", whose feed begins at " << begin_
             << " s; expected begin at this time or later" << exit(FatalError);
     }
-    if (start.valid())
-    {
-        C_.primitiveFieldRef() = start();
-    }
-    if (gMin(C_.primitiveField()) < 0 || gMax(C_.primitiveField()) > 1)
-    {
-        FatalErrorInFunction
-            << "the field " << name() << " of time " << time << " reaches from "
-            << gMin(C_.primitiveField()) << " to " << gMax(C_.primitiveField())
-            << "; expected a concentration from 0 to 1" << exit(FatalError);
-    }
-    if (held.valid())
-    {
-        content_ = held() * mesh_.V();
-    }
-    else
-    {
-        content_ = C_.primitiveField() * fields_.volumes();
-    }
-    first_ = getProperty<scalar>("first", gSum(content_));
+    tracer_.begin(start, held);
+    first_ = getProperty<scalar>("first", gSum(tracer_.content()));
 }
 
 
@@ -188,109 +140,6 @@ Foam::scalar Foam::functionObjects::slurryTracer::feed() const
     const scalar from = max(last - deltaT, begin_);
     const scalar to = min(last, begin_ + length_);
     return max(to - from, scalar(0)) / deltaT;
-}
-
-
-void Foam::functionObjects::slurryTracer::setBoundary(
-    const surfaceScalarField& F)
-{
-    const scalar value = feed();
-    volScalarField::Boundary& C = C_.boundaryFieldRef();
-    forAll(C, patchi)
-    {
-        if (isA<mixedFvPatchField<scalar>>(C[patchi]))
-        {
-            auto& patch = refCast<mixedFvPatchField<scalar>>(C[patchi]);
-            patch.refValue() = value;
-            patch.refGrad() = Zero;
-            patch.valueFraction() = neg(F.boundaryField()[patchi]);
-        }
-    }
-    C_.correctBoundaryConditions();
-}
-
-
-Foam::tmp<Foam::surfaceScalarField>
-Foam::functionObjects::slurryTracer::dispersion() const
-{
-    auto tresult = tmp<surfaceScalarField>::New(
-        IOobject("tracerDispersion", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimArea / dimTime, Zero));
-    surfaceScalarField& result = tresult.ref();
-    volScalarField slurry(
-        IOobject("slurryShare", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimless, Zero));
-    slurry.primitiveFieldRef() =
-        fields_.voidage() * fields_.alpha().primitiveField();
-    slurry.correctBoundaryConditions();
-    // Of two cells the one with less slurry: none passes the surface
-    forAll(result, facei)
-    {
-        result[facei] = D_ * min(slurry[mesh_.owner()[facei]],
-                                 slurry[mesh_.neighbour()[facei]]);
-    }
-    forAll(result.boundaryField(), patchi)
-    {
-        const fvPatchScalarField& patch = slurry.boundaryField()[patchi];
-        if (patch.coupled())
-        {
-            result.boundaryFieldRef()[patchi] =
-                D_ * min(patch.patchInternalField()(),
-                         patch.patchNeighbourField()());
-        }
-    }
-    return tresult;
-}
-
-
-Foam::tmp<Foam::surfaceScalarField> Foam::functionObjects::slurryTracer::move(
-    const surfaceScalarField& F, const scalarField& slurry)
-{
-    const dimensionedScalar deltaT(mesh_.time().deltaT());
-    volScalarField::Internal share(
-        IOobject("tracerShare", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimless, Zero));
-    // In empty cells C is that of the step before
-    share.field() = max((slurry / mesh_.V())(), empty_);
-    volScalarField::Internal before(
-        IOobject("tracerBefore", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar(dimless, Zero));
-    before.field() = content_ / mesh_.V() +
-                     (share.field() - slurry / mesh_.V()) * C_.primitiveField();
-
-    const tmp<surfaceScalarField> conductance(D_ > 0 ? dispersion() : nullptr);
-    const upwind<scalar> upstream(mesh_, F);
-    fv::gaussConvectionScheme<scalar> convection(
-        mesh_, F,
-        tmp<surfaceInterpolationScheme<scalar>>(new upwind<scalar>(mesh_, F)));
-    fvScalarMatrix equation(
-        fvm::Sp(share / deltaT, C_) + convection.fvmDiv(F, C_) ==
-        before / deltaT);
-    if (D_ > 0)
-    {
-        fv::gaussLaplacianScheme<scalar, scalar> diffusion(
-            mesh_,
-            tmp<surfaceInterpolationScheme<scalar>>(new linear<scalar>(mesh_)),
-            tmp<fv::snGradScheme<scalar>>(
-                new fv::uncorrectedSnGrad<scalar>(mesh_)));
-        equation -= diffusion.fvmLaplacian(conductance(), C_);
-    }
-    equation.solve(mesh_.solver(name()));
-
-    surfaceScalarField flux(F * upstream.interpolate(C_));
-    if (D_ > 0)
-    {
-        flux -= conductance() * mesh_.magSf() *
-                fv::uncorrectedSnGrad<scalar>(mesh_).snGrad(C_);
-    }
-    surfaceScalarField better(
-        fvc::flux(F, C_, "div(alphaPhi," + name() + ')') -
-        F * upstream.interpolate(C_));
-    MULES::limitCorr(
-        1 / deltaT.value(), share, C_, F, better, zeroField(), zeroField(),
-        oneField(), zeroField());
-    flux += better;
-    return tmp<surfaceScalarField>::New(flux);
 }
 
 
@@ -329,12 +178,7 @@ Foam::functionObjects::slurryTracer::slurryTracer(
   fields_(mesh_, dict),
   begin_(dict.lookupOrDefault<scalar>("begin", 0)),
   length_(dict.lookupOrDefault<scalar>("length", GREAT)),
-  D_(dict.lookupOrDefault<scalar>("D", 0)),
-  C_(IOobject(
-         name, runTime.timeName(), mesh_, IOobject::NO_READ,
-         IOobject::NO_WRITE),
-     mesh_, dimensionedScalar(dimless, Zero), tracerPatches(mesh_)),
-  content_(mesh_.nCells(), Zero),
+  tracer_(name, fields_, dict.lookupOrDefault<scalar>("D", 0)),
   in_(0),
   out_(0),
   slurryIn_(0),
@@ -354,33 +198,14 @@ Foam::functionObjects::slurryTracer::slurryTracer(
 
 bool Foam::functionObjects::slurryTracer::execute()
 {
-    const surfaceScalarField& F = fields_.flux();
-    const scalarField slurry(fields_.volumes());
-    setBoundary(F);
-    const surfaceScalarField flux(move(F, slurry));
-
-    // By what passed the faces, and not by the equation's solution
-    content_ -= mesh_.time().deltaTValue() *
-                fvc::surfaceIntegrate(flux)().primitiveField() * mesh_.V();
-    scalarField& C = C_.primitiveFieldRef();
-    forAll(C, celli)
-    {
-        if (slurry[celli] > empty_ * mesh_.V()[celli])
-        {
-            C[celli] = content_[celli] / slurry[celli];
-        }
-    }
-    // Of next to no slurry the share is round-off
-    C = min(max(C, scalar(0)), scalar(1));
-    C_.correctBoundaryConditions();
-    addPatches(F, flux);
+    addPatches(fields_.flux(), tracer_.move(feed()));
 
     // The fields of this time were written before
     if (mesh_.time().writeTime())
     {
-        C_.write();
-        volScalarField held(heldName(), C_);
-        held.primitiveFieldRef() = content_ / mesh_.V();
+        tracer_.C().write();
+        volScalarField held(heldName(), tracer_.C());
+        held.primitiveFieldRef() = tracer_.content() / mesh_.V();
         held.write();
     }
     setProperty("first", first_);
@@ -399,14 +224,14 @@ bool Foam::functionObjects::slurryTracer::write()
     {
         if (slurry[celli] > judged_ * mesh_.V()[celli])
         {
-            const scalar share = content_[celli] / slurry[celli];
+            const scalar share = tracer_.content()[celli] / slurry[celli];
             smallest = min(smallest, share);
             largest = max(largest, share);
         }
     }
     reduce(smallest, minOp<scalar>());
     reduce(largest, maxOp<scalar>());
-    const scalar tracer = gSum(content_);
+    const scalar tracer = gSum(tracer_.content());
     writeCurrentTime(file());
     for (const scalar value :
          {tracer, in_, out_, slurryIn_, slurryOut_, allIn_, allOut_,

@@ -6,8 +6,6 @@
 #include "slurryFlow.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
-#include "knownEntries.H"
-#include "laminarModel.H"
 #include "mathematicalConstants.H"
 #include "mixtureFluids.H"
 #include "staticFvMesh.H"
@@ -64,90 +62,6 @@ continued(const word& name, const fvMesh& mesh, const dimensionSet& dimensions)
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::slurryFlow::readBed()
-{
-    Info << "Bed: " << bed_.description().c_str() << nl;
-    if (!bedDict_.dictionary::empty())
-    {
-        wordList known({"drag", "voidageRate", "ballDensity", "poreSuction"});
-        known.append(movingBed::entries());
-        refuseMisspelt(bedDict_, known);
-        bed_.requireSolids();
-        if (voidageRate_ && bed_.jumps())
-        {
-            FatalIOErrorInFunction(bedDict_)
-                << "inTime is window: the voidage jumps between windows, and"
-                << " its rate, which moves the fluid, is infinite; expected"
-                << " inTime smooth, or voidageRate no" << exit(FatalIOError);
-        }
-
-        if (!isA<laminarModel<incompressible::turbulenceModel>>(turbulence_()))
-        {
-            FatalErrorInFunction
-                << "turbulenceProperties has " << turbulence_->type()
-                << ", but no model is known for a flow between balls;"
-                << " expected simulationType laminar" << exit(FatalError);
-        }
-
-        const dictionary& drag = bedDict_.subDict("drag");
-        requireKnownEntries(drag, bedDrag::entries());
-        drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
-        Info << "Drag: " << drag_->description().c_str() << nl;
-        onBalls_.reset(new fluidOnBalls(
-            mesh_,
-            {drag_->law(), drag_->polydispersity(), mixture_.rho1().value(),
-             mixture_.rho2().value(), g_.value()},
-            [this] { return forcesOnBalls(); }));
-    }
-    if (bedDict_.found("poreSuction"))
-    {
-        suction_.reset(new poreSuction(
-            bedDict_.subDict("poreSuction"), surfaceTension(mixture_)));
-        pressure_.setSuction(suction_->atFaces(bed_));
-        pressure_.update(p_rgh_, rho_);
-    }
-    if (bedDict_.found("ballDensity"))
-    {
-        load_.reset(new ballLoad(bedDict_, bed_, g_.value()));
-    }
-    Info << endl;
-}
-
-
-void Foam::slurryFlow::dropRate(const tmp<volScalarField::Internal>& before)
-{
-    if (before.valid())
-    {
-        voidage_.oldTime().primitiveFieldRef() +=
-            (voidage_.primitiveField() - before().field()) * mesh_.V() /
-            mesh_.V0();
-    }
-    else
-    {
-        voidage_.oldTime() = voidage_;
-    }
-}
-
-
-void Foam::slurryFlow::checkContinuity(
-    const tmp<volScalarField::Internal>& before)
-{
-    // Solids on the cells of a mesh that moves are not known in space
-    const bool known = before.valid() || !mesh_.moving();
-    if (bed_.empty() || !voidageRate_ || !known || !mesh_.time().writeTime())
-    {
-        continuity_.clear();
-        return;
-    }
-    const volScalarField::Internal& last =
-        before.valid() ? before() : voidage_.oldTime().internalField();
-    continuity_.reset(new solidsContinuity(bed_));
-    continuity_->update(
-        (last - voidage_.internalField()) / mesh_.time().deltaT(), alpha_, U_,
-        mesh_.solver(p_rgh_.name()));
-}
-
 
 void Foam::slurryFlow::keepState()
 {
@@ -237,58 +151,6 @@ Foam::slurryFlow::slurryFlow(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::slurryFlow::enter()
-{
-    clock_.begin("balls");
-    if (mesh_.topoChanging())
-    {
-        FatalErrorInFunction
-            << "the cells of the mesh changed, which slurryFoam cannot follow;"
-            << " expected a mesh that moves with its cells kept"
-            << exit(FatalError);
-    }
-    detailBefore_ = fluxDetail_;
-    solution_.begin();
-    if (mesh_.changing())
-    {
-        surface_.locate();
-        pressure_.update(p_rgh_, rho_);
-    }
-    tmp<volScalarField::Internal> before;
-    if (mesh_.moving() && bed_.inSpace())
-    {
-        before = bed_.voidageBefore();
-    }
-    if (!bed_.empty())
-    {
-        bed_.update();
-        voidage_ = bed_.voidage();
-        if (!voidageRate_)
-        {
-            dropRate(before);
-        }
-        if (suction_.valid())
-        {
-            pressure_.setSuction(suction_->atFaces(bed_));
-        }
-    }
-    checkContinuity(before);
-    if (before.valid())
-    {
-        const dimensionedScalar deltaT(mesh_.time().deltaT());
-        const scalar counted = voidageRate_ ? 1 : 0;
-        swept_.update(
-            counted * (voidage_.internalField() - before()) / deltaT,
-            p_rgh_.name());
-    }
-    else if (mesh_.moving())
-    {
-        swept_.update();
-    }
-    turning_.turn(U_, forces_);
-}
-
-
 Foam::courantNumbers Foam::slurryFlow::bounds() const
 {
     const scalar deltaT = mesh_.time().deltaTValue();
@@ -314,7 +176,7 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
     reduce(smallest, minOp<scalar>());
     result.voidageChange = voidageChange_;
     const scalar capillary = 4 * constant::mathematical::pi *
-                             surfaceTension(mixture_).value() /
+                             pressure_.surfaceTension().value() /
                              (mixture_.rho1() + mixture_.rho2()).value();
     result.capillary = deltaT * sqrt(capillary / smallest);
     return result;
@@ -364,21 +226,6 @@ millfoam::record::StepRow Foam::slurryFlow::report()
         row.given_force = {givenForce_.x(), givenForce_.y(), givenForce_.z()};
     }
     return row;
-}
-
-
-void Foam::slurryFlow::tellBalls()
-{
-    if (bed_.feelsFlow())
-    {
-        clock_.begin("balls");
-        const ballForces feel(onBalls_->present());
-        givenForce_ = gSum(
-            (feel.solidity * mesh_.V() *
-             (feel.pressure +
-              feel.exchange * (U_.primitiveField() - feel.velocity)))());
-        bed_.tell(feel, U_.primitiveField());
-    }
 }
 
 

@@ -4,6 +4,8 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsRecord.H"
+#include "solidsGrid.H"
+#include "solidsMill.H"
 #include "untrapped.H"
 #include "volFields.H"
 
@@ -17,69 +19,6 @@ const Foam::Enum<millfoam::averaging::Interpolation>
         {millfoam::averaging::Interpolation::cell, "cell"},
         {millfoam::averaging::Interpolation::linear, "linear"},
     });
-
-
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-using millfoam::averaging::CylinderGrid;
-using millfoam::averaging::LocalSolids;
-using millfoam::averaging::MeshCells;
-
-//- Samples a window at a point of whatever grid a file has
-struct pointSampler
-{
-    const millfoam::averaging::SolidsWindow& window;
-    const point& p;
-    millfoam::averaging::Interpolation interpolation;
-
-    //- DEM time, s
-    scalar time;
-
-    template <class Grid> LocalSolids operator()(const Grid& grid) const
-    {
-        return millfoam::averaging::sample(
-            grid, window, {p.x(), p.y(), p.z()}, interpolation);
-    }
-
-    //- A cylinder may turn
-    LocalSolids operator()(const CylinderGrid& grid) const
-    {
-        return millfoam::averaging::sample(
-            grid, window, {p.x(), p.y(), p.z()}, interpolation, time);
-    }
-
-    //- Fields on cells are not looked up by points
-    LocalSolids operator()(const MeshCells&) const
-    {
-        return LocalSolids();
-    }
-};
-
-//- Lengths of a grid's voxels, m; of a cylinder's at half of its radius
-struct voxelLengths
-{
-    vector operator()(const millfoam::averaging::BoxGrid& grid) const
-    {
-        const auto lengths = grid.spacing();
-        return vector(lengths[0], lengths[1], lengths[2]);
-    }
-
-    vector operator()(const CylinderGrid& grid) const
-    {
-        const auto lengths = grid.spacing();
-        return vector(lengths[0], lengths[1] * grid.radii()[1] / 2, lengths[2]);
-    }
-
-    vector operator()(const MeshCells&) const
-    {
-        return vector::zero;
-    }
-};
-
-} // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -106,59 +45,6 @@ void Foam::solidsRecord::open(const Time& time)
             reader_ = std::make_unique<millfoam::averaging::SolidsReader>(
                 std::string(file_));
         });
-}
-
-
-void Foam::solidsRecord::checkMill() const
-{
-    const millfoam::averaging::SolidsHeader& header = reader_->header();
-
-    const std::optional<double> known =
-        turning() ? turning() : header.angular_velocity;
-    scalar omega = 0;
-    if (dict_.readIfPresent("omega", omega) && known)
-    {
-        const scalar recorded = *known;
-        if (mag(omega - recorded) > 1e-6 * max(mag(omega), mag(recorded)))
-        {
-            FatalIOErrorInFunction(dict_)
-                << "omega is " << omega << " rad/s but the mill of " << file_
-                << " turned with " << recorded << " rad/s; expected the solids"
-                << " of this speed. Run millDem and millAverage again, or make"
-                << " the flow's mesh with the speed of the solids"
-                << exit(FatalIOError);
-        }
-    }
-
-    string fingerprint;
-    if (dict_.readIfPresent("fingerprint", fingerprint) &&
-        !fingerprint.empty() && !header.mill_averages.empty() &&
-        fingerprint != header.mill_averages)
-    {
-        FatalIOErrorInFunction(dict_)
-            << "fingerprint is " << fingerprint.c_str() << " but " << file_
-            << " was averaged for the mill with the fingerprint "
-            << header.mill_averages.c_str() << "; expected the solids of this"
-            << " mill. Run millAverage again, and before it millDem if its"
-            << " dumps are of another mill too" << exit(FatalIOError);
-    }
-}
-
-
-void Foam::solidsRecord::checkMeshTime(const MeshCells& cells) const
-{
-    if (!cells.motion.empty() &&
-        mag(cells.time - reader_->time0()) > reader_->timestep())
-    {
-        WarningInFunction
-            << file_ << ": the mesh " << cells.file.c_str()
-            << " holds for DEM time " << scalar(cells.time)
-            << " s but the solids begin at " << reader_->time0()
-            << " s, which is flow time 0: the flow's mesh is not where the"
-            << " solids' was. Make the mesh with millMesh --at-time "
-            << reader_->time0() << " or average from --start "
-            << scalar(cells.time) << endl;
-    }
 }
 
 
@@ -260,13 +146,6 @@ Foam::solidsRecord::held& Foam::solidsRecord::have(
 }
 
 
-std::optional<double> Foam::solidsRecord::turning() const
-{
-    const auto* cylinder = std::get_if<CylinderGrid>(&reader_->grid());
-    return cylinder ? cylinder->frame().angular_velocity : std::nullopt;
-}
-
-
 bool Foam::solidsRecord::sampleWindow(
     const fvMesh& mesh, const scalar time, held& one)
 {
@@ -285,11 +164,9 @@ bool Foam::solidsRecord::sampleWindow(
     one.sums.clear(centres.size());
     forAll(centres, i)
     {
-        const LocalSolids local = std::visit(
-            pointSampler{
-                one.window, centres[i], interpolation_,
-                reader_->time0() + time},
-            reader_->grid());
+        const millfoam::averaging::LocalSolids local = solidsAt(
+            centres[i], reader_->grid(), one.window, interpolation_,
+            reader_->time0() + time);
         const vector u(local.velocity[0], local.velocity[1], local.velocity[2]);
         one.sums.add(i, local.solidity, u, local.diameter, local.diameter43);
         if (!local.inside)
@@ -312,15 +189,16 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
   sampledTime_(0)
 {
     open(mesh.time());
-    checkMill();
+    requireMill(dict, file_, *reader_);
     clock_.reset(new solidsClock(dict, file_, *reader_));
     clock_->checkSpan(mesh.time());
     readLedger();
 
-    if (const auto* cells = std::get_if<MeshCells>(&reader_->grid()))
+    if (const auto* cells =
+            std::get_if<millfoam::averaging::MeshCells>(&reader_->grid()))
     {
         cells_.reset(new solidsCells(dict, file_, mesh, *cells));
-        checkMeshTime(*cells);
+        adviseMeshTime(file_, *reader_, *cells);
     }
     readInterpolation();
     if (clock_->spline())
@@ -335,7 +213,7 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 bool Foam::solidsRecord::sample(
     const fvMesh& mesh, const scalar time, const bool moved, solidsFields& sums)
 {
-    const bool turned = turning() && time != sampledTime_;
+    const bool turned = turning(reader_->grid()) && time != sampledTime_;
     sampledTime_ = time;
     if ((moved && inSpace()) || turned)
     {
@@ -377,7 +255,7 @@ Foam::scalar Foam::solidsRecord::volume() const
 
 Foam::vector Foam::solidsRecord::spacing() const
 {
-    return std::visit(voxelLengths(), reader_->grid());
+    return voxelLengths(reader_->grid());
 }
 
 
