@@ -70,6 +70,23 @@ class Models(unittest.TestCase):
             self.assertGreater(more[name], less[name])
 
 
+class Trials(unittest.TestCase):
+    def expected(self, feed, *points):
+        trials = [study.Trial((75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
+        return study.expected_volume(feed, trials)
+
+    def test_the_hold_up_is_where_the_line_has_the_feed(self):
+        self.assertAlmostEqual(self.expected(65e-6, (7e-3, 115e-6), (4e-3, 25e-6)), 7e-3 - 50 / 30e3, places=12)
+        self.assertAlmostEqual(self.expected(10e-6, (4e-3, 25e-6), (7e-3, 115e-6)), 4e-3 - 15 / 30e3, places=12)
+
+    def test_the_hold_up_stays_near_the_trials(self):
+        self.assertAlmostEqual(self.expected(1e-3, (7e-3, 115e-6), (4e-3, 25e-6)), 1.5 * 7e-3)
+        self.assertAlmostEqual(self.expected(1e-6, (7e-3, 115e-6), (4e-3, 100e-6)), 0.2 * 7e-3)
+
+    def test_without_a_slope_it_is_between_them(self):
+        self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
+
+
 class Table(unittest.TestCase):
     def test_groups_have_their_exponent_and_starts_are_compared(self):
         flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (feed / 65e-6)**0.5) for feed in FEEDS]
@@ -83,7 +100,7 @@ class Table(unittest.TestCase):
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
-        self.assertEqual(study.read_all(folder), ([], ["own/fluid_60_33: the flow has not come to its end"]))
+        self.assertEqual(study.read_all(folder), ([], [], ["own/fluid_60_33: the flow has not come to its end"]))
 
 
 if __name__ == "__main__":

@@ -5,9 +5,11 @@ steady_holdup.txt, steady_holdup.csv and steady_holdup.png, with fitted exponent
 Morrell & Stephenson. Runs that are not complete are listed."""
 import argparse
 import csv
-from collections.abc import Iterator, Sequence
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import matplotlib
 import matplotlib.pyplot as plt
@@ -17,11 +19,12 @@ from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.readings import models
-from millfoam.readings.batches import batch_means
+from millfoam.readings.batches import batch_means, error_over_turns
 from millfoam.readings.means import Mean, block_mean
 
 MESHES = ("coarse", "own")
 STARTS = ("low", "high")
+Found = TypeVar("Found")
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
 
 
@@ -49,7 +52,12 @@ class Held:
     @property
     def group(self) -> tuple[str, int, bool]:
         """Flows that differ in their feed alone: mesh, speed (% of critical), whether they have balls."""
-        return self.mesh, round(100 * self.mill.critical_share), bool(self.case.law)
+        return self.mesh, *kind_of(self.case)
+
+
+def kind_of(case: MillCase) -> tuple[int, bool]:
+    """Speed of a mill (% of critical), and whether its flow has balls."""
+    return round(100 * case.mill.critical_share), bool(case.law)
 
 
 def read_held(mesh: str, folder: Path) -> Held:
@@ -72,16 +80,57 @@ def read_held(mesh: str, folder: Path) -> Held:
                 over_turns(columns["Time"], columns["y"]), ended["end_s"], ended["reason"], ended["found"])
 
 
-def read_all(root: Path) -> tuple[list[Held], list[str]]:
-    """Held of all complete flows, and why the others are not."""
+@dataclass(frozen=True)
+class Trial:
+    """A short flow: its kind, see kind_of; means over the last half of its time: hold-up of the mill with its pulp
+    lifters (m3) and discharge (m3/s), with its error over whole turns."""
+    kind: tuple[int, bool]
+    volume: float
+    discharge: Mean
+
+
+def read_trial(folder: Path) -> Trial:
+    """Trial of a folder. RuntimeError if it is not complete."""
+    case = MillCase(folder)
+    if case.flow is None or case.balance is None or not case.flow.complete:
+        raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
+    columns = case.balance
+    times = columns["Time"]
+    begin = times[-1] / 2
+    late = times >= begin
+    discharge = Mean(columns["discharge"][late].mean(),
+                     error_over_turns(times, columns["discharge"], begin, case.turn))
+    return Trial(kind_of(case), columns["holdUp"][late].mean(), discharge)
+
+
+def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
+    """Hold-up (m3) at which the discharge is the feed (m3/s), by the straight line through two trials; within a fifth
+    and one and a half of the larger one's. If less slurry does not discharge less, the mean of both."""
+    less, more = sorted(trials, key=lambda one: one.volume)
+    slope = (more.discharge.value - less.discharge.value) / (more.volume - less.volume)
+    if not slope > 0:
+        return (less.volume + more.volume) / 2
+    volume = more.volume + (feed - more.discharge.value) / slope
+    return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
+
+
+def read_each(folders: Sequence[Path], read: Callable[[Path], Found]) -> tuple[list[Found], list[str]]:
+    """What `read` finds in each folder that is complete, and why the others are not."""
     found, missing = [], []
-    for mesh in MESHES:
-        for folder in sorted((root / mesh).glob("*")):
-            try:
-                found.append(read_held(mesh, folder))
-            except (RuntimeError, OSError) as error:
-                missing.append(f"{mesh}/{folder.name}: {error}")
+    for folder in folders:
+        try:
+            found.append(read(folder))
+        except (RuntimeError, OSError) as error:
+            missing.append(f"{folder.parent.name}/{folder.name}: {error}")
     return found, missing
+
+
+def read_all(root: Path) -> tuple[list[Held], list[Trial], list[str]]:
+    """Held of all complete flows, all complete trials, and why the others are not."""
+    flows = [folder for mesh in MESHES for folder in sorted((root / mesh).glob("*"))]
+    held, not_ended = read_each(flows, lambda folder: read_held(folder.parent.name, folder))
+    trials, not_complete = read_each(sorted((root / "trial").glob("*")), read_trial)
+    return held, trials, not_ended + not_complete
 
 
 def by_groups(found: Sequence[Held]) -> dict[tuple[str, int, bool], list[Held]]:
@@ -178,9 +227,29 @@ def starts(found: Sequence[Held]) -> Iterator[str]:
                    f"{100 * apart.error / base.whole.value:.2f} % from {base.name}'s, after {one.end:.1f} s")
 
 
-def draw(found: Sequence[Held]) -> plt.Figure:
-    """Figure: hold-up against feed with the fits and the models, without and with balls; hold-up against time."""
-    figure, axes = plt.subplots(1, 3, figsize=(16, 5), layout="constrained")
+def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial]) -> None:
+    """Discharge against the hold-up of the mill: trials, which are not steady, and flows on coarse cells, which are."""
+    for speed, balls in sorted({one.kind for one in trials}):
+        points = sorted((1e3 * one.volume, 1e6 * one.discharge.value, 1e6 * one.discharge.error)
+                        for one in trials if one.kind == (speed, balls))
+        axis.errorbar(*zip(*points), fmt="s" if balls else "o", ls=":", lw=1, capsize=2, fillstyle="none",
+                      color=COLOURS[speed], label=f"trials, {speed} %, {'with' if balls else 'without'} balls")
+    for one in (one for one in found if one.mesh == "coarse"):
+        axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
+                      fmt="s" if one.case.law else "o", color=COLOURS[kind_of(one.case)[0]])
+    axis.set(title="filled: steady", xlabel="hold-up with the pulp lifters, l", ylabel="discharge, ml/s",
+             ylim=(0, None))
+    axis.grid(alpha=0.3)
+    if trials:
+        axis.legend(fontsize=7)
+
+
+def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
+    """Figure: hold-up against feed with the fits and the models, without and with balls; discharge against hold-up;
+    hold-up against time."""
+    figure, grid = plt.subplots(2, 2, figsize=(12, 9), layout="constrained")
+    axes = grid.ravel()
+    draw_discharge(axes[2], found, trials)
     for (mesh, speed, balls), group in by_groups(found).items():
         axis, feeds = axes[int(balls)], np.array([one.feed for one in group])
         style = {"color": COLOURS[speed], "fillstyle": "full" if mesh == "own" else "none"}
@@ -203,11 +272,11 @@ def draw(found: Sequence[Held]) -> plt.Figure:
             axis.legend(fontsize=7)
     for number, one in enumerate(found):
         columns = one.case.balance
-        axes[2].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, color=plt.cm.turbo((number + 0.5) / len(found)),
+        axes[3].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, color=plt.cm.turbo((number + 0.5) / len(found)),
                      label=f"{one.mesh}/{one.name}")
-    axes[2].set(title="with the pulp lifters", xlabel="flow time, s", ylabel="hold-up, l")
-    axes[2].grid(alpha=0.3)
-    axes[2].legend(fontsize=6, ncols=2)
+    axes[3].set(title="with the pulp lifters", xlabel="flow time, s", ylabel="hold-up, l")
+    axes[3].grid(alpha=0.3)
+    axes[3].legend(fontsize=6, ncols=2)
     return figure
 
 
@@ -215,13 +284,29 @@ def main() -> None:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("folder", type=Path, help="with the runs")
-    parser.add_argument("--volume", action="store_true",
-                        help="only prints the steady hold-up, m3, of the run in this folder")
+    printed = parser.add_mutually_exclusive_group()
+    printed.add_argument("--volume", action="store_true",
+                         help="only prints the steady hold-up, m3, of the run in this folder")
+    printed.add_argument("--trial", action="store_true",
+                         help="only prints the hold-up, m3, of the trial in this folder")
+    printed.add_argument("--expected", type=float, metavar="FEED",
+                         help="only prints the hold-up, m3, at which a mill discharges this feed, ml/s, by the trials"
+                              " in this folder and in OTHER")
+    parser.add_argument("other", type=Path, nargs="?", help="folder of the second trial")
     options = parser.parse_args()
+    if (options.expected is None) != (options.other is None):
+        parser.error("expected --expected FEED with the folders of two trials")
     if options.volume:
         print(f"{read_held('', options.folder).whole.value:.6g}")
         return
-    found, missing = read_all(options.folder)
+    if options.trial:
+        print(f"{read_trial(options.folder).volume:.6g}")
+        return
+    if options.expected is not None:
+        pair = [read_trial(folder) for folder in (options.folder, options.other)]
+        print(f"{expected_volume(1e-6 * options.expected, pair):.6g}")
+        return
+    found, trials, missing = read_all(options.folder)
     if not found:
         parser.exit(1, "\n".join(["no flow is complete:", *missing]) + "\n")
     rows = list(rows_of(found))
@@ -232,8 +317,11 @@ def main() -> None:
     lines = [*lines_of(found), *(f"not finished: {text}" for text in missing)]
     (options.folder / "steady_holdup.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
-    draw(found).savefig(options.folder / "steady_holdup.png", dpi=110)
+    draw(found, trials).savefig(options.folder / "steady_holdup.png", dpi=110)
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except RuntimeError as error:
+        sys.exit(f"steady_holdup: error: {error}")
