@@ -26,6 +26,7 @@ using tests::small_mill;
 using tests::TemporaryFolder;
 
 struct Averages : ::testing::Test {
+  fs::path before = fs::current_path();  ///< the working folder, which tests may change
   TemporaryFolder temporary;
   CaseFolder folder{temporary.path()};
   AveragesOrder order{{{1.0 / 3e5, -12.5, 0.0028}, 200, 100, 250}, {}};
@@ -35,6 +36,7 @@ struct Averages : ::testing::Test {
     fs::create_directories(folder.walls());
     for (const char* name : {"shell.stl", "lifters.stl", "mesh.h5", "turn.txt"}) write(name, name);
   }
+  ~Averages() override { fs::current_path(before); }
   fs::path place(const std::string& name) const { return folder.walls() / name; }
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(place(name), std::ios::binary) << text;
@@ -94,7 +96,6 @@ TEST_F(Averages, AreReadBackAsTheyWereOrdered) {
 }
 
 TEST_F(Averages, OfAMeshAreReadBackWithItsFilesFoundFromTheFolderOfTheOrder) {
-  const fs::path before = fs::current_path();
   fs::current_path(temporary.path());
   AverageRequest request = cells();
   auto& mesh = std::get<MeshRequest>(request.grid);
@@ -110,7 +111,6 @@ TEST_F(Averages, OfAMeshAreReadBackWithItsFilesFoundFromTheFolderOfTheOrder) {
   EXPECT_EQ(cells_of.motion[0], "rotation table ../walls/turn.txt axis 0 0 1");
   EXPECT_EQ(cells_of.motion[1], "translation velocity 1 0 0");
   EXPECT_EQ(averages_id(found), order.averages[0].id);
-  fs::current_path(before);
 }
 
 TEST_F(Averages, HaveAnIdThatChangesWithAllThatChangesThemButNotWithTheNameOfTheirFile) {
