@@ -283,8 +283,8 @@ class InSlurry(unittest.TestCase):
         cls.direct = cls.case / "direct"
 
     def test_the_balls_take_what_the_flow_gives(self):
-        # The balls feel each of the flow's steps one step later
-        self.assertLess(force_difference(self.direct, 0.04 + 0.005), 0.08)
+        # The balls feel each of the flow's steps one step later: 0.048. With the drag of spheres it would be 0.091
+        self.assertLess(force_difference(self.direct, 0.04 + 0.005), 0.07)
         self.assertEqual(np.max(read_csv(self.direct / "dumps" / "fluid.csv")["balls_without_field"]), 0)
 
     def test_the_balls_know_all_shapes_and_the_slurry(self):
