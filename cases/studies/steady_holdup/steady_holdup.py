@@ -92,7 +92,7 @@ class Trial:
 def read_trial(folder: Path) -> Trial:
     """Trial of a folder. RuntimeError if it is not complete."""
     case = MillCase(folder)
-    if case.flow is None or case.balance is None or not case.flow.complete:
+    if case.flow is None or case.balance is None or not case.record.complete:
         raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
     columns = case.balance
     times = columns["Time"]
