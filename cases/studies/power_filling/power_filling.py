@@ -181,7 +181,9 @@ def draw_maps(studies):
             mesh = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(charge.inside > 0, charge.solidity, np.nan),
                                    vmin=0, vmax=0.65, cmap="YlOrBr")
             x, y = (1e3 * at for at in run.slurry.centres())
-            axis.contour(x, y, np.nan_to_num(run.slurry.share), [HALF], colors="#0072B2")
+            share = np.nan_to_num(run.slurry.share)
+            if share.max() > HALF:
+                axis.contour(x, y, share, [HALF], colors="#0072B2")
             draw_outline(axis, run.case.outline, run.case.radius, run.case.omega)
             axis.set(title=f"{study.name}: filling {run.fill:g}", aspect="equal", xlabel="x, mm")
             axis.title.set_fontsize(9)
