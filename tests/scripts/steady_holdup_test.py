@@ -87,6 +87,13 @@ class Trials(unittest.TestCase):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
 
 
+    def test_they_are_listed(self):
+        trials = [study.Trial((75, True), 4e-3, Mean(7e-5, 2e-6)), study.Trial((75, False), 5e-3, Mean(6e-5, 1e-6))]
+        self.assertEqual(list(study.trial_lines(trials)),
+                         ["trial at 75 %, without balls: 5.000 l discharge 60.0 ± 1.0 ml/s",
+                          "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
+
+
 class Table(unittest.TestCase):
     def test_groups_have_their_exponent_and_starts_are_compared(self):
         flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (feed / 65e-6)**0.5) for feed in FEEDS]
@@ -100,7 +107,7 @@ class Table(unittest.TestCase):
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
-        self.assertEqual(study.read_all(folder), ([], [], ["own/fluid_60_33: the flow has not come to its end"]))
+        self.assertEqual(study.read_all(folder), ([], [], ["own/fluid_60_33: the flow fluid_60_33 has not come to its end"]))
 
 
 if __name__ == "__main__":

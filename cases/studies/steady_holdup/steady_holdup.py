@@ -63,7 +63,7 @@ def kind_of(case: MillCase) -> tuple[int, bool]:
 def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
-        raise RuntimeError("the flow has not come to its end")
+        raise RuntimeError(f"the flow {folder.name} has not come to its end")
     ended, case = read_json(folder / "steady.json", "steady"), MillCase(folder)
     if case.flow is None or case.balance is None:
         raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
@@ -93,7 +93,7 @@ def read_trial(folder: Path) -> Trial:
     """Trial of a folder. RuntimeError if it is not complete."""
     case = MillCase(folder)
     if case.flow is None or case.balance is None or not case.record.complete:
-        raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
+        raise RuntimeError("; ".join([f"the trial {folder.name} is not complete", *case.unusable]))
     columns = case.balance
     times = columns["Time"]
     begin = times[-1] / 2
@@ -104,8 +104,8 @@ def read_trial(folder: Path) -> Trial:
 
 
 def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
-    """Hold-up (m3) at which the discharge is the feed (m3/s), by the straight line through two trials; within a fifth
-    and one and a half of the larger one's. If less slurry does not discharge less, the mean of both."""
+    """Hold-up (m3) at which the discharge is the feed (m3/s), by the straight line through two trials, limited to 0.2
+    to 1.5 of the larger trial's hold-up. If less slurry does not discharge less, the mean of both."""
     less, more = sorted(trials, key=lambda one: one.volume)
     slope = (more.discharge.value - less.discharge.value) / (more.volume - less.volume)
     if not slope > 0:
@@ -215,6 +215,14 @@ def lines_of(found: Sequence[Held]) -> Iterator[str]:
     yield from starts(found)
 
 
+def trial_lines(trials: Sequence[Trial]) -> Iterator[str]:
+    """Hold-up and discharge of each trial."""
+    for one in sorted(trials, key=lambda one: (one.kind, one.volume)):
+        speed, balls = one.kind
+        yield (f"trial at {speed} %, {'with' if balls else 'without'} balls: {1e3 * one.volume:.3f} l discharge "
+               f"{one.discharge.text('ml/s', 1e6, '.1f')}")
+
+
 def starts(found: Sequence[Held]) -> Iterator[str]:
     """What flows from other starts came to, over the flow that they belong to."""
     others = [one for one in found if one.name in STARTS]
@@ -228,13 +236,14 @@ def starts(found: Sequence[Held]) -> Iterator[str]:
 
 
 def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial]) -> None:
-    """Discharge against the hold-up of the mill: trials, which are not steady, and flows on coarse cells, which are."""
+    """Discharge against the hold-up of the mill: trials, and flows on coarse cells that ended because they are
+    steady."""
     for speed, balls in sorted({one.kind for one in trials}):
         points = sorted((1e3 * one.volume, 1e6 * one.discharge.value, 1e6 * one.discharge.error)
                         for one in trials if one.kind == (speed, balls))
         axis.errorbar(*zip(*points), fmt="s" if balls else "o", ls=":", lw=1, capsize=2, fillstyle="none",
                       color=COLOURS[speed], label=f"trials, {speed} %, {'with' if balls else 'without'} balls")
-    for one in (one for one in found if one.mesh == "coarse"):
+    for one in (one for one in found if one.mesh == "coarse" and one.reason == "steady"):
         axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
                       fmt="s" if one.case.law else "o", color=COLOURS[kind_of(one.case)[0]])
     axis.set(title="filled: steady", xlabel="hold-up with the pulp lifters, l", ylabel="discharge, ml/s",
@@ -314,7 +323,7 @@ def main() -> None:
         writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
         writer.writeheader()
         writer.writerows(rows)
-    lines = [*lines_of(found), *(f"not finished: {text}" for text in missing)]
+    lines = [*lines_of(found), "", *trial_lines(trials), *(f"not finished: {text}" for text in missing)]
     (options.folder / "steady_holdup.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
     draw(found, trials).savefig(options.folder / "steady_holdup.png", dpi=110)
@@ -323,5 +332,5 @@ def main() -> None:
 if __name__ == "__main__":
     try:
         main()
-    except RuntimeError as error:
+    except (RuntimeError, OSError) as error:
         sys.exit(f"steady_holdup: error: {error}")
