@@ -86,7 +86,6 @@ class Trials(unittest.TestCase):
     def test_without_a_slope_it_is_between_them(self):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
 
-
     def test_they_are_listed(self):
         trials = [study.Trial((75, True), 4e-3, Mean(7e-5, 2e-6)), study.Trial((75, False), 5e-3, Mean(6e-5, 1e-6))]
         self.assertEqual(list(study.trial_lines(trials)),
@@ -107,7 +106,8 @@ class Table(unittest.TestCase):
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
-        self.assertEqual(study.read_all(folder), ([], [], ["own/fluid_60_33: the flow fluid_60_33 has not come to its end"]))
+        found = study.read_all(folder)
+        self.assertEqual(found, ([], [], ["own/fluid_60_33: the flow fluid_60_33 has not come to its end"]))
 
 
 if __name__ == "__main__":
