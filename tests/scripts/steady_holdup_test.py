@@ -107,7 +107,7 @@ class Table(unittest.TestCase):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
         found = study.read_all(folder)
-        self.assertEqual(found, ([], [], ["own/fluid_60_33: the flow fluid_60_33 has not come to its end"]))
+        self.assertEqual(found, ([], [], ["own/fluid_60_33: the flow has not come to its end"]))
 
 
 if __name__ == "__main__":

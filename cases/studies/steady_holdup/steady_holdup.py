@@ -63,7 +63,7 @@ def kind_of(case: MillCase) -> tuple[int, bool]:
 def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
-        raise RuntimeError(f"the flow {folder.name} has not come to its end")
+        raise RuntimeError("the flow has not come to its end")
     ended, case = read_json(folder / "steady.json", "steady"), MillCase(folder)
     if case.flow is None or case.balance is None:
         raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
@@ -93,7 +93,7 @@ def read_trial(folder: Path) -> Trial:
     """Trial of a folder. RuntimeError if it is not complete."""
     case = MillCase(folder)
     if case.flow is None or case.balance is None or not case.record.complete:
-        raise RuntimeError("; ".join([f"the trial {folder.name} is not complete", *case.unusable]))
+        raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
     columns = case.balance
     times = columns["Time"]
     begin = times[-1] / 2
@@ -114,14 +114,22 @@ def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
     return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
 
 
+def named(folder: Path, read: Callable[[Path], Found]) -> Found:
+    """What `read` finds in a folder. RuntimeError with the folder's name if it finds nothing."""
+    try:
+        return read(folder)
+    except (RuntimeError, OSError) as error:
+        raise RuntimeError(f"{folder.parent.name}/{folder.name}: {error}") from None
+
+
 def read_each(folders: Sequence[Path], read: Callable[[Path], Found]) -> tuple[list[Found], list[str]]:
     """What `read` finds in each folder that is complete, and why the others are not."""
     found, missing = [], []
     for folder in folders:
         try:
-            found.append(read(folder))
-        except (RuntimeError, OSError) as error:
-            missing.append(f"{folder.parent.name}/{folder.name}: {error}")
+            found.append(named(folder, read))
+        except RuntimeError as error:
+            missing.append(str(error))
     return found, missing
 
 
@@ -306,13 +314,13 @@ def main() -> None:
     if (options.expected is None) != (options.other is None):
         parser.error("expected --expected FEED with the folders of two trials")
     if options.volume:
-        print(f"{read_held('', options.folder).whole.value:.6g}")
+        print(f"{named(options.folder, lambda folder: read_held('', folder)).whole.value:.6g}")
         return
     if options.trial:
-        print(f"{read_trial(options.folder).volume:.6g}")
+        print(f"{named(options.folder, read_trial).volume:.6g}")
         return
     if options.expected is not None:
-        pair = [read_trial(folder) for folder in (options.folder, options.other)]
+        pair = [named(folder, read_trial) for folder in (options.folder, options.other)]
         print(f"{expected_volume(1e-6 * options.expected, pair):.6g}")
         return
     found, trials, missing = read_all(options.folder)
