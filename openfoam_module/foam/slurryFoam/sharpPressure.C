@@ -125,10 +125,12 @@ void Foam::sharpPressure::setDensities(const volScalarField& mixtureDensity)
 void Foam::sharpPressure::addInnerFaces(vectorField& sums) const
 {
     const surfaceVectorField& Sf = mesh_.Sf();
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const label own = mesh_.owner()[facei];
-        const label nei = mesh_.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
         const scalar w = mesh_.weights()[facei];
         const scalar rise = p_rgh_[nei] + jump_[facei] - p_rgh_[own];
         const scalar line = lineDensity_[facei];
@@ -329,12 +331,14 @@ Foam::sharpPressure::reconstruct(const surfaceScalarField& flux) const
         areas[celli] += weight * S * S;
         sums[celli] += weight * flow * S;
     };
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
         const scalar mass = faceDensity_[facei];
         const scalar own = massWeights_[facei] * mass;
-        add(mesh_.owner()[facei], own, length[facei], Sf[facei], flux[facei]);
-        add(mesh_.neighbour()[facei], mass - own, length[facei], Sf[facei],
+        add(owner[facei], own, length[facei], Sf[facei], flux[facei]);
+        add(neighbour[facei], mass - own, length[facei], Sf[facei],
             flux[facei]);
     }
     forAll(mesh_.boundary(), patchi)

@@ -128,6 +128,7 @@ Foam::slurryFlow::slurryFlow(
           mesh.time().timeName(), mesh),
       mesh, dimensionedScalar(dimVolume / dimTime, Zero)),
   turbulence_(incompressible::turbulenceModel::New(U_, phi_, mixture_)),
+  newtonianStress_(turbulence_->type() == "Stokes"),
   fvOptions_(fv::options::New(mesh)),
   state_(IOobject(
       "slurryFlow", mesh.time().timeName(), "uniform", mesh,

@@ -84,7 +84,10 @@ void Foam::slurryFlow::transport()
     rho_ = alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2();
     pressure_.update(p_rgh_, rho_);
     mixture_.correct();
-    turbulence_->correct();
+    if (!newtonianStress_)
+    {
+        turbulence_->correct();
+    }
     keepState();
 }
 

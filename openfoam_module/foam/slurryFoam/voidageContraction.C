@@ -128,10 +128,12 @@ Foam::voidageContraction::convection(const surfaceScalarField& flux) const
     const surfaceVectorField ofNeighbour(ofSide(flux, 0));
 
     const scalarField& V = mesh_.V();
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const label own = mesh_.owner()[facei];
-        const label nei = mesh_.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
         result[own] -= ofOwner[facei] / V[own];
         result[nei] += ofNeighbour[facei] / V[nei];
     }

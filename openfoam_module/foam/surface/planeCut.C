@@ -57,15 +57,40 @@ scalar integralBelow(const heights& s, const scalar d)
     return d - mean + pow3(s[2] - d) / (3 * (s[2] - s[0]) * (s[2] - s[1]));
 }
 
+//- Step from a level to a volume, with an allowed error of it, by the cubic
+//  around the level; not within the bounds where the cubic does not get there
+scalar stepTo(
+    const cellColumn::part& part, const scalar volume, const scalar allowed,
+    const scalar least, const scalar most)
+{
+    scalar step = 0;
+    for (label i = 0; i < 20 && step >= least && step <= most; ++i)
+    {
+        const scalar error =
+            part.volume - volume +
+            step * (part.slope + step * (part.bend + step * part.twist));
+        if (mag(error) < allowed)
+        {
+            break;
+        }
+        const scalar slope =
+            part.slope + step * (2 * part.bend + step * 3 * part.twist);
+        step -= error / max(slope, VSMALL);
+    }
+    return step;
+}
+
+
 //- Level, from the cell's centre, that leaves a share below it; guess: a level
 scalar levelOf(const cellColumn& column, const scalar share, const scalar guess)
 {
-    const scalar whole = column.below(column.high()).volume;
+    const scalar volume = share * column.volume();
+    const scalar allowed = roundOff * column.volume();
     scalar low = column.low();
     scalar high = column.high();
 
-    // Newton's steps, halves where they leave the bracket; V(d) is monotone
-    // and smooth
+    // Steps of the cubic that the volume is around a level, halves where they
+    // leave the bracket; V(d) is monotone and smooth
     scalar level = guess;
     if (!(level > low && level < high))
     {
@@ -75,14 +100,13 @@ scalar levelOf(const cellColumn& column, const scalar share, const scalar guess)
          ++i)
     {
         const cellColumn::part part(column.below(level));
-        const scalar error = part.volume / whole - share;
-        if (mag(error) < roundOff)
+        const scalar error = part.volume - volume;
+        if (mag(error) < allowed)
         {
             return level;
         }
         (error < 0 ? low : high) = level;
-        const scalar step = error * whole / max(part.area, VSMALL);
-        level -= step;
+        level += stepTo(part, volume, 0.1 * allowed, low - level, high - level);
         if (!(level > low && level < high))
         {
             level = 0.5 * (low + high);
@@ -98,7 +122,8 @@ scalar levelOf(const cellColumn& column, const scalar share, const scalar guess)
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::planeCut::planeCut(const fvMesh& mesh)
-: mesh_(mesh)
+: mesh_(mesh),
+  column_()
 {
 }
 
@@ -108,9 +133,8 @@ Foam::planeCut::planeCut(const fvMesh& mesh)
 Foam::scalar Foam::planeCut::wetVolume(
     const label celli, const vector& n, const scalar d) const
 {
-    return cellColumn(mesh_, celli, n)
-        .below(d - (n & mesh_.cellCentres()[celli]))
-        .volume;
+    column_.set(mesh_, celli, n);
+    return column_.below(d - (n & mesh_.cellCentres()[celli])).volume;
 }
 
 
@@ -118,9 +142,9 @@ Foam::scalar Foam::planeCut::offset(
     const label celli, const vector& n, const scalar alpha,
     const scalar guess) const
 {
-    const cellColumn column(mesh_, celli, n);
+    column_.set(mesh_, celli, n);
     const scalar base = n & mesh_.cellCentres()[celli];
-    return base + levelOf(column, alpha, guess - base);
+    return base + levelOf(column_, alpha, guess - base);
 }
 
 
@@ -128,9 +152,9 @@ Foam::planeCut::placement Foam::planeCut::place(
     const label celli, const vector& n, const scalar alpha,
     const scalar guess) const
 {
-    const cellColumn column(mesh_, celli, n);
-    const scalar level = levelOf(column, alpha, guess);
-    return {level, column.cut(level)};
+    column_.set(mesh_, celli, n);
+    const scalar level = levelOf(column_, alpha, guess);
+    return {level, column_.cut(level)};
 }
 
 
@@ -138,7 +162,8 @@ Foam::planeCut::section
 Foam::planeCut::cut(const label celli, const vector& n, const scalar d) const
 {
     const point& origin = mesh_.cellCentres()[celli];
-    section result(cellColumn(mesh_, celli, n).cut(d - (n & origin)));
+    column_.set(mesh_, celli, n);
+    section result(column_.cut(d - (n & origin)));
     result.centre += origin;
     return result;
 }

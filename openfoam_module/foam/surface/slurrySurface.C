@@ -76,6 +76,7 @@ void Foam::slurrySurface::fitNormals()
         });
 
     const Vector<label>& solved = mesh_.geometricD();
+    const scalarField& volume = mesh_.V();
     forAll(normal(), celli)
     {
         if (!pieces_.isCut(celli))
@@ -84,7 +85,7 @@ void Foam::slurrySurface::fitNormals()
         }
         // n & way = 0 for the neighbours, by least squares around the guess: an
         // eigenvector would turn round where two directions are equally flat
-        symmTensor m(ways[celli] / cbrt(sqr(mesh_.V()[celli])) + held * I);
+        symmTensor m(ways[celli] / cbrt(sqr(volume[celli])) + held * I);
         for (direction i = 0; i < 3; ++i)
         {
             if (solved[i] < 0)

@@ -68,10 +68,12 @@ Foam::slurrySurface::coupledCrossings(const label patchi) const
 void Foam::slurrySurface::findCrossings()
 {
     const vectorField& centres = mesh_.cellCentres();
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const label own = mesh_.owner()[facei];
-        const label nei = mesh_.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
         crossing_[facei] = wet_[own] == wet_[nei]
                                ? 0
                                : crossingOf(
@@ -97,10 +99,12 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::wetLine() const
     tmp<surfaceScalarField> tline(zeroFaces(mesh_, "wetLine", dimless));
     surfaceScalarField& line = tline.ref();
 
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const scalar own = wet_[mesh_.owner()[facei]];
-        const scalar nei = wet_[mesh_.neighbour()[facei]];
+        const scalar own = wet_[owner[facei]];
+        const scalar nei = wet_[neighbour[facei]];
         line[facei] = crossing_[facei] * own + (1 - crossing_[facei]) * nei;
     }
     forAll(mesh_.boundary(), patchi)
@@ -127,10 +131,11 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurrySurface::side() const
     tmp<surfaceScalarField> tside(zeroFaces(mesh_, "side", dimless));
     surfaceScalarField& side = tside.ref();
 
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        side[facei] =
-            wet_[mesh_.owner()[facei]] - wet_[mesh_.neighbour()[facei]];
+        side[facei] = wet_[owner[facei]] - wet_[neighbour[facei]];
     }
     forAll(mesh_.boundary(), patchi)
     {
@@ -153,10 +158,12 @@ Foam::slurrySurface::potential(const vector& g) const
     surfaceScalarField& potential = tpotential.ref();
     const vectorField& centres = mesh_.cellCentres();
 
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const point& own = centres[mesh_.owner()[facei]];
-        const point& nei = centres[mesh_.neighbour()[facei]];
+        const point& own = centres[owner[facei]];
+        const point& nei = centres[neighbour[facei]];
         potential[facei] = g & (own + crossing_[facei] * (nei - own));
     }
     forAll(mesh_.boundary(), patchi)

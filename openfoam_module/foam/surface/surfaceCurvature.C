@@ -83,12 +83,13 @@ Foam::tmp<Foam::volScalarField> Foam::cellCurvature(const surfacePieces& pieces)
     const fvMesh& mesh = pieces.normal.mesh();
     symmTensorField ways(mesh.nCells(), Zero);
     tensorField turns(mesh.nCells(), Zero);
+    const scalarField& volume = mesh.V();
     const auto add =
         [&](const label celli, const surfacePieces::neighbour& other)
     {
         // Small pieces by their area: one that appears or goes changes nothing
         // at once
-        const scalar small = smallShare * cbrt(sqr(mesh.V()[celli]));
+        const scalar small = smallShare * cbrt(sqr(volume[celli]));
         const vector& n = pieces.normal[celli];
         const vector along(other.way - n * (n & other.way));
         const scalar weight =
@@ -124,10 +125,12 @@ void Foam::smoothAlong(volScalarField& values, const surfacePieces& pieces)
         weights[to] += cosine * pieces.area[from];
         sums[to] += cosine * pieces.area[from] * values[from];
     };
-    forAll(mesh.neighbour(), facei)
+    const labelUList& owner = mesh.owner();
+    const labelUList& neighbour = mesh.neighbour();
+    forAll(neighbour, facei)
     {
-        const label own = mesh.owner()[facei];
-        const label nei = mesh.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
         const scalar cosine =
             max(pieces.normal[own] & pieces.normal[nei], scalar(0));
         add(own, nei, cosine);

@@ -181,10 +181,12 @@ Foam::tmp<Foam::surfaceScalarField> Foam::surfaceFilms::rise() const
     tmp<surfaceScalarField> trise(zeroFaces(mesh_, "filmRise", dimLength));
     surfaceScalarField& rise = trise.ref();
     const vectorField& centres = mesh_.cellCentres();
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const label own = mesh_.owner()[facei];
-        const label nei = mesh_.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
         rise[facei] = riseOf(
             facei, up_ & (centres[nei] - centres[own]), contentOf(own),
             contentOf(nei));

@@ -127,10 +127,12 @@ void Foam::surfacePieces::forNeighbours(
 {
     const fvMesh& mesh = normal.mesh();
     const vectorField& centres = mesh.cellCentres();
-    forAll(mesh.neighbour(), facei)
+    const labelUList& owner = mesh.owner();
+    const labelUList& neighbours = mesh.neighbour();
+    forAll(neighbours, facei)
     {
-        const label own = mesh.owner()[facei];
-        const label nei = mesh.neighbour()[facei];
+        const label own = owner[facei];
+        const label nei = neighbours[facei];
         const scalar cosine = normal[own] & normal[nei];
         if (cosine > 0)
         {

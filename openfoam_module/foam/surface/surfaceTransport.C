@@ -88,10 +88,11 @@ Foam::tmp<Foam::surfaceScalarField> Foam::surfaceTransport::flux(
         IOobject("alphaPhi", mesh_.time().timeName(), mesh_), phi));
     surfaceScalarField& slurry = tslurry.ref();
 
-    forAll(mesh_.neighbour(), facei)
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(neighbour, facei)
     {
-        const label upwind =
-            phi[facei] >= 0 ? mesh_.owner()[facei] : mesh_.neighbour()[facei];
+        const label upwind = phi[facei] >= 0 ? owner[facei] : neighbour[facei];
         slurry[facei] *= outflowShare(upwind, facei);
     }
 
