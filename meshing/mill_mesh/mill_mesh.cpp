@@ -140,17 +140,8 @@ class Extrusion {
     return level < all_layers_ && (level != layers_ || openings_.grates[static_cast<std::size_t>(quad)]);
   }
 
-  /// The cells in front of the grates or, with pulp lifters, behind them: what resists there turns with the
-  /// mill, as the slurry in a compartment does anyway. And all cells of the pulp lifters, which balls do not
-  /// reach.
+  /// With pulp lifters, the faces of the grates, and all cells behind them, which balls do not reach.
   void add_zones() {
-    if (!geometry_.grates) return;
-    mesh_.cell_zones.push_back({"grates", {}});
-    const int layer = geometry_.pulp_lifters ? layers_ : layers_ - 1;
-    for (int quad = 0; quad < quads(); ++quad) {
-      if (!openings_.grates[static_cast<std::size_t>(quad)]) continue;
-      mesh_.cell_zones.back().members.push_back(layer * quads() + quad);
-    }
     if (!geometry_.pulp_lifters) return;
     mesh_.face_zones.push_back({"grates", {}});
     mesh_.cell_zones.push_back(

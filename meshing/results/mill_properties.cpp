@@ -73,9 +73,6 @@ void write_openings(Entries& out, const Mill& mill, const Openings& openings) {
     out.number("grateOuterRadius", geometry.grates->outer_radius);
     out.number("grateArea", openings.grate_area);
     out.number("grateOpenFraction", geometry.grates->open());
-    out.number("grateLayerThickness", geometry.pulp_lifters
-                                          ? geometry.pulp_lifters->depth / geometry.pulp_lifters->layers
-                                          : geometry.length / mill.resolution.layers);
   }
   out.word("emptyZones", geometry.pulp_lifters ? std::string("(") + pulp_lifters_zone + ")" : "()");
   if (geometry.pulp_lifters) {

@@ -117,16 +117,35 @@ class Feed(ColumnTest):
 
 
 class Grate(ColumnTest):
-    """Cells of a grate resist by Darcy and Forchheimer; the slurry is pushed through."""
+    """Cells of a grate resist by Darcy and Forchheimer, faces of a plate by its loss; the slurry is pushed through."""
 
-    speed, darcy, forchheimer = 0.1, 2e7, 400.0
+    speed, darcy, forchheimer, loss = 0.1, 2e7, 400.0, 1800.0
 
-    def test_costs_its_pressure(self):
+    def pushed(self):
         case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=NEWTONIAN)
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
         case.open_top()
         case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
                       alpha="type fixedValue; value uniform 1;")
+        return case
+
+    def with_plate(self, source, faces="plate"):
+        """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds."""
+        case = self.pushed()
+        case.write("system/topoSetDict", f"""
+            actions ( {{ name found; type faceSet; action new; {source} }}
+                      {{ name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }} );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", f"discharge {{ faces {faces}; loss {self.loss}; }}")
+        self.assert_runs(case, "slurryFoam")
+        return case.field("p_rgh", 0.1).reshape(2, ROWS, 2).mean(axis=(0, 2))
+
+    @property
+    def plate_drop(self):
+        return self.loss * 1239 * self.speed**2 / 2
+
+    def test_costs_its_pressure(self):
+        case = self.pushed()
         case.write("system/topoSetDict", """
             actions ( { name grate; type cellZoneSet; action new; source boxToCell;
                         box (-1 0.04 -1) (1 0.06 1); } );""")
@@ -139,6 +158,21 @@ class Grate(ColumnTest):
         expected = (1.4e-3 * self.darcy + 1239 * self.speed * self.forchheimer / 2) * self.speed * thickness
         # 6e-5 are left of the start
         self.assertAlmostEqual(rows[0] - rows[-1], expected, delta=1e-4 * expected)
+
+    def test_as_a_plate_costs_its_pressure_at_its_faces(self):
+        middle = HEIGHT / 2
+        rows = self.with_plate(f"source boxToFace; box (-1 {middle - 1e-6} -1) (1 {middle + 1e-6} 1);")
+        steps = -np.diff(rows)
+        self.assertAlmostEqual(steps[ROWS // 2 - 1], self.plate_drop, delta=1e-4 * self.plate_drop)
+        self.assertLess(np.abs(np.delete(steps, ROWS // 2 - 1)).max(), 1e-4 * self.plate_drop)
+
+    def test_as_a_plate_at_an_opening_costs_its_pressure_there(self):
+        rows = self.with_plate("source boxToFace; box (0 0 0) (0 0 0);", faces="top")
+        np.testing.assert_allclose(rows, self.plate_drop, rtol=1e-4)
+
+    def test_as_a_plate_resists_no_flow_along_it(self):
+        rows = self.with_plate("source normalToFace; normal (1 0 0); cos 0.1;")
+        self.assertLess(np.abs(rows - rows[-1]).max(), 1e-4 * self.plate_drop)
 
     def test_turns_with_the_mesh(self):
         # Everywhere, and so dense that the slurry is carried within a step

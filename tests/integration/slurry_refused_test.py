@@ -368,6 +368,15 @@ class Grates(RefusedTest):
     def test_a_misspelt_entry(self):
         self.assert_grate_refused("cellZone grate; darci 1e7;", "darci", "darcy")
 
+    def test_a_plate_of_faces_that_the_mesh_has_not(self):
+        self.assert_grate_refused("faces lattice; loss 18;", "no faceZone or patch lattice", "bottom")
+
+    def test_a_plate_without_its_loss(self):
+        self.assert_grate_refused("faces bottom;", "loss")
+
+    def test_a_plate_with_a_negative_loss(self):
+        self.assert_grate_refused("faces bottom; loss -1;", "loss is -1", "0 or above")
+
     def test_an_entry_outside_of_a_grate(self):
         case = self.small()
         case.write("constant/grateProperties", "thickness 0.01; darcy 1e7;")

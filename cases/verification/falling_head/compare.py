@@ -74,10 +74,7 @@ class Column:
         return 1 / (self.open_fraction * (1 - self.pegged) * np.sqrt(self.loss))
 
     def gradient(self, speed, density, nu):
-        """Pressure gradient (Pa/m) at a superficial speed (m/s), of the bed by Ergun 1952 or its viscous part, or of
-        the grate."""
-        if self.is_grate:
-            return self.loss / (self.top - self.bottom) * density * speed * abs(speed) / 2
+        """Pressure gradient (Pa/m) at a superficial speed (m/s), of the bed by Ergun 1952 or its viscous part."""
         viscous = 150 * density * nu * self.solidity**2 / (self.voidage**3 * self.diameter**2) * speed
         inertial = 1.75 * density * self.solidity / (self.voidage**3 * self.diameter) * speed * abs(speed)
         return viscous + (inertial if self.law == "Ergun" else 0)
@@ -115,7 +112,10 @@ class Column:
         slowness = 1 / self.voidage
         inertia = (SLURRY * (z + bed_wet * (slowness - 1)) + AIR * (HEIGHT - z + bed_dry * (slowness - 1)))
         drive = (SLURRY - AIR) * GRAVITY * (z - self.tailwater)
-        drag = bed_wet * self.gradient(speed, SLURRY, SLURRY_NU) + bed_dry * self.gradient(speed, AIR, AIR_NU)
+        if self.is_grate:
+            drag = self.loss * SLURRY * speed * abs(speed) / 2
+        else:
+            drag = bed_wet * self.gradient(speed, SLURRY, SLURRY_NU) + bed_dry * self.gradient(speed, AIR, AIR_NU)
         at_surface, at_end = (speed * (slowness if inside else 1)
                               for inside in (self.in_bed(z), self.bottom <= 0))
         ends = (SLURRY * (at_end**2 - at_surface**2) + AIR * (at_surface**2 - speed**2)) / 2
@@ -133,8 +133,8 @@ COLUMNS = [
     Column("tailwater", "Darcy", 0.6, 1e-3, 0.05, 0.15, 0.25, 20.0, 0.02),
     Column("draining", "Darcy", 0.6, 1e-3, 0.0, 0.1, 0.0, 16.0, 0.02),
     Column("Ergun", "Ergun", 0.5, 0.02, 0.05, 0.15, 0.0, 0.75, 1.5e-3),
-    Column("grate", "grate", 0.0, 0.02, 0.0, 0.005, 0.0, 4.4, 5e-3, 0.1),
-    Column("pegged", "grate", 0.0, 0.02, 0.0, 0.005, 0.0, 9.0, 1e-2, 0.1, 0.5),
+    Column("grate", "grate", 0.0, 0.02, 0.0, 0.0, 0.0, 4.4, 5e-3, 0.1),
+    Column("pegged", "grate", 0.0, 0.02, 0.0, 0.0, 0.0, 9.0, 1e-2, 0.1, 0.5),
 ]
 
 
@@ -208,7 +208,7 @@ def run(column, case, template):
         (case / "constant" / "millProperties").write_text(
             "FoamFile { version 2; format ascii; class dictionary; object millProperties; }\n"
             f"grates yes; grateOpenFraction {column.open_fraction * (1 - column.pegged)!r};"
-            f" grateLayerThickness {column.top - column.bottom!r}; slurryStart {{}} slurryVoxels {{}}\n")
+            " slurryStart {} slurryVoxels {}\n")
         run_program(case, "topoSet")
     run_program(case, "slurryFoam")
     rows = [(0.0, START)]
@@ -241,7 +241,8 @@ def plot(falls, out):
     for fall, (levels, errors) in zip(falls, axes.T):
         column = fall.column
         time = np.linspace(0, column.end, 400)
-        levels.axhspan(column.bottom, column.top, color="tan", alpha=0.6, label="grate" if column.is_grate else "bed")
+        if not column.is_grate:
+            levels.axhspan(column.bottom, column.top, color="tan", alpha=0.6, label="bed")
         levels.plot(time, column.levels(time), "k-", label="quadrature")
         if column.has_closed_form:
             levels.plot(time, column.tailwater + column.closed_form(time), "r--", label="closed form")

@@ -5,6 +5,8 @@
 
 #include "grates.H"
 #include "knownEntries.H"
+#include "upwind.H"
+#include "zeroFields.H"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -44,6 +46,43 @@ Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
 }
 
 
+Foam::labelList
+Foam::grates::facesNamed(const word& name, const dictionary& dict) const
+{
+    const label zone = mesh_.faceZones().findZoneID(name);
+    if (zone >= 0)
+    {
+        return mesh_.faceZones()[zone];
+    }
+    const label patchi = mesh_.boundaryMesh().findPatchID(name);
+    if (patchi < 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "no faceZone or patch " << name
+            << "; expected one of the mesh's "
+            << flatOutput(mesh_.faceZones().names()) << ' '
+            << flatOutput(mesh_.boundaryMesh().names()) << exit(FatalIOError);
+    }
+    const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+    return identity(patch.size(), patch.start());
+}
+
+
+Foam::grates::plate Foam::grates::readPlate(const dictionary& dict) const
+{
+    requireKnownEntries(dict, {"faces", "loss"});
+    const plate result{
+        facesNamed(dict.get<word>("faces"), dict), dict.get<scalar>("loss")};
+    if (!(result.loss >= 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "loss is " << result.loss << "; expected 0 or above"
+            << exit(FatalIOError);
+    }
+    return result;
+}
+
+
 Foam::vector Foam::grates::cellVelocity(const label celli) const
 {
     if (!mesh_.moving())
@@ -66,10 +105,11 @@ Foam::grates::grates(
     const dictionary& dict, const fvMesh& mesh, const bedFluids& fluids)
 : mesh_(mesh),
   fluids_(fluids),
-  layers_()
+  layers_(),
+  plates_()
 {
     for (const char* ofLayer :
-         {"cellZone", "darcy", "forchheimer", "viscosity"})
+         {"cellZone", "darcy", "forchheimer", "viscosity", "faces", "loss"})
     {
         if (dict.found(ofLayer, keyType::LITERAL))
         {
@@ -82,7 +122,15 @@ Foam::grates::grates(
     for (const entry& one : dict)
     {
         // The dictionary may also have numbers that other entries refer to
-        if (one.isDict())
+        if (!one.isDict())
+        {
+            continue;
+        }
+        if (one.dict().found("faces"))
+        {
+            plates_.push_back(readPlate(one.dict()));
+        }
+        else
         {
             layers_.push_back(readLayer(one.dict()));
         }
@@ -128,6 +176,50 @@ void Foam::grates::add(
     }
     coefficient.correctBoundaryConditions();
     velocity.correctBoundaryConditions();
+}
+
+
+Foam::tmp<Foam::surfaceScalarField> Foam::grates::resistance(
+    const surfaceScalarField& flux, const volScalarField& alpha) const
+{
+    tmp<surfaceScalarField> tresistance(
+        zeroFaces(mesh_, "plateResistance", dimDensity / dimTime));
+    surfaceScalarField& resistance = tresistance.ref();
+    const surfaceScalarField slurry(
+        upwind<scalar>(mesh_, flux).interpolate(alpha));
+    const surfaceScalarField& area = mesh_.magSf();
+    const surfaceScalarField& inverseLength = mesh_.nonOrthDeltaCoeffs();
+    const auto at = [&](const scalar q, const scalar share, const scalar loss,
+                        const scalar size, const scalar perLength)
+    {
+        const scalar density =
+            share * fluids_.slurryDensity + (1 - share) * fluids_.air.density;
+        return 0.5 * loss * density * mag(q) / size * perLength;
+    };
+    for (const plate& one : plates_)
+    {
+        for (const label facei : one.faces)
+        {
+            if (mesh_.isInternalFace(facei))
+            {
+                resistance[facei] =
+                    at(flux[facei], slurry[facei], one.loss, area[facei],
+                       inverseLength[facei]);
+                continue;
+            }
+            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+            const label i = facei - mesh_.boundaryMesh()[patchi].start();
+            if (!flux.boundaryField()[patchi].empty())
+            {
+                resistance.boundaryFieldRef()[patchi][i] =
+                    at(flux.boundaryField()[patchi][i],
+                       slurry.boundaryField()[patchi][i], one.loss,
+                       area.boundaryField()[patchi][i],
+                       inverseLength.boundaryField()[patchi][i]);
+            }
+        }
+    }
+    return tresistance;
 }
 
 

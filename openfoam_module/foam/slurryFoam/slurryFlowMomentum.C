@@ -75,14 +75,14 @@ Foam::tmp<Foam::vectorField> Foam::slurryFlow::pressureForce() const
     // The projection saw the slurry of the step's begin
     volVectorField solids(bed_.velocity());
     const volScalarField force(dragForce(alpha_.oldTime(), U_, solids));
-    // What the contraction does at the faces is no force but convection
-    const volVectorField contraction(
-        pressure_.reconstruct(contractionFlux_) /
+    // What the contraction does at the faces is convection, and plates are not
+    // in the force of the cells
+    const volVectorField atFaces(
+        pressure_.reconstruct(contractionFlux_ + plateFlux_) /
         (mesh_.time().deltaT() * voidage_));
     tmp<vectorField> tresult =
         projectedInertia_.field() *
-            (forces_.primitiveField() - contraction.primitiveField() -
-             g_.value()) +
+            (forces_.primitiveField() - atFaces.primitiveField() - g_.value()) +
         force.primitiveField() *
             (U_.primitiveField() - solids.primitiveField());
     if (carryingForce_.valid())
@@ -124,27 +124,48 @@ Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::keptDetail() const
 }
 
 
-Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::freeFlux(
-    const surfaceScalarField& seen, const volScalarField& force,
-    const volVectorField& solidsVelocity, const surfaceScalarField& r,
+Foam::slurryFlow::faceDrag Foam::slurryFlow::bodyDrag(
+    const volScalarField& force, const volVectorField& solidsVelocity,
     const surfaceScalarField& faceVoidage) const
 {
     const dimensionedScalar deltaT(mesh_.time().deltaT());
-    const surfaceScalarField drag(
-        deltaT * faceVoidage *
-        pressure_.accelerationFlux(force * (solidsVelocity - U_)));
+    return {
+        surfaceScalarField(
+            deltaT * faceVoidage *
+            pressure_.accelerationFlux(force * (solidsVelocity - U_))),
+        surfaceScalarField(
+            deltaT * pressure_.faceRate(dragStiffness(force, solidsVelocity)))};
+}
+
+
+void Foam::slurryFlow::addPlates(
+    faceDrag& drag, const surfaceScalarField& before,
+    const surfaceScalarField& faceVoidage)
+{
+    if (!grates_.plates())
+    {
+        return;
+    }
+    const surfaceScalarField rate(
+        mesh_.time().deltaT() * faceVoidage *
+        grates_.resistance(before, alpha_) / pressure_.faceDensity());
+    plateFlux_ = -rate * before;
+    drag.flux += plateFlux_;
+    drag.r += 2 * rate; // quadratic
+}
+
+
+Foam::tmp<Foam::surfaceScalarField>
+Foam::slurryFlow::fall(const surfaceScalarField& faceVoidage) const
+{
     // Drops fall, and films go where their level is lower: p_rgh sees neither,
     // as a dry cell weighs air in it
     const volScalarField held(1 - mixture_.rho2() / rho_);
     const surfaceFilms& films = surface_.films();
-    const surfaceScalarField fall(
-        deltaT * faceVoidage *
-        (fvc::flux(films.loose() * held * g_) -
-         mag(g_) * fvc::interpolate(held) * films.rise() *
-             mesh_.nonOrthDeltaCoeffs() * mesh_.magSf()));
-    const surfaceScalarField before(
-        pressure_.flux(voidage_ * U_) + fluxDetail_);
-    return (seen + fall + drag + r * before) / (1 + r);
+    return mesh_.time().deltaT() * faceVoidage *
+           (fvc::flux(films.loose() * held * g_) -
+            mag(g_) * fvc::interpolate(held) * films.rise() *
+                mesh_.nonOrthDeltaCoeffs() * mesh_.magSf());
 }
 
 
@@ -246,16 +267,20 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
 
     volVectorField solidsVelocity(bed_.velocity());
     const volScalarField force(dragForce(alpha_, U_, solidsVelocity));
-    const surfaceScalarField r(
-        deltaT * pressure_.faceRate(dragStiffness(force, solidsVelocity)));
     const surfaceScalarField faceVoidage(1 / fvc::interpolate(1 / voidage_));
+    const surfaceScalarField before(
+        pressure_.flux(voidage_ * U_) + fluxDetail_);
+    faceDrag drag(bodyDrag(force, solidsVelocity, faceVoidage));
+    addPlates(drag, before, faceVoidage);
     contractionFlux_ = contraction_.contractionFlux(
         massMoved_ / deltaT, pressure_.faceDensity());
     projectedInertia_ = pressure_.inertia().internalField();
-    surfaceScalarField free(freeFlux(
-        seen + contractionFlux_, force, solidsVelocity, r, faceVoidage));
+    surfaceScalarField free(
+        (seen + contractionFlux_ + fall(faceVoidage) + drag.flux +
+         drag.r * before) /
+        (1 + drag.r));
     const surfaceScalarField mobility(
-        deltaT * faceVoidage / (pressure_.faceDensity() * (1 + r)));
+        deltaT * faceVoidage / (pressure_.faceDensity() * (1 + drag.r)));
     const surfaceScalarField::Boundary wallFlux(
         (fvc::interpolate(voidage_) * (fvc::interpolate(U_) & mesh_.Sf()))()
             .boundaryField());
