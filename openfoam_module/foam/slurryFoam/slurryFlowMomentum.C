@@ -138,20 +138,20 @@ Foam::slurryFlow::faceDrag Foam::slurryFlow::bodyDrag(
 }
 
 
-void Foam::slurryFlow::addPlates(
+Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::addPlates(
     faceDrag& drag, const surfaceScalarField& before,
-    const surfaceScalarField& faceVoidage)
+    const surfaceScalarField& faceVoidage) const
 {
     if (!grates_.plates())
     {
-        return;
+        return nullptr;
     }
-    const surfaceScalarField rate(
+    tmp<surfaceScalarField> trate(
         mesh_.time().deltaT() * faceVoidage *
         grates_.resistance(before, alpha_) / pressure_.faceDensity());
-    plateFlux_ = -rate * before;
-    drag.flux += plateFlux_;
-    drag.r += 2 * rate; // quadratic
+    drag.flux -= trate() * before;
+    drag.r += 2 * trate(); // quadratic
+    return trate;
 }
 
 
@@ -271,7 +271,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
     faceDrag drag(bodyDrag(force, solidsVelocity, faceVoidage));
-    addPlates(drag, before, faceVoidage);
+    const tmp<surfaceScalarField> plates(addPlates(drag, before, faceVoidage));
     contractionFlux_ = contraction_.contractionFlux(
         massMoved_ / deltaT, pressure_.faceDensity());
     projectedInertia_ = pressure_.inertia().internalField();
@@ -287,6 +287,10 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     setGivenFluxes(free, wallFlux);
     volScalarField::Internal room(swept_.room());
     phi_ = solution_.flux(free, mobility, room, wallFlux, pimple);
+    if (plates.valid())
+    {
+        plateFlux_ = plates() * (before - 2 * phi_);
+    }
 
     const volVectorField unseen(
         voidage_ * carried - pressure_.reconstruct(seen));
