@@ -19,9 +19,8 @@ inline constexpr const char* pulp_lifters_zone = "pulpLifters";
 ///   discharge radius) and pulpLifters (their other walls). The radial walls between them, and the discharge
 ///   end, then are pairs of faces, one for each side, with points of their own.
 ///
-/// The cell zone `grates` holds the cells in front of the grates. With pulp lifters it holds those behind
-/// them, the face zone `grates` holds the faces through which alone mill and compartments are joined, and the
-/// cell zone `pulpLifters` holds all cells of the compartments.
+/// With pulp lifters the face zone `grates` holds the faces through which alone mill and compartments are
+/// joined, and the cell zone `pulpLifters` holds all cells of the compartments.
 VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers);
 
 }  // namespace millfoam::meshing

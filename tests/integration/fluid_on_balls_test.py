@@ -125,6 +125,42 @@ class FluidOnBalls(SlurryTest):
         self.assertAlmostEqual(along[:7].sum() / fall, 1, delta=0.01)
         self.assertAlmostEqual(along.sum() / fall, 0, delta=0.01)
 
+    def through_a_plate(self):
+        """Balls everywhere that the flow does not drag, and a plate across it in the middle."""
+        speed, loss = 0.5, 100
+        case = self.pool(end_time=0.4, window=0.1)
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
+                      alpha="type fixedValue; value uniform 1;")
+        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
+                      alpha="type zeroGradient;")
+        for side in ("bottom", "top", "front", "back"):
+            case.at_patch(side, U="type slip;")
+        case.bed(EVERYWHERE, "law Darcy; multiplier 0;")
+        case.write("system/topoSetDict", """
+            actions ( { name middle; type faceSet; action new; source boxToFace; box (0.0699 -1 -1) (0.0701 1 1); }
+                      { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet middle; } );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", f"middle {{ faces plate; loss {loss}; }}")
+        return case, loss * SLURRY * (speed * (1 - SOLIDITY))**2 / 2
+
+    def test_a_plate_takes_its_pressure_itself(self):
+        case, drop = self.through_a_plate()
+        split = self.copy_of(case)
+        found = self.forces(case, begin=0.3)
+        with h5py.File(case.path / "slurry.h5") as file:
+            pressure = file["pressure"][-1]
+        self.assertAlmostEqual((pressure[..., 0] - pressure[..., -1]).mean() / drop, 1, delta=1e-3)
+        # Half of the drop over 1 cm would be felt by the cells beside it
+        self.assertLess(np.abs(found.pressure_force[..., 0]).max(), 1e-3 * drop / 0.02)
+
+        # The plate between the ranks
+        split.decompose_into(2, 1, 1)
+        self.assert_runs(split, "decomposePar")
+        self.assert_runs(split, "slurryFoam", ranks=2)
+        with h5py.File(split.path / "slurry.h5") as file:
+            np.testing.assert_allclose(file["pressure"][-1], pressure, rtol=0, atol=1e-6 * drop)
+
     def test_few_balls_feel_the_limit_of_the_law(self):
         case = self.pool()
         phi = self.bed_of(case, (0, 0, 0), "law Benyahia; multiplier 2;")

@@ -121,22 +121,25 @@ class Grate(ColumnTest):
 
     speed, darcy, forchheimer, loss = 0.1, 2e7, 400.0, 1800.0
 
-    def pushed(self):
+    def pushed(self, way=1):
         case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=NEWTONIAN)
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
-        case.open_top()
-        case.at_patch("bottom", U=f"type fixedValue; value uniform (0 {self.speed} 0);",
+        given, opened = ("bottom", "top") if way > 0 else ("top", "bottom")
+        case.at_patch(given, U=f"type fixedValue; value uniform (0 {way * self.speed} 0);",
                       alpha="type fixedValue; value uniform 1;")
+        case.at_patch(opened, U="type pressureInletOutletVelocity; value uniform (0 0 0);",
+                      p_rgh="type prghPressure; p uniform 0; value uniform 0;",
+                      alpha="type inletOutlet; inletValue uniform 0; value uniform 0;")
         return case
 
-    def with_plate(self, source, faces="plate"):
+    def with_plate(self, source, grates="discharge { faces plate; loss LOSS; }", way=1):
         """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds."""
-        case = self.pushed()
+        case = self.pushed(way)
         case.write("system/topoSetDict", f"""
             actions ( {{ name found; type faceSet; action new; {source} }}
                       {{ name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }} );""")
         self.assert_runs(case, "topoSet")
-        case.write("constant/grateProperties", f"discharge {{ faces {faces}; loss {self.loss}; }}")
+        case.write("constant/grateProperties", grates.replace("LOSS", str(self.loss)))
         self.assert_runs(case, "slurryFoam")
         return case.field("p_rgh", 0.1).reshape(2, ROWS, 2).mean(axis=(0, 2))
 
@@ -159,16 +162,25 @@ class Grate(ColumnTest):
         # 6e-5 are left of the start
         self.assertAlmostEqual(rows[0] - rows[-1], expected, delta=1e-4 * expected)
 
+    middle = f"source boxToFace; box (-1 {HEIGHT / 2 - 1e-6} -1) (1 {HEIGHT / 2 + 1e-6} 1);"
+
     def test_as_a_plate_costs_its_pressure_at_its_faces(self):
-        middle = HEIGHT / 2
-        rows = self.with_plate(f"source boxToFace; box (-1 {middle - 1e-6} -1) (1 {middle + 1e-6} 1);")
-        steps = -np.diff(rows)
-        self.assertAlmostEqual(steps[ROWS // 2 - 1], self.plate_drop, delta=1e-4 * self.plate_drop)
-        self.assertLess(np.abs(np.delete(steps, ROWS // 2 - 1)).max(), 1e-4 * self.plate_drop)
+        for way in (1, -1):
+            steps = -way * np.diff(self.with_plate(self.middle, way=way))
+            self.assertAlmostEqual(steps[ROWS // 2 - 1], self.plate_drop, delta=1e-4 * self.plate_drop)
+            self.assertLess(np.abs(np.delete(steps, ROWS // 2 - 1)).max(), 1e-4 * self.plate_drop)
+
+    def test_as_two_plates_at_the_same_faces_costs_both(self):
+        rows = self.with_plate(self.middle, "one { faces plate; loss LOSS; } other { faces plate; loss LOSS; }")
+        self.assertAlmostEqual(rows[0] - rows[-1], 2 * self.plate_drop, delta=1e-4 * self.plate_drop)
 
     def test_as_a_plate_at_an_opening_costs_its_pressure_there(self):
-        rows = self.with_plate("source boxToFace; box (0 0 0) (0 0 0);", faces="top")
+        rows = self.with_plate(self.middle, "outlet { faces top; loss LOSS; }")
         np.testing.assert_allclose(rows, self.plate_drop, rtol=1e-4)
+
+    def test_as_a_plate_where_the_velocity_is_given_changes_nothing(self):
+        rows = self.with_plate(self.middle, "inlet { faces bottom; loss LOSS; }")
+        self.assertLess(np.abs(rows).max(), 1e-4 * self.plate_drop)
 
     def test_as_a_plate_resists_no_flow_along_it(self):
         rows = self.with_plate("source normalToFace; normal (1 0 0); cos 0.1;")

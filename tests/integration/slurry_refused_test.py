@@ -371,6 +371,19 @@ class Grates(RefusedTest):
     def test_a_plate_of_faces_that_the_mesh_has_not(self):
         self.assert_grate_refused("faces lattice; loss 18;", "no faceZone or patch lattice", "bottom")
 
+    def test_a_plate_without_its_faces(self):
+        self.assert_grate_refused("loss 18;", "faces")
+
+    def test_a_plate_on_a_cyclic_patch(self):
+        case = self.slurry_case(periodic=True)
+        case.write("constant/grateProperties", "discharge { faces left; loss 18; }")
+        self.assert_says(case, "grateProperties", "discharge", "faces are on left", "cyclic")
+
+    def test_a_plate_outside_of_a_grate(self):
+        case = self.small()
+        case.write("constant/grateProperties", "faces bottom; loss 18;")
+        self.assert_says(case, "grateProperties", "faces", "braces")
+
     def test_a_plate_without_its_loss(self):
         self.assert_grate_refused("faces bottom;", "loss")
 

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "grates.H"
+#include "cyclicPolyPatch.H"
 #include "knownEntries.H"
 #include "upwind.H"
 #include "zeroFields.H"
@@ -61,7 +62,9 @@ Foam::grates::facesNamed(const word& name, const dictionary& dict) const
             << "no faceZone or patch " << name
             << "; expected one of the mesh's "
             << flatOutput(mesh_.faceZones().names()) << ' '
-            << flatOutput(mesh_.boundaryMesh().names()) << exit(FatalIOError);
+            << flatOutput(mesh_.boundaryMesh().names())
+            << " (topoSet makes zones before the flow begins)"
+            << exit(FatalIOError);
     }
     const polyPatch& patch = mesh_.boundaryMesh()[patchi];
     return identity(patch.size(), patch.start());
@@ -78,6 +81,17 @@ Foam::grates::plate Foam::grates::readPlate(const dictionary& dict) const
         FatalIOErrorInFunction(dict)
             << "loss is " << result.loss << "; expected 0 or above"
             << exit(FatalIOError);
+    }
+    for (const label facei : result.faces)
+    {
+        const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+        if (patchi >= 0 && isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]))
+        {
+            FatalIOErrorInFunction(dict)
+                << "faces are on " << mesh_.boundaryMesh()[patchi].name()
+                << ", which is cyclic; expected inner faces or an open patch"
+                << exit(FatalIOError);
+        }
     }
     return result;
 }
@@ -108,15 +122,16 @@ Foam::grates::grates(
   layers_(),
   plates_()
 {
-    for (const char* ofLayer :
+    for (const char* ofGrate :
          {"cellZone", "darcy", "forchheimer", "viscosity", "faces", "loss"})
     {
-        if (dict.found(ofLayer, keyType::LITERAL))
+        if (dict.found(ofGrate, keyType::LITERAL))
         {
             FatalIOErrorInFunction(dict)
-                << ofLayer
+                << ofGrate
                 << " is outside of a grate; expected it within a grate's"
-                << " braces, name { cellZone ...; }" << exit(FatalIOError);
+                << " braces, name { faces ...; } or name { cellZone ...; }"
+                << exit(FatalIOError);
         }
     }
     for (const entry& one : dict)
@@ -126,7 +141,7 @@ Foam::grates::grates(
         {
             continue;
         }
-        if (one.dict().found("faces"))
+        if (one.dict().found("faces") || one.dict().found("loss"))
         {
             plates_.push_back(readPlate(one.dict()));
         }
@@ -202,7 +217,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::grates::resistance(
         {
             if (mesh_.isInternalFace(facei))
             {
-                resistance[facei] =
+                resistance[facei] +=
                     at(flux[facei], slurry[facei], one.loss, area[facei],
                        inverseLength[facei]);
                 continue;
@@ -211,7 +226,7 @@ Foam::tmp<Foam::surfaceScalarField> Foam::grates::resistance(
             const label i = facei - mesh_.boundaryMesh()[patchi].start();
             if (!flux.boundaryField()[patchi].empty())
             {
-                resistance.boundaryFieldRef()[patchi][i] =
+                resistance.boundaryFieldRef()[patchi][i] +=
                     at(flux.boundaryField()[patchi][i],
                        slurry.boundaryField()[patchi][i], one.loss,
                        area.boundaryField()[patchi][i],

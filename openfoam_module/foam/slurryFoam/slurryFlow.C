@@ -118,7 +118,6 @@ Foam::slurryFlow::slurryFlow(
       IOobject("projectedInertia", mesh.time().timeName(), mesh),
       pressure_.inertia().internalField()),
   contractionFlux_(zeroFaces(mesh, "contractionFlux", dimVolume / dimTime)),
-  plateFlux_(zeroFaces(mesh, "plateFlux", dimVolume / dimTime)),
   fluxDetail_(
       continued<surfaceScalarField>("fluxDetail", mesh, dimVolume / dimTime)),
   detailBefore_("fluxDetailBefore", fluxDetail_),
@@ -139,7 +138,6 @@ Foam::slurryFlow::slurryFlow(
   givenForce_(Zero)
 {
     contractionFlux_.setOriented();
-    plateFlux_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();
     slurryFlux_.setOriented();

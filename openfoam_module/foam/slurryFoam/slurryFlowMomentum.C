@@ -75,14 +75,14 @@ Foam::tmp<Foam::vectorField> Foam::slurryFlow::pressureForce() const
     // The projection saw the slurry of the step's begin
     volVectorField solids(bed_.velocity());
     const volScalarField force(dragForce(alpha_.oldTime(), U_, solids));
-    // What the contraction does at the faces is convection, and plates are not
-    // in the force of the cells
-    const volVectorField atFaces(
-        pressure_.reconstruct(contractionFlux_ + plateFlux_) /
+    // What the contraction does at the faces is no force but convection
+    const volVectorField contraction(
+        pressure_.reconstruct(contractionFlux_) /
         (mesh_.time().deltaT() * voidage_));
     tmp<vectorField> tresult =
         projectedInertia_.field() *
-            (forces_.primitiveField() - atFaces.primitiveField() - g_.value()) +
+            (forces_.primitiveField() - contraction.primitiveField() -
+             g_.value()) +
         force.primitiveField() *
             (U_.primitiveField() - solids.primitiveField());
     if (carryingForce_.valid())
@@ -138,20 +138,27 @@ Foam::slurryFlow::faceDrag Foam::slurryFlow::bodyDrag(
 }
 
 
-Foam::tmp<Foam::surfaceScalarField> Foam::slurryFlow::addPlates(
+void Foam::slurryFlow::addPlates(
     faceDrag& drag, const surfaceScalarField& before,
     const surfaceScalarField& faceVoidage) const
 {
     if (!grates_.plates())
     {
-        return nullptr;
+        return;
     }
-    tmp<surfaceScalarField> trate(
+    surfaceScalarField rate(
         mesh_.time().deltaT() * faceVoidage *
         grates_.resistance(before, alpha_) / pressure_.faceDensity());
-    drag.flux -= trate() * before;
-    drag.r += 2 * trate(); // quadratic
-    return trate;
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatchScalarField& p = p_rgh_.boundaryField()[patchi];
+        if (!p.coupled() && !p.fixesValue())
+        {
+            rate.boundaryFieldRef()[patchi] = 0;
+        }
+    }
+    drag.flux -= rate * before;
+    drag.r += 2 * rate; // quadratic
 }
 
 
@@ -271,7 +278,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     const surfaceScalarField before(
         pressure_.flux(voidage_ * U_) + fluxDetail_);
     faceDrag drag(bodyDrag(force, solidsVelocity, faceVoidage));
-    const tmp<surfaceScalarField> plates(addPlates(drag, before, faceVoidage));
+    addPlates(drag, before, faceVoidage);
     contractionFlux_ = contraction_.contractionFlux(
         massMoved_ / deltaT, pressure_.faceDensity());
     projectedInertia_ = pressure_.inertia().internalField();
@@ -287,10 +294,6 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     setGivenFluxes(free, wallFlux);
     volScalarField::Internal room(swept_.room());
     phi_ = solution_.flux(free, mobility, room, wallFlux, pimple);
-    if (plates.valid())
-    {
-        plateFlux_ = plates() * (before - 2 * phi_);
-    }
 
     const volVectorField unseen(
         voidage_ * carried - pressure_.reconstruct(seen));

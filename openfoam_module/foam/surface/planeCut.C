@@ -57,8 +57,10 @@ scalar integralBelow(const heights& s, const scalar d)
     return d - mean + pow3(s[2] - d) / (3 * (s[2] - s[0]) * (s[2] - s[1]));
 }
 
+
 //- Step from a level to a volume, with an allowed error of it, by the cubic
-//  around the level; not within the bounds where the cubic does not get there
+//  around the level: outside of the bounds, or as far as 20 Newton steps come,
+//  where the cubic does not get there
 scalar stepTo(
     const cellColumn::part& part, const scalar volume, const scalar allowed,
     const scalar least, const scalar most)
