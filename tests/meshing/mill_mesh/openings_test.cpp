@@ -237,8 +237,9 @@ TEST(Grates, with_pulp_lifters_have_a_zone_of_their_faces) {
   const MeshMeasures m = measure(mesh);
   ASSERT_EQ(mesh.face_zones.size(), 1u);
   EXPECT_EQ(mesh.face_zones[0].name, "grates");
-  EXPECT_EQ(mesh.face_zones[0].members.size(),
-            static_cast<std::size_t>(std::ranges::count(find_openings(section, mill).grates, true)));
+  const auto grates = find_openings(section, mill).grates;
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(mesh.face_zones[0].members.size()),
+            std::count(grates.begin(), grates.end(), true));
   for (const int face : mesh.face_zones[0].members) {
     const auto at = [&](int cell) { return m.cell_centre[static_cast<std::size_t>(cell)].z(); };
     EXPECT_LT(at(mesh.owner[static_cast<std::size_t>(face)]), mill.length);
