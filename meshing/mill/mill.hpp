@@ -258,21 +258,29 @@ struct SteadyEnd {
   std::optional<double> hours;  ///< of wall time, after which it ends anyway
 };
 
+/// A tracer in the feed, for the time that slurry stays in the mill.
+struct FeedTracer {
+  double begin = 0;             ///< s of flow time
+  std::optional<double> pulse;  ///< s for which it is fed; else to the end, a step
+  double dispersion = 0;        ///< m^2/s
+};
+
 /// How the slurry's flow is done.
 struct Flow {
-  std::string solver;               ///< slurryFoam, or interFoam with the balls as a source of momentum
-  double duration = 0;              ///< s; with a steady end, at most
-  std::optional<SteadyEnd> steady;  ///< the flow ends by itself
-  bool balls = true;                ///< false: the mill without its charge
-  std::string law;                  ///< drag law, a name of the table in openfoam_module/drag
-  double multiplier = 1;            ///< on the drag
-  std::string viscosity;            ///< of the slurry that the drag feels: plastic or pore
-  std::string mixed_drag;           ///< of cells with slurry and air: weights or permeability
-  bool polydispersity = false;      ///< factor on the drag for a mixture of sizes
-  std::string out_of_range;         ///< beyond the recorded charge: error, hold or repeat
-  FlowStart start;                  ///< slurry at time 0
-  double feed = 0;                  ///< m^3/s, through the inlet
-  double max_courant = 0;           ///< limit of the time-step: largest Courant number
+  std::string solver;                ///< slurryFoam, or interFoam with the balls as a source of momentum
+  double duration = 0;               ///< s; with a steady end, at most
+  std::optional<SteadyEnd> steady;   ///< the flow ends by itself
+  bool balls = true;                 ///< false: the mill without its charge
+  std::string law;                   ///< drag law, a name of the table in openfoam_module/drag
+  double multiplier = 1;             ///< on the drag
+  std::string viscosity;             ///< of the slurry that the drag feels: plastic or pore
+  std::string mixed_drag;            ///< of cells with slurry and air: weights or permeability
+  bool polydispersity = false;       ///< factor on the drag for a mixture of sizes
+  std::string out_of_range;          ///< beyond the recorded charge: error, hold or repeat
+  FlowStart start;                   ///< slurry at time 0
+  double feed = 0;                   ///< m^3/s, through the inlet
+  std::optional<FeedTracer> tracer;  ///< in the feed
+  double max_courant = 0;            ///< limit of the time-step: largest Courant number
   /// The same of cells at the slurry's surface.
   double max_surface_courant = 0;
   /// The same of cells with air alone.

@@ -188,6 +188,23 @@ void read_exchange(const Section& flow_section, const Mill& mill, Coupling& coup
   coupling.voxels = read_voxels(in, mill.geometry, std::min(size, mill.geometry.radius()), 0);
 }
 
+std::optional<FeedTracer> read_tracer(const Section& flow_section, const Flow& flow) {
+  if (!flow_section.has("tracer")) return std::nullopt;
+  if (flow.solver != "slurryFoam") flow_section.refuse("tracer", "this key with flow.solver slurryFoam only");
+  if (flow.feed == 0) flow_section.refuse("tracer", "this key with flow.feed above 0 only: the feed has it");
+  Section in = flow_section.section("tracer", {"begin", "pulse", "dispersion"});
+  FeedTracer tracer;
+  tracer.begin =
+      in.number("begin",
+                {"a flow time in s of 0 or more and below the duration, " + shown(flow.duration) + " s",
+                 [&](double v) { return v >= 0 && v < flow.duration; }},
+                0);
+  if (in.has("pulse"))
+    tracer.pulse = in.number("pulse", part_of("time after flow.tracer.begin", flow.duration - tracer.begin));
+  tracer.dispersion = in.number("dispersion", zero_up_to("a dispersion in m^2/s", 1), 0);
+  return tracer;
+}
+
 FlowAverages read_flow_averages(const Section& flow_section, const Flow& flow, const Mill& mill) {
   Section in =
       flow_section.optional_section("averages", {"start", "window", "interval", "voxel_size", "counts"});
@@ -229,6 +246,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
                                               "relaxation",
                                               "start",
                                               "feed",
+                                              "tracer",
                                               "max_courant",
                                               "max_surface_courant",
                                               "max_air_courant",
@@ -256,6 +274,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   if (feed > 0 && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
     in.refuse("feed", "this key with geometry.inlet only");
   flow.feed = mill.geometry.inlet ? feed : 0;
+  flow.tracer = read_tracer(in, flow);
   read_steps(in, mill, flow);
   flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis),
                            mill.machine() == Machine::stirred ? slices_along(mill) : mill.resolution.layers);

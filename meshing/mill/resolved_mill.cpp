@@ -210,6 +210,10 @@ Json flow_numbers(const Mill& mill) {
                {"averages_start_s", flow.averages.start},
                {"averages", averages}};
   if (flow.coupling.voxels) numbers["exchange"] = voxel_numbers(*flow.coupling.voxels);
+  if (flow.tracer)
+    numbers["tracer"] = {{"begin_s", flow.tracer->begin},
+                         {"pulse_s", flow.tracer->pulse ? Json(*flow.tracer->pulse) : Json()},
+                         {"dispersion_m2_s", flow.tracer->dispersion}};
   return numbers;
 }
 

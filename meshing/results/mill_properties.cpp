@@ -149,6 +149,13 @@ void write_flow(Entries& out, const Mill& mill) {
   out.number("interval", flow.averages.interval);
   out.close();
   out.number("averagesInterval", flow.averages.interval);
+  out.truth("tracerInFeed", flow.tracer.has_value());
+  if (!flow.tracer) return;
+  out.open("feedTracer");
+  out.number("begin", flow.tracer->begin);
+  if (flow.tracer->pulse) out.number("length", *flow.tracer->pulse);
+  out.number("D", flow.tracer->dispersion);
+  out.close();
 }
 
 }  // namespace

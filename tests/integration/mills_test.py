@@ -18,6 +18,7 @@ import numpy as np
 from millfoam.files import foam
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.tables import read_columns
+from millfoam.readings.residence import read_tracer
 
 NEW_MILL = Path(__file__).resolve().parents[2] / "scripts" / "new_mill"
 GRAVITY = 9.81  # m/s2; the critical speed is sqrt(g/R)
@@ -362,7 +363,7 @@ dem: {settle_time: 0.3, duration: 0.3, record_interval: 0.01}
 averages: {voxel_size: 0.1, window: 0.1, start: 0.1}
 slurry: {density: 1300, plastic_viscosity: 0.005, yield_stress: 0.5}
 resolution: {cell_size: 0.05, layers: 4}
-flow: {duration: 0.03, feed: 0.003, start: {level: -0.12}}
+flow: {duration: 0.03, feed: 0.003, start: {level: -0.12}, tracer: {begin: 0.01, pulse: 0.01}}
 """
     RADIUS, LENGTH, SECTION = 0.3, 0.48, section(0.3, 12, 0.03, 0.04)
     OMEGA = -0.65 * sqrt(GRAVITY / 0.3)
@@ -392,6 +393,15 @@ flow: {duration: 0.03, feed: 0.003, start: {level: -0.12}}
     def test_the_feed_enters(self):
         balance = read_columns(self.case, "slurryBalance")
         np.testing.assert_allclose(balance["feed"], self.FED, rtol=0.01)
+
+    def test_the_tracer_of_the_feed_enters(self):
+        tracer = read_tracer(self.case)
+        self.assertTrue(tracer.pulse)
+        # The step of the flow in which it begins began before it
+        self.assertAlmostEqual(tracer.begin, 0.01, delta=0.003)
+        self.assertAlmostEqual(tracer.tracer[-1] / (self.FED * 0.01), 1, delta=1e-6)
+        self.assertLess(tracer.missing, 1e-10)
+        self.assertIn("Residence time: tracer", (self.case / "report.html").read_text())
 
 
 class RanksThickSlurry(MillRun, unittest.TestCase):

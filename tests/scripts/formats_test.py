@@ -67,7 +67,8 @@ class Formats(unittest.TestCase):
     def test_the_resolved_mill(self):
         shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}"
         mills = (*((mill,) for mill in MILLS), ("mill.yaml", "--set", shape), (MILLS[-1], "--set", DISCS),
-                 (MILLS[-1], "--set", "variant=wet", "--set", "flow.coupling=direct"))
+                 (MILLS[-1], "--set", "variant=wet", "--set", "flow.coupling=direct"),
+                 (next(mill for mill in MILLS if "30cm" in str(mill)), "--set", "flow.tracer={pulse: 0.5}"))
         resolved = [json.loads(run(self.folder, "millMesh", mill, *words, "--resolved", "-")) for mill, *words in mills]
         # Null, or an empty list, where the mill has none
         absent = {"geometry.inlet", "geometry.grates", "geometry.pulp_lifters", "geometry.impeller.discs",

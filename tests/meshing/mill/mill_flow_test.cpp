@@ -193,6 +193,33 @@ TEST(Flow, more_hours_leave_a_flow_as_it_is) {
   EXPECT_NE(mill_of(text).fingerprint.flow, mill_of(text, {"flow.steady.turns=4"}).fingerprint.flow);
 }
 
+/// A mill with a tracer in its feed.
+const std::string fed_mill =
+    with(with(bare_mill, "ends: periodic", "ends: plain"), "lifters:", "inlet: {radius: 0.1}, lifters:") +
+    "flow: {duration: 10, feed: 1e-5, tracer: {begin: 2}}\n";
+
+TEST(Flow, feeds_a_tracer_if_it_is_asked_for) {
+  EXPECT_FALSE(mill_of(bare_mill).flow.tracer);
+  const Flow flow = mill_of(fed_mill).flow;
+  ASSERT_TRUE(flow.tracer);
+  EXPECT_EQ(flow.tracer->begin, 2);
+  EXPECT_FALSE(flow.tracer->pulse);
+  EXPECT_EQ(flow.tracer->dispersion, 0);
+  EXPECT_EQ(mill_of(fed_mill, {"flow.tracer.pulse=8"}).flow.tracer->pulse, 8);
+  EXPECT_NE(mill_of(fed_mill).fingerprint.flow, mill_of(fed_mill, {"flow.tracer.begin=3"}).fingerprint.flow);
+}
+
+TEST(Flow, a_tracer_needs_a_feed_and_an_end_within_the_flow) {
+  const auto refused = [](const std::string& set) { return refusal_of(fed_mill, {set}); };
+  EXPECT_NE(refused("flow.feed=0").find("expected this key with flow.feed above 0"), std::string::npos);
+  EXPECT_NE(refused("flow.solver=interFoam").find("expected this key with flow.solver slurryFoam"),
+            std::string::npos);
+  EXPECT_NE(refused("flow.tracer.begin=10").find("below the duration, 10 s"), std::string::npos);
+  EXPECT_NE(refused("flow.tracer.pulse=8.1").find("time after flow.tracer.begin, 8 s"), std::string::npos);
+  EXPECT_NE(refused("flow.tracer.dispersion=-1").find("a dispersion in m^2/s"), std::string::npos);
+  EXPECT_NE(refused("flow.tracer.length=1").find("pulse"), std::string::npos);
+}
+
 TEST(Flow, change_of_the_voidage_and_air_limit_steps_of_slurryFoam_only) {
   const std::string text = bare_mill + "flow: {max_voidage_change: 0.2}\n";
   EXPECT_DOUBLE_EQ(mill_of(text).flow.max_voidage_change, 0.2);
@@ -446,7 +473,8 @@ speed:)"),
       {whole, {"geometry.inlet={area: 0.001}", "speed={angular_velocity: 3}", "dem={youngs_modulus: 1e7}"}},
       {bare_mill, {"averages={counts: {across: 9, along: 2}}", "flow.start={level: -0.1}", "flow.turns=1"}},
       {smooth, {"resolution={counts: {gap: 48, ring: 9}}", "flow.averages={counts: {across: 9, along: 2}}"}},
-      {example_mill, {"resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9}}"}}};
+      {example_mill, {"resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9}}"}},
+      {fed_mill, {"flow.tracer.pulse=1", "flow.tracer.dispersion=1e-5"}}};
   std::set<std::string> tried;
   for (const auto& [text, set] : mills) {
     const MillDescription mill = describe(text, set);
