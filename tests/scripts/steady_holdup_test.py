@@ -11,6 +11,7 @@ import numpy as np
 
 from millfoam.readings import models
 from millfoam.readings.means import Mean
+from millfoam.readings.residence import Residence
 
 ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "cases" / "studies" / "steady_holdup" / "steady_holdup.py"
@@ -93,6 +94,23 @@ class Trials(unittest.TestCase):
                           "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
 
 
+class Stays(unittest.TestCase):
+    def test_they_are_compared_with_hold_up_over_feed(self):
+        found = Residence(np.zeros(1), np.zeros(1), mean=33.0, variance=33.0**2 / 2, left=0.13, tail=30.0)
+        (line,) = study.stay_lines([study.Stay("Beetstra_75_131", found, 30.0)])
+        begin = ("residence/Beetstra_75_131: slurry stays 33.0 s, +10.0 % from hold-up over feed, 30.0 s; 2.00 stirred "
+                 "tanks in series, Pe ")
+        self.assertTrue(line.startswith(begin), line)
+        self.assertTrue(line.endswith("; 13 % had not left"), line)
+
+    def test_a_flow_that_is_not_complete_is_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (folder / "residence" / "Beetstra_75_131").mkdir(parents=True)
+        *_, missing = study.read_all(folder)
+        self.assertEqual(len(missing), 1)
+        self.assertTrue(missing[0].startswith("residence/Beetstra_75_131: "), missing)
+
+
 class Table(unittest.TestCase):
     def test_groups_have_their_exponent_and_starts_are_compared(self):
         flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (feed / 65e-6)**0.5) for feed in FEEDS]
@@ -107,7 +125,7 @@ class Table(unittest.TestCase):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
         found = study.read_all(folder)
-        self.assertEqual(found, ([], [], ["own/fluid_60_33: the flow has not come to its end"]))
+        self.assertEqual(found, ([], [], [], ["own/fluid_60_33: the flow has not come to its end"]))
 
 
 if __name__ == "__main__":

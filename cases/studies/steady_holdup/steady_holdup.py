@@ -20,7 +20,8 @@ from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.readings import models
 from millfoam.readings.batches import batch_means, error_over_turns
-from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.means import Mean, block_mean, time_mean
+from millfoam.readings.residence import Residence, read_tracer, residence
 
 MESHES = ("coarse", "own")
 STARTS = ("low", "high")
@@ -103,6 +104,25 @@ def read_trial(folder: Path) -> Trial:
     return Trial(kind_of(case), columns["holdUp"][late].mean(), discharge)
 
 
+@dataclass(frozen=True)
+class Stay:
+    """A flow with a tracer in its feed: name; how long slurry stays; hold-up over feed (s) from the tracer's begin
+    on."""
+    name: str
+    found: Residence
+    expected: float
+
+
+def read_stay(folder: Path) -> Stay:
+    """Stay of a folder. RuntimeError if its flow or its tracer's table is not complete."""
+    case = MillCase(folder)
+    if case.flow is None or case.balance is None or not case.record.complete:
+        raise RuntimeError("; ".join(["the flow is not complete", *case.unusable]))
+    table, columns = read_tracer(folder), case.balance
+    held, fed = (time_mean(columns["Time"], columns[name], table.begin) for name in ("holdUp", "feed"))
+    return Stay(folder.name, residence(table), held / fed)
+
+
 def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
     """Hold-up (m3) at which the discharge is the feed (m3/s), by the straight line through two trials, limited to 0.2
     to 1.5 of the larger trial's hold-up. If less slurry does not discharge less, the mean of both."""
@@ -133,12 +153,13 @@ def read_each(folders: Sequence[Path], read: Callable[[Path], Found]) -> tuple[l
     return found, missing
 
 
-def read_all(root: Path) -> tuple[list[Held], list[Trial], list[str]]:
-    """Held of all complete flows, all complete trials, and why the others are not."""
+def read_all(root: Path) -> tuple[list[Held], list[Trial], list[Stay], list[str]]:
+    """Held of all complete flows, all complete trials, flows with a tracer, and why the others are not."""
     flows = [folder for mesh in MESHES for folder in sorted((root / mesh).glob("*"))]
     held, not_ended = read_each(flows, lambda folder: read_held(folder.parent.name, folder))
     trials, not_complete = read_each(sorted((root / "trial").glob("*")), read_trial)
-    return held, trials, not_ended + not_complete
+    stays, not_known = read_each(sorted((root / "residence").glob("*")), read_stay)
+    return held, trials, stays, not_ended + not_complete + not_known
 
 
 def by_groups(found: Sequence[Held]) -> dict[tuple[str, int, bool], list[Held]]:
@@ -229,6 +250,15 @@ def trial_lines(trials: Sequence[Trial]) -> Iterator[str]:
         speed, balls = one.kind
         yield (f"trial at {speed} %, {'with' if balls else 'without'} balls: {1e3 * one.volume:.3f} l discharge "
                f"{one.discharge.text('ml/s', 1e6, '.1f')}")
+
+
+def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
+    """How long slurry stays, over hold-up over feed, and how its times are spread."""
+    for one in stays:
+        found = one.found
+        yield (f"residence/{one.name}: slurry stays {found.mean:.1f} s, {100 * (found.mean / one.expected - 1):+.1f} % "
+               f"from hold-up over feed, {one.expected:.1f} s; {found.tanks:.2f} stirred tanks in series, Pe "
+               f"{found.peclet:.2f}; {100 * found.left:.0f} % had not left")
 
 
 def starts(found: Sequence[Held]) -> Iterator[str]:
@@ -323,7 +353,7 @@ def main() -> None:
         pair = [named(folder, read_trial) for folder in (options.folder, options.other)]
         print(f"{expected_volume(1e-6 * options.expected, pair):.6g}")
         return
-    found, trials, missing = read_all(options.folder)
+    found, trials, stays, missing = read_all(options.folder)
     if not found:
         parser.exit(1, "\n".join(["no flow is complete:", *missing]) + "\n")
     rows = list(rows_of(found))
@@ -331,7 +361,8 @@ def main() -> None:
         writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
         writer.writeheader()
         writer.writerows(rows)
-    lines = [*lines_of(found), "", *trial_lines(trials), *(f"not finished: {text}" for text in missing)]
+    lines = [*lines_of(found), "", *trial_lines(trials), *stay_lines(stays),
+             *(f"not finished: {text}" for text in missing)]
     (options.folder / "steady_holdup.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
     draw(found, trials).savefig(options.folder / "steady_holdup.png", dpi=110)
