@@ -74,7 +74,7 @@ Foam::grates::facesNamed(const word& name, const dictionary& dict) const
 Foam::grates::plate Foam::grates::readPlate(const dictionary& dict) const
 {
     requireKnownEntries(dict, {"faces", "loss"});
-    const plate result{
+    plate result{
         facesNamed(dict.get<word>("faces"), dict), dict.get<scalar>("loss")};
     if (!(result.loss >= 0))
     {
