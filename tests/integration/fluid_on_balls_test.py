@@ -51,6 +51,18 @@ class FluidOnBalls(SlurryTest):
         self.assert_runs(case, "slurryFoam")
         return read_ball_forces(case.path / "slurry.h5", **times)
 
+    def pushed(self, speed):
+        """A full box without gravity, and slurry that is pushed through it along x at this speed (m/s)."""
+        case = self.pool(end_time=0.4, window=0.1)
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
+                      alpha="type fixedValue; value uniform 1;")
+        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
+                      alpha="type zeroGradient;")
+        for side in ("bottom", "top", "front", "back"):
+            case.at_patch(side, U="type slip;")
+        return case
+
     def bed_of(self, case, velocity, drag="law Beetstra;", entries=""):
         """A bed from 3 to 11 cm along the box, from a solids.h5."""
         phi = np.zeros((1, *SHAPE[::-1]))
@@ -110,14 +122,7 @@ class FluidOnBalls(SlurryTest):
     def test_the_pressure_of_fluid_that_speeds_up_between_balls_is_felt(self):
         """Bernoulli, into a bed without drag: p falls by rho U^2 (1/e^2 - 1)/2, and rises behind it."""
         speed = 0.5
-        case = self.pool(end_time=0.4, window=0.1)
-        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
-        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
-                      alpha="type fixedValue; value uniform 1;")
-        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
-                      alpha="type zeroGradient;")
-        for side in ("bottom", "top", "front", "back"):
-            case.at_patch(side, U="type slip;")
+        case = self.pushed(speed)
         self.bed_of(case, (0, 0, 0), "law Darcy; multiplier 0;")
         found = self.forces(case, begin=0.3)
         along = found.pressure_force[..., 0].mean(axis=(0, 1)) * UPPER[0] / SHAPE[0]
@@ -128,14 +133,7 @@ class FluidOnBalls(SlurryTest):
     def through_a_plate(self):
         """Balls everywhere that the flow does not drag, and a plate across it in the middle."""
         speed, loss = 0.5, 100
-        case = self.pool(end_time=0.4, window=0.1)
-        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
-        case.at_patch("left", U=f"type fixedValue; value uniform ({speed} 0 0);", p_rgh="type zeroGradient;",
-                      alpha="type fixedValue; value uniform 1;")
-        case.at_patch("right", U="type zeroGradient;", p_rgh="type fixedValue; value uniform 0;",
-                      alpha="type zeroGradient;")
-        for side in ("bottom", "top", "front", "back"):
-            case.at_patch(side, U="type slip;")
+        case = self.pushed(speed)
         case.bed(EVERYWHERE, "law Darcy; multiplier 0;")
         case.write("system/topoSetDict", """
             actions ( { name middle; type faceSet; action new; source boxToFace; box (0.0699 -1 -1) (0.0701 1 1); }
