@@ -77,6 +77,18 @@ class Restart(SlurryTest):
         case.bed(PILE)
         self.assert_restarts(case)
 
+    def test_on_a_turning_mesh_with_the_plate_of_a_grate(self):
+        case = self.slurry_case(end_time=self.last, motion=rotating_mesh(3))
+        case.write("system/topoSetDict", """
+            actions ( { name found; type faceSet; action new; source boxToFace; box (0.069 -1 -1) (0.071 1 1); }
+                      { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; } );""")
+        self.assert_runs(case, "topoSet")
+        self.assert_runs(case, "slurryFoam")
+        open_flow = case.field("U", self.last)
+        case.write("constant/grateProperties", "middle { faces plate; loss 1000; }")
+        self.assert_restarts(case)
+        self.assertGreater(np.abs(case.field("U", self.last) - open_flow).max(), 0.01)
+
 
 class ShippedRestart(Restart):
     """The same with the files that the mills of cases/ write: binary."""

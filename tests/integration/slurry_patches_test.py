@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 
 from openfoam_case import require_environment, rotating_mesh
-from slurry_case import SlurryTest
+from slurry_case import AIR, SlurryTest
 
 WIDTH, HEIGHT, ROWS = 0.02, 0.1, 20
 AREA = WIDTH * WIDTH
@@ -121,20 +121,21 @@ class Grate(ColumnTest):
 
     speed, darcy, forchheimer, loss = 0.1, 2e7, 400.0, 1800.0
 
-    def pushed(self, way=1):
-        case = self.column(level=HEIGHT, delta_t=0.01, end_time=0.1, bingham=NEWTONIAN)
+    def pushed(self, way=1, slurry=1):
+        case = self.column(level=slurry * HEIGHT, delta_t=0.01, end_time=0.1, bingham=NEWTONIAN)
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
         given, opened = ("bottom", "top") if way > 0 else ("top", "bottom")
         case.at_patch(given, U=f"type fixedValue; value uniform (0 {way * self.speed} 0);",
-                      alpha="type fixedValue; value uniform 1;")
+                      alpha=f"type fixedValue; value uniform {slurry};")
         case.at_patch(opened, U="type pressureInletOutletVelocity; value uniform (0 0 0);",
                       p_rgh="type prghPressure; p uniform 0; value uniform 0;",
                       alpha="type inletOutlet; inletValue uniform 0; value uniform 0;")
         return case
 
-    def with_plate(self, source, grates="discharge { faces plate; loss LOSS; }", way=1):
-        """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds."""
-        case = self.pushed(way)
+    def with_plate(self, source, grates="discharge { faces plate; loss LOSS; }", way=1, slurry=1):
+        """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds; slurry: its
+        share of the fluid."""
+        case = self.pushed(way, slurry)
         case.write("system/topoSetDict", f"""
             actions ( {{ name found; type faceSet; action new; {source} }}
                       {{ name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }} );""")
@@ -169,6 +170,12 @@ class Grate(ColumnTest):
             steps = -way * np.diff(self.with_plate(self.middle, way=way))
             self.assertAlmostEqual(steps[ROWS // 2 - 1], self.plate_drop, delta=1e-4 * self.plate_drop)
             self.assertLess(np.abs(np.delete(steps, ROWS // 2 - 1)).max(), 1e-4 * self.plate_drop)
+
+    def test_as_a_plate_costs_air_what_its_density_gives(self):
+        steps = -np.diff(self.with_plate(self.middle, slurry=0))
+        drop = self.loss * AIR * self.speed**2 / 2
+        self.assertAlmostEqual(steps[ROWS // 2 - 1], drop, delta=1e-4 * drop)
+        self.assertLess(np.abs(np.delete(steps, ROWS // 2 - 1)).max(), 1e-4 * drop)
 
     def test_as_two_plates_at_the_same_faces_costs_both(self):
         rows = self.with_plate(self.middle, "one { faces plate; loss LOSS; } other { faces plate; loss LOSS; }")
