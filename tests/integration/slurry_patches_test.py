@@ -133,8 +133,8 @@ class Grate(ColumnTest):
         return case
 
     def with_plate(self, source, grates="discharge { faces plate; loss LOSS; }", way=1, slurry=1):
-        """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds; slurry: its
-        share of the fluid."""
+        """The pressure of the rows from the bottom to the top, with a plate of the faces that topoSet finds; slurry:
+        its share of the fluid."""
         case = self.pushed(way, slurry)
         case.write("system/topoSetDict", f"""
             actions ( {{ name found; type faceSet; action new; {source} }}

@@ -46,6 +46,13 @@ class Runs(unittest.TestCase):
                                           text=True)
                     self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_an_unknown_says_whether_balls_see_it_and_what_it_changes(self):
+        for name, expected in (("wide_lifters", "yes\ngeometry.lifters.width=0.020\n"),
+                               ("layers_17", "no\nresolution.layers=17\n")):
+            done = subprocess.run([sys.executable, STUDY / "runs.py", "--unknown", name], capture_output=True,
+                                  text=True)
+            self.assertEqual((done.returncode, done.stdout), (0, expected), done.stderr)
+
     def test_charges_come_from_dry_runs_of_the_same_speed(self):
         for run in RUNS.values():
             self.assertEqual(run.dry is None, run.way in ("dry", "alone"))

@@ -73,7 +73,7 @@ class Models(unittest.TestCase):
 
 class Trials(unittest.TestCase):
     def expected(self, feed, *points):
-        trials = [study.Trial((75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
+        trials = [study.Trial(study.Kind(75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
         return study.expected_volume(feed, trials)
 
     def test_the_hold_up_is_where_the_line_has_the_feed(self):
@@ -88,9 +88,12 @@ class Trials(unittest.TestCase):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
 
     def test_they_are_listed(self):
-        trials = [study.Trial((75, True), 4e-3, Mean(7e-5, 2e-6)), study.Trial((75, False), 5e-3, Mean(6e-5, 1e-6))]
+        trials = [study.Trial(study.Kind(75, True), 4e-3, Mean(7e-5, 2e-6)),
+                  study.Trial(study.Kind(75, False), 5e-3, Mean(6e-5, 1e-6)),
+                  study.Trial(study.Kind(75, False, "wide_lifters"), 4e-3, Mean(6e-5, 1e-6))]
         self.assertEqual(list(study.trial_lines(trials)),
                          ["trial at 75 %, without balls: 5.000 l discharge 60.0 ± 1.0 ml/s",
+                          "trial at 75 %, without balls, wide_lifters: 4.000 l discharge 60.0 ± 1.0 ml/s",
                           "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
 
 
@@ -120,6 +123,15 @@ class Table(unittest.TestCase):
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
         self.assertRegex(text, r"from the high start: hold-up \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+
+    def test_a_changed_mill_is_compared_with_its_base_and_has_no_exponent(self):
+        flows = [held("Beetstra_75_65", 65e-6, 3e-3),
+                 *(held(f"fluid_75_{name}", 1e-6 * float(name.split("_")[0]), volume, law=None)
+                   for name, volume in (("65", 4e-3), ("65_wide_lifters", 4.4e-3), ("131", 5e-3)))]
+        lines = list(study.lines_of(flows))
+        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up +10.00 ± 0.32 % from "
+                                            "fluid_75_65's") for line in lines), lines)
+        self.assertTrue(any("without balls: hold-up" in line and "(2 feeds)" in line for line in lines), lines)
 
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

@@ -93,12 +93,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--names", action="store_true", help="prints the names of all runs")
+    what.add_argument("--unknown", choices=UNKNOWNS, metavar="NAME",
+                      help="prints whether balls see it (yes or no), then its changes, one in a line")
     what.add_argument("--settings", choices=RUNS, metavar="RUN",
                       help="prints how it gets its charge and from which dry run, then its settings, one in a line")
     parser.add_argument("--quick", action="store_true", help="settings of the coarse and short form")
     options = parser.parse_args()
     if options.names:
         print(*RUNS, sep="\n")
+        return 0
+    if options.unknown:
+        changes, balls_see = UNKNOWNS[options.unknown]
+        print("yes" if balls_see else "no", *changes, sep="\n")
         return 0
     run = RUNS[options.settings]
     print(run.way, run.dry or "", *run.settings(options.quick), sep="\n")

@@ -7,7 +7,7 @@ import argparse
 import csv
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -27,6 +27,24 @@ MESHES = ("coarse", "own")
 STARTS = ("low", "high")
 Found = TypeVar("Found")
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
+
+
+@dataclass(frozen=True, order=True)
+class Kind:
+    """What trials and flows of a mesh share: speed (% of critical), whether they have balls, and the name of what is
+    changed in the mill, or nothing."""
+    speed: int
+    balls: bool
+    change: str = ""
+
+    def __str__(self) -> str:
+        words = f"{self.speed} %, {'with' if self.balls else 'without'} balls"
+        return f"{words}, {self.change}" if self.change else words
+
+
+def kind_of(case: MillCase, change: str) -> Kind:
+    """Kind of a case with this change in its mill."""
+    return Kind(round(100 * case.mill.critical_share), bool(case.law), change)
 
 
 @dataclass(frozen=True)
@@ -51,14 +69,14 @@ class Held:
         return self.case.mill
 
     @property
-    def group(self) -> tuple[str, int, bool]:
-        """Flows that differ in their feed alone: mesh, speed (% of critical), whether they have balls."""
-        return self.mesh, *kind_of(self.case)
+    def kind(self) -> Kind:
+        """By its case, and by its name, BALLS_SPEED_FEED_CHANGE."""
+        return kind_of(self.case, "_".join(self.name.split("_")[3:]))
 
-
-def kind_of(case: MillCase) -> tuple[int, bool]:
-    """Speed of a mill (% of critical), and whether its flow has balls."""
-    return round(100 * case.mill.critical_share), bool(case.law)
+    @property
+    def is_base(self) -> bool:
+        """Whether its mill is not changed and it has no other start."""
+        return self.name not in STARTS and not self.kind.change
 
 
 def read_held(mesh: str, folder: Path) -> Held:
@@ -83,15 +101,15 @@ def read_held(mesh: str, folder: Path) -> Held:
 
 @dataclass(frozen=True)
 class Trial:
-    """A short flow: its kind, see kind_of; means over the last half of its time: hold-up of the mill with its pulp
+    """A short flow: its kind; means over the last half of its time: hold-up of the mill with its pulp
     lifters (m3) and discharge (m3/s), with its error over whole turns."""
-    kind: tuple[int, bool]
+    kind: Kind
     volume: float
     discharge: Mean
 
 
 def read_trial(folder: Path) -> Trial:
-    """Trial of a folder. RuntimeError if it is not complete."""
+    """Trial of a folder BALLS_SPEED_CHANGE_START, or BALLS_SPEED_START. RuntimeError if it is not complete."""
     case = MillCase(folder)
     if case.flow is None or case.balance is None or not case.record.complete:
         raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
@@ -101,7 +119,7 @@ def read_trial(folder: Path) -> Trial:
     late = times >= begin
     discharge = Mean(columns["discharge"][late].mean(),
                      error_over_turns(times, columns["discharge"], begin, case.turn))
-    return Trial(kind_of(case), columns["holdUp"][late].mean(), discharge)
+    return Trial(kind_of(case, "_".join(folder.name.split("_")[2:-1])), columns["holdUp"][late].mean(), discharge)
 
 
 @dataclass(frozen=True)
@@ -162,12 +180,12 @@ def read_all(root: Path) -> tuple[list[Held], list[Trial], list[Stay], list[str]
     return held, trials, stays, not_ended + not_complete + not_known
 
 
-def by_groups(found: Sequence[Held]) -> dict[tuple[str, int, bool], list[Held]]:
-    """The flows of each group in order of their feed, without those from other starts."""
-    groups: dict[tuple[str, int, bool], list[Held]] = {}
+def by_groups(found: Sequence[Held]) -> dict[tuple[str, Kind], list[Held]]:
+    """Mesh and kind -> flows in order of their feed, without those from other starts or of changed mills."""
+    groups: dict[tuple[str, Kind], list[Held]] = {}
     for one in sorted(found, key=lambda one: one.feed):
-        if one.name not in STARTS:
-            groups.setdefault(one.group, []).append(one)
+        if one.is_base:
+            groups.setdefault((one.mesh, one.kind), []).append(one)
     return groups
 
 
@@ -221,7 +239,8 @@ def rows_of(found: Sequence[Held]) -> Iterator[dict[str, object]]:
 
 
 def lines_of(found: Sequence[Held]) -> Iterator[str]:
-    """The table as text, then the exponents of each group and of the models, then what other starts came to."""
+    """The table as text, then the exponents of each group and of the models, then what other starts and changed mills
+    came to."""
     names = ("hold-up, l", "in front of the grates, l", "discharge, ml/s", "height, mm")
     yield f"{'flow':<26}{'feed, ml/s':>11}" + "".join(name.rjust(27) for name in names) + "  end, s  ended by"
     for row in rows_of(found):
@@ -229,27 +248,25 @@ def lines_of(found: Sequence[Held]) -> Iterator[str]:
                + "".join(f"{row[name]:.3f} ± {row[f'{name} ±']:.3f}".rjust(27) for name in names)
                + f"{row['end, s']:8.1f}  {row['ended by']}")
     yield ""
-    for (mesh, speed, balls), group in by_groups(found).items():
+    for (mesh, kind), group in by_groups(found).items():
         feeds = [one.feed for one in group]
         if len(set(feeds)) < 2:
             continue
         slope, _ = exponent(feeds, [one.chamber for one in group])
-        words = f"{mesh}, {speed} %, {'with' if balls else 'without'} balls: hold-up in front of the grates ~ feed^"
+        words = f"{mesh}, {kind}: hold-up in front of the grates ~ feed^"
         yield f"{words}{slope.text('', 1, '.3f')}({len(group)} feeds)"
-        if balls:
+        if kind.balls:
             held = [model_holdups(group[0].mill, feed) for feed in feeds]
             for name in held[0]:
                 slope, _ = exponent(feeds, [Mean(one[name], 1e-3 * one[name]) for one in held])
                 yield f"    {name}: ~ feed^{slope.value:.3f}"
-    yield from starts(found)
+    yield from comparisons(found)
 
 
 def trial_lines(trials: Sequence[Trial]) -> Iterator[str]:
     """Hold-up and discharge of each trial."""
     for one in sorted(trials, key=lambda one: (one.kind, one.volume)):
-        speed, balls = one.kind
-        yield (f"trial at {speed} %, {'with' if balls else 'without'} balls: {1e3 * one.volume:.3f} l discharge "
-               f"{one.discharge.text('ml/s', 1e6, '.1f')}")
+        yield f"trial at {one.kind}: {1e3 * one.volume:.3f} l discharge {one.discharge.text('ml/s', 1e6, '.1f')}"
 
 
 def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
@@ -261,29 +278,31 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
                f"{found.peclet:.2f}; {100 * found.left:.0f} % had not left")
 
 
-def starts(found: Sequence[Held]) -> Iterator[str]:
-    """What flows from other starts came to, over the flow that they belong to."""
-    others = [one for one in found if one.name in STARTS]
-    for one in others:
-        base = next((flow for flow in found if flow.name not in STARTS and flow.group == one.group
-                     and np.isclose(flow.feed, one.feed)), None)
-        if base:
-            apart = one.whole - base.whole
-            yield (f"from the {one.name} start: hold-up {100 * apart.value / base.whole.value:+.2f} ± "
-                   f"{100 * apart.error / base.whole.value:.2f} % from {base.name}'s, after {one.end:.1f} s")
+def comparisons(found: Sequence[Held]) -> Iterator[str]:
+    """What flows from other starts and of changed mills came to, over the flow that they belong to."""
+    for one in found:
+        base = next((flow for flow in found if flow.is_base and flow.mesh == one.mesh
+                     and flow.kind == replace(one.kind, change="") and np.isclose(flow.feed, one.feed)), None)
+        if one.is_base or base is None:
+            continue
+        apart, share = one.whole - base.whole, 100 / base.whole.value
+        start = f"from the {one.name} start" if one.name in STARTS else f"{one.mesh}/{one.name}"
+        yield (f"{start}: hold-up {share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, after "
+               f"{one.end:.1f} s")
 
 
 def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial]) -> None:
     """Discharge against the hold-up of the mill: trials, and flows on coarse cells that ended because they are
-    steady."""
-    for speed, balls in sorted({one.kind for one in trials}):
+    steady. Changed mills are left out."""
+    for kind in sorted({one.kind for one in trials if not one.kind.change}):
         points = sorted((1e3 * one.volume, 1e6 * one.discharge.value, 1e6 * one.discharge.error)
-                        for one in trials if one.kind == (speed, balls))
-        axis.errorbar(*zip(*points), fmt="s" if balls else "o", ls=":", lw=1, capsize=2, fillstyle="none",
-                      color=COLOURS[speed], label=f"trials, {speed} %, {'with' if balls else 'without'} balls")
-    for one in (one for one in found if one.mesh == "coarse" and one.reason == "steady"):
-        axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
-                      fmt="s" if one.case.law else "o", color=COLOURS[kind_of(one.case)[0]])
+                        for one in trials if one.kind == kind)
+        axis.errorbar(*zip(*points), fmt="s" if kind.balls else "o", ls=":", lw=1, capsize=2, fillstyle="none",
+                      color=COLOURS[kind.speed], label=f"trials, {kind}")
+    for one in found:
+        if one.mesh == "coarse" and one.reason == "steady" and not one.kind.change:
+            axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
+                          fmt="s" if one.kind.balls else "o", color=COLOURS[one.kind.speed])
     axis.set(title="filled: steady", xlabel="hold-up with the pulp lifters, l", ylabel="discharge, ml/s",
              ylim=(0, None))
     axis.grid(alpha=0.3)
@@ -297,8 +316,9 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
     figure, grid = plt.subplots(2, 2, figsize=(12, 9), layout="constrained")
     axes = grid.ravel()
     draw_discharge(axes[2], found, trials)
-    for (mesh, speed, balls), group in by_groups(found).items():
-        axis, feeds = axes[int(balls)], np.array([one.feed for one in group])
+    for (mesh, kind), group in by_groups(found).items():
+        speed = kind.speed
+        axis, feeds = axes[int(kind.balls)], np.array([one.feed for one in group])
         style = {"color": COLOURS[speed], "fillstyle": "full" if mesh == "own" else "none"}
         held = np.array([(one.chamber.value, one.chamber.error) for one in group]).T
         axis.errorbar(1e6 * feeds, *(1e3 * held), fmt="o", capsize=2, label=f"{speed} % of critical, {mesh} cells",
@@ -308,7 +328,7 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
             slope, offset = exponent(feeds, [one.chamber for one in group])
             axis.plot(1e6 * along, 1e3 * np.exp(offset) * along**slope.value, color=COLOURS[speed],
                       ls="-" if mesh == "own" else "--", lw=1, label=f"~ feed^{slope.value:.2f} ± {slope.error:.2f}")
-        if balls and mesh == "coarse":
+        if kind.balls and mesh == "coarse":
             for name, line in (("Moys", ":"), ("Morrell & Stephenson", "-.")):
                 axis.plot(1e6 * along, [1e3 * model_holdups(group[0].mill, feed)[name] for feed in along], line,
                           color=COLOURS[speed], lw=1, alpha=0.7, label=f"{name}, {speed} %")
