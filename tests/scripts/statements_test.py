@@ -91,8 +91,11 @@ class TwoHumps(unittest.TestCase):
         self.assertEqual(len(statements.maxima(Z, height, 1e-4)), 2)
         self.assertEqual(len(statements.maxima(Z, height, 5e-4)), 1)
 
-    def test_raised_ends_are_maxima(self):
-        np.testing.assert_allclose(statements.maxima(Z, np.abs(Z - 0.15), 1e-3), Z[[0, -1]])
+    def test_raised_ends_are_no_humps(self):
+        run_60 = run(60, series=series(np.abs(Z - 0.15)))
+        (verdict, *_) = statements.humps_without_balls(Runs([run_60]))
+        self.assertEqual(verdict.verdict, CONTRADICTED)
+        self.assertIn(f"no maximum between the ends, {1e3 * Z[0]:.0f}, {1e3 * Z[-1]:.0f} mm", verdict.figure)
 
 
 class WithBalls(unittest.TestCase):

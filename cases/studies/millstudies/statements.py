@@ -41,10 +41,10 @@ def flat_without_balls(runs):
 
 
 def maxima(z, height, error):
-    """Places (m) of a profile's clear maxima, also at its ends. Their prominence is more than a tenth of the range, and
-    three times the error of the difference of two heights [n] (m) with the standard errors `error` (m)."""
-    padded = np.concatenate([[height.min() - 1], height, [height.min() - 1]])
-    return z[find_peaks(padded, prominence=max(3 * np.sqrt(2) * error, 0.1 * np.ptp(height)))[0] - 1]
+    """Places (m) of a profile's clear maxima between its ends, which the feed and the pulp lifters raise. Their
+    prominence is more than a tenth of the range, and three times the error of the difference of two heights [n] (m)
+    with the standard errors `error` (m)."""
+    return z[find_peaks(height, prominence=max(3 * np.sqrt(2) * error, 0.1 * np.ptp(height)))[0]]
 
 
 def humps_without_balls(runs):
@@ -64,7 +64,8 @@ def humps_without_balls(runs):
             continue
         places = maxima(run.series.z, height, error)
         apart[which.speed] = fit.distances[0], len(places) == 2, run
-        figure = (f"maxima at {millimetres(places)} mm of {millimetres(run.series.z[[0, -1]])}; two Gaussians at "
+        seen = f"maxima at {millimetres(places)} mm" if len(places) else "no maximum"
+        figure = (f"{seen} between the ends, {millimetres(run.series.z[[0, -1]])} mm; two Gaussians at "
                   f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
         found.append(Verdict(statement, run.name,
                              *judged(CONFIRMED if len(places) == 2 else CONTRADICTED, figure, run)))
