@@ -79,13 +79,27 @@ class Held:
         return self.name not in STARTS and not self.kind.change
 
 
+def case_with_flow(folder: Path) -> MillCase:
+    """Case of a folder. RuntimeError if it has no flow or no table of slurryBalance."""
+    case = MillCase(folder)
+    if case.flow is None or case.balance is None:
+        raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
+    return case
+
+
+def complete_case(folder: Path) -> MillCase:
+    """Case of a folder whose flow came to the end that was asked for. RuntimeError if it is not complete."""
+    case = case_with_flow(folder)
+    if not case.record.complete:
+        raise RuntimeError("the flow is not complete")
+    return case
+
+
 def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
         raise RuntimeError("the flow has not come to its end")
-    ended, case = read_json(folder / "steady.json", "steady"), MillCase(folder)
-    if case.flow is None or case.balance is None:
-        raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
+    ended, case = read_json(folder / "steady.json", "steady"), case_with_flow(folder)
     turns = max(int((ended["end_s"] - ended["begin_s"]) / case.turn + 0.005), 1)
     begin = ended["end_s"] - turns * case.turn
 
@@ -110,9 +124,7 @@ class Trial:
 
 def read_trial(folder: Path) -> Trial:
     """Trial of a folder BALLS_SPEED_CHANGE_START, or BALLS_SPEED_START. RuntimeError if it is not complete."""
-    case = MillCase(folder)
-    if case.flow is None or case.balance is None or not case.record.complete:
-        raise RuntimeError("; ".join(["the trial is not complete", *case.unusable]))
+    case = complete_case(folder)
     columns = case.balance
     times = columns["Time"]
     begin = times[-1] / 2
@@ -133,9 +145,7 @@ class Stay:
 
 def read_stay(folder: Path) -> Stay:
     """Stay of a folder. RuntimeError if its flow or its tracer's table is not complete."""
-    case = MillCase(folder)
-    if case.flow is None or case.balance is None or not case.record.complete:
-        raise RuntimeError("; ".join(["the flow is not complete", *case.unusable]))
+    case = complete_case(folder)
     table, columns = read_tracer(folder), case.balance
     held, fed = (time_mean(columns["Time"], columns[name], table.begin) for name in ("holdUp", "feed"))
     return Stay(folder.name, residence(table), held / fed)
