@@ -22,21 +22,21 @@ SPEC.loader.exec_module(study)
 FEEDS = (33e-6, 65e-6, 131e-6)
 
 
-def mill(speed=0.75):
+def mill(speed=0.75, discharge_radius=0.0467):
     """What the study reads of the 30 cm mill."""
     grates = {"inner_radius_m": 0.09, "outer_radius_m": 0.13, "sector_share": 0.8, "open_fraction": 0.3, "pegged": 0.5}
     derived = {("charge", "resting_solidity"): 0.55, ("charge", "pore_volume_m3"): 3e-3,
                **{("geometry", "grates", key): value for key, value in grates.items()}}
-    return SimpleNamespace(radius=0.15, length=0.305, sauter_diameter=0.005, discharge_radius=0.0467,
+    return SimpleNamespace(radius=0.15, length=0.305, sauter_diameter=0.005, discharge_radius=discharge_radius,
                            critical_share=speed, derived=lambda *keys: derived[keys],
                            slurry={"plastic_viscosity_Pa_s": 0.0013, "density_kg_m3": 1148}.__getitem__)
 
 
-def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5):
-    case = SimpleNamespace(mill=mill(), law=law, flow=SimpleNamespace(mesh=SimpleNamespace(cells=9515)))
+def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5, whole=1.1, **of_mill):
+    case = SimpleNamespace(mill=mill(**of_mill), law=law, flow=SimpleNamespace(mesh=SimpleNamespace(cells=9515)))
     one = Mean(volume, error)
-    return study.Held(mesh, name, case, feed, Mean(1.1 * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
-                      "steady", "holds")
+    return study.Held(mesh, name, case, feed, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4),
+                      20.0, "steady", "holds")
 
 
 class Exponents(unittest.TestCase):
@@ -97,6 +97,14 @@ class Trials(unittest.TestCase):
                           "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
 
 
+class Names(unittest.TestCase):
+    def test_say_what_is_changed(self):
+        for name, change in (("Beetstra_75_65", ""), ("fluid_75_65_layers_17", "layers_17"), ("low", "")):
+            self.assertEqual(study.change_of_flow(name), change)
+        for name, change in (("Beetstra_75_level", ""), ("fluid_75_layers_17_less", "layers_17")):
+            self.assertEqual(study.change_of_trial(name), change)
+
+
 class Stays(unittest.TestCase):
     def test_they_are_compared_with_hold_up_over_feed(self):
         found = Residence(np.zeros(1), np.zeros(1), mean=33.0, variance=33.0**2 / 2, left=0.13, tail=30.0)
@@ -122,16 +130,30 @@ class Table(unittest.TestCase):
         self.assertIn("coarse, 75 %, with balls: hold-up in front of the grates ~ feed^0.500", text)
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
-        self.assertRegex(text, r"from the high start: hold-up \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+        self.assertRegex(text, r"coarse/high: hold-up \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
 
     def test_a_changed_mill_is_compared_with_its_base_and_has_no_exponent(self):
         flows = [held("Beetstra_75_65", 65e-6, 3e-3),
-                 *(held(f"fluid_75_{name}", 1e-6 * float(name.split("_")[0]), volume, law=None)
-                   for name, volume in (("65", 4e-3), ("65_wide_lifters", 4.4e-3), ("131", 5e-3)))]
+                 *(held(f"fluid_75_{name}", 1e-6 * float(name.split("_")[0]), volume, law=None, whole=whole)
+                   for name, volume, whole in (("65", 4e-3, 1.1), ("65_wide_lifters", 4.4e-3, 1.0),
+                                               ("131", 5e-3, 1.1)))]
         lines = list(study.lines_of(flows))
-        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up +10.00 ± 0.32 % from "
-                                            "fluid_75_65's") for line in lines), lines)
+        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up in front of the grates +10.00 ± "
+                                            "0.35 % from fluid_75_65's") for line in lines), lines)
         self.assertTrue(any("without balls: hold-up" in line and "(2 feeds)" in line for line in lines), lines)
+
+    def test_a_mill_without_pulp_lifters_has_no_hold_up_by_moys(self):
+        flows = [held("Beetstra_75_65", 65e-6, 3e-3),
+                 held("Beetstra_75_65_open_grates", 65e-6, 3.3e-3, whole=1.0, discharge_radius=None)]
+        base, changed = study.rows_of(flows)
+        self.assertIn("Moys, l", base)
+        self.assertNotIn("Moys, l", changed)
+        self.assertIn("Morrell & Stephenson, l", changed)
+        self.assertIn("+10.00", "\n".join(study.lines_of(flows)))
+
+    def test_a_flow_without_its_base_says_so(self):
+        text = "\n".join(study.lines_of([held("fluid_75_65_wide_lifters", 65e-6, 4e-3, law=None)]))
+        self.assertIn("coarse/fluid_75_65_wide_lifters: the flow to compare it with is not complete", text)
 
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

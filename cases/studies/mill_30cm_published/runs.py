@@ -94,7 +94,7 @@ def main():
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--names", action="store_true", help="prints the names of all runs")
     what.add_argument("--unknown", choices=UNKNOWNS, metavar="NAME",
-                      help="prints whether balls see it (yes or no), then its changes, one in a line")
+                      help="prints whether balls see this change (yes or no), then its settings, one in a line")
     what.add_argument("--settings", choices=RUNS, metavar="RUN",
                       help="prints how it gets its charge and from which dry run, then its settings, one in a line")
     parser.add_argument("--quick", action="store_true", help="settings of the coarse and short form")

@@ -47,6 +47,16 @@ def kind_of(case: MillCase, change: str) -> Kind:
     return Kind(round(100 * case.mill.critical_share), bool(case.law), change)
 
 
+def change_of_flow(name: str) -> str:
+    """Change of the mill of a flow BALLS_SPEED_FEED_CHANGE; nothing in other names."""
+    return "_".join(name.split("_")[3:])
+
+
+def change_of_trial(name: str) -> str:
+    """Change of the mill of a trial BALLS_SPEED_CHANGE_START; nothing in BALLS_SPEED_START."""
+    return "_".join(name.split("_")[2:-1])
+
+
 @dataclass(frozen=True)
 class Held:
     """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over the turns that were judged: hold-up
@@ -70,8 +80,8 @@ class Held:
 
     @property
     def kind(self) -> Kind:
-        """By its case, and by its name, BALLS_SPEED_FEED_CHANGE."""
-        return kind_of(self.case, "_".join(self.name.split("_")[3:]))
+        """By its case, and its change by its name."""
+        return kind_of(self.case, change_of_flow(self.name))
 
     @property
     def is_base(self) -> bool:
@@ -123,7 +133,7 @@ class Trial:
 
 
 def read_trial(folder: Path) -> Trial:
-    """Trial of a folder BALLS_SPEED_CHANGE_START, or BALLS_SPEED_START. RuntimeError if it is not complete."""
+    """Trial of a folder. RuntimeError if it is not complete."""
     case = complete_case(folder)
     columns = case.balance
     times = columns["Time"]
@@ -131,7 +141,7 @@ def read_trial(folder: Path) -> Trial:
     late = times >= begin
     discharge = Mean(columns["discharge"][late].mean(),
                      error_over_turns(times, columns["discharge"], begin, case.turn))
-    return Trial(kind_of(case, "_".join(folder.name.split("_")[2:-1])), columns["holdUp"][late].mean(), discharge)
+    return Trial(kind_of(case, change_of_trial(folder.name)), columns["holdUp"][late].mean(), discharge)
 
 
 @dataclass(frozen=True)
@@ -220,7 +230,8 @@ def exponent(feeds: Sequence[float], holdups: Sequence[Mean]) -> tuple[Mean, flo
 
 
 def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
-    """Name of a model -> hold-up (m3) of a mill with balls at a feed (m3/s)."""
+    """Name of a model -> hold-up (m3) of a mill with balls at a feed (m3/s). Moys' needs the lip of the discharge,
+    which a mill without pulp lifters has not."""
     solidity = mill.derived("charge", "resting_solidity")
     bed = models.Charge(mill.radius, mill.length, 1 - solidity, mill.sauter_diameter)
     names = "inner_radius_m", "outer_radius_m", "sector_share", "open_fraction", "pegged"
@@ -228,11 +239,13 @@ def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
     area = np.pi * (grates["outer_radius_m"]**2 - grates["inner_radius_m"]**2) * (
         grates["sector_share"] * grates["open_fraction"] * (1 - grates["pegged"]))
     volume = np.pi * mill.radius**2 * mill.length
+    found = {"Morrell & Stephenson": volume * models.grate_hold_up(
+        feed, 2 * mill.radius, models.mean_grate_radius(grates["inner_radius_m"], grates["outer_radius_m"]), area,
+        mill.critical_share, mill.derived("charge", "pore_volume_m3") / volume)}
+    if mill.discharge_radius is None:
+        return found
     return {"Moys": models.slurry_hold_up(bed, feed, mill.radius - mill.discharge_radius,
-                                          mill.slurry("plastic_viscosity_Pa_s"), mill.slurry("density_kg_m3")),
-            "Morrell & Stephenson": volume * models.grate_hold_up(
-                feed, 2 * mill.radius, models.mean_grate_radius(grates["inner_radius_m"], grates["outer_radius_m"]),
-                area, mill.critical_share, mill.derived("charge", "pore_volume_m3") / volume)}
+                                          mill.slurry("plastic_viscosity_Pa_s"), mill.slurry("density_kg_m3")), **found}
 
 
 def rows_of(found: Sequence[Held]) -> Iterator[dict[str, object]]:
@@ -289,16 +302,20 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
 
 
 def comparisons(found: Sequence[Held]) -> Iterator[str]:
-    """What flows from other starts and of changed mills came to, over the flow that they belong to."""
-    for one in found:
+    """What flows from other starts and of changed mills hold, compared with the flow that they belong to. A changed
+    mill may have no pulp lifters, so it is compared by what it holds in front of the grates."""
+    for one in (one for one in found if not one.is_base):
+        name = f"{one.mesh}/{one.name}"
         base = next((flow for flow in found if flow.is_base and flow.mesh == one.mesh
                      and flow.kind == replace(one.kind, change="") and np.isclose(flow.feed, one.feed)), None)
-        if one.is_base or base is None:
+        if base is None:
+            yield f"{name}: the flow to compare it with is not complete"
             continue
-        apart, share = one.whole - base.whole, 100 / base.whole.value
-        start = f"from the {one.name} start" if one.name in STARTS else f"{one.mesh}/{one.name}"
-        yield (f"{start}: hold-up {share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, after "
-               f"{one.end:.1f} s")
+        words, ours, theirs = (("in front of the grates ", one.chamber, base.chamber) if one.kind.change
+                               else ("", one.whole, base.whole))
+        apart, share = ours - theirs, 100 / theirs.value
+        yield (f"{name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, "
+               f"after {one.end:.1f} s")
 
 
 def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial]) -> None:
@@ -347,10 +364,11 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
         axis.grid(alpha=0.3)
         if axis.has_data():
             axis.legend(fontsize=7)
-    for number, one in enumerate(found):
+    unchanged = [one for one in found if not one.kind.change]
+    for number, one in enumerate(unchanged):
         columns = one.case.balance
-        axes[3].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, color=plt.cm.turbo((number + 0.5) / len(found)),
-                     label=f"{one.mesh}/{one.name}")
+        axes[3].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, label=f"{one.mesh}/{one.name}",
+                     color=plt.cm.turbo((number + 0.5) / len(unchanged)))
     axes[3].set(title="with the pulp lifters", xlabel="flow time, s", ylabel="hold-up, l")
     axes[3].grid(alpha=0.3)
     axes[3].legend(fontsize=6, ncols=2)
