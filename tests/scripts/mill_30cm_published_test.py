@@ -3,6 +3,7 @@
 """The study mill_30cm_published: its runs are mills that can be made, and what it reads of a slurry whose answers are
 known."""
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -27,7 +28,7 @@ sys.path.insert(0, str(STUDY))
 import flow_numbers  # noqa: E402, in the study's folder
 import mill_30cm_published as study  # noqa: E402
 import own_statements  # noqa: E402
-from runs import RUNS, is_published  # noqa: E402
+from runs import RUNS, UNKNOWNS, is_published  # noqa: E402
 
 TURN, WINDOW, TIME0, BEGIN, LAST = 1.0, 0.05, 0.4, 1.9, 5.0
 LOWER, UPPER, SHAPE = np.array([-0.15, -0.15, 0.0]), np.array([0.15, 0.15, 0.338]), (33, 33, 33)
@@ -52,6 +53,11 @@ class Runs(unittest.TestCase):
             done = subprocess.run([sys.executable, STUDY / "runs.py", "--unknown", name], capture_output=True,
                                   text=True)
             self.assertEqual((done.returncode, done.stdout), (0, expected), done.stderr)
+
+    def test_steady_holdup_changes_what_is_unknown_here(self):
+        allrun = (STUDY.parent / "steady_holdup" / "Allrun").read_text()
+        names = re.search(r"for change in (.*); do", allrun)[1].split()
+        self.assertLessEqual(set(names), set(UNKNOWNS))
 
     def test_charges_come_from_dry_runs_of_the_same_speed(self):
         for run in RUNS.values():
