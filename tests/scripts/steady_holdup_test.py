@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The study steady_holdup: exponents, models, groups of flows, and its table."""
-import importlib.util
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -14,10 +14,11 @@ from millfoam.readings.means import Mean
 from millfoam.readings.residence import Residence
 
 ROOT = Path(__file__).resolve().parents[2]
-PLACE = ROOT / "cases" / "studies" / "steady_holdup" / "steady_holdup.py"
-SPEC = importlib.util.spec_from_file_location("steady_holdup", PLACE)
-study = importlib.util.module_from_spec(SPEC)
-SPEC.loader.exec_module(study)
+sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
+
+import steady_holdup as study  # noqa: E402, in the study's folder
+from held_flows import (Held, Kind, Stay, Trial, change_of_flow, change_of_trial, expected_volume,  # noqa: E402
+                        read_all)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -35,8 +36,8 @@ def mill(speed=0.75, discharge_radius=0.0467):
 def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5, whole=1.1, **of_mill):
     case = SimpleNamespace(mill=mill(**of_mill), law=law, flow=SimpleNamespace(mesh=SimpleNamespace(cells=9515)))
     one = Mean(volume, error)
-    return study.Held(mesh, name, case, feed, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4),
-                      20.0, "steady", "holds")
+    return Held(mesh, name, case, feed, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
+                "steady", "holds")
 
 
 class Exponents(unittest.TestCase):
@@ -73,8 +74,8 @@ class Models(unittest.TestCase):
 
 class Trials(unittest.TestCase):
     def expected(self, feed, *points):
-        trials = [study.Trial(study.Kind(75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
-        return study.expected_volume(feed, trials)
+        trials = [Trial(Kind(75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
+        return expected_volume(feed, trials)
 
     def test_the_hold_up_is_where_the_line_has_the_feed(self):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 115e-6), (4e-3, 25e-6)), 7e-3 - 50 / 30e3, places=12)
@@ -88,9 +89,8 @@ class Trials(unittest.TestCase):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
 
     def test_they_are_listed(self):
-        trials = [study.Trial(study.Kind(75, True), 4e-3, Mean(7e-5, 2e-6)),
-                  study.Trial(study.Kind(75, False), 5e-3, Mean(6e-5, 1e-6)),
-                  study.Trial(study.Kind(75, False, "wide_lifters"), 4e-3, Mean(6e-5, 1e-6))]
+        trials = [Trial(Kind(75, True), 4e-3, Mean(7e-5, 2e-6)), Trial(Kind(75, False), 5e-3, Mean(6e-5, 1e-6)),
+                  Trial(Kind(75, False, "wide_lifters"), 4e-3, Mean(6e-5, 1e-6))]
         self.assertEqual(list(study.trial_lines(trials)),
                          ["trial at 75 %, without balls: 5.000 l discharge 60.0 ± 1.0 ml/s",
                           "trial at 75 %, without balls, wide_lifters: 4.000 l discharge 60.0 ± 1.0 ml/s",
@@ -100,15 +100,15 @@ class Trials(unittest.TestCase):
 class Names(unittest.TestCase):
     def test_say_what_is_changed(self):
         for name, change in (("Beetstra_75_65", ""), ("fluid_75_65_layers_17", "layers_17"), ("low", "")):
-            self.assertEqual(study.change_of_flow(name), change)
+            self.assertEqual(change_of_flow(name), change)
         for name, change in (("Beetstra_75_level", ""), ("fluid_75_layers_17_less", "layers_17")):
-            self.assertEqual(study.change_of_trial(name), change)
+            self.assertEqual(change_of_trial(name), change)
 
 
 class Stays(unittest.TestCase):
     def test_they_are_compared_with_hold_up_over_feed(self):
         found = Residence(np.zeros(1), np.zeros(1), mean=33.0, variance=33.0**2 / 2, left=0.13, tail=30.0)
-        (line,) = study.stay_lines([study.Stay("Beetstra_75_131", found, 30.0)])
+        (line,) = study.stay_lines([Stay("Beetstra_75_131", found, 30.0)])
         begin = ("residence/Beetstra_75_131: slurry stays 33.0 s, +10.0 % from hold-up over feed, 30.0 s; 2.00 stirred "
                  "tanks in series, Pe ")
         self.assertTrue(line.startswith(begin), line)
@@ -117,7 +117,7 @@ class Stays(unittest.TestCase):
     def test_a_flow_that_is_not_complete_is_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "residence" / "Beetstra_75_131").mkdir(parents=True)
-        *_, missing = study.read_all(folder)
+        *_, missing = read_all(folder)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("residence/Beetstra_75_131: "), missing)
 
@@ -158,7 +158,7 @@ class Table(unittest.TestCase):
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         (folder / "own" / "fluid_60_33").mkdir(parents=True)
-        found = study.read_all(folder)
+        found = read_all(folder)
         self.assertEqual(found, ([], [], [], ["own/fluid_60_33: the flow has not come to its end"]))
 
 

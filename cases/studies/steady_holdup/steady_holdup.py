@@ -6,207 +6,21 @@ Morrell & Stephenson. Runs that are not complete are listed."""
 import argparse
 import csv
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
 
 import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
-from millfoam.files.mill_case import MillCase
 from millfoam.readings import models
-from millfoam.readings.batches import batch_means, error_over_turns
-from millfoam.readings.means import Mean, block_mean, time_mean
-from millfoam.readings.residence import Residence, read_tracer, residence
+from millfoam.readings.means import Mean
 
-MESHES = ("coarse", "own")
-STARTS = ("low", "high")
-Found = TypeVar("Found")
+from held_flows import Held, Stay, Trial, by_groups, expected_volume, named, read_all, read_held, read_trial
+
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
-
-
-@dataclass(frozen=True, order=True)
-class Kind:
-    """What trials and flows of a mesh share: speed (% of critical), whether they have balls, and the name of what is
-    changed in the mill, or nothing."""
-    speed: int
-    balls: bool
-    change: str = ""
-
-    def __str__(self) -> str:
-        words = f"{self.speed} %, {'with' if self.balls else 'without'} balls"
-        return f"{words}, {self.change}" if self.change else words
-
-
-def kind_of(case: MillCase, change: str) -> Kind:
-    """Kind of a case with this change in its mill."""
-    return Kind(round(100 * case.mill.critical_share), bool(case.law), change)
-
-
-def change_of_flow(name: str) -> str:
-    """Change of the mill of a flow BALLS_SPEED_FEED_CHANGE; nothing in other names."""
-    return "_".join(name.split("_")[3:])
-
-
-def change_of_trial(name: str) -> str:
-    """Change of the mill of a trial BALLS_SPEED_CHANGE_START; nothing in BALLS_SPEED_START."""
-    return "_".join(name.split("_")[2:-1])
-
-
-@dataclass(frozen=True)
-class Held:
-    """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over the turns that were judged: hold-up
-    of the mill with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of
-    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words."""
-    mesh: str
-    name: str
-    case: MillCase
-    feed: float
-    whole: Mean
-    chamber: Mean
-    discharge: Mean
-    height: Mean
-    end: float
-    reason: str
-    found: str
-
-    @property
-    def mill(self) -> Mill:
-        return self.case.mill
-
-    @property
-    def kind(self) -> Kind:
-        """By its case, and its change by its name."""
-        return kind_of(self.case, change_of_flow(self.name))
-
-    @property
-    def is_base(self) -> bool:
-        """Whether its mill is not changed and it has no other start."""
-        return self.name not in STARTS and not self.kind.change
-
-
-def case_with_flow(folder: Path) -> MillCase:
-    """Case of a folder. RuntimeError if it has no flow or no table of slurryBalance."""
-    case = MillCase(folder)
-    if case.flow is None or case.balance is None:
-        raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
-    return case
-
-
-def complete_case(folder: Path) -> MillCase:
-    """Case of a folder whose flow came to the end that was asked for. RuntimeError if it is not complete."""
-    case = case_with_flow(folder)
-    if not case.record.complete:
-        raise RuntimeError("the flow is not complete")
-    return case
-
-
-def read_held(mesh: str, folder: Path) -> Held:
-    """Held of a folder. RuntimeError if its flow has not come to its end."""
-    if not (folder / "steady.json").is_file():
-        raise RuntimeError("the flow has not come to its end")
-    ended, case = read_json(folder / "steady.json", "steady"), case_with_flow(folder)
-    turns = max(int((ended["end_s"] - ended["begin_s"]) / case.turn + 0.005), 1)
-    begin = ended["end_s"] - turns * case.turn
-
-    def over_turns(times: np.ndarray, values: np.ndarray) -> Mean:
-        return block_mean(batch_means(times, values, begin, case.turn, turns))
-    columns, axial = case.balance, case.axial("holdUp")
-    if axial is None:
-        raise RuntimeError("; ".join(["no table of axialProfiles", *case.unusable]))
-    return Held(mesh, folder.name, case, case.feed or 0.0, over_turns(columns["Time"], columns["holdUp"]),
-                over_turns(axial[1], axial[2].sum(axis=1)), over_turns(columns["Time"], columns["discharge"]),
-                over_turns(columns["Time"], columns["y"]), ended["end_s"], ended["reason"], ended["found"])
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A short flow: its kind; means over the last half of its time: hold-up of the mill with its pulp
-    lifters (m3) and discharge (m3/s), with its error over whole turns."""
-    kind: Kind
-    volume: float
-    discharge: Mean
-
-
-def read_trial(folder: Path) -> Trial:
-    """Trial of a folder. RuntimeError if it is not complete."""
-    case = complete_case(folder)
-    columns = case.balance
-    times = columns["Time"]
-    begin = times[-1] / 2
-    late = times >= begin
-    discharge = Mean(columns["discharge"][late].mean(),
-                     error_over_turns(times, columns["discharge"], begin, case.turn))
-    return Trial(kind_of(case, change_of_trial(folder.name)), columns["holdUp"][late].mean(), discharge)
-
-
-@dataclass(frozen=True)
-class Stay:
-    """A flow with a tracer in its feed: name; how long slurry stays; hold-up over feed (s) from the tracer's begin
-    on."""
-    name: str
-    found: Residence
-    expected: float
-
-
-def read_stay(folder: Path) -> Stay:
-    """Stay of a folder. RuntimeError if its flow or its tracer's table is not complete."""
-    case = complete_case(folder)
-    table, columns = read_tracer(folder), case.balance
-    held, fed = (time_mean(columns["Time"], columns[name], table.begin) for name in ("holdUp", "feed"))
-    return Stay(folder.name, residence(table), held / fed)
-
-
-def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
-    """Hold-up (m3) at which the discharge is the feed (m3/s), by the straight line through two trials, limited to 0.2
-    to 1.5 of the larger trial's hold-up. If less slurry does not discharge less, the mean of both."""
-    less, more = sorted(trials, key=lambda one: one.volume)
-    slope = (more.discharge.value - less.discharge.value) / (more.volume - less.volume)
-    if not slope > 0:
-        return (less.volume + more.volume) / 2
-    volume = more.volume + (feed - more.discharge.value) / slope
-    return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
-
-
-def named(folder: Path, read: Callable[[Path], Found]) -> Found:
-    """What `read` finds in a folder. RuntimeError with the folder's name if it finds nothing."""
-    try:
-        return read(folder)
-    except (RuntimeError, OSError) as error:
-        raise RuntimeError(f"{folder.parent.name}/{folder.name}: {error}") from None
-
-
-def read_each(folders: Sequence[Path], read: Callable[[Path], Found]) -> tuple[list[Found], list[str]]:
-    """What `read` finds in each folder that is complete, and why the others are not."""
-    found, missing = [], []
-    for folder in folders:
-        try:
-            found.append(named(folder, read))
-        except RuntimeError as error:
-            missing.append(str(error))
-    return found, missing
-
-
-def read_all(root: Path) -> tuple[list[Held], list[Trial], list[Stay], list[str]]:
-    """Held of all complete flows, all complete trials, flows with a tracer, and why the others are not."""
-    flows = [folder for mesh in MESHES for folder in sorted((root / mesh).glob("*"))]
-    held, not_ended = read_each(flows, lambda folder: read_held(folder.parent.name, folder))
-    trials, not_complete = read_each(sorted((root / "trial").glob("*")), read_trial)
-    stays, not_known = read_each(sorted((root / "residence").glob("*")), read_stay)
-    return held, trials, stays, not_ended + not_complete + not_known
-
-
-def by_groups(found: Sequence[Held]) -> dict[tuple[str, Kind], list[Held]]:
-    """Mesh and kind -> flows in order of their feed, without those from other starts or of changed mills."""
-    groups: dict[tuple[str, Kind], list[Held]] = {}
-    for one in sorted(found, key=lambda one: one.feed):
-        if one.is_base:
-            groups.setdefault((one.mesh, one.kind), []).append(one)
-    return groups
 
 
 def exponent(feeds: Sequence[float], holdups: Sequence[Mean]) -> tuple[Mean, float]:
