@@ -183,6 +183,7 @@ struct Resolution {
   double cell_size = 0;                              ///< m, in the mill's cross-section; 0 with `counts`
   int layers = 0;                                    ///< of cells along the axis; 0 of a stirred mill
   std::optional<BlockCounts> counts = std::nullopt;  ///< instead of the size
+  double last_layer = 0;                             ///< m, thickness at the discharge end; 0: all are equal
 };
 
 /// Voxels of a box whose cross-section is a square about the axis.

@@ -76,7 +76,7 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   Json& geometry = of["geometry"];
   if (geometry.contains("grates") && geometry["grates"].is_object())
     for (const char* key : {"open_fraction", "pegged"}) geometry["grates"].erase(key);
-  of["resolution"].erase("layers");
+  for (const char* key : {"layers", "last_layer"}) of["resolution"].erase(key);
   MillFingerprints result;
   result.walls = fingerprint(of.dump());
   of["speed"] = keys.at("speed");

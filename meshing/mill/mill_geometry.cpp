@@ -37,6 +37,9 @@ constexpr double usual_discharge_ratio = 0.52;
 constexpr double usual_cell = 1.0 / 13;
 constexpr double usual_layer = 2.5;
 
+/// Growth from a layer of cells to the next: more makes profiles along the axis inaccurate.
+constexpr double largest_growth = 1.5;
+
 /// The width of the lifters' feet, which may be that of rectangular lifters; without one, their height or
 /// what their pitch leaves.
 double read_width(const Section& in, const Lifters& lifters, double radius) {
@@ -201,6 +204,18 @@ int usual_layers(const Geometry& geometry, double cell_size) {
   return std::max(fewest, static_cast<int>(std::lround(geometry.length / (usual_layer * cell_size))));
 }
 
+/// Thickness of the layer at the discharge end, m, if layers become thinner towards it; otherwise 0.
+double read_last_layer(const Section& in, const Geometry& geometry, int layers) {
+  if (!in.has("last_layer")) return 0;
+  if (geometry.ends == Ends::periodic) in.refuse("last_layer", "this key with plain ends only");
+  const double equal = geometry.length / layers;
+  const double least = geometry.length * (largest_growth - 1) / (std::pow(largest_growth, layers) - 1);
+  return in.number("last_layer",
+                   {"a thickness in m from " + shown(least) + " m (each layer " + shown(largest_growth) +
+                        " times as thick as the next) to " + shown(equal) + " m (all equal)",
+                    [=](double v) { return v >= least && v <= equal * (1 + 1e-9); }});
+}
+
 }  // namespace
 
 Geometry read_geometry(const Section& in) {
@@ -231,6 +246,7 @@ Resolution read_resolution(const Section& in, const Geometry& geometry) {
   }
   resolution.layers = in.integer("layers", whole_number("layers", 1, most_along_side),
                                  usual_layers(geometry, shell_cell_size(resolution, geometry)));
+  resolution.last_layer = read_last_layer(in, geometry, resolution.layers);
   const double cells =
       section * (resolution.layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0));
   if (cells > most_cells) {

@@ -188,7 +188,7 @@ Air read_air(const Section& in) {
 }
 
 /// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which
-/// the whole mill's layers of the ring would not fit), and as much less charge and layers.
+/// the whole mill's layers of the ring would not fit), and as much less charge and layers, which are equal.
 void take_slice(const Section& in, Mill& mill) {
   const auto largest = std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
                                         [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
@@ -206,6 +206,7 @@ void take_slice(const Section& in, Mill& mill) {
   for (SizeClass& size : mill.charge.classes) size.mass *= slice / whole;
   const auto layers = std::lround(mill.resolution.layers * slice / whole);
   mill.resolution.layers = std::max(1, static_cast<int>(layers));
+  mill.resolution.last_layer = 0;
 }
 
 void read_materials(const Section& root, Mill& mill) {
@@ -255,7 +256,7 @@ void read_tumbling(const Section& in, Mill& mill) {
       in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
   mill.slurry = read_slurry(slurry);
   mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
-  Section resolution = in.optional_section("resolution", {"cell_size", "counts", "layers"});
+  Section resolution = in.optional_section("resolution", {"cell_size", "counts", "layers", "last_layer"});
   read_layers(geometry, resolution, mill);
   mill.averages = read_averages(in, mill);
   mill.flow = read_flow(in, slurry, mill);

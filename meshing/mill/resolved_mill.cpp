@@ -246,6 +246,13 @@ Json stirred_numbers(const Mill& mill) {
   return numbers;
 }
 
+Json resolution_numbers(const Mill& mill) {
+  const Resolution& resolution = mill.resolution;
+  const double last =
+      resolution.last_layer > 0 ? resolution.last_layer : mill.geometry.length / resolution.layers;
+  return {{"cell_size_m", resolution.cell_size}, {"layers", resolution.layers}, {"last_layer_m", last}};
+}
+
 Json derived_numbers(const Mill& mill) {
   if (mill.machine() == Machine::stirred) return stirred_numbers(mill);
   return {{"machine", "tumbling"},
@@ -257,7 +264,7 @@ Json derived_numbers(const Mill& mill) {
           {"gravity_m_s2", gravity},
           {"slurry", slurry_numbers(mill.slurry)},
           {"air", air_numbers(mill.air)},
-          {"resolution", {{"cell_size_m", mill.resolution.cell_size}, {"layers", mill.resolution.layers}}},
+          {"resolution", resolution_numbers(mill)},
           {"flow", flow_numbers(mill)}};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -52,16 +53,31 @@ SectionEdges find_edges(const CrossSection& section) {
   return edges;
 }
 
+/// Growth, 1 or more, from a term to the next of a geometric series of `terms` terms that begins with 1 and
+/// has this sum, to rounding.
+double growth_of(double sum, int terms) {
+  double least = 1;
+  double most =
+      terms > 1 ? std::max(1.0, std::pow(sum, 1.0 / (terms - 1))) : 1;  // the last term is below the sum
+  for (double growth = (least + most) / 2; growth > least && growth < most; growth = (least + most) / 2) {
+    double series = 0;
+    for (int term = 0; term < terms; ++term) series = series * growth + 1;
+    (series < sum ? least : most) = growth;
+  }
+  return least;
+}
+
 /// Extrudes a cross-section along z: through the mill and, where there are any, through the pulp lifters.
 class Extrusion {
  public:
-  Extrusion(const CrossSection& section, const Geometry& geometry, int layers)
+  Extrusion(const CrossSection& section, const Geometry& geometry, int layers, double last_layer)
       : section_(section),
         geometry_(geometry),
         openings_(find_openings(section, geometry)),
         edges_(find_edges(section)),
         layers_(layers),
-        all_layers_(layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0)) {
+        all_layers_(layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0)),
+        ends_(layer_ends(geometry.length, layers, last_layer)) {
     mesh_.cells = quads() * all_layers_;
     for (int level = 0; level <= all_layers_; ++level) {
       for (const auto& point : section.points) mesh_.points.emplace_back(point.x(), point.y(), height(level));
@@ -104,8 +120,7 @@ class Extrusion {
  private:
   int quads() const { return static_cast<int>(section_.quads.size()); }
   double height(int level) const {
-    if (level == layers_) return geometry_.length;
-    if (level < layers_) return geometry_.length * level / layers_;
+    if (level <= layers_) return ends_[static_cast<std::size_t>(level)];
     return geometry_.length + geometry_.pulp_lifters->depth * (level - layers_) / (all_layers_ - layers_);
   }
   int point(int level, int p) const { return level * static_cast<int>(section_.points.size()) + p; }
@@ -227,13 +242,31 @@ class Extrusion {
   SectionEdges edges_;
   int layers_;      ///< of the mill
   int all_layers_;  ///< with those of the pulp lifters
+  std::vector<double> ends_;
   VolumeMesh mesh_;
 };
 
 }  // namespace
 
-VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers) {
-  return Extrusion(section, geometry, layers).run();
+std::vector<double> layer_ends(double length, int layers, double last) {
+  std::vector<double> ends;
+  if (last <= 0) {
+    for (int level = 0; level < layers; ++level) ends.push_back(length * level / layers);
+    ends.push_back(length);
+    return ends;
+  }
+  const double growth = growth_of(length / last, layers);
+  double thickness = last;
+  ends.push_back(length);
+  for (int layer = 1; layer < layers; ++layer, thickness *= growth) ends.push_back(ends.back() - thickness);
+  ends.push_back(0);
+  std::reverse(ends.begin(), ends.end());
+  return ends;
+}
+
+VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers,
+                          double last_layer) {
+  return Extrusion(section, geometry, layers, last_layer).run();
 }
 
 }  // namespace millfoam::meshing

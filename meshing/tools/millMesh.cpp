@@ -125,7 +125,8 @@ void run(const Options& options) {
   }
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
   const Openings openings = find_openings(section, mill.geometry);
-  const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
+  const VolumeMesh mesh =
+      make_mill_mesh(section, mill.geometry, mill.resolution.layers, mill.resolution.last_layer);
   const MeshQuality q = quality(mesh);
   std::cout << mill_lines(description) << mesh_report(mill, mesh, q, openings) << std::flush;
   require_quality(q, flow_volume(mill.geometry), mill.geometry.length);

@@ -74,7 +74,8 @@ void run_faces(const FacesOptions& options) {
         ": the mill's ends are periodic, and cells out of faces cannot have cyclic patches: "
         "expected 'ends: plain' without 'slice'");
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
-  const VolumeMesh mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers);
+  const VolumeMesh mesh =
+      make_mill_mesh(section, mill.geometry, mill.resolution.layers, mill.resolution.last_layer);
   write_obj(mesh, options.file);
   std::printf("%s: %zu points, %zu faces, %zu of them in the group %s\n", options.file.c_str(),
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);

@@ -92,6 +92,10 @@ class Mesh(unittest.TestCase):
                 report = self.check(f"resolution.layers={number}", NO_PULP_LIFTERS, mill=LARGE)
                 self.assertRegex(report, r"grates +\d+ .* ok")
 
+    def test_layers_that_are_thinner_at_the_grates(self):
+        report = self.check("resolution.last_layer=0.010", *NINE_LAYERS, mill=LARGE)
+        self.assertIn("Number of regions: 1 (OK)", report)
+
     def test_plain_ends_of_the_30_cm_mill(self):
         for number in (9, 33):
             with self.subTest(layers=number):

@@ -89,6 +89,8 @@ def random_mill(rng):
                      "law": rng.choice(["Beetstra", "Hill", "DiFelice"])}}
     dem = mill["dem"]
     dem.update({key: {"youngs_modulus": 1e8, "largest_overlap": 0.06}[key] for key in dem if dem[key] is None})
+    if geometry["ends"] == "plain" and rng.random() < 0.5:
+        mill["resolution"]["last_layer"] = rng.uniform(0.5, 1) * geometry["length"] / mill["resolution"]["layers"]
     if "inlet" in geometry:
         mill["flow"]["feed"] = 0.01 * radius ** 3
     return mill

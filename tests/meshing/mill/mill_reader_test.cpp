@@ -387,6 +387,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"layers: 8", "layers: 0", "'resolution.layers' = 0"},
         Refused{"layers: 8", "layers: 1",
                 "mill.yaml:36: key 'resolution.layers' = 1: expected 2 or more layers between two walls"},
+        Refused{"layers: 8", "layers: 8\n  last_layer: 3mm",
+                "'resolution.last_layer' = 3mm: expected a thickness in m from 0.000487"},
+        Refused{"layers: 8", "layers: 8\n  last_layer: 0.0002",
+                "(each layer 1.5 times as thick as the next) to 0.003 m (all equal)"},
+        Refused{"layers: 8", "layers: 8\n  last_layer: 0.0031", "'resolution.last_layer' = 0.0031"},
         Refused{"  classes", "  start_radius: 0.053\n  classes", "'charge.start_radius' = 0.053"},
         Refused{"  classes", "  start_length: 0.03\n  classes", "'charge.start_length' = 0.03"},
         Refused{"  classes", "  fill: 0.3\n  classes",
@@ -495,6 +500,22 @@ TEST(ReadMill, takes_a_periodic_slice_of_a_whole_mill) {
   EXPECT_NE(refusal("  ends: plain", "  slice: 0.007\n  ends: plain").find("largest ball's diameter, 0.008"),
             std::string::npos);
   EXPECT_NE(refusal("  ends: plain", "  slice: 0.03\n  ends: plain").find("'geometry.slice' = 0.03"),
+            std::string::npos);
+}
+
+TEST(ReadMill, takes_the_last_of_layers_that_grow) {
+  EXPECT_EQ(read(example_mill).resolution.last_layer, 0);
+  const std::string graded = with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.001");
+  EXPECT_EQ(read(graded).resolution.last_layer, 0.001);
+  EXPECT_EQ(read(with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.003")).resolution.last_layer,
+            0.003);
+}
+
+TEST(ReadMill, has_equal_layers_where_the_ends_are_periodic) {
+  const std::string graded = with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.001");
+  EXPECT_EQ(read(with(graded, "  ends: plain", "  slice: 0.012\n  ends: plain")).resolution.last_layer, 0);
+  EXPECT_NE(refusal(with(graded, "ends: plain", "ends: periodic"))
+                .find("'resolution.last_layer' = 0.001: expected this key with plain ends only"),
             std::string::npos);
 }
 

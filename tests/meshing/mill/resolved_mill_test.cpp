@@ -68,6 +68,8 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_EQ(changed("flow.passes=3").flow, mill.flow);
   EXPECT_NE(changed("flow.law=Hill").flow, mill.flow);
   EXPECT_EQ(changed("resolution.layers=4").walls, mill.walls);
+  EXPECT_EQ(changed("resolution.last_layer=0.002").walls, mill.walls);
+  EXPECT_NE(changed("resolution.last_layer=0.002").flow, mill.flow);
   EXPECT_NE(changed("resolution.cell_size=0.004").walls, mill.walls);
   EXPECT_EQ(changed("averages.window=0.1").charge, mill.charge);
   EXPECT_NE(changed("averages.window=0.1").averages, mill.averages);

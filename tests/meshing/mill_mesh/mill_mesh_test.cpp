@@ -57,6 +57,53 @@ TEST(MillMesh, has_no_slivers_in_ordinary_mills) {
   }
 }
 
+TEST(LayerEnds, are_equally_apart_without_a_last_layer) {
+  EXPECT_EQ(layer_ends(0.305, 1, 0), (std::vector<double>{0, 0.305}));
+  EXPECT_EQ(layer_ends(0.3, 3, 0), (std::vector<double>{0, 0.3 / 3, 0.3 * 2 / 3, 0.3}));
+}
+
+TEST(LayerEnds, are_apart_as_terms_of_a_geometric_series_that_ends_with_the_last_layer) {
+  // 4 + 2 + 1
+  const std::vector<double> doubled = layer_ends(0.7, 3, 0.1);
+  ASSERT_EQ(doubled.size(), 4);
+  EXPECT_EQ(doubled[0], 0);
+  EXPECT_NEAR(doubled[1], 0.4, 1e-15);
+  EXPECT_NEAR(doubled[2], 0.6, 1e-15);
+  EXPECT_EQ(doubled[3], 0.7);
+  for (const auto& [count, last] : {std::pair(2, 0.15), {9, 0.01}, {33, 0.002}, {400, 0.0003}}) {
+    SCOPED_TRACE(count);
+    const std::vector<double> ends = layer_ends(0.305, count, last);
+    ASSERT_EQ(ends.size(), static_cast<std::size_t>(count) + 1);
+    EXPECT_EQ(ends.front(), 0);
+    EXPECT_EQ(ends.back(), 0.305);
+    const auto thickness = [&](std::size_t layer) { return ends[layer + 1] - ends[layer]; };
+    EXPECT_NEAR(thickness(ends.size() - 2), last, 1e-15);
+    const double growth = thickness(0) / thickness(1);
+    EXPECT_GT(growth, 1);
+    for (std::size_t layer = 0; layer + 2 < ends.size(); ++layer)
+      EXPECT_NEAR(thickness(layer) / thickness(layer + 1), growth, 1e-10);
+  }
+}
+
+TEST(LayerEnds, are_equally_apart_where_the_last_layer_is_as_thick_as_equal_ones) {
+  const std::vector<double> ends = layer_ends(0.3, 3, 0.1);
+  for (std::size_t end = 0; end < 4; ++end) EXPECT_NEAR(ends[end], 0.1 * static_cast<double>(end), 1e-15);
+}
+
+TEST(MillMesh, has_thinner_layers_at_the_discharge_end_but_the_same_volume) {
+  const TestMill mill = ordinary_mills()[1];
+  const VolumeMesh equal = mesh_of(mill);
+  const double last = mill.geometry.length / layers / 2;
+  const VolumeMesh graded =
+      make_mill_mesh(make_cross_section(mill.geometry, mill.cell_size), mill.geometry, layers, last);
+  EXPECT_EQ(graded.faces, equal.faces);
+  EXPECT_NEAR(quality(graded).volume / quality(equal).volume, 1, 1e-12);
+  const std::vector<double> ends = layer_ends(mill.geometry.length, layers, last);
+  const std::size_t section = graded.points.size() / (layers + 1);
+  for (std::size_t point = 0; point < graded.points.size(); ++point)
+    ASSERT_EQ(graded.points[point].z(), ends[point / section]);
+}
+
 TEST(MillMesh, has_closed_cells_of_positive_volume) {
   for (const TestMill& mill : all_mills()) {
     SCOPED_TRACE(described(mill));
