@@ -76,7 +76,10 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   Json& geometry = of["geometry"];
   if (geometry.contains("grates") && geometry["grates"].is_object())
     for (const char* key : {"open_fraction", "pegged"}) geometry["grates"].erase(key);
+  // Walls have none of the mesh's layers
   for (const char* key : {"layers", "last_layer"}) of["resolution"].erase(key);
+  if (geometry.contains("pulp_lifters") && geometry["pulp_lifters"].is_object())
+    geometry["pulp_lifters"].erase("layers");
   MillFingerprints result;
   result.walls = fingerprint(of.dump());
   of["speed"] = keys.at("speed");

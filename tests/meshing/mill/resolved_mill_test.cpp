@@ -88,6 +88,19 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
+TEST(Fingerprints, of_walls_and_charge_do_not_know_the_layers_of_the_pulp_lifters) {
+  const auto with_layers = [](const std::string& layers) {
+    return describe(example_mill, {"geometry.grates.sectors=6", "geometry.pulp_lifters.layers=" + layers})
+        .mill.fingerprint;
+  };
+  const MillFingerprints two = with_layers("2");
+  const MillFingerprints three = with_layers("3");
+  EXPECT_EQ(three.walls, two.walls);
+  EXPECT_EQ(three.charge, two.charge);
+  EXPECT_EQ(three.averages, two.averages);
+  EXPECT_NE(three.flow, two.flow);
+}
+
 TEST(Fingerprints, know_the_pool_of_a_run_with_buoyancy_and_nothing_of_one_without) {
   const auto charge = [](const std::vector<std::string>& set) {
     return describe(example_mill, set).mill.fingerprint.charge;
