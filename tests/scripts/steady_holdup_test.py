@@ -4,6 +4,7 @@
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -17,8 +18,8 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
-from held_flows import (Held, Kind, Stay, Trial, change_of_flow, change_of_trial, expected_volume,  # noqa: E402
-                        read_all)
+from held_flows import (Held, Kind, Stay, Steady, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
+                        expected_volume, read_all)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -38,6 +39,10 @@ def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5, whole=1.
     one = Mean(volume, error)
     return Held(mesh, name, case, feed, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
                 "steady", "holds")
+
+
+def trial(volume, discharge, kind=Kind(75, True), error=1e-6):
+    return Trial(kind, volume, 0.8 * volume, Mean(discharge, error))
 
 
 class Exponents(unittest.TestCase):
@@ -74,7 +79,7 @@ class Models(unittest.TestCase):
 
 class Trials(unittest.TestCase):
     def expected(self, feed, *points):
-        trials = [Trial(Kind(75, True), volume, Mean(discharge, 1e-6)) for volume, discharge in points]
+        trials = [Trial(Kind(75, True), volume, volume, Mean(discharge, 1e-6)) for volume, discharge in points]
         return expected_volume(feed, trials)
 
     def test_the_hold_up_is_where_the_line_has_the_feed(self):
@@ -89,12 +94,51 @@ class Trials(unittest.TestCase):
         self.assertAlmostEqual(self.expected(65e-6, (7e-3, 60e-6), (4e-3, 70e-6)), 5.5e-3)
 
     def test_they_are_listed(self):
-        trials = [Trial(Kind(75, True), 4e-3, Mean(7e-5, 2e-6)), Trial(Kind(75, False), 5e-3, Mean(6e-5, 1e-6)),
-                  Trial(Kind(75, False, "wide_lifters"), 4e-3, Mean(6e-5, 1e-6))]
+        trials = [trial(4e-3, 7e-5, Kind(75, True), error=2e-6), trial(5e-3, 6e-5, Kind(75, False)),
+                  trial(4e-3, 6e-5, Kind(75, False, "wide_lifters"))]
         self.assertEqual(list(study.trial_lines(trials)),
                          ["trial at 75 %, without balls: 5.000 l discharge 60.0 ± 1.0 ml/s",
                           "trial at 75 %, without balls, wide_lifters: 4.000 l discharge 60.0 ± 1.0 ml/s",
                           "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
+
+
+class SteadyHoldUps(unittest.TestCase):
+    """Trials of 40 and 100 ml/s at 3 and 5 l: 2 l for 60 ml/s, of which 1.6 l are in front of the grates."""
+    TRIALS = (trial(5e-3, 1e-4), trial(3e-3, 4e-5))
+
+    def one(self, discharge, error=0.0, name="Beetstra_75_65"):
+        return replace(held(name, 65e-6, 3.4e-3, error=0.0, whole=1.2), discharge=Mean(discharge, error))
+
+    def test_are_where_the_line_through_the_trials_has_the_feed(self):
+        found = at_feed(self.one(59e-6), self.TRIALS)
+        self.assertAlmostEqual(found.whole.value, 1.2 * 3.4e-3 + 6 / 60 * 2e-3, places=12)
+        self.assertAlmostEqual(found.chamber.value, 3.4e-3 + 6 / 60 * 1.6e-3, places=12)
+        self.assertLess(at_feed(self.one(68e-6), self.TRIALS).whole.value, 1.2 * 3.4e-3)
+
+    def test_have_the_errors_of_hold_up_discharge_and_slope(self):
+        whole = at_feed(self.one(65e-6, 3e-6), self.TRIALS).whole
+        self.assertAlmostEqual(whole.value, 1.2 * 3.4e-3, places=12)
+        self.assertAlmostEqual(whole.error, 3 / 60 * 2e-3, places=12)
+        of_slope = at_feed(self.one(35e-6), self.TRIALS).whole.error
+        self.assertAlmostEqual(of_slope, 30 / 60 * 2e-3 * np.sqrt(2) / 60, places=12)
+        held_worse = replace(self.one(65e-6), whole=Mean(4e-3, 5e-5))
+        self.assertAlmostEqual(at_feed(held_worse, self.TRIALS).whole.error, 5e-5, places=12)
+
+    def test_need_both_trials_of_their_mill_and_more_discharge_of_more_slurry(self):
+        for trials in ((), self.TRIALS[:1], tuple(replace(one, kind=Kind(60, True)) for one in self.TRIALS),
+                       (trial(5e-3, 4e-5), trial(3e-3, 4e-5))):
+            self.assertIsNone(at_feed(self.one(59e-6), trials))
+        self.assertIsNone(at_feed(self.one(59e-6, name="Beetstra_75_65_layers_17"), self.TRIALS))
+
+    def test_are_in_the_table_the_exponent_and_the_comparisons(self):
+        flows = [replace(one, steady=Steady(one.whole, Mean(2e-3 * (one.feed / 65e-6)**0.3, 1e-5)))
+                 for one in (held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3) for feed in FEEDS)]
+        high = held("high", 65e-6, 2.2e-3)
+        flows.append(replace(high, steady=Steady(Mean(2.2e-3, 1e-5), high.chamber)))
+        text = "\n".join(study.lines_of(flows))
+        self.assertIn("~ feed^0.300", text)
+        self.assertIn("coarse/high: hold-up +0.00 ", text)
+        self.assertEqual([row["steady, in front of the grates, l"] for row in study.rows_of(flows)][1], 2.0)
 
 
 class Names(unittest.TestCase):

@@ -2,7 +2,7 @@
 """Reads the runs of steady_holdup: flows that came to their end, trials, flows with a tracer, and what of the mill each
 has changed."""
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -49,10 +49,19 @@ def change_of_trial(name: str) -> str:
 
 
 @dataclass(frozen=True)
+class Steady:
+    """Hold-ups (m3) at which a flow discharges its feed: of the mill with its pulp lifters, and in front of the
+    grates."""
+    whole: Mean
+    chamber: Mean
+
+
+@dataclass(frozen=True)
 class Held:
     """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over the turns that were judged: hold-up
     of the mill with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of
-    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words."""
+    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, if trials
+    show them."""
     mesh: str
     name: str
     case: MillCase
@@ -64,6 +73,7 @@ class Held:
     end: float
     reason: str
     found: str
+    steady: Steady | None = None
 
     @property
     def mill(self) -> Mill:
@@ -78,6 +88,11 @@ class Held:
     def is_base(self) -> bool:
         """Whether its mill is not changed and it has no other start."""
         return self.name not in STARTS and not self.kind.change
+
+    @property
+    def holdups(self) -> Steady:
+        """The steady hold-ups or, without trials, those over the judged turns."""
+        return self.steady or Steady(self.whole, self.chamber)
 
 
 def case_with_flow(folder: Path) -> MillCase:
@@ -96,6 +111,15 @@ def complete_case(folder: Path) -> MillCase:
     return case
 
 
+def axial_holdup(case: MillCase) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """z (m) of the slices in front of the grates, times (s) and hold-up (m3) [times, slices] of a case. RuntimeError if
+    it has no such table."""
+    found = case.axial("holdUp")
+    if found is None:
+        raise RuntimeError("; ".join(["no table of axialProfiles", *case.unusable]))
+    return found
+
+
 def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
@@ -106,20 +130,20 @@ def read_held(mesh: str, folder: Path) -> Held:
 
     def over_turns(times: np.ndarray, values: np.ndarray) -> Mean:
         return block_mean(batch_means(times, values, begin, case.turn, turns))
-    columns, axial = case.balance, case.axial("holdUp")
-    if axial is None:
-        raise RuntimeError("; ".join(["no table of axialProfiles", *case.unusable]))
+    columns = case.balance
+    _, moments, slices = axial_holdup(case)
     return Held(mesh, folder.name, case, case.feed or 0.0, over_turns(columns["Time"], columns["holdUp"]),
-                over_turns(axial[1], axial[2].sum(axis=1)), over_turns(columns["Time"], columns["discharge"]),
+                over_turns(moments, slices.sum(axis=1)), over_turns(columns["Time"], columns["discharge"]),
                 over_turns(columns["Time"], columns["y"]), ended["end_s"], ended["reason"], ended["found"])
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A short flow: its kind; means over the last half of its time: hold-up of the mill with its pulp
-    lifters (m3) and discharge (m3/s), with its error over whole turns."""
+    """A short flow: its kind; means over the last half of its time: hold-up of the mill with its pulp lifters (m3), and
+    of what lies in front of the grates (m3); discharge (m3/s), with its error over whole turns."""
     kind: Kind
     volume: float
+    chamber: float
     discharge: Mean
 
 
@@ -132,7 +156,9 @@ def read_trial(folder: Path) -> Trial:
     late = times >= begin
     discharge = Mean(columns["discharge"][late].mean(),
                      error_over_turns(times, columns["discharge"], begin, case.turn))
-    return Trial(kind_of(case, change_of_trial(folder.name)), columns["holdUp"][late].mean(), discharge)
+    _, moments, slices = axial_holdup(case)
+    return Trial(kind_of(case, change_of_trial(folder.name)), columns["holdUp"][late].mean(),
+                 slices[moments >= begin].sum(axis=1).mean(), discharge)
 
 
 @dataclass(frozen=True)
@@ -163,6 +189,26 @@ def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
     return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
 
 
+def at_feed(one: Held, trials: Sequence[Trial]) -> Steady | None:
+    """Hold-ups of a flow, moved along the straight line through the two trials of its kind to where its discharge is
+    its feed. The errors are those of hold-up, discharge and slope. None without these trials, or if less slurry does
+    not discharge less."""
+    pair = sorted((trial for trial in trials if trial.kind == one.kind), key=lambda trial: trial.volume)
+    if len(pair) != 2:
+        return None
+    less, more = pair
+    gain, lacking = more.discharge - less.discharge, Mean(one.feed) - one.discharge
+    if not gain.value > 0:
+        return None
+
+    def moved(held: Mean, way: float) -> Mean:
+        of_lack = way / gain.value
+        way_to_go = of_lack * lacking.value
+        errors = held.error, of_lack * lacking.error, way_to_go * gain.error / gain.value
+        return Mean(held.value + way_to_go, float(np.linalg.norm(errors)))
+    return Steady(moved(one.whole, more.volume - less.volume), moved(one.chamber, more.chamber - less.chamber))
+
+
 def named(folder: Path, read: Callable[[Path], Found]) -> Found:
     """What `read` finds in a folder. RuntimeError with the folder's name if it finds nothing."""
     try:
@@ -182,11 +228,17 @@ def read_each(folders: Sequence[Path], read: Callable[[Path], Found]) -> tuple[l
     return found, missing
 
 
+def read_trials(root: Path) -> tuple[list[Trial], list[str]]:
+    """All complete trials of the study's runs, and why the others are not."""
+    return read_each(sorted((root / "trial").glob("*")), read_trial)
+
+
 def read_all(root: Path) -> tuple[list[Held], list[Trial], list[Stay], list[str]]:
     """Held of all complete flows, all complete trials, flows with a tracer, and why the others are not."""
     flows = [folder for mesh in MESHES for folder in sorted((root / mesh).glob("*"))]
     held, not_ended = read_each(flows, lambda folder: read_held(folder.parent.name, folder))
-    trials, not_complete = read_each(sorted((root / "trial").glob("*")), read_trial)
+    trials, not_complete = read_trials(root)
+    held = [replace(one, steady=at_feed(one, trials)) for one in held]
     stays, not_known = read_each(sorted((root / "residence").glob("*")), read_stay)
     return held, trials, stays, not_ended + not_complete + not_known
 

@@ -18,8 +18,10 @@ from millfoam.files.mill import Mill
 from millfoam.readings import models
 from millfoam.readings.means import Mean
 
-from held_flows import Held, Stay, Trial, by_groups, expected_volume, named, read_all, read_held, read_trial
+from held_flows import (Held, Stay, Trial, at_feed, by_groups, expected_volume, named, read_all, read_held, read_trial,
+                        read_trials)
 
+STEADY, STEADY_IN_FRONT = "steady, l", "steady, in front of the grates, l"
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
 
 
@@ -67,8 +69,11 @@ def rows_of(found: Sequence[Held]) -> Iterator[dict[str, object]]:
     for one in found:
         row: dict[str, object] = {"mesh": one.mesh, "flow": one.name, "cells": one.case.flow.mesh.cells,
                                   "feed, ml/s": 1e6 * one.feed}
-        for name, mean, scale in (("hold-up, l", one.whole, 1e3), ("in front of the grates, l", one.chamber, 1e3),
-                                  ("discharge, ml/s", one.discharge, 1e6), ("height, mm", one.height, 1e3)):
+        readings = [("hold-up, l", one.whole, 1e3), ("in front of the grates, l", one.chamber, 1e3),
+                    ("discharge, ml/s", one.discharge, 1e6), ("height, mm", one.height, 1e3)]
+        if one.steady:
+            readings += [(STEADY, one.steady.whole, 1e3), (STEADY_IN_FRONT, one.steady.chamber, 1e3)]
+        for name, mean, scale in readings:
             row[name], row[f"{name} ±"] = scale * mean.value, scale * mean.error
         for name, held in (model_holdups(one.mill, one.feed) if one.case.law else {}).items():
             row[f"{name}, l"] = 1e3 * held
@@ -78,18 +83,20 @@ def rows_of(found: Sequence[Held]) -> Iterator[dict[str, object]]:
 def lines_of(found: Sequence[Held]) -> Iterator[str]:
     """The table as text, then the exponents of each group and of the models, then what other starts and changed mills
     came to."""
-    names = ("hold-up, l", "in front of the grates, l", "discharge, ml/s", "height, mm")
-    yield f"{'flow':<26}{'feed, ml/s':>11}" + "".join(name.rjust(27) for name in names) + "  end, s  ended by"
+    names = {"hold-up, l": 17, "discharge, ml/s": 19, "height, mm": 17, STEADY: 17, STEADY_IN_FRONT: 35}
+    yield (f"{'flow':<36}{'feed, ml/s':>11}" + "".join(name.rjust(width) for name, width in names.items())
+           + "  end, s  ended by")
     for row in rows_of(found):
-        yield (f"{row['mesh']}/{row['flow']:<{25 - len(str(row['mesh']))}}{row['feed, ml/s']:11.1f}"
-               + "".join(f"{row[name]:.3f} ± {row[f'{name} ±']:.3f}".rjust(27) for name in names)
+        numbers = ((f"{row[name]:.3f} ± {row[f'{name} ±']:.3f}" if name in row else "–").rjust(width)
+                   for name, width in names.items())
+        yield (f"{row['mesh']}/{row['flow']}".ljust(36) + f"{row['feed, ml/s']:11.1f}" + "".join(numbers)
                + f"{row['end, s']:8.1f}  {row['ended by']}")
     yield ""
     for (mesh, kind), group in by_groups(found).items():
         feeds = [one.feed for one in group]
         if len(set(feeds)) < 2:
             continue
-        slope, _ = exponent(feeds, [one.chamber for one in group])
+        slope, _ = exponent(feeds, [one.holdups.chamber for one in group])
         words = f"{mesh}, {kind}: hold-up in front of the grates ~ feed^"
         yield f"{words}{slope.text('', 1, '.3f')}({len(group)} feeds)"
         if kind.balls:
@@ -125,8 +132,8 @@ def comparisons(found: Sequence[Held]) -> Iterator[str]:
         if base is None:
             yield f"{name}: the flow to compare it with is not complete"
             continue
-        words, ours, theirs = (("in front of the grates ", one.chamber, base.chamber) if one.kind.change
-                               else ("", one.whole, base.whole))
+        ours, theirs = ((flow.holdups.chamber if one.kind.change else flow.holdups.whole) for flow in (one, base))
+        words = "in front of the grates " if one.kind.change else ""
         apart, share = ours - theirs, 100 / theirs.value
         yield (f"{name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, "
                f"after {one.end:.1f} s")
@@ -161,12 +168,13 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
         speed = kind.speed
         axis, feeds = axes[int(kind.balls)], np.array([one.feed for one in group])
         style = {"color": COLOURS[speed], "fillstyle": "full" if mesh == "own" else "none"}
-        held = np.array([(one.chamber.value, one.chamber.error) for one in group]).T
+        chambers = [one.holdups.chamber for one in group]
+        held = np.array([(one.value, one.error) for one in chambers]).T
         axis.errorbar(1e6 * feeds, *(1e3 * held), fmt="o", capsize=2, label=f"{speed} % of critical, {mesh} cells",
                       **style)
         along = np.geomspace(30e-6, 140e-6, 50)
         if len(set(feeds)) > 1:
-            slope, offset = exponent(feeds, [one.chamber for one in group])
+            slope, offset = exponent(feeds, chambers)
             axis.plot(1e6 * along, 1e3 * np.exp(offset) * along**slope.value, color=COLOURS[speed],
                       ls="-" if mesh == "own" else "--", lw=1, label=f"~ feed^{slope.value:.2f} ± {slope.error:.2f}")
         if kind.balls and mesh == "coarse":
@@ -206,7 +214,9 @@ def main() -> None:
     if (options.expected is None) != (options.other is None):
         parser.error("expected --expected FEED with the folders of two trials")
     if options.volume:
-        print(f"{named(options.folder, lambda folder: read_held('', folder)).whole.value:.6g}")
+        one = named(options.folder, lambda folder: read_held("", folder))
+        trials, _ = read_trials(options.folder.parent.parent)
+        print(f"{(at_feed(one, trials) or one).whole.value:.6g}")
         return
     if options.trial:
         print(f"{named(options.folder, read_trial).volume:.6g}")
