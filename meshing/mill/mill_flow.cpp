@@ -161,7 +161,7 @@ double usual_averages_start(const Flow& flow, double turn) {
   return turns >= 1 ? std::max(0.0, flow.duration - turns * turn) : flow.duration / 2;
 }
 
-/// Voxels along the axis: one for each of the mesh's layers, of a stirred mill of its cell size.
+/// Voxels along the axis: as thick as the mesh's layers in the mean, of a stirred mill as its cells.
 int slices_along(const Mill& mill) {
   const double layer =
       mill.geometry.impeller ? mill.resolution.cell_size : mill.geometry.length / mill.resolution.layers;

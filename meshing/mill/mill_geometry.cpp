@@ -39,6 +39,8 @@ constexpr double usual_layer = 2.5;
 
 /// Growth from a layer of cells to the next: more makes profiles along the axis inaccurate.
 constexpr double largest_growth = 1.5;
+/// Least thickness of the last layer over that of equal ones: with less, cells are leaves.
+constexpr double least_last_layer = 0.02;
 
 /// The width of the lifters' feet, which may be that of rectangular lifters; without one, their height or
 /// what their pitch leaves.
@@ -209,11 +211,15 @@ double read_last_layer(const Section& in, const Geometry& geometry, int layers) 
   if (!in.has("last_layer")) return 0;
   if (geometry.ends == Ends::periodic) in.refuse("last_layer", "this key with plain ends only");
   const double equal = geometry.length / layers;
-  const double least = geometry.length * (largest_growth - 1) / (std::pow(largest_growth, layers) - 1);
-  return in.number("last_layer",
-                   {"a thickness in m from " + shown(least) + " m (each layer " + shown(largest_growth) +
-                        " times as thick as the next) to " + shown(equal) + " m (all equal)",
-                    [=](double v) { return v >= least && v <= equal * (1 + 1e-9); }});
+  const double growing = geometry.length * (largest_growth - 1) / (std::pow(largest_growth, layers) - 1);
+  const double least = std::max(growing, least_last_layer * equal);
+  const std::string why =
+      growing < least ? "" : " (each layer " + shown(largest_growth) + " times as thick as the next)";
+  const double shown_digits = 1e-5;  // a bound is accepted as it is shown
+  return in.number(
+      "last_layer",
+      {"a thickness in m from " + shown(least) + " m" + why + " to " + shown(equal) + " m (all equal)",
+       [=](double v) { return v >= least * (1 - shown_digits) && v <= equal * (1 + shown_digits); }});
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ std::string advice(const Vector3d& place, double length, const QualityLimits& li
   if (place.z() >= length * (1 - same_level))
     return "choose another pulp_lifters.layers or pulp_lifters.depth, so that the layers behind the grates "
            "are "
-           "about as thick as the mill's, or another resolution";
+           "about as thick as the mill's last layer, or another resolution (layers, last_layer)";
   return limits.advice;
 }
 

@@ -179,7 +179,8 @@ class Ledger(RecordTest):
                            shape=(1, 2, 2), diameter=0.02)
 
     def test_the_refusal_of_thick_layers_names_the_thickness_and_the_voxels(self):
-        self.assert_advice("take layers of at most 0.01 m (resolution.layers) or voxels of at least 0.02 m"
+        self.assert_advice("take layers of at most 0.01 m (resolution.layers, resolution.last_layer) or voxels of "
+                           "at least 0.02 m"
                            " (averages.voxel_size", shape=(4, 2, 2), cells=(4, 4, 2), diameter=0.002)
 
     def test_the_refusal_of_wide_cells_names_their_width(self):

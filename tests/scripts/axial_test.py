@@ -1,16 +1,33 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Humps of a profile along the axis: sums of Gaussians are found again, in noise too."""
+"""Along the axis: thickness of slices; humps of a profile: sums of Gaussians are found again, in noise too."""
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 
-from millfoam.readings.axial import fit_gaussians, gaussians
+from millfoam.readings.axial import fit_gaussians, gaussians, humps_at_ends, slice_thickness
 
 Z = np.linspace(0.005, 0.3, 33)
 TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)
 THREE = (0.003, 0.05, 0.02, 0.002, 0.15, 0.025, 0.0025, 0.25, 0.02)
 BASE, NOISE = -0.06, 5e-5
+
+
+class Slices(unittest.TestCase):
+    def test_equal_ones_are_as_thick_as_they_are_apart_wherever_they_begin(self):
+        np.testing.assert_allclose(slice_thickness(np.array([0.12, 0.14, 0.16])), 0.02)
+
+    def test_of_unequal_ones_fill_the_mill_from_its_feed_end(self):
+        thickness = 0.01 * 1.29 ** np.arange(8, -1, -1)
+        ends = np.concatenate(([0.0], np.cumsum(thickness)))
+        np.testing.assert_allclose(slice_thickness(np.round((ends[1:] + ends[:-1]) / 2, 7)), thickness, atol=1e-6)
+
+    def test_the_last_one_says_what_the_end_of_unequal_ones_is(self):
+        z = np.array([0.05, 0.13, 0.18, 0.21, 0.225])
+        for place, at_end in ((0.2, 0), (0.223, 0), (0.2245, 1), (0.055, 1), (0.06, 0)):
+            with self.subTest(place=place):
+                self.assertEqual(humps_at_ends(SimpleNamespace(places=(place,)), z), at_end)
 
 
 class Humps(unittest.TestCase):

@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
-from held_flows import (Held, Kind, Stay, Steady, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
+from held_flows import (Held, HoldUps, Kind, Stay, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
                         expected_volume, read_all)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
@@ -126,15 +126,24 @@ class SteadyHoldUps(unittest.TestCase):
 
     def test_need_both_trials_of_their_mill_and_more_discharge_of_more_slurry(self):
         for trials in ((), self.TRIALS[:1], tuple(replace(one, kind=Kind(60, True)) for one in self.TRIALS),
-                       (trial(5e-3, 4e-5), trial(3e-3, 4e-5))):
+                       (trial(5e-3, 4e-5), trial(3e-3, 4e-5)), (trial(5e-3, 42e-6), trial(3e-3, 4e-5))):
             self.assertIsNone(at_feed(self.one(59e-6), trials))
         self.assertIsNone(at_feed(self.one(59e-6, name="Beetstra_75_65_layers_17"), self.TRIALS))
 
+    def test_are_compared_only_if_both_flows_have_them(self):
+        base, wide = (held(f"fluid_75_65{change}", 65e-6, volume, law=None)
+                      for change, volume in (("", 4e-3), ("_wide_lifters", 4.4e-3)))
+        base = replace(base, steady=HoldUps(Mean(9e-3, 1e-5), Mean(8e-3, 1e-5)))
+        self.assertIn("hold-up over the judged turns in front of the grates +10.00",
+                      "\n".join(study.lines_of([base, wide])))
+        wide = replace(wide, steady=HoldUps(Mean(9e-3, 1e-5), Mean(8.8e-3, 1e-5)))
+        self.assertIn("hold-up in front of the grates +10.00", "\n".join(study.lines_of([base, wide])))
+
     def test_are_in_the_table_the_exponent_and_the_comparisons(self):
-        flows = [replace(one, steady=Steady(one.whole, Mean(2e-3 * (one.feed / 65e-6)**0.3, 1e-5)))
+        flows = [replace(one, steady=HoldUps(one.whole, Mean(2e-3 * (one.feed / 65e-6)**0.3, 1e-5)))
                  for one in (held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3) for feed in FEEDS)]
         high = held("high", 65e-6, 2.2e-3)
-        flows.append(replace(high, steady=Steady(Mean(2.2e-3, 1e-5), high.chamber)))
+        flows.append(replace(high, steady=HoldUps(Mean(2.2e-3, 1e-5), high.chamber)))
         text = "\n".join(study.lines_of(flows))
         self.assertIn("~ feed^0.300", text)
         self.assertIn("coarse/high: hold-up +0.00 ", text)
@@ -174,7 +183,7 @@ class Table(unittest.TestCase):
         self.assertIn("coarse, 75 %, with balls: hold-up in front of the grates ~ feed^0.500", text)
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
-        self.assertRegex(text, r"coarse/high: hold-up \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+        self.assertRegex(text, r"coarse/high: hold-up over the judged turns \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
 
     def test_a_changed_mill_is_compared_with_its_base_and_has_no_exponent(self):
         flows = [held("Beetstra_75_65", 65e-6, 3e-3),
@@ -182,7 +191,8 @@ class Table(unittest.TestCase):
                    for name, volume, whole in (("65", 4e-3, 1.1), ("65_wide_lifters", 4.4e-3, 1.0),
                                                ("131", 5e-3, 1.1)))]
         lines = list(study.lines_of(flows))
-        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up in front of the grates +10.00 ± "
+        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up over the judged turns in "
+                                            "front of the grates +10.00 ± "
                                             "0.35 % from fluid_75_65's") for line in lines), lines)
         self.assertTrue(any("without balls: hold-up" in line and "(2 feeds)" in line for line in lines), lines)
 

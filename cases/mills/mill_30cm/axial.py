@@ -14,7 +14,8 @@ from millfoam.files import foam
 from millfoam.files.mill import read_mill
 from millfoam.files.written_times import MillFlow
 from millfoam.plots import mill_plots
-from millfoam.readings.axial import axial_profile, discharge, fit_gaussians, humps_at_ends, slurry_volumes
+from millfoam.readings.axial import (axial_profile, discharge, fit_gaussians, humps_at_ends, slice_thickness,
+                                     slurry_volumes)
 from millfoam.readings.slurry_on_maps import axial_flow, axial_velocity, slurry_ends
 from millfoam.readings.slurry_over_time import RING, ring_depth
 
@@ -35,7 +36,7 @@ def plot_profile(profile, fits, path):
                            + (" (at the profile's end)" if humps_at_ends(humps, profile.z) else ""))
     axes[0].set_ylabel("height of the slurry's\ncentre of mass, mm")
     axes[0].legend(fontsize=8)
-    axes[1].plot(z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=3)
+    axes[1].plot(z, 1e3 * profile.holdup / slice_thickness(profile.z), "o-", ms=3)
     axes[1].set_ylabel("hold-up, ml per mm")
     axes[2].plot(z, profile.pressure, "o-", ms=3)
     axes[2].set(ylabel="p_rgh in the slurry, Pa", xlabel="z from the feed end, mm")

@@ -49,9 +49,8 @@ def change_of_trial(name: str) -> str:
 
 
 @dataclass(frozen=True)
-class Steady:
-    """Hold-ups (m3) at which a flow discharges its feed: of the mill with its pulp lifters, and in front of the
-    grates."""
+class HoldUps:
+    """Of the mill with its pulp lifters, and of what lies in front of the grates (m3)."""
     whole: Mean
     chamber: Mean
 
@@ -60,8 +59,8 @@ class Steady:
 class Held:
     """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over the turns that were judged: hold-up
     of the mill with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of
-    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, if trials
-    show them."""
+    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, at which
+    the discharge is the feed, if trials show them."""
     mesh: str
     name: str
     case: MillCase
@@ -73,7 +72,7 @@ class Held:
     end: float
     reason: str
     found: str
-    steady: Steady | None = None
+    steady: HoldUps | None = None
 
     @property
     def mill(self) -> Mill:
@@ -90,9 +89,14 @@ class Held:
         return self.name not in STARTS and not self.kind.change
 
     @property
-    def holdups(self) -> Steady:
-        """The steady hold-ups or, without trials, those over the judged turns."""
-        return self.steady or Steady(self.whole, self.chamber)
+    def measured(self) -> HoldUps:
+        """Over the judged turns."""
+        return HoldUps(self.whole, self.chamber)
+
+    @property
+    def holdups(self) -> HoldUps:
+        """The steady ones or, without trials, those over the judged turns."""
+        return self.steady or self.measured
 
 
 def case_with_flow(folder: Path) -> MillCase:
@@ -189,16 +193,16 @@ def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
     return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
 
 
-def at_feed(one: Held, trials: Sequence[Trial]) -> Steady | None:
-    """Hold-ups of a flow, moved along the straight line through the two trials of its kind to where its discharge is
-    its feed. The errors are those of hold-up, discharge and slope. None without these trials, or if less slurry does
-    not discharge less."""
+def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
+    """Hold-ups of a flow, moved along the straight line through the two trials of its kind, which are on coarse cells,
+    to where its discharge is its feed. The errors are those of hold-up, discharge and slope. None without these trials,
+    or if they do not show, by two standard errors, that more slurry discharges more."""
     pair = sorted((trial for trial in trials if trial.kind == one.kind), key=lambda trial: trial.volume)
     if len(pair) != 2:
         return None
     less, more = pair
     gain, lacking = more.discharge - less.discharge, Mean(one.feed) - one.discharge
-    if not gain.value > 0:
+    if not gain.value > 2 * gain.error:
         return None
 
     def moved(held: Mean, way: float) -> Mean:
@@ -206,7 +210,7 @@ def at_feed(one: Held, trials: Sequence[Trial]) -> Steady | None:
         way_to_go = of_lack * lacking.value
         errors = held.error, of_lack * lacking.error, way_to_go * gain.error / gain.value
         return Mean(held.value + way_to_go, float(np.linalg.norm(errors)))
-    return Steady(moved(one.whole, more.volume - less.volume), moved(one.chamber, more.chamber - less.chamber))
+    return HoldUps(moved(one.whole, more.volume - less.volume), moved(one.chamber, more.chamber - less.chamber))
 
 
 def named(folder: Path, read: Callable[[Path], Found]) -> Found:

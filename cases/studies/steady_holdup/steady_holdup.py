@@ -123,8 +123,9 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
 
 
 def comparisons(found: Sequence[Held]) -> Iterator[str]:
-    """What flows from other starts and of changed mills hold, compared with the flow that they belong to. A changed
-    mill may have no pulp lifters, so it is compared by what it holds in front of the grates."""
+    """What flows from other starts and of changed mills hold, compared with the flow that they belong to: by their
+    steady hold-ups if both have them, otherwise by those over the judged turns. A changed mill may have no pulp
+    lifters, so it is compared by what it holds in front of the grates."""
     for one in (one for one in found if not one.is_base):
         name = f"{one.mesh}/{one.name}"
         base = next((flow for flow in found if flow.is_base and flow.mesh == one.mesh
@@ -132,8 +133,10 @@ def comparisons(found: Sequence[Held]) -> Iterator[str]:
         if base is None:
             yield f"{name}: the flow to compare it with is not complete"
             continue
-        ours, theirs = ((flow.holdups.chamber if one.kind.change else flow.holdups.whole) for flow in (one, base))
-        words = "in front of the grates " if one.kind.change else ""
+        steady = one.steady and base.steady
+        found_of_both = (flow.holdups if steady else flow.measured for flow in (one, base))
+        ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
+        words = ("" if steady else "over the judged turns ") + ("in front of the grates " if one.kind.change else "")
         apart, share = ours - theirs, 100 / theirs.value
         yield (f"{name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, "
                f"after {one.end:.1f} s")

@@ -98,8 +98,8 @@ addLargeCells(Ostream& text, const extent& voxel, const extent& cell)
     {
         text << " Layers that are thicker than the voxels pass over balls:"
              << " take layers of at most " << voxel.along
-             << " m (resolution.layers) or voxels of at least " << cell.along
-             << " m" << voxelKeys_ << ".";
+             << " m (resolution.layers, resolution.last_layer) or voxels of"
+             << " at least " << cell.along << " m" << voxelKeys_ << ".";
     }
     if (wide)
     {

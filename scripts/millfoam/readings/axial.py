@@ -131,8 +131,20 @@ def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
 
 def humps_at_ends(humps: Humps, z: np.ndarray) -> int:
     """Number of Humps at an end of the slices z [n] (m): for these, the profile shows no maximum."""
-    slack = 0.1 * (z[1] - z[0])
-    return sum(place < z[0] + slack or place > z[-1] - slack for place in humps.places)
+    first, last = z[0] + 0.1 * (z[1] - z[0]), z[-1] - 0.1 * (z[-1] - z[-2])
+    return sum(place < first or place > last for place in humps.places)
+
+
+def slice_thickness(z: np.ndarray) -> np.ndarray:
+    """Thickness (m) of two slices or more with the middles z [n] (m): their distance or, of unequal slices, what fills
+    the mill from z = 0 on."""
+    apart = np.diff(z)
+    if np.allclose(apart, apart[0], rtol=1e-3):
+        return np.full(len(z), apart.mean())
+    ends = [0.0]
+    for middle in z:
+        ends.append(2 * middle - ends[-1])
+    return np.diff(ends)
 
 
 def slurry_volumes(case: Path | str) -> tuple[np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ..files.mill_case import MillCase
 from ..plots import mill_plots
-from ..readings.axial import AxialProfile
+from ..readings.axial import AxialProfile, slice_thickness
 
 Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
 # Okabe & Ito's colours, which colour-blind readers can distinguish
@@ -143,7 +143,7 @@ def reynolds(case: MillCase) -> Figure:
 def holdup_along(profile: AxialProfile, z: np.ndarray, model: np.ndarray) -> Figure:
     """Hold-up per length along the axis: of an AxialProfile, and of a model (m2) at z (m)."""
     figure, (axis,) = axes_of()
-    axis.plot(1e3 * profile.z, 1e6 * profile.holdup / np.gradient(1e3 * profile.z), "o-", ms=4, color=BLUE,
+    axis.plot(1e3 * profile.z, 1e3 * profile.holdup / slice_thickness(profile.z), "o-", ms=4, color=BLUE,
               label="simulation")
     axis.plot(1e3 * z, 1e3 * model, color=RED, label="Moys")
     axis.set(xlabel="z from the feed end, mm", ylabel="hold-up, ml per mm", ylim=(0, None))
@@ -165,7 +165,7 @@ def axial(profile: AxialProfile, fits: Sequence[Curve], along: str) -> Figure:
     height.set_ylabel("height of the\ncentre, mm")
     height.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=1
                   if any("end)" in label for label, _, _ in fits) else 2)
-    held.plot(z, 1e6 * profile.holdup / np.gradient(z), "o-", ms=3, color=BLUE)
+    held.plot(z, 1e3 * profile.holdup / slice_thickness(profile.z), "o-", ms=3, color=BLUE)
     held.set_ylabel("hold-up, ml per mm")
     head.plot(z, profile.pressure, "o-", ms=3, color=BLUE)
     head.set(ylabel="p_rgh, Pa", xlabel=along)

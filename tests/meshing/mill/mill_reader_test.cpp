@@ -392,6 +392,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"layers: 8", "layers: 8\n  last_layer: 0.0002",
                 "(each layer 1.5 times as thick as the next) to 0.003 m (all equal)"},
         Refused{"layers: 8", "layers: 8\n  last_layer: 0.0031", "'resolution.last_layer' = 0.0031"},
+        Refused{"layers: 8", "layers: 2000\n  last_layer: 0",
+                "'resolution.last_layer' = 0: expected a thickness in m from 2.4e-07 m to 1.2e-05 m"},
         Refused{"  classes", "  start_radius: 0.053\n  classes", "'charge.start_radius' = 0.053"},
         Refused{"  classes", "  start_length: 0.03\n  classes", "'charge.start_length' = 0.03"},
         Refused{"  classes", "  fill: 0.3\n  classes",
@@ -509,6 +511,11 @@ TEST(ReadMill, takes_the_last_of_layers_that_grow) {
   EXPECT_EQ(read(graded).resolution.last_layer, 0.001);
   EXPECT_EQ(read(with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.003")).resolution.last_layer,
             0.003);
+  // Bounds as a refusal shows them, of 7 layers: 0.024 / 7 and 0.024 0.5 / (1.5^7 - 1)
+  for (const char* bound : {"0.00342857", "0.000745994"}) {
+    const std::string seven = std::string("layers: 7\n  last_layer: ") + bound;
+    EXPECT_EQ(refusal("layers: 8", seven), "accepted");
+  }
 }
 
 TEST(ReadMill, has_equal_layers_where_the_ends_are_periodic) {

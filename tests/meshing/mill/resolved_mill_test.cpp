@@ -88,6 +88,16 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
+TEST(ResolvedMill, has_the_last_layers_thickness) {
+  const auto last_layer = [](const std::vector<std::string>& changes) {
+    return resolved_mill(describe(example_mill, changes), "test")["derived"]["resolution"]["last_layer_m"]
+        .get<double>();
+  };
+  EXPECT_DOUBLE_EQ(last_layer({}), 0.024 / 8);
+  EXPECT_EQ(last_layer({"resolution.last_layer=0.002"}), 0.002);
+  EXPECT_DOUBLE_EQ(last_layer({"resolution.last_layer=0.002", "geometry.slice=0.012"}), 0.012 / 4);
+}
+
 TEST(Fingerprints, of_walls_and_charge_do_not_know_the_layers_of_the_pulp_lifters) {
   const auto with_layers = [](const std::string& layers) {
     return describe(example_mill, {"geometry.grates.sectors=6", "geometry.pulp_lifters.layers=" + layers})

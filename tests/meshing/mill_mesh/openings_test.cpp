@@ -96,6 +96,7 @@ TEST(PulpLifters, of_three_layers_behind_nine_are_refused_with_their_keys) {
     EXPECT_NE(message.find(" 0.305) m: choose another pulp_lifters.layers or pulp_lifters.depth"),
               std::string::npos)
         << message;
+    EXPECT_NE(message.find("(layers, last_layer)"), std::string::npos) << message;
   }
 }
 
