@@ -113,14 +113,30 @@ class Flow(Verdicts):
 
     def test_a_discharge_that_is_not_the_feed(self):
         time = np.linspace(0, 30, 3001)
+        fed = 1e-3 + 1e-5 * time  # as much as the mill holds, before these times
         of_turns = np.random.default_rng(3).normal(0, 1, 10)
         noise = np.append(np.repeat(of_turns - of_turns.mean(), 300), 0)
         for gap, wobble, state in ((0.01, 0, "holds"), (0.03, 0, "look"), (-0.03, 0, "look"), (0.2, 0, "fails"),
                                    (0.03, 0.3, "holds")):
             rate = 1e-5 * (1 - gap + wobble * noise)
-            columns = {"Time": time, "holdUp": 1e-3 + 0 * time, "x": 0 * time, "y": 0 * time, "fed": 1e-5 * time,
+            columns = {"Time": time, "holdUp": 1e-3 + 0 * time, "x": 0 * time, "y": 0 * time, "fed": fed,
                        "discharged": np.cumsum(rate) * 0.01, "discharge": rate}
             self.check(checks.flow_steadiness(case(balance=columns, feed=1e-5, turn=3.0)), state)
+
+    def test_slurry_that_the_feed_has_not_replaced_yet_is_doubtful(self):
+        time = np.linspace(0, 30, 3001)
+        steady = {"Time": time, "holdUp": 1e-3 + 0 * time, "x": 0 * time, "y": 0 * time}
+        for replaced, state, words in ((0.001, "look", "slurry 0.001 times"), (0.3, "look", "slurry 0.3 times"),
+                                       (0.98, "look", "slurry 0.98 times"), (1.02, "holds", "slurry 1 times")):
+            rate = replaced * 1e-3 / 30
+            columns = {**steady, "fed": rate * time, "discharged": rate * time, "discharge": np.full(3001, rate)}
+            found = checks.flow_steadiness(case(balance=columns, feed=rate, turn=3.0))
+            self.check(found, state)
+            self.assertIn(words, found.found)
+        # It forgives no failure
+        columns["discharged"] = 0.5 * columns["fed"]
+        columns["discharge"] = 0.5 * columns["discharge"]
+        self.check(checks.flow_steadiness(case(balance=columns, feed=rate, turn=3.0)), "fails")
 
     def test_a_discharge_that_still_grows_is_not_the_feed(self):
         time = np.linspace(0, 20, 4001)

@@ -14,7 +14,7 @@ from millfoam.files.data_files import read_json
 from millfoam.files.mill import SECTIONS, Mill
 from millfoam.report.steady import End, main, next_time
 
-TURN, FEED = 2.0, 1e-5  # s, m3/s
+TURN, FEED = 2.0, 1e-4  # s, m3/s
 HEAD = "# Time_s\tholdUp_m3\tx_m\ty_m\tfed_m3\tdischarged_m3\tdischarge_m3/s\n"
 
 
@@ -62,6 +62,12 @@ class NextTime(unittest.TestCase):
         for leaves, ends in ((1.0, True), (0.99, True), (0.9, False), (1.1, False)):
             found = next_time(mill(feed=FEED), balance(12.0, feed=FEED, leaves=leaves), 0)
             self.assertEqual(isinstance(found, End), ends, leaves)
+
+    def test_the_feed_must_have_replaced_the_slurry(self):
+        # 1 l of it, by 0.05 l/s: in 20 s
+        for end, ends in ((12.0, False), (19.0, False), (21.0, True)):
+            found = next_time(mill(feed=FEED / 2), balance(end, feed=FEED / 2), 0)
+            self.assertEqual(isinstance(found, End), ends, end)
 
 
 class Command(unittest.TestCase):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the averaged flow drifts: its second half compared with its first, and its discharge with its feed."""
+"""Whether the averaged flow drifts: its second half compared with its first, its discharge with its feed, and its feed
+with its hold-up."""
 import numpy as np
 
 from ..files.mill_case import MillCase
@@ -62,8 +63,8 @@ def discharge_gap(columns: dict[str, np.ndarray], begin: float, turn: float) -> 
 def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float,
                      machine: str = "tumbling") -> Check:
     """Whether hold-up and centre of the slurry, of a stirred mill also the torque of its impeller, agree between the
-    two halves of the time from `begin` (s) on, and whether, with a feed (m3/s), as much slurry leaves as enters.
-    columns: of slurryBalance; turn: of the mill, its time in s; radius: of the mill, m; machine: a key of
+    two halves of the time from `begin` (s) on, and whether, with a feed (m3/s), as much slurry leaves as enters and the
+    feed has replaced the slurry once since the flow's start. columns: of slurryBalance; turn: of the mill, its time in s; radius: of the mill, m; machine: a key of
     QUANTITIES."""
     drifts, words = [], []
     for key, unit, scale in QUANTITIES[machine]:
@@ -78,8 +79,12 @@ def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, 
     if feed > 0:
         share, error = discharge_gap(columns, begin, turn)
         drifts.append(abs(share) / np.fmax(error * DRIFT, GAP))
-        gap = f"; {difference_with_error(100 * share, 100 * error)} % of the feed stays"
-        limits += f", or {100 * GAP:g} % of the feed"
+        held, fed = columns["holdUp"][columns["Time"] >= begin].mean(), columns["fed"][-1]
+        # Slurry needs the time in which it is replaced to find its place along the axis. Alone this is only a doubt
+        drifts.append(held / max(fed, held / 2))
+        gap = (f"; {difference_with_error(100 * share, 100 * error)} % of the feed stays; so far the feed has replaced "
+               f"the slurry {fed / held:.2g} times")
+        limits += f", or {100 * GAP:g} % of the feed, or once"
     turns = (columns["Time"][-1] - begin) / turn
     return judged(NAME, np.max(drifts), 1, f"from {begin:g} s on ({turns:.2g} turns), second half minus first: "
                   + ", ".join(words) + f"{gap} ({limits})",
