@@ -64,8 +64,8 @@ def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, 
                      machine: str = "tumbling") -> Check:
     """Whether hold-up and centre of the slurry, of a stirred mill also the torque of its impeller, agree between the
     two halves of the time from `begin` (s) on, and whether, with a feed (m3/s), as much slurry leaves as enters and the
-    feed has replaced the slurry once since the flow's start. columns: of slurryBalance; turn: of the mill, its time in s; radius: of the mill, m; machine: a key of
-    QUANTITIES."""
+    feed has replaced the slurry once since the flow's start. columns: of slurryBalance; turn: of the mill, its time in
+    s; radius: of the mill, m; machine: a key of QUANTITIES."""
     drifts, words = [], []
     for key, unit, scale in QUANTITIES[machine]:
         difference, error = halves(columns["Time"], columns[key], begin, turn)
