@@ -84,7 +84,7 @@ def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, 
         drifts.append(held / max(fed, held / 2))
         gap = (f"; {difference_with_error(100 * share, 100 * error)} % of the feed stays; so far the feed has replaced "
                f"the slurry {fed / held:.2g} times")
-        limits += f", or {100 * GAP:g} % of the feed, or once"
+        limits += f", or {100 * GAP:g} % of the feed; the slurry replaced once"
     turns = (columns["Time"][-1] - begin) / turn
     return judged(NAME, np.max(drifts), 1, f"from {begin:g} s on ({turns:.2g} turns), second half minus first: "
                   + ", ".join(words) + f"{gap} ({limits})",
