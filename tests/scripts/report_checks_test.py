@@ -229,7 +229,7 @@ class Charge(Verdicts):
             self.check(checks.lost_balls(case(results={"lost_balls": lost, "balls": 10})), state)
 
     def test_averages_that_begin_before_the_charge_is_steady(self):
-        for since, state in ((1.0, "holds"), (2.0, "holds"), (2.4, "look"), (2.6, "fails")):
+        for since, state in ((1.0, "holds"), (2.009, "holds"), (2.011, "look"), (2.4, "look"), (2.6, "fails")):
             results = {"steady": True, "steady_from_s": since}
             self.check(checks.charge_steadiness(case(results=results, solids="solids.h5", charge_span=(2.0, 3.0))),
                        state)
