@@ -111,16 +111,21 @@ def lacking(runs):
 
 
 def pair(runs, statement, first, second, judge):
-    """Verdict of judge(run, run) on two runs (Which); `not tested` if one is missing, or one has more slices."""
+    """Verdict of judge(run, run) on two runs (Which); `not tested` if one is missing, or they have other slices."""
     found = [runs.find(which) for which in (first, second)]
     gone = [unread(run, runs, which) for run, which in zip(found, (first, second)) if not run or not run.series]
     names = f"{first}; {second}"
-    if not gone and len(found[0].series.z) != len(found[1].series.z):
-        gone = [f"{one.name} has {len(one.series.z)} slices along the axis" for one in found] + [
-            "expected the same number"]
+    if not gone and not same_slices(*(one.series.z for one in found)):
+        gone = [f"{one.name} has {len(one.series.z)} slices along the axis, the first one at "
+                f"{1e3 * one.series.z[0]:.1f} mm" for one in found] + ["expected the same slices"]
     if gone:
         return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
     return Verdict(statement, names, *judged(*judge(*found), *found))
+
+
+def same_slices(first, second):
+    """Whether two profiles have the same slices: z of their middles (m) within a thousandth of the profile."""
+    return len(first) == len(second) and np.allclose(first, second, rtol=0, atol=1e-3 * np.max(np.abs(second)))
 
 
 def concentration_raises(runs):
