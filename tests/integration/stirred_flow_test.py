@@ -26,6 +26,7 @@ resolution: {cell_size: 0.0035}
 flow: {duration: 0.04, write_interval: 0.02, averages: {start: 0.02}}
 """, ("height: 0.025", "height: 0.033"), ("level: 0.035", "level: 0.036"),
                   ("tip_speed: 0.8", "tip_speed: 0.8, sense: clockwise"))
+ROOT = Path(__file__).resolve().parents[2]
 os.environ["MILLFOAM_NP"] = "1"
 
 
@@ -140,6 +141,13 @@ class StirredFlow(unittest.TestCase):
         self.assertGreater(numbers["reynolds"][0], 0)
         for name in ("flow_maps.png", "vortex.png"):
             self.assertGreater((self.case / name).stat().st_size, 10000)
+
+    def test_new_mill_makes_a_case_with_the_walls_of_a_stirred_mill(self):
+        run(self.folder, ROOT / "scripts" / "new_mill", "mill.yaml", "new")
+        self.assertEqual((self.folder / "new" / "0.orig" / "U").read_text(), (self.case / "0.orig" / "U").read_text())
+        run(self.folder, "new/Allrun", "--charge", self.case, "--until", "start")
+        self.assertEqual(read_field(self.folder / "new" / "0" / "alpha.slurry").tolist(),
+                         read_field(self.case / "0" / "alpha.slurry").tolist())
 
     def test_dictionaries_of_another_machine_are_refused(self):
         other = self.folder / "other"

@@ -222,6 +222,13 @@ class Stirred(unittest.TestCase):
         self.assertEqual(plan["balls"], self.results["balls"])
         self.assertGreater(plan["wall_time_s"], 0)
 
+    def test_new_mill_makes_a_folder_that_runs(self):
+        run(self.folder, ROOT / "scripts" / "new_mill", "mill.yaml", "new")
+        self.assertFalse((self.folder / "new" / "system").exists())
+        run(self.folder, "new/Allrun", "--until", "walls")
+        self.assertEqual(read_json(self.folder / "new" / "walls" / "walls.json", "walls")["triangles"],
+                         read_json(self.case / "walls" / "walls.json", "walls")["triangles"])
+
     def test_stages_that_it_does_not_have_are_refused(self):
         for command, words in ((("millMesh", "mill.json", "--case", "."), "has no slurry: expected --walls"),
                                (("millMesh", "faces", "mill.json", "-o", "a.obj"), "has no mesh of a flow")):
@@ -235,8 +242,6 @@ class Stirred(unittest.TestCase):
             run(self.case, "millDem", "mill.json", "--case", ".", "--fluid", "slurry.h5")
         with self.assertRaisesRegex(RunError, "direct with --with-flow"):
             run(self.case, "millDem", "mill.json", "--case", ".", "--with-flow", "exchange")
-        with self.assertRaisesRegex(RunError, "a stirred mill has no OpenFOAM case"):
-            run(self.case, ROOT / "scripts" / "new_mill", "mill.json", self.folder / "new")
         with self.assertRaisesRegex(NoMill, "the mill is stirred; expected a tumbling one"):
             read_mill(self.case)
 
