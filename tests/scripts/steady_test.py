@@ -18,12 +18,12 @@ TURN, FEED = 2.0, 1e-4  # s, m3/s
 HEAD = "# Time_s\tholdUp_m3\tx_m\ty_m\tfed_m3\tdischarged_m3\tdischarge_m3/s\n"
 
 
-def mill(turns=4, hours=None, duration=40.0, feed=0.0):
+def mill(turns=4, hours=None, duration=40.0, feed=0.0, machine="tumbling"):
     """A mill whose flow ends by itself."""
     sections = dict.fromkeys(SECTIONS, {})
     return Mill(Path("mill.json"), {
         "mill": sections, "derived": {
-            **sections, "geometry": {"radius_m": 0.1},
+            **sections, "machine": machine, "geometry": {"radius_m": 0.1},
             "speed": {"angular_velocity_rad_s": -2 * np.pi / TURN, "turn_s": TURN},
             "flow": {"steady": {"turns": turns, "hours": hours}, "duration_s": duration, "feed_m3_s": feed}},
         "fingerprint": {"flow": "ab"}, "program": "millMesh 1"})
@@ -68,6 +68,15 @@ class NextTime(unittest.TestCase):
         for end, ends in ((12.0, False), (19.0, False), (21.0, True)):
             found = next_time(mill(feed=FEED / 2), balance(end, feed=FEED / 2), 0)
             self.assertEqual(isinstance(found, End), ends, end)
+
+
+    def test_a_stirred_mill_waits_for_its_surface_and_its_torque(self):
+        for late, ends in ((100.0, False), (0.1, True)):  # s, in which they become steady
+            columns = balance(12.0)
+            rest = np.exp(-columns["Time"] / late)
+            columns |= {"z": 0.05 * (1 - 0.3 * rest), "torque_impeller": 0.01 * (1 + rest)}
+            found = next_time(mill(machine="stirred"), columns, 0)
+            self.assertEqual(isinstance(found, End), ends, late)
 
 
 class Command(unittest.TestCase):

@@ -51,6 +51,14 @@ class Align(Case):
         self.assertAlmostEqual(align(self.case), 0.02)
         self.assertEqual(self.names("processor0"), ["0", "0.0200000003"])
 
+    def test_goes_back_where_the_balls_have_ended(self):
+        self.make([0.02, 0.04], ["0.02", "0.04"])
+        (self.case / "dumps").mkdir()
+        (self.case / "dumps" / "run.json").touch()
+        self.assertAlmostEqual(align(self.case), 0.02)
+        self.assertEqual(self.names("processor0"), ["0", "0.02"])
+        self.assertEqual(self.names("dem"), ["fluid.json", "restart.1000", "restart.3000"])
+
     def test_begins_anew_without_a_common_time(self):
         self.make([0.02], ["0.01"])
         self.assertEqual(align(self.case), 0)

@@ -40,7 +40,7 @@ def show(case: Path) -> None:
     """Writes and prints the numbers and draws the pictures of the flow in a case's folder."""
     run = StirredCase(case)
     mill = run.mill
-    flow = read_slurry_flow(case, mill)
+    flow = read_slurry_flow(case, mill, run.begin)
     numbers = numbers_of(read_stirred_flow(run, flow))
     write_numbers(case / "flow.csv", numbers)
     records = balls_of_last_turn(case, mill)

@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import IO
 
+import numpy as np
+
 from ..files.data_files import read_json
 
 EXCHANGE = "exchange"  # folder of the pipes, in the case
@@ -54,13 +56,15 @@ def restart_times(case: Path) -> dict[Path, float]:
 
 def align(case: Path) -> float:
     """Makes both programs resume at the same time: removes what one of them has beyond the latest time that both
-    have, and returns that time, s. 0: they begin anew."""
+    have, and returns that time, s. 0: they begin anew. Balls that have ended would not meet the flow again, so both
+    compute the last piece anew."""
     restarts = restart_times(case)
+    end = max(restarts.values(), default=0.0) if (case / "dumps" / "run.json").is_file() else np.inf
     folders = flow_folders(case)
     interval = read_json(case / "dem" / "fluid.json", "fluid")["timestep_s"] if restarts else 0.0
     common = 0.0
     for at in restarts.values():
-        if all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders):
+        if at < end and all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders):
             common = max(common, at)
     for path, at in restarts.items():
         if at > common + interval:

@@ -49,8 +49,9 @@ def median(values: np.ndarray, weights: np.ndarray) -> float:
     return float(values[order][np.searchsorted(np.cumsum(weights[order]), weights.sum() / 2)])
 
 
-def read_slurry_flow(case: Path, mill: Mill) -> SlurryFlow:
-    """The flow in a case's folder; RuntimeError without a written time from the averages' start on."""
+def read_slurry_flow(case: Path, mill: Mill, begin: float) -> SlurryFlow:
+    """The flow in a case's folder: means of its written times from flow time `begin` (s) on, or the last one if there
+    is none. RuntimeError without a written time after 0."""
     mesh = foam.read_mesh(case)
     centre, volume = mesh.centres_and_volumes()
     omega = mill.derived("speed", "angular_velocity_rad_s")
@@ -60,10 +61,10 @@ def read_slurry_flow(case: Path, mill: Mill) -> SlurryFlow:
     at_zero = centre @ back
     density, viscosity = (mill.derived("slurry", key) for key in ("density_kg_m3", "plastic_viscosity_Pa_s"))
     diameter = mill.derived("charge", "sauter_diameter_m")
-    start = mill.derived("flow", "averages_start_s")
-    chosen = [(time, folder) for time, folder in foam.times(case) if time >= start and time > 0]
-    if not chosen:
-        raise RuntimeError(f"{case}: no written time from {start:g} s on (flow.averages.start); expected one")
+    written = [(time, folder) for time, folder in foam.times(case) if time > 0]
+    if not written:
+        raise RuntimeError(f"{case}: no written time after 0; expected one (flow.write_interval)")
+    chosen = [(time, folder) for time, folder in written if time >= begin] or written[-1:]
     share, dense, moved, slips, numbers = np.zeros(len(volume)), np.zeros(len(volume)), np.zeros_like(centre), [], []
     for time, folder in chosen:
         alpha = foam.read_field(folder / "alpha.slurry", mesh.cells)

@@ -15,6 +15,7 @@ Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
 # Okabe & Ito's colours, which colour-blind readers can distinguish
 BLUE, ORANGE, GREEN, RED, SKY, GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#56B4E9", "#6b7580"
 COLOURS = (BLUE, RED, GREEN, ORANGE, "#CC79A7", SKY, "#000000")
+LINES = ("-", "--", "-.", ":")
 # Figures are as wide as a card, so that their text is readable on a phone
 plt.rcParams.update({"font.size": 10.5, "legend.fontsize": 9, "legend.frameon": False})
 
@@ -193,8 +194,9 @@ def lines_against(curves: Sequence[Curve], xlabel: str, ylabel: str,
                   limits: tuple[float, float] | None = None) -> Figure:
     """Curves (label, x, y) of several cases in one panel; limits of y."""
     figure, (axis,) = axes_of()
-    for (label, x, y), colour in zip(curves, COLOURS):
-        axis.plot(x, y, color=colour, label=label, lw=1.3)
+    for number, (label, x, y) in enumerate(curves):
+        axis.plot(x, y, color=COLOURS[number % len(COLOURS)], ls=LINES[number // len(COLOURS) % len(LINES)],
+                  label=label, lw=1.3)
     axis.set(xlabel=xlabel, ylabel=ylabel, ylim=limits)
     _legend_above(axis, [label for label, _, _ in curves])
     return figure
@@ -205,8 +207,9 @@ def surfaces(lines: Sequence[tuple[str, np.ndarray]], radius: float, omega: floa
     figure, axis = plt.subplots(figsize=(5.2, 5), constrained_layout=True)
     angle = np.linspace(0, 2 * np.pi, 361)
     axis.plot(1e3 * radius * np.cos(angle), 1e3 * radius * np.sin(angle), color="0.15", lw=1)
-    for (label, points), colour, style in zip(lines, COLOURS, ("-", "--", "-.", ":", "-", "--", "-.")):
-        axis.plot(*(1e3 * np.asarray(points).T), color=colour, label=label, lw=1.8, ls=style)
+    for number, (label, points) in enumerate(lines):
+        axis.plot(*(1e3 * np.asarray(points).T), color=COLOURS[number % len(COLOURS)], label=label, lw=1.8,
+                  ls=LINES[(number + number // len(COLOURS)) % len(LINES)])
     mill_plots.draw_sense(axis, radius, omega)
     _legend_above(axis, [label for label, _ in lines])
     return figure

@@ -116,15 +116,24 @@ def solids_on_mesh(case: MillCase) -> Check:
                   "Average with the mill's walls (--inside), or on the flow's own mesh (--mesh).", doubtful=5)
 
 
+def beyond_law(case: MillCase) -> tuple[float, float] | None:
+    """Share of the slurry in the bed that is beyond the drag law's range: mean over the flow's time, and largest; None
+    if steps.csv does not have it."""
+    found = column(case, "beyond_law")
+    if found is None:
+        return None
+    known = np.isfinite(found)
+    return float(np.average(found[known], weights=case.record.steps["deltaT_s"][known])), float(found[known].max())
+
+
 def drag_range(case: MillCase) -> Check:
     """Share of the slurry in the bed that is beyond the range of the drag law."""
     name = "The drag law is within its range"
-    found = column(case, "beyond_law")
+    found = beyond_law(case)
     if found is None:
         return Check(name, "unknown", "steps.csv has no share of the slurry beyond the law's range",
                      NO_STEPS)
-    known = np.isfinite(found)
-    share = 100 * np.average(found[known], weights=case.record.steps["deltaT_s"][known])
+    share = 100 * found[0]
     return judged(name, share, OUT_OF_RANGE, f"{share:.1f} % of the slurry in the bed is beyond {case.law}'s range "
                   f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges, flow.law).",
                   doubtful=50,

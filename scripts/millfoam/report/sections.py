@@ -14,6 +14,7 @@ from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
 from .coupling_section import coupling_section
+from .flow_checks import beyond_law
 from .power_section import power_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
@@ -144,13 +145,17 @@ def ledger_section(case: MillCase, _readings: Readings) -> list[str]:
         cards.append(page.table(None, numbers_of(mesh) + rows, title="Mesh of the flow"))
     drag, beyond = (case.record.last.get(key) if case.law else None for key in ("drag", "beyond_law"))
     if drag and beyond:
-        cards.append(page.table(None, drag_rows(drag, beyond), title="Drag law"))
+        # flow.json has means since the last start of slurryFoam
+        whole = beyond_law(case)
+        beyond = {**beyond, **(dict(zip(("mean", "largest"), whole)) if whole else {})}
+        cards.append(page.table(None, drag_rows(drag, beyond), title="Drag law",
+                                note="Shares by bound are means since the last start of the flow."))
     return cards
 
 
 def drag_rows(drag: dict[str, Any], beyond: dict[str, float]) -> list[tuple[str, str]]:
-    """Rows (name, text) of the law of flow.json's last start, and of the share of the slurry in the bed beyond its
-    range."""
+    """Rows (name, text) of the law of flow.json, and of the share of the slurry in the bed beyond its range: `mean` and
+    `largest`, and means by the bound."""
     names = {"mean": "slurry of the bed beyond the range, mean over time",
              "largest": "slurry of the bed beyond the range, at most",
              "solidity_below": "solidity below the range", "solidity_above": "solidity above the range",

@@ -45,7 +45,7 @@ def next_time(mill: Mill, columns: dict[str, np.ndarray] | None, hours: float) -
     if columns is None or last < first * (1 - SLACK):
         return first
     begin = max(last - span, 0.0)
-    check = judge_steadiness(columns, begin, mill.turn, mill.radius, mill.flow("feed_m3_s", 0.0))
+    check = judge_steadiness(columns, begin, mill.turn, mill.radius, mill.flow("feed_m3_s", 0.0), mill.machine)
     late = asked["hours"] is not None and hours >= asked["hours"]
     for reason, reached in (("steady", check.state == "holds"), ("duration", last >= duration * (1 - SLACK)),
                             ("hours", late)):
@@ -65,7 +65,7 @@ def unfinished(folder: Path, columns: dict[str, np.ndarray] | None, asked: Path)
 
 
 def main(folder: Path, asked: Path) -> None:
-    mill = read_mill(folder)
+    mill = read_mill(folder, None)
     try:
         columns = read_columns(folder, "slurryBalance")
     except TableError:

@@ -69,7 +69,7 @@ def flow_numbers(case: StirredCase) -> Rows:
     """Rows (name, text) of the slurry's numbers; none without a flow."""
     if case.flow is None:
         return []
-    found = read_stirred_flow(case, read_slurry_flow(case.folder, case.mill))
+    found = read_stirred_flow(case, read_slurry_flow(case.folder, case.mill, case.begin))
     rows = [(f"torque on the slurry by {'the ' if part not in ('balls', 'all') else ''}{part}", mean, 1e3, "mN m")
             for part, mean in found.torques.items()]
     rows += [("torque on the slurry that is not balanced", found.unbalanced, 1e3, "mN m")] if found.unbalanced else []
@@ -134,7 +134,7 @@ def flow_section(case: StirredCase) -> list[str]:
     """Cards of the slurry's numbers, torques and pictures; none without a flow."""
     if case.flow is None:
         return []
-    flow = read_slurry_flow(case.folder, case.mill)
+    flow = read_slurry_flow(case.folder, case.mill, case.begin)
     times = f"flow time {flow.times[0]:.3g} to {flow.times[-1]:.3g} s"
     records = balls_of_last_turn(case.folder, case.mill)
     chosen = [records[k] for k in np.unique(np.linspace(0, len(records) - 1, FRAMES).astype(int))] if records else []
