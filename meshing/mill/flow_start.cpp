@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/mill/flow_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -21,16 +22,13 @@ FlowStart at_level(double level) {
 }
 
 /// Slurry of a stirred mill that stands at a level when all is at rest: the space below it without impeller
-/// and balls.
+/// and balls, which lie up to the height that they fill by their packing.
 /// @param balls  volume of the balls, m^3; 0 in a flow without them
 /// @param pores  volume between the resting balls, m^3
-FlowStart at_rest(const Section& in, double level, double balls, double pores, const Mill& mill) {
+FlowStart at_rest(double level, double balls, double pores, const Mill& mill) {
   const double space = analytic_section(mill.geometry) * level - impeller_volume(mill.geometry, level);
   FlowStart start;
-  start.volume = space - balls;
-  if (!(start.volume > 0))
-    in.refuse("level", "a height at which slurry covers the balls: up to " + shown(level) + " m there are " +
-                           shown(space) + " m^3, and the balls' volume is " + shown(balls) + " m^3");
+  start.volume = space - std::min(balls, mill.charge.packing * space);
   start.fill = start.volume / pores;
   return start;
 }
@@ -50,7 +48,7 @@ FlowStart read_start(const Section& flow, Section& slurry, bool with_balls, cons
     if (flow.has("start") && (both_set || !slurry.is_set("level")))
       flow.refuse("start", "either this key or slurry.level");
     const double at = slurry.number("level", level);
-    return stirred ? at_rest(slurry, at, balls, pores, mill) : at_level(at);
+    return stirred ? at_rest(at, balls, pores, mill) : at_level(at);
   }
   Section in = flow.optional_section("start", {"level", "volume", "fill"});
   in.alternatives({"level", "volume", "fill"});
@@ -58,7 +56,7 @@ FlowStart read_start(const Section& flow, Section& slurry, bool with_balls, cons
     if (in.has(one) && in.has(other)) in.refuse(other, std::string("either this key or ") + one);
   if (in.has("level")) {
     const double at = in.number("level", level);
-    return stirred ? at_rest(in, at, balls, pores, mill) : at_level(at);
+    return stirred ? at_rest(at, balls, pores, mill) : at_level(at);
   }
   if (in.has("volume")) {
     start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",

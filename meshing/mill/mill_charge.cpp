@@ -104,15 +104,18 @@ std::vector<SizeClass> read_sizes(const Section& in, const Geometry& geometry, d
   return classes;
 }
 
+/// Share of the classes' masses that lies in the mill.
+double share_in_mill(const Section& in, const Geometry& geometry) {
+  return geometry.length / in.number("reference_length",
+                                     positive_up_to("the length in m that the masses fill,", longest),
+                                     geometry.length);
+}
+
 std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry, double density) {
   for (const char* other : {"fill", "diameter", "shape"}) {
     if (in.has(other)) in.refuse(other, "either classes, or fill, diameter and shape");
   }
-  const double share =
-      geometry.length / in.number("reference_length",
-                                  positive_up_to("the length in m that the masses fill,", longest),
-                                  geometry.length);
-  return read_sizes(in, geometry, density, share);
+  return read_sizes(in, geometry, density, share_in_mill(in, geometry));
 }
 
 /// Mass in kg of balls that fill the requested share of the mill in bulk.
@@ -125,14 +128,17 @@ double read_fill_mass(const Section& in, const Geometry& geometry, double densit
 
 /// Makes the masses of the file's classes fill the share that --set gives, with their sizes and their shares.
 void fill_with_classes(Section& in, const Geometry& geometry, double density, double packing) {
+  const double share = in.has("reference_length") ? share_in_mill(in, geometry) : 1;
   in.displace("fill", {"reference_length"});
   const double wanted = read_fill_mass(in, geometry, density, packing);
   in.drop("fill");
+  // The masses that follow are those in this mill: the key takes its default
+  in.number("reference_length", positive_up_to("a length in m", longest), geometry.length);
   double mass = 0;
-  for (const SizeClass& size : read_classes(in, geometry, density)) mass += size.mass;
+  for (const SizeClass& size : read_sizes(in, geometry, density, share)) mass += size.mass;
   for (Section& item : list_classes(in)) {
     const double diameter = item.number("diameter", ball_diameter(in, geometry));
-    const double own = read_mass(item, geometry, density, 1, diameter);
+    const double own = share * read_mass(item, geometry, density, share, diameter);
     item.drop("number");
     item.put("mass", own * wanted / mass);
   }

@@ -72,10 +72,11 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   const bool stirred = mill.machine() == Machine::stirred;
   Json of = {{"geometry", keys.at("geometry")}};
   of["resolution"] = stirred ? Json::object() : keys.at("resolution");
-  // Balls and mesh do not depend on the grates' holes
+  // Balls and walls do not see which faces of the end are grates
   Json& geometry = of["geometry"];
   if (geometry.contains("grates") && geometry["grates"].is_object())
-    for (const char* key : {"open_fraction", "pegged"}) geometry["grates"].erase(key);
+    for (const char* key : {"sectors", "sector_share", "open_fraction", "pegged"})
+      geometry["grates"].erase(key);
   // Walls have none of the mesh's layers
   for (const char* key : {"layers", "last_layer"}) of["resolution"].erase(key);
   if (geometry.contains("pulp_lifters") && geometry["pulp_lifters"].is_object())

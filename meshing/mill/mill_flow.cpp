@@ -102,7 +102,7 @@ void read_drag(const Section& in, Flow& flow) {
   flow.mixed_drag = in.choice("mixed_drag", {"weights", "permeability"}, "weights");
 }
 
-Coupling read_coupling(Section& in, const Flow& flow) {
+Coupling read_coupling(Section& in, const Mill& mill, const Flow& flow) {
   Coupling coupling;
   const std::string kind = in.choice("coupling", {"one_way", "iterated", "direct"}, "one_way");
   for (const CouplingKind one : {CouplingKind::one_way, CouplingKind::iterated, CouplingKind::direct})
@@ -110,6 +110,8 @@ Coupling read_coupling(Section& in, const Flow& flow) {
   if (coupling.both_ways() && flow.solver != "slurryFoam")
     in.refuse("coupling", "one_way: only slurryFoam knows what the balls feel");
   if (coupling.both_ways() && !flow.balls) in.refuse("coupling", "one_way where flow.balls is no");
+  if (coupling.kind == CouplingKind::direct && !mill.dem.dumps)
+    in.refuse("coupling", "one_way or iterated where dem.dumps is no: direct coupling needs the dumps");
   coupling.passes = in.integer("passes", whole_number("passes", 2, 50), usual_passes);
   coupling.relaxation =
       in.number("relaxation", {"a share above 0 and up to 1", [](double v) { return v > 0 && v <= 1; }},
@@ -122,8 +124,13 @@ Rule courant_number() {
 }
 
 /// Only slurryFoam's step depends on the voidage, and on the air by a bound of its own.
-void read_own_bounds(Section& in, Flow& flow) {
+void read_own_bounds(Section& in, const Mill& mill, Flow& flow) {
   if (flow.solver != "slurryFoam") {
+    const auto& grates = mill.geometry.grates;
+    if (grates && grates->open() < 1)
+      in.refuse("solver",
+                "slurryFoam: only it knows the resistance of geometry.grates, which are open by a share of " +
+                    shown(grates->open()));
     for (const char* key : {"max_air_courant", "max_voidage_change"}) {
       if (in.has(key) && (in.is_set(key) || !in.is_set("solver")))
         in.refuse(key, "this key with flow.solver slurryFoam only");
@@ -143,7 +150,7 @@ void read_steps(Section& in, const Mill& mill, Flow& flow) {
   const bool in_parts = flow.solver == "slurryFoam";
   flow.max_courant = in.number("max_courant", courant_number(), in_parts ? 1.25 : 1);
   flow.max_surface_courant = in.number("max_surface_courant", courant_number(), in_parts ? 1.25 : 0.5);
-  read_own_bounds(in, flow);
+  read_own_bounds(in, mill, flow);
   flow.largest_correction = in.number(
       "largest_correction",
       {"a share of the balls' volume of 0 or more and up to 1", [](double v) { return v >= 0 && v <= 1; }},
@@ -262,7 +269,7 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.balls = in.boolean("balls", true);
   read_drag(in, flow);
   flow.out_of_range = in.choice("out_of_range", {"error", "hold", "repeat"}, "repeat");
-  flow.coupling = read_coupling(in, flow);
+  flow.coupling = read_coupling(in, mill, flow);
   if (mill.machine() == Machine::stirred) refuse_for_stirred(in, flow);
   read_exchange(in, mill, flow.coupling);
   flow.steady = read_steady_end(in, flow, mill.turn());

@@ -186,23 +186,28 @@ Geometry read_stirred_geometry(const Section& in) {
 
 double read_stirred_speed(Section& in, const Geometry& geometry) {
   const double reach = impeller_radius(*geometry.impeller);
+  const double slowest = slowest_tip / reach, fastest = fastest_tip / reach;
+  const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
+                            ", positive for anticlockwise seen from above",
+                        [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
+  // A tip speed that --set gives turns the impeller as the file's angular velocity does
+  std::string usual_sense = "anticlockwise";
+  if (in.has("angular_velocity") && in.is_set("tip_speed") && !in.is_set("angular_velocity") &&
+      in.number("angular_velocity", turning) < 0)
+    usual_sense = "clockwise";
   in.alternatives({"angular_velocity", "tip_speed"});
   in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
     for (const char* other : {"tip_speed", "sense"})
       if (in.has(other)) in.refuse(other, "either angular_velocity alone, or tip_speed and sense");
-    const double slowest = slowest_tip / reach, fastest = fastest_tip / reach;
-    return in.number("angular_velocity",
-                     {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
-                          ", positive for anticlockwise seen from above",
-                      [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }});
+    return in.number("angular_velocity", turning);
   }
   const double tip =
       in.number("tip_speed", {"a speed of the impeller's tips in m/s from " + shown(slowest_tip) + " to " +
                                   shown(fastest_tip) + " (or the key angular_velocity)",
                               [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
   const double sign =
-      in.choice("sense", {"clockwise", "anticlockwise"}, "anticlockwise") == "clockwise" ? -1 : 1;
+      in.choice("sense", {"clockwise", "anticlockwise"}, usual_sense) == "clockwise" ? -1 : 1;
   return sign * tip / reach;
 }
 

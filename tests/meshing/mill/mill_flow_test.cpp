@@ -145,6 +145,11 @@ TEST(Flow, only_balls_in_slurryFoam_can_be_coupled_both_ways) {
                 .find("'dem.fluid' = buoyancy: expected none where flow.coupling is iterated"),
             std::string::npos);
   EXPECT_NE(refusal_of(text, {"flow.relaxation=0"}).find("a share above 0 and up to 1"), std::string::npos);
+  const std::vector<std::string> without_dumps = {"dem.dumps=no", "averages.live=yes", "averages.start=1"};
+  EXPECT_EQ(refusal_of(text, without_dumps), "accepted");
+  EXPECT_NE(refusal_of(bare_mill + "flow: {coupling: direct}\n", without_dumps)
+                .find("'flow.coupling' = direct: expected one_way or iterated where dem.dumps is no"),
+            std::string::npos);
 }
 
 TEST(Flow, ends_by_itself_if_it_is_asked_for) {
@@ -341,6 +346,15 @@ TEST(Set, of_fill_alone_fills_with_the_files_classes_in_their_shares) {
   // As much with another packing
   EXPECT_DOUBLE_EQ(mill_of(text, {"charge.fill=0.25", "charge.packing=0.5"}).charge.classes[0].mass,
                    charge.classes[0].mass * 0.5 / 0.6);
+}
+
+TEST(Set, of_fill_alone_takes_masses_of_a_much_longer_mill) {
+  const std::string text =
+      with(with(example_mill, "  classes", "  reference_length: 12\n  classes"), "mass: ", "mass: 20");
+  const Mill mill = mill_of(text, {"charge.fill=0.25"});
+  double mass = 0;
+  for (const SizeClass& size : mill.charge.classes) mass += size.mass;
+  EXPECT_NEAR(mass / (0.25 * 0.6 * 2700 * analytic_volume(mill.geometry)), 1, 1e-12);
 }
 
 TEST(Set, of_two_alternatives_is_refused) {

@@ -244,6 +244,20 @@ TEST(ReadMill, holes_of_grates_may_be_plugged_without_other_balls_or_mesh) {
   EXPECT_EQ(clean.fingerprint.charge, plugged.fingerprint.charge);
   EXPECT_NE(clean.fingerprint.flow, plugged.fingerprint.flow);
   EXPECT_EQ(clean.fingerprint.walls, pegged("0.5").fingerprint.walls);
+  EXPECT_EQ(clean.fingerprint.averages, pegged("0.4, sector_share: 0.7").fingerprint.averages);
+  EXPECT_NE(clean.fingerprint.flow, pegged("0.4, sector_share: 0.7").fingerprint.flow);
+}
+
+TEST(ReadMill, holes_of_grates_need_slurryFoam) {
+  const auto refused = [](const std::string& holes) {
+    return refusal(with(with(example_mill, "speed:", grates_lines + pulp_lifters_lines + "speed:"),
+                        "sectors: 6", "sectors: 6, open_fraction: " + holes) +
+                   "flow: {solver: interFoam}\n");
+  };
+  EXPECT_NE(refused("0.4").find("'flow.solver' = interFoam: expected slurryFoam: only it knows the resistance"),
+            std::string::npos)
+      << refused("0.4");
+  EXPECT_EQ(refused("1").find("resistance"), std::string::npos) << refused("1");
 }
 
 TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
