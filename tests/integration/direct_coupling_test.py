@@ -106,6 +106,9 @@ class Direct(unittest.TestCase):
         # Not the same numbers: two ranks may round sums differently, and the flow's times have ten digits
         apart = [np.abs(one.solidity - other.solidity).max() for one, other in zip(*windows)]
         self.assertLess(apart[0], 0.05)
+        # Killed after the balls' end, before the stage was noted
+        (folders / ".stages" / "flow").unlink()
+        self.assertIn("Balls and flow resume at the flow's time", run_mill(case, "mill.yaml"))
 
     def test_a_flow_without_its_balls_ends_with_a_sentence(self):
         case = self.copy("-alone")

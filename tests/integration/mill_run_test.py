@@ -284,6 +284,49 @@ class Again(unittest.TestCase):
     def test_a_charge_of_a_folder_without_averages_is_refused(self):
         self.assertIn("whose averages are made", self.refused("./Allrun", "--charge", "constant"))
 
+    def test_a_case_takes_the_charge_of_another_only_if_it_is_its_own(self):
+        other = self.case.with_name("other")
+        run(self.case, ROOT / "scripts" / "new_mill", "mill.yaml", other)
+        run(other, "./Allrun", "--charge", self.case, "--until", "start")
+        share = (other / "0" / "alpha.slurry").read_bytes()
+        self.assertEqual(share, (self.case / "0" / "alpha.slurry").read_bytes())
+        with self.assertRaisesRegex(RunError, "its averages have the fingerprint"):
+            run(other, "./Allrun", "--charge", self.case, "--set", "dem.seed=7")
+        self.assertEqual((other / "0" / "alpha.slurry").read_bytes(), share)
+        self.assertEqual(read_json(other / "mill.json", "mill")["mill"],
+                         read_json(self.case / "mill.json", "mill")["mill"])
+        self.assertIn("has averages of its own", self.refused("./Allrun", "--charge", self.whole))
+
+    def test_a_case_that_took_its_charge_makes_its_own_later(self):
+        other = self.case.with_name("other")
+        run(self.case, ROOT / "scripts" / "new_mill", "mill.yaml", other)
+        run(other, "./Allrun", "--charge", self.case, "--until", "mesh")
+        before = (self.case / "solids.json").read_bytes()
+        run(other, "./Allrun", "--set", "dem.seed=7", "--until", "average")
+        self.assertEqual((self.case / "solids.json").read_bytes(), before)
+        self.assertFalse((other / "solids.h5").is_symlink() or (other / "solids.json").is_symlink())
+
+    def test_other_walls_from_cad_make_the_charge_again(self):
+        parts = [f"{path.stem}={path}" for path in sorted((self.case / "walls").glob("*.stl"))]
+        run(self.case, "millMesh", "surface", *parts, "--case", ".", "--ends", "periodic")
+        made, kept = self.allrun("--until", "charge")
+        self.assertEqual((made, kept), (["charge"], ["walls"]))
+        self.assertEqual(read_json(self.case / "walls" / "walls.json", "walls")["source"], "cad")
+        self.assertEqual(self.allrun("--until", "charge"), ([], ["walls", "charge"]))
+
+    def test_statistics_of_the_contacts_make_the_charge_again(self):
+        made, _ = self.allrun("--until", "charge", "--set", "dem.contact_statistics=true")
+        self.assertEqual(made, ["charge"])
+        self.assertTrue([*(self.case / "dumps").glob("contact_*.csv")])
+
+    def test_costs_are_of_all_calls(self):
+        self.allrun()
+        names = [line.split(",")[0] for line in (self.case / "log.costs").read_text().splitlines()]
+        self.assertEqual(sorted(names), sorted(["walls", "charge", "average", *self.FLOW, "pictures", "report"]))
+        self.allrun("--set", "flow.law=Hill", "--until", "start")
+        names = [line.split(",")[0] for line in (self.case / "log.costs").read_text().splitlines()]
+        self.assertEqual(sorted(names), sorted(["walls", "charge", "average", *self.FLOW]))
+
     def test_the_description_is_not_overwritten(self):
         before = (self.case / "mill.yaml").read_bytes()
         output = self.refused("millMesh", "mill.yaml", "--resolved", "mill.yaml")

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 from math import asin, pi, sqrt
 from pathlib import Path
+from unittest.mock import patch
 
 import h5py
 import numpy as np
@@ -19,6 +20,7 @@ from millfoam.files import foam
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.tables import read_columns
 from millfoam.readings.residence import read_tracer
+from millfoam.run import run
 
 NEW_MILL = Path(__file__).resolve().parents[2] / "scripts" / "new_mill"
 GRAVITY = 9.81  # m/s2; the critical speed is sqrt(g/R)
@@ -429,6 +431,19 @@ flow: {duration: 0.03, start: {fill: 1.2}, viscosity: pore}
     DRY, RECORD, START, FLOW = 0.3, 0.01, 0.1, 0.03
     SLURRY = 1.2 * sum(count * ball(size) for size, count in BALLS.items()) * 0.4 / 0.6
     SOLIDS_SHAPE, SLURRY_SHAPE = (6, 6, 3), (12, 12, 6)
+
+    def test_a_time_that_was_joined_in_part_is_joined_again(self):
+        case = self.case.with_name("joined")
+        shutil.copytree(self.case, case, symlinks=True)
+        self.addCleanup(shutil.rmtree, case)
+        velocity = foam.times(case)[-1][1] / "U"
+        before = velocity.read_bytes()
+        velocity.unlink()
+        (case / ".stages" / "reconstruct").unlink()
+        (case / ".stages" / "reconstruct.begun").touch()
+        with patch.dict(os.environ, MILLFOAM_NP="2"):
+            self.assertIn("Running reconstruct", run(case, "./Allrun"))
+        self.assertEqual(velocity.read_bytes(), before)
 
 
 class RanksOnDefaults(MillRun, unittest.TestCase):

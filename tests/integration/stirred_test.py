@@ -231,7 +231,7 @@ class Stirred(unittest.TestCase):
 
     def test_stages_that_it_does_not_have_are_refused(self):
         for command, words in ((("millMesh", "mill.json", "--case", "."), "has no slurry: expected --walls"),
-                               (("millMesh", "faces", "mill.json", "-o", "a.obj"), "faces of a stirred mill are not written")):
+                               (("millMesh", "faces", "mill.json", "-o", "a.obj"), "faces of a stirred mill")):
             with self.assertRaisesRegex(RunError, words):
                 run(self.case, *command)
         with self.assertRaisesRegex(RunError, "--until flow: expected walls, charge or average"):

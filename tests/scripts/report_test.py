@@ -309,6 +309,14 @@ class Curves(Case):
             found = figures.late_limits(np.arange(10.0), np.array([*early, 1, 1, 1, 2, 1, 1, 1.0]))
             np.testing.assert_allclose(found, limits)
 
+    def test_each_of_many_cases_has_a_line_of_its_own(self):
+        x = np.linspace(0, 1, 5)
+        for figure in (figures.lines_against([(str(k), x, k * x) for k in range(20)], "x", "y"),
+                       figures.surfaces([(str(k), np.stack([x, k * x], axis=1)) for k in range(20)], 1.0, 1.0)):
+            lines = {(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines
+                     if line.get_label()[0] != "_"}
+            self.assertEqual(len(lines), 20)
+
     def test_reynolds_numbers_have_a_linear_axis_from_zero(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]
         self.assertEqual((axis.get_yscale(), axis.get_ylim()[0]), ("linear", 0))

@@ -64,7 +64,8 @@ def align(case: Path) -> float:
     interval = read_json(case / "dem" / "fluid.json", "fluid")["timestep_s"] if restarts else 0.0
     common = 0.0
     for at in restarts.values():
-        if at < end and all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders):
+        met = all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders)
+        if met and at < end:
             common = max(common, at)
     for path, at in restarts.items():
         if at > common + interval:

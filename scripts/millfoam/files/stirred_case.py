@@ -12,8 +12,9 @@ from .rings_file import Rings, read_rings
 
 
 class StirredCase(MillCase):
-    """A stirred mill's case in a folder; missing parts are None. begin: time at which the averages begin, s: of the flow
-    or, without a flow, DEM time; None: the mill's own, and when the dry run is steady. NoMill for another machine, or a run without results."""
+    """A stirred mill's case in a folder; missing parts are None. begin: time at which the averages begin, s, of the
+    flow or, without one, of the dry run; None: the mill's own, or when the dry run is steady. NoMill for another
+    machine, or a run without results."""
 
     machine = "stirred"
 
@@ -57,7 +58,8 @@ class StirredCase(MillCase):
         """DEM times between which means are taken, s; they end with the run."""
         # With a flow, the time that is asked for is one of the flow
         asked = self.asked_begin if self.flow is None else None
-        return self.result("steady_from_s") if asked is None else asked, self.result("begin_s") + self.result("duration_s")
+        begin = self.result("steady_from_s") if asked is None else asked
+        return begin, self.result("begin_s") + self.result("duration_s")
 
     @property
     def tip_radius(self) -> float:

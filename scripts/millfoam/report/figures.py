@@ -209,7 +209,7 @@ def surfaces(lines: Sequence[tuple[str, np.ndarray]], radius: float, omega: floa
     axis.plot(1e3 * radius * np.cos(angle), 1e3 * radius * np.sin(angle), color="0.15", lw=1)
     for number, (label, points) in enumerate(lines):
         axis.plot(*(1e3 * np.asarray(points).T), color=COLOURS[number % len(COLOURS)], label=label, lw=1.8,
-                  ls=LINES[(number + number // len(COLOURS)) % len(LINES)])
+                  ls=LINES[(number + 2 * (number // len(COLOURS))) % len(LINES)])
     mill_plots.draw_sense(axis, radius, omega)
     _legend_above(axis, [label for label, _ in lines])
     return figure
