@@ -154,7 +154,7 @@ def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial
         if one.mesh == "coarse" and one.reason == "steady" and not one.kind.change:
             axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
                           fmt="s" if one.kind.balls else "o", color=COLOURS[one.kind.speed])
-    axis.set(title="filled: steady", xlabel="hold-up with the pulp lifters, l", ylabel="discharge, ml/s",
+    axis.set(title="discharge against hold-up; filled: flows at their end", xlabel="hold-up with the pulp lifters, l", ylabel="discharge, ml/s",
              ylim=(0, None))
     axis.grid(alpha=0.3)
     if trials:
@@ -187,6 +187,7 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
     for axis, words in zip(axes, ("without balls", "with balls, Beetstra")):
         axis.set(title=words, xlabel="feed, ml/s", ylabel="hold-up in front of the grates, l", ylim=(0, None))
         axis.grid(alpha=0.3)
+        axis.set_visible(axis.has_data())
         if axis.has_data():
             axis.legend(fontsize=7)
     unchanged = [one for one in found if not one.kind.change]
@@ -194,7 +195,7 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
         columns = one.case.balance
         axes[3].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, label=f"{one.mesh}/{one.name}",
                      color=plt.cm.turbo((number + 0.5) / len(unchanged)))
-    axes[3].set(title="with the pulp lifters", xlabel="flow time, s", ylabel="hold-up, l")
+    axes[3].set(title="hold-up against time", xlabel="flow time, s", ylabel="hold-up with the pulp lifters, l")
     axes[3].grid(alpha=0.3)
     axes[3].legend(fontsize=6, ncols=2)
     return figure
