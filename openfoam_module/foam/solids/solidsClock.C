@@ -25,12 +25,6 @@ const Foam::Enum<Foam::solidsClock::course> Foam::solidsClock::courseNames_({
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::solidsClock::duration() const
-{
-    return windows_.back().end - time0_;
-}
-
-
 void Foam::solidsClock::checkTime0() const
 {
     scalar time0;
@@ -147,6 +141,12 @@ Foam::solidsClock::moment Foam::solidsClock::at(const scalar t) const
     const scalar share =
         (time0_ + elapsed - window.begin) / (window.end - window.begin);
     return spline_->at(own, min(max(share, scalar(0)), scalar(1)));
+}
+
+
+Foam::scalar Foam::solidsClock::duration() const
+{
+    return windows_.back().end - time0_;
 }
 
 

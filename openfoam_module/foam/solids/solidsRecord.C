@@ -192,6 +192,7 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
     requireMill(dict, file_, *reader_);
     clock_.reset(new solidsClock(dict, file_, *reader_));
     clock_->checkSpan(mesh.time());
+    requireChargeInPlace(dict, file_, *reader_, clock_(), mesh);
     readLedger();
 
     if (const auto* cells =
