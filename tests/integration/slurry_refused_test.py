@@ -379,6 +379,43 @@ class Grates(RefusedTest):
         case.write("constant/grateProperties", "discharge { faces left; loss 18; }")
         self.assert_says(case, "grateProperties", "discharge", "faces are on left", "cyclic")
 
+    def test_a_plate_on_a_cyclic_patch_that_is_divided_over_ranks(self):
+        case = self.slurry_case(periodic=True)
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        case.write("constant/grateProperties", "discharge { faces left; loss 18; }")
+        self.assert_refused(case, "faces are on left", "cyclic", program="slurryFoam", ranks=2)
+
+    def test_a_zone_of_faces_of_such_a_patch(self):
+        case = self.slurry_case(periodic=True)
+        case.write("system/topoSetDict", """
+            actions ( { name found; type faceSet; action new; source patchToFace; patch left; }
+                      { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; } );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", "discharge { faces plate; loss 18; }")
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        self.assert_refused(case, "faces are on left", "cyclic", program="slurryFoam", ranks=2)
+
+    def assert_empty_zone_refused(self, kind, actions, entries):
+        case = self.small()
+        # Boxes in mm
+        case.write("system/topoSetDict", f"actions ( {actions} );")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", f"discharge {{ {entries} }}")
+        self.assert_says(case, "grateProperties", f"grate has no {kind}", "topoSet, in m")
+
+    def test_a_zone_without_cells(self):
+        self.assert_empty_zone_refused("cells", """
+            { name grate; type cellZoneSet; action new; source boxToCell; box (20 -9 -9) (30 9 9); }""",
+            "cellZone grate; darcy 1e7;")
+
+    def test_a_zone_without_faces(self):
+        self.assert_empty_zone_refused("faces", """
+            { name found; type faceSet; action new; source boxToFace; box (20 -9 -9) (30 9 9); }
+            { name grate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }""",
+            "faces grate; loss 18;")
+
     def test_a_plate_outside_of_a_grate(self):
         case = self.small()
         case.write("constant/grateProperties", "faces bottom; loss 18;")
