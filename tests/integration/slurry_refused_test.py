@@ -122,6 +122,27 @@ class Controls(RefusedTest):
         case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
         self.assert_says(case, "fvSolution", "momentumPredictor is no")
 
+    def assert_control_refused(self, pattern, new, *words):
+        case = self.small()
+        case.adjusted(0.002, 0.002)
+        control = case.path / "system/controlDict"
+        control.write_text(re.sub(pattern, new, control.read_text()))
+        self.assertIn(new, control.read_text())
+        result = self.assert_says(case, "controlDict", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_bounds_of_the_time_step_that_are_not_above_0(self):
+        for name in ("maxCo", "maxAlphaCo", "maxVoidageChange", "maxDeltaT"):
+            with self.subTest(name=name):
+                self.assert_control_refused(rf"{name} [^;]+;", f"{name} 0;", f"{name} is 0", "a number above 0")
+        self.assert_control_refused("maxCo", "maxAirCo -2; maxCo", "maxAirCo is -2")
+
+    def test_misspelt_bounds_of_the_time_step(self):
+        for name, misspelt in (("maxVoidageChange", "maxVoidageChanges"), ("maxDeltaT", "maxDeltat"),
+                               ("adjustTimeStep", "adjustTimestep")):
+            with self.subTest(name=name):
+                self.assert_control_refused(name, misspelt, f"'{misspelt}'", f"'{name}'")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
