@@ -101,6 +101,16 @@ TEST(DragLaws, ViscousValuesAtHalfSolidity) {
   EXPECT_NEAR(drag::kozeny_carman(0.5, 0), 40, 1e-12);
 }
 
+TEST(DragLaws, TangIsNegativeFarBeyondItsRange) {
+  for (const auto& [phi, from] :
+       {std::pair{0.6, 34900.0}, std::pair{0.65, 10600.0}, std::pair{0.7, 5470.0}}) {
+    EXPECT_GT(drag::tang(phi, 0.99 * from), 0) << phi;
+    EXPECT_LT(drag::tang(phi, 1.01 * from), 0) << phi;
+  }
+  for (double phi : {1e-6, 1e-3, 0.01, 0.049}) EXPECT_GT(drag::tang(phi, 9e4), 0) << phi;
+  for (double phi : {0.05, 0.3, 0.52}) EXPECT_GT(drag::tang(phi, 1e9), 0) << phi;
+}
+
 TEST(DragLaws, FandIsContinuousAcrossItsGapsAndRisesInThem) {
   for (double phi : {0.3, 0.55, 0.634}) {
     for (double end : {2.3, 5.0, 80.0, 120.0}) {

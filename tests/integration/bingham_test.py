@@ -43,6 +43,17 @@ class Bingham(OpenFoamTest):
     def test_a_missing_yield_stress_is_refused(self):
         self.assert_entry_refused("yieldStress 0.16;", "", "yieldStress")
 
+    def test_a_misspelt_entry_is_refused(self):
+        self.assert_entry_refused("m 50;", "m 50; regularization Papanastasiou;", "transportProperties",
+                                  "unknown entry 'regularization'", "regularisation")
+
+    def test_a_misspelt_entry_of_the_phase_is_refused(self):
+        entries = f"transportModel Bingham; rho {DENSITY}; {ENTRIES}"
+        self.assert_refused(self.box(cells=(2, 1, 1), slurry=f"{entries} regularization Papanastasiou;"),
+                            "'regularization'", "'regularisation'")
+        # Other entries of the phase are not those of the model
+        self.assert_runs(self.box(cells=(2, 1, 1), slurry=f"{entries} nu 1e-6; mu 1e-3;"), "millInterFoam")
+
     def test_an_unknown_regularisation_lists_the_known_ones(self):
         self.assert_entry_refused("m 50;", "m 50; regularisation Bercovier;", "Bercovier", "biviscosity",
                                   "Papanastasiou")

@@ -361,9 +361,16 @@ class InABox(SlurryTest):
         self.assertIn("voidageRate is no; the tracer tracer expects yes", " ".join(result.log.split()))
 
     def test_slip_is_that_of_the_written_fields(self):
+        self.assert_slip("", lambda rate: 1.4e-3)
+
+    def test_the_particle_reynolds_number_has_the_viscosity_of_the_drag(self):
+        # The bi-viscosity slurry of slurry_case
+        self.assert_slip("viscosity pore;", lambda rate: np.minimum(1.4, 1.4e-3 + 0.16 / rate))
+
+    def assert_slip(self, drag, viscosity):
         case = self.slurry_case(end_time=0.01)
         case.bed("block { box (-1 -1 -1) (1 0.03 1); edge 0.02; edgeAxes (0 1 0); solidity 0.5; diameter 0.005; "
-                 "velocity (0.2 0 0); }")
+                 "velocity (0.2 0 0); }", f"law Beetstra; {drag}")
         columns = self.columns_of(case)
         time = case.path / "0.01"
         cells = int(np.prod(case.shape))
@@ -371,7 +378,8 @@ class InABox(SlurryTest):
         slip = np.linalg.norm(foam.read_field(time / "solidsVelocity", cells) - foam.read_field(time / "U", cells),
                               axis=1)
         wet = (alpha > 0.5) & (phi > 0)
-        reynolds = SLURRY * (1 - phi) * slip * d / 1.4e-3
+        rate = 12 * phi * slip / np.maximum((1 - phi) * d, 1e-12)
+        reynolds = SLURRY * (1 - phi) * slip * d / viscosity(np.maximum(rate, 1e-12))
         self.assertAlmostEqual(columns["slip_max"][-1] / slip[wet].max(), 1, delta=1e-9)
         self.assertAlmostEqual(columns["Re_mean"][-1], np.average(reynolds[wet], weights=phi[wet]),
                                delta=1e-6 * reynolds.max())

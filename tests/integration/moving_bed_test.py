@@ -279,6 +279,14 @@ class EmptyZones(RecordTest):
     def test_that_the_mesh_has_not_are_refused(self):
         self.assert_refused(self.case("emptyZones (pulpLifters);"), "emptyZones names pulpLifters", "behind")
 
+    def test_without_cells_are_refused(self):
+        # A box in mm
+        case = self.case()
+        topo = case.path / "system/topoSetDict"
+        topo.write_text(topo.read_text().replace("(0.03 -9 -9) (9 9 9)", "(30 -9 -9) (40 9 9)"))
+        self.assert_runs(case, "topoSet")
+        self.assert_refused(case, "emptyZones names behind", "no cells", "topoSet")
+
 
 class BlockTest(OpenFoamTest):
     def block_case(self, *blocks, cells=(8, 6, 4), upper=(0.04, 0.03, 0.02), end_time=STEP, entries=""):

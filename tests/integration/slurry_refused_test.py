@@ -122,6 +122,27 @@ class Controls(RefusedTest):
         case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
         self.assert_says(case, "fvSolution", "momentumPredictor is no")
 
+    def assert_control_refused(self, pattern, new, *words):
+        case = self.small()
+        case.adjusted(0.002, 0.002)
+        control = case.path / "system/controlDict"
+        control.write_text(re.sub(pattern, new, control.read_text()))
+        self.assertIn(new, control.read_text())
+        result = self.assert_says(case, "controlDict", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_bounds_of_the_time_step_that_are_not_above_0(self):
+        for name in ("maxCo", "maxAlphaCo", "maxVoidageChange", "maxDeltaT"):
+            with self.subTest(name=name):
+                self.assert_control_refused(rf"{name} [^;]+;", f"{name} 0;", f"{name} is 0", "a number above 0")
+        self.assert_control_refused("maxCo", "maxAirCo -2; maxCo", "maxAirCo is -2")
+
+    def test_misspelt_bounds_of_the_time_step(self):
+        for name, misspelt in (("maxVoidageChange", "maxVoidageChanges"), ("maxDeltaT", "maxDeltat"),
+                               ("adjustTimeStep", "adjustTimestep")):
+            with self.subTest(name=name):
+                self.assert_control_refused(name, misspelt, f"'{misspelt}'", f"'{name}'")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
@@ -378,6 +399,43 @@ class Grates(RefusedTest):
         case = self.slurry_case(periodic=True)
         case.write("constant/grateProperties", "discharge { faces left; loss 18; }")
         self.assert_says(case, "grateProperties", "discharge", "faces are on left", "cyclic")
+
+    def test_a_plate_on_a_cyclic_patch_that_is_divided_over_ranks(self):
+        case = self.slurry_case(periodic=True)
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        case.write("constant/grateProperties", "discharge { faces left; loss 18; }")
+        self.assert_refused(case, "faces are on left", "cyclic", program="slurryFoam", ranks=2)
+
+    def test_a_zone_of_faces_of_such_a_patch(self):
+        case = self.slurry_case(periodic=True)
+        case.write("system/topoSetDict", """
+            actions ( { name found; type faceSet; action new; source patchToFace; patch left; }
+                      { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet found; } );""")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", "discharge { faces plate; loss 18; }")
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        self.assert_refused(case, "faces are on left", "cyclic", program="slurryFoam", ranks=2)
+
+    def assert_empty_zone_refused(self, kind, actions, entries):
+        case = self.small()
+        # Boxes in mm
+        case.write("system/topoSetDict", f"actions ( {actions} );")
+        self.assert_runs(case, "topoSet")
+        case.write("constant/grateProperties", f"discharge {{ {entries} }}")
+        self.assert_says(case, "grateProperties", f"grate has no {kind}", "topoSet, in m")
+
+    def test_a_zone_without_cells(self):
+        self.assert_empty_zone_refused("cells", """
+            { name grate; type cellZoneSet; action new; source boxToCell; box (20 -9 -9) (30 9 9); }""",
+            "cellZone grate; darcy 1e7;")
+
+    def test_a_zone_without_faces(self):
+        self.assert_empty_zone_refused("faces", """
+            { name found; type faceSet; action new; source boxToFace; box (20 -9 -9) (30 9 9); }
+            { name grate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }""",
+            "faces grate; loss 18;")
 
     def test_a_plate_outside_of_a_grate(self):
         case = self.small()

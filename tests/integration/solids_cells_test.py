@@ -110,7 +110,48 @@ class MeshTime(CellsTest):
         self.assertNotIn(self.warning, self.log(mesh_time=1.5))
 
     def test_of_a_mesh_at_rest_does_not_matter(self):
-        self.assertNotIn(self.warning, self.log(mesh_time=1.0, motion=""))
+        for motion in ("", "at rest"):
+            self.assertNotIn(self.warning, self.log(mesh_time=1.0, motion=motion))
+
+
+class BeyondTheRecord(CellsTest):
+    """The windows turn with the cells, and the charge would turn with them."""
+
+    def outlasting(self, entries, **options):
+        return self.cells_case(f"outOfRange {entries};", **options)
+
+    def test_hold_is_refused(self):
+        self.assert_refused(self.outlasting("hold"), "fvOptions", "outOfRange is hold", "solids.h5",
+                            "rotation speed -20", "expected error, or solids on a box")
+
+    def test_one_mean_over_the_whole_run_is_refused(self):
+        self.written = {name: values[:1] for name, values in self.written.items()}
+        self.assert_refused(self.cells_case(whole_run=True), "fvOptions", "solids.h5", "whole run",
+                            "or solids on a box")
+
+    def test_a_part_of_a_turn_is_not_repeated(self):
+        # 12 ms of 20 rad/s
+        self.assert_refused(self.outlasting("repeat"), "outOfRange is repeat", "solids.h5", "0.03819718",
+                            "expected a whole number of turns")
+
+    def test_whole_turns_are_repeated(self):
+        # Three windows of four turns together
+        case = self.outlasting("repeat", window=2 * np.pi / 15)
+        self.assert_runs(case, "millInterFoam")
+
+    def test_some_hundredths_of_a_turn_less_are_refused(self):
+        self.assert_refused(self.outlasting("repeat", window=2 * np.pi / 15 * 0.995), "3.98 turns")
+
+    def test_a_mesh_at_rest_holds_and_repeats(self):
+        for motion in ("", "at rest"):
+            for entries in ("hold", "repeat"):
+                with self.subTest(motion=motion, entries=entries):
+                    self.assert_runs(self.outlasting(entries, motion=motion), "millInterFoam")
+
+    def test_a_mesh_that_deforms_repeats(self):
+        case = self.outlasting("repeat", motion="points over time")
+        case.write("constant/dynamicMeshDict", "dynamicFvMesh staticFvMesh;")
+        self.assert_runs(case, "millInterFoam")
 
 
 class Refused(CellsTest):

@@ -50,6 +50,12 @@ class Clock(SolidsTest):
         result = self.assert_refused(self.three_windows(0.04, "outOfRange error;"), "solids.h5")
         self.assertNotIn("Starting time loop", result.log)
 
+    def test_a_last_step_that_ends_after_the_end_time_has_the_last_window(self):
+        # The ninth step of 3.5 ms ends at 31.5 ms
+        case = self.three_windows(0.03)
+        case.control(end_time=0.03, delta_t=0.0035)
+        self.assertEqual(self.solidity_at(case, 0.028, 0.0315), [0.3, 0.3])
+
     def test_hold_keeps_the_last_window(self):
         found = self.solidity_at(self.three_windows(0.05, "outOfRange hold;"), 0.008, 0.028, 0.03, 0.05)
         self.assertEqual(found, [0.1, 0.3, 0.3, 0.3])

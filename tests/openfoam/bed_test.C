@@ -74,6 +74,34 @@ TEST(bedDrag, isTheLawOfTheTableAtTheSlip)
         1.032 * slurry, 1e-11 * slurry);
 }
 
+TEST(bedDrag, stopsWhereTheLawWouldDriveTheFluid)
+{
+    // Re = 1239*0.35*2.9*0.005/0.0014 v: 4490 at 2.9 m/s, 26300 at 17 m/s
+    const string dense("block { box (-9 -9 -9) (9 9 9); solidity 0.65;"
+                       " diameter 0.005; velocity (0 0 0); }");
+    const auto errorAt = [&](const string& law, const scalar U)
+    {
+        smallCase box({{2, 2, 2}});
+        const movingBed bed(entriesOf(dense), box.mesh());
+        const bedDrag drag(entriesOf(law + fluids));
+        return errorOf(
+            [&]
+            {
+                drag.exchange(
+                    bed, box.field<scalar>("alpha.slurry", dimless, 1),
+                    box.field<vector>("U", dimVelocity, vector(U, 0, 0)));
+            });
+    };
+    EXPECT_EQ(errorAt("law Tang;", 2.9), "");
+    EXPECT_EQ(errorAt("law Ergun;", 17), "");
+    const std::string error = errorAt("law Tang;", 17);
+    for (const char* word :
+         {"Tang is negative", "solidity 0.65", "Re 26328", "another law"})
+    {
+        EXPECT_NE(error.find(word), std::string::npos) << error;
+    }
+}
+
 TEST(bedDrag, ofAnyShapeHasTheBallsSphericities)
 {
     const string law("law HoelzerSommerfeld;");

@@ -143,6 +143,19 @@ TEST(flowCurve, refusesModelsWithoutOne)
     EXPECT_NE(error.find("HerschelBulkley"), std::string::npos) << error;
 }
 
+TEST(flowCurve, refusesMisspeltEntriesOfBingham)
+{
+    const string entries("yieldStress 0.16; plasticViscosity 0.0014;"
+                         " viscosityRatio 1000; regularization Papanastasiou;");
+    const string inCoeffs("BinghamCoeffs { " + entries + " m 3; }");
+    for (const string& phase : {entries, inCoeffs})
+    {
+        const std::string error = errorOf(
+            [&] { flowCurveOf(phaseOf("transportModel Bingham; " + phase)); });
+        EXPECT_NE(error.find("'regularization'"), std::string::npos) << error;
+    }
+}
+
 TEST(flowCurve, refusesParametersThatDescribeNothing)
 {
     const std::string error = errorOf(

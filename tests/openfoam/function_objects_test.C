@@ -33,6 +33,12 @@ namespace
 constexpr scalar density = 1239;
 constexpr scalar kinematicViscosity = 1e-3;
 
+//- A viscosity for balls
+slurryViscosity water()
+{
+    return {dictionary::null, millfoam::drag::FlowCurve::newtonian(1e-3)};
+}
+
 //- Depth of the box along z, m; along x and y it is 1 m
 constexpr scalar depth = 0.5;
 
@@ -219,11 +225,11 @@ TEST(slurryTorque, ballsBetweenWallsAtRestGiveTheOppositeOfWhatTheyFeel)
     EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
     {
         const fluidOnBalls mixed(
-            box.mesh(), {"Hill", true, density, 1.2, gravity}, feel);
+            box.mesh(), {"Hill", true, density, 1.2, gravity, water()}, feel);
         EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
     }
     const fluidOnBalls onBalls(
-        box.mesh(), {"Hill", false, density, 1.2, gravity}, feel);
+        box.mesh(), {"Hill", false, density, 1.2, gravity, water()}, feel);
     EXPECT_FALSE(slurryTorque(fields, entriesOf("speed 2;")).knowsBalls());
 
     const slurryTorque torque(fields, resting);
@@ -349,7 +355,7 @@ TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
     const scalarField exchange(1e3 + 1e5 * C.component(vector::Y));
     const vectorField balls(2 * box.U.primitiveField());
     const fluidOnBalls onBalls(
-        box.mesh(), {"Hill", true, density, 1.2, gravity},
+        box.mesh(), {"Hill", true, density, 1.2, gravity, water()},
         [&]
         {
             ++computed;

@@ -73,7 +73,8 @@ class clockCase : public smallCase
         const std::filesystem::path file = folder() / "solids.h5";
         writeSolids(file);
         clock.reset(new solidsClock(
-            dict, "solids.h5", millfoam::averaging::SolidsReader(file)));
+            dict, "solids.h5", millfoam::averaging::SolidsReader(file),
+            time()));
     }
 
     void expect(
@@ -147,9 +148,29 @@ TEST(solidsClock, refusesAFlowThatOutlastsTheRecord)
 {
     clockCase box("outOfRange error;");
     // Of 1000 steps of 0.1 s
-    EXPECT_NE(errorOf([&] { box.clock->checkSpan(box.time()); }), "");
+    EXPECT_NE(errorOf([&] { box.clock->checkSpan(); }), "");
     box.time().setEndTime(0.4);
-    EXPECT_EQ(errorOf([&] { box.clock->checkSpan(box.time()); }), "");
+    EXPECT_EQ(errorOf([&] { box.clock->checkSpan(); }), "");
+}
+
+TEST(solidsClock, holdsTheEndForALastStepThatEndsAfterTheFlow)
+{
+    clockCase box("outOfRange error;");
+    Time& time = box.time();
+    time.setEndTime(0.4);
+    time.setDeltaT(0.15);
+    while (time.run())
+    {
+        ++time;
+        EXPECT_EQ(errorOf([&] { box.clock->at(time.value()); }), "");
+    }
+    EXPECT_NEAR(time.value(), 0.45, 1e-12);
+    box.expect(time.value(), {1, 2, 2}, {0, 0.5, 0.5});
+    EXPECT_NE(errorOf([&] { box.clock->at(0.551); }), "");
+
+    // A flow that is to go on beyond the record
+    time.setEndTime(0.42);
+    EXPECT_NE(errorOf([&] { box.clock->at(time.value()); }), "");
 }
 
 TEST(solidsClock, refusesAnotherTime0)

@@ -14,6 +14,7 @@ Description
 #include "movingBed.H"
 #include "smallCase.H"
 #include "solidsWindow.H"
+#include "uniformDimensionedFields.H"
 
 using namespace Foam;
 
@@ -218,6 +219,22 @@ TEST(solidsOnATurningCylinder, refuseAFlowOfAnotherSpeed)
     EXPECT_NE(error.find("turned with 5 rad/s"), std::string::npos) << error;
     ringCase same(0.01, "omega 5;");
     EXPECT_EQ(errorOf([&] { same.makeBed(); }), "");
+}
+
+TEST(solidsOnATurningCylinder, doNotTurnAChargeRoundALyingMill)
+{
+    const auto errorWith = [](const vector& g)
+    {
+        ringCase ring(0.01);
+        const uniformDimensionedVectorField registered(
+            IOobject("g", ring.time().constant(), ring.mesh()),
+            dimensionedVector("g", dimAcceleration, g));
+        return errorOf([&] { ring.makeBed(); });
+    };
+    const std::string error = errorWith(gravity);
+    EXPECT_NE(error.find("whole run"), std::string::npos) << error;
+    EXPECT_NE(error.find("a cylinder that turns"), std::string::npos) << error;
+    EXPECT_EQ(errorWith(vector(0, 0, -9.81)), "");
 }
 
 // ************************************************************************* //

@@ -53,7 +53,15 @@ Foam::labelList Foam::movingBed::emptyCells() const
                 << " cell zones " << flatOutput(mesh_.cellZones().names())
                 << ". millMesh makes pulpLifters" << exit(FatalIOError);
         }
-        cells.insert(mesh_.cellZones()[zonei]);
+        const cellZone& zone = mesh_.cellZones()[zonei];
+        if (returnReduce(zone.size(), sumOp<label>()) == 0)
+        {
+            FatalIOErrorInFunction(dict_)
+                << "emptyZones names " << name << ", which has no cells;"
+                << " expected some. Check the box of topoSet, in m"
+                << exit(FatalIOError);
+        }
+        cells.insert(zone);
     }
     return cells.sortedToc();
 }

@@ -171,15 +171,28 @@ Foam::scalar Foam::bedDrag::lawAt(
 {
     using millfoam::drag::exchange_coefficient;
 
+    scalar result = 0;
     if (law_ != &millfoam::drag::hoelzer_sommerfeld_law())
     {
-        return exchange_coefficient(*law_, phi, v, d, fluid);
+        result = exchange_coefficient(*law_, phi, v, d, fluid);
     }
-    scalar result = 0;
-    for (const auto& shape : shapes_)
+    else
     {
-        result += shape.first() *
-                  exchange_coefficient(shape.second(), phi, v, d, fluid);
+        for (const auto& shape : shapes_)
+        {
+            result += shape.first() *
+                      exchange_coefficient(shape.second(), phi, v, d, fluid);
+        }
+    }
+    if (result < 0)
+    {
+        FatalErrorInFunction
+            << "the drag law " << law() << " is negative, " << result
+            << " kg/(m3 s), at the solidity " << phi << " and Re "
+            << millfoam::drag::reynolds(phi, v, d, fluid) << " (slip " << v
+            << " m/s, diameter " << d << " m): far beyond its range it would"
+            << " drive the fluid; expected another law in the entry law of drag"
+            << " (millDrag --ranges)" << exit(FatalError);
     }
     return result;
 }

@@ -7,6 +7,7 @@
 #include "addToRunTimeSelectionTable.H"
 #include "clock.H"
 #include "fixedValueFvPatchFields.H"
+#include "fluidOnBalls.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
@@ -86,7 +87,10 @@ void Foam::functionObjects::slurryBalance::writeSlip()
             "transportProperties"));
     const scalarField slip(
         mag(balls->primitiveField() - fields_.U().primitiveField()));
-    const slurryViscosity viscosity(dictionary::null, fluids.slurry);
+    const auto* flow = mesh_.findObject<fluidOnBalls>(fluidOnBalls::typeName);
+    const slurryViscosity viscosity(
+        flow ? flow->flow().viscosity
+             : slurryViscosity(dictionary::null, fluids.slurry));
     scalarField reynolds(slip.size());
     forAll(reynolds, celli)
     {

@@ -6,9 +6,46 @@
 #include "grates.H"
 #include "cyclicPolyPatch.H"
 #include "knownEntries.H"
+#include "processorCyclicPolyPatch.H"
 #include "upwind.H"
 #include "zeroFields.H"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Refuse a zone or patch without cells or faces on all ranks
+static void requireAny(
+    const label members, const char* what, const word& name,
+    const dictionary& dict)
+{
+    if (returnReduce(members, sumOp<label>()) == 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << name << " has no " << what << "; expected some. Check the box of"
+            << " topoSet, in m" << exit(FatalIOError);
+    }
+}
+
+
+//- Refuse the faces of a cyclic patch, also where it is divided over ranks
+static void refuseCyclic(const polyPatch& patch, const dictionary& dict)
+{
+    const auto* divided = isA<processorCyclicPolyPatch>(patch);
+    if (isA<cyclicPolyPatch>(patch) || divided)
+    {
+        FatalIOErrorInFunction(dict)
+            << "faces are on "
+            << (divided ? divided->referPatchName() : patch.name())
+            << ", which is cyclic; expected inner faces or an open patch"
+            << exit(FatalIOError);
+    }
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -30,6 +67,7 @@ Foam::grates::layer Foam::grates::readLayer(const dictionary& dict) const
             << " (topoSet makes them before the flow begins)"
             << exit(FatalIOError);
     }
+    requireAny(mesh_.cellZones()[result.zone].size(), "cells", zone, dict);
     if (!dict.found("darcy") && !dict.found("forchheimer"))
     {
         FatalIOErrorInFunction(dict)
@@ -53,6 +91,7 @@ Foam::grates::facesNamed(const word& name, const dictionary& dict) const
     const label zone = mesh_.faceZones().findZoneID(name);
     if (zone >= 0)
     {
+        requireAny(mesh_.faceZones()[zone].size(), "faces", name, dict);
         return mesh_.faceZones()[zone];
     }
     const label patchi = mesh_.boundaryMesh().findPatchID(name);
@@ -67,6 +106,8 @@ Foam::grates::facesNamed(const word& name, const dictionary& dict) const
             << exit(FatalIOError);
     }
     const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+    refuseCyclic(patch, dict);
+    requireAny(patch.size(), "faces", name, dict);
     return identity(patch.size(), patch.start());
 }
 
@@ -85,12 +126,9 @@ Foam::grates::plate Foam::grates::readPlate(const dictionary& dict) const
     for (const label facei : result.faces)
     {
         const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-        if (patchi >= 0 && isA<cyclicPolyPatch>(mesh_.boundaryMesh()[patchi]))
+        if (patchi >= 0)
         {
-            FatalIOErrorInFunction(dict)
-                << "faces are on " << mesh_.boundaryMesh()[patchi].name()
-                << ", which is cyclic; expected inner faces or an open patch"
-                << exit(FatalIOError);
+            refuseCyclic(mesh_.boundaryMesh()[patchi], dict);
         }
     }
     return result;

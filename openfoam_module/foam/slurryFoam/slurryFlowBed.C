@@ -42,7 +42,7 @@ void Foam::slurryFlow::readBed()
         onBalls_.reset(new fluidOnBalls(
             mesh_,
             {drag_->law(), drag_->polydispersity(), mixture_.rho1().value(),
-             mixture_.rho2().value(), g_.value()},
+             mixture_.rho2().value(), g_.value(), drag_->viscosity()},
             [this] { return forcesOnBalls(); }));
     }
     if (bedDict_.found("poreSuction"))

@@ -4,8 +4,40 @@
 \*---------------------------------------------------------------------------*/
 
 #include "timeStep.H"
+#include "knownEntries.H"
 
 #include <algorithm>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Entries of controlDict that bound the time-step
+static const wordList bounds_(
+    {"maxCo", "maxAlphaCo", "maxAirCo", "maxVoidageChange", "maxDeltaT"});
+
+
+//- Refuse bounds that are misspelt, or not above 0
+static void checkBounds(const dictionary& control)
+{
+    wordList known(bounds_);
+    known.append("adjustTimeStep");
+    refuseMisspelt(control, known);
+    for (const word& name : bounds_)
+    {
+        scalar bound;
+        if (control.readIfPresent(name, bound) && !(bound > 0))
+        {
+            FatalIOErrorInFunction(control)
+                << name << " is " << bound << "; expected a number above 0"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -56,6 +88,7 @@ Foam::timeStep::timeStep(Time& time)
 std::optional<millfoam::record::StepLimits>
 Foam::timeStep::limits(const dictionary& control)
 {
+    checkBounds(control);
     if (!control.lookupOrDefault("adjustTimeStep", false))
     {
         return std::nullopt;

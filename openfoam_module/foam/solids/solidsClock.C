@@ -25,12 +25,6 @@ const Foam::Enum<Foam::solidsClock::course> Foam::solidsClock::courseNames_({
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::solidsClock::duration() const
-{
-    return windows_.back().end - time0_;
-}
-
-
 void Foam::solidsClock::checkTime0() const
 {
     scalar time0;
@@ -62,6 +56,13 @@ void Foam::solidsClock::checkGaps() const
 }
 
 
+bool Foam::solidsClock::endsTheFlow(const scalar t) const
+{
+    const scalar end = time_.endTime().value();
+    return end <= duration() + tolerance_ && t < end + time_.deltaTValue();
+}
+
+
 Foam::scalar Foam::solidsClock::recorded(const scalar t) const
 {
     scalar elapsed = t;
@@ -72,6 +73,10 @@ Foam::scalar Foam::solidsClock::recorded(const scalar t) const
     else if (outOfRange_ == range::hold)
     {
         elapsed = max(scalar(0), min(t, duration()));
+    }
+    else if (t > duration() && endsTheFlow(t))
+    {
+        elapsed = duration();
     }
 
     if (elapsed < -tolerance_ || elapsed > duration() + tolerance_)
@@ -105,9 +110,10 @@ Foam::label Foam::solidsClock::windowAt(const scalar elapsed) const
 
 Foam::solidsClock::solidsClock(
     const dictionary& dict, const fileName& file,
-    const millfoam::averaging::SolidsReader& reader)
+    const millfoam::averaging::SolidsReader& reader, const Time& time)
 : dict_(dict),
   file_(file),
+  time_(time),
   windows_(reader.windows()),
   time0_(reader.time0()),
   tolerance_(reader.timestep() / 2),
@@ -150,13 +156,19 @@ Foam::solidsClock::moment Foam::solidsClock::at(const scalar t) const
 }
 
 
-void Foam::solidsClock::checkSpan(const Time& time) const
+Foam::scalar Foam::solidsClock::duration() const
 {
-    recorded(time.startTime().value());
+    return windows_.back().end - time0_;
+}
+
+
+void Foam::solidsClock::checkSpan() const
+{
+    recorded(time_.startTime().value());
     // Without a set end (stopAt nextWrite and others) only the run knows
-    if (time.endTime().value() < GREAT)
+    if (time_.endTime().value() < GREAT)
     {
-        recorded(time.endTime().value());
+        recorded(time_.endTime().value());
     }
 }
 

@@ -5,6 +5,8 @@
 
 #include "solidsGrid.H"
 
+#include <variant>
+
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam

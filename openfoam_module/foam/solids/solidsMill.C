@@ -4,7 +4,74 @@
 \*---------------------------------------------------------------------------*/
 
 #include "solidsMill.H"
+#include "fvMesh.H"
+#include "mathematicalConstants.H"
+#include "meshRotation.H"
 #include "solidsGrid.H"
+#include "uniformDimensionedFields.H"
+
+#include <cmath>
+#include <variant>
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+using millfoam::averaging::MeshCells;
+
+//- Whether cells move in the words of their file
+bool moves(const MeshCells& cells)
+{
+    return !cells.motion.empty() && cells.motion != "at rest";
+}
+
+
+//- Whether the flow's gravity has a part across z; false where it is not known
+bool lies(const fvMesh& mesh)
+{
+    const auto* g = mesh.findObject<uniformDimensionedVectorField>("g", true);
+    if (!g)
+    {
+        return false;
+    }
+    const vector across(g->value().x(), g->value().y(), 0);
+    return mag(across) > 1e-3 * mag(g->value());
+}
+
+
+//- What the windows move with, in words, and at which speed, rad/s
+struct carrier
+{
+    string words;
+    scalar omega;
+};
+
+
+//- What the solids move with; none where they keep their place, or where a
+//  charge may turn
+std::optional<carrier>
+carrierOf(const millfoam::averaging::Grid& grid, const fvMesh& mesh)
+{
+    if (const auto* cells = std::get_if<MeshCells>(&grid))
+    {
+        return moves(*cells) ? std::optional<carrier>(
+                                   {"the cells of a mesh that moves (" +
+                                        cells->motion + ")",
+                                    meshRotation(mesh.time())})
+                             : std::nullopt;
+    }
+    const std::optional<double> omega = turning(grid);
+    return omega && *omega != 0 && lies(mesh)
+               ? std::optional<carrier>({"a cylinder that turns", *omega})
+               : std::nullopt;
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
@@ -51,8 +118,7 @@ void Foam::adviseMeshTime(
     const fileName& file, const millfoam::averaging::SolidsReader& solids,
     const millfoam::averaging::MeshCells& cells)
 {
-    if (!cells.motion.empty() &&
-        mag(cells.time - solids.time0()) > solids.timestep())
+    if (moves(cells) && mag(cells.time - solids.time0()) > solids.timestep())
     {
         WarningInFunction
             << file << ": the mesh " << cells.file.c_str()
@@ -62,6 +128,50 @@ void Foam::adviseMeshTime(
             << " solids' was. Make the mesh with millMesh --at-time "
             << solids.time0() << " or average from --start "
             << scalar(cells.time) << endl;
+    }
+}
+
+
+void Foam::requireChargeInPlace(
+    const dictionary& dict, const fileName& file,
+    const millfoam::averaging::SolidsReader& solids, const solidsClock& clock,
+    const fvMesh& mesh)
+{
+    const std::optional<carrier> with = carrierOf(solids.grid(), mesh);
+    if (!with || clock.outOfRange() == solidsClock::range::error)
+    {
+        return;
+    }
+
+    if (solids.whole_run())
+    {
+        FatalIOErrorInFunction(dict)
+            << file << " holds one mean over the whole run on "
+            << with->words.c_str() << ": the charge would turn round the mill;"
+            << " expected windows (millAverage --window) and outOfRange error,"
+            << " or solids on a box" << exit(FatalIOError);
+    }
+    if (clock.outOfRange() == solidsClock::range::hold)
+    {
+        FatalIOErrorInFunction(dict)
+            << "outOfRange is hold but " << file << " holds solids on "
+            << with->words.c_str() << ": beyond the recorded time the charge"
+            << " would turn round the mill; expected error, or solids on a box"
+            << exit(FatalIOError);
+    }
+
+    const scalar turns =
+        mag(with->omega) * clock.duration() / constant::mathematical::twoPi;
+    const scalar whole = with->omega != 0 ? max(1.0, std::round(turns)) : 0;
+    if (mag(turns - whole) > 1e-3)
+    {
+        FatalIOErrorInFunction(dict)
+            << "outOfRange is repeat but " << file << " holds solids on "
+            << with->words.c_str() << ", and its " << clock.duration()
+            << " s are " << turns << " turns of " << with->omega
+            << " rad/s: the charge would jump at each repetition; expected a"
+            << " whole number of turns (to 0.001), or error, or solids on a box"
+            << exit(FatalIOError);
     }
 }
 

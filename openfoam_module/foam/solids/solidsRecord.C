@@ -190,8 +190,9 @@ Foam::solidsRecord::solidsRecord(const dictionary& dict, const fvMesh& mesh)
 {
     open(mesh.time());
     requireMill(dict, file_, *reader_);
-    clock_.reset(new solidsClock(dict, file_, *reader_));
-    clock_->checkSpan(mesh.time());
+    clock_.reset(new solidsClock(dict, file_, *reader_, mesh.time()));
+    clock_->checkSpan();
+    requireChargeInPlace(dict, file_, *reader_, clock_(), mesh);
     readLedger();
 
     if (const auto* cells =

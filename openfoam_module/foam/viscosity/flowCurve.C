@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "flowCurve.H"
+#include "binghamEntries.H"
 #include "dimensionedScalar.H"
 
 #include <map>
@@ -19,8 +20,9 @@ namespace
 using millfoam::drag::FlowCurve;
 
 //- The entries of a model: kinematic ones come out as dynamic ones
-class modelEntries
+class curveEntries
 {
+    const dictionary& phase_;
     const dictionary& dict_;
     scalar density_;
 
@@ -31,8 +33,9 @@ class modelEntries
 
 
     public:
-    modelEntries(const dictionary& phase, const word& model)
-    : dict_(phase.optionalSubDict(model + "Coeffs")),
+    curveEntries(const dictionary& phase, const word& model)
+    : phase_(phase),
+      dict_(phase.optionalSubDict(model + "Coeffs")),
       density_(dimensionedScalar("rho", dimDensity, phase).value())
     {
     }
@@ -59,58 +62,57 @@ class modelEntries
         return value(key, dimless);
     }
 
-    const dictionary& dict() const
+    //- The phase's dictionary
+    const dictionary& phase() const
     {
-        return dict_;
+        return phase_;
     }
 };
 
 
-FlowCurve bingham(const modelEntries& entries)
+FlowCurve bingham(const curveEntries& entries)
 {
-    const scalar yieldStress = entries.dict().get<scalar>("yieldStress");
-    const scalar plastic = entries.dict().get<scalar>("plasticViscosity");
-    if (entries.dict().lookupOrDefault<word>("regularisation", "biviscosity") ==
-        "Papanastasiou")
+    const binghamEntries of(entries.phase());
+    if (of.form == binghamEntries::regularisation::Papanastasiou)
     {
         return FlowCurve::papanastasiou(
-            yieldStress, plastic, entries.dict().get<scalar>("m"));
+            of.yieldStress, of.plasticViscosity, of.m);
     }
     return FlowCurve::bingham(
-        yieldStress, plastic,
-        plastic * entries.dict().get<scalar>("viscosityRatio"));
+        of.yieldStress, of.plasticViscosity,
+        of.plasticViscosity * of.viscosityRatio);
 }
 
 
-using maker = FlowCurve (*)(const modelEntries&);
+using maker = FlowCurve (*)(const curveEntries&);
 
 const std::map<word, maker> makers{
-    {"Newtonian", [](const modelEntries& entries)
+    {"Newtonian", [](const curveEntries& entries)
      { return FlowCurve::newtonian(entries.viscosity("nu")); }},
     {"Bingham", &bingham},
     {"HerschelBulkley",
-     [](const modelEntries& entries)
+     [](const curveEntries& entries)
      {
          return FlowCurve::herschel_bulkley(
              entries.stress("tau0"), entries.viscosity("k"),
              entries.exponent("n"), entries.viscosity("nu0"));
      }},
     {"Casson",
-     [](const modelEntries& entries)
+     [](const curveEntries& entries)
      {
          return FlowCurve::casson(
              entries.stress("tau0"), entries.viscosity("m"),
              entries.viscosity("nuMin"), entries.viscosity("nuMax"));
      }},
     {"CrossPowerLaw",
-     [](const modelEntries& entries)
+     [](const curveEntries& entries)
      {
          return FlowCurve::cross(
              entries.viscosity("nu0"), entries.viscosity("nuInf"),
              entries.time("m"), entries.exponent("n"));
      }},
     {"powerLaw",
-     [](const modelEntries& entries)
+     [](const curveEntries& entries)
      {
          return FlowCurve::power_law(
              entries.viscosity("k"), entries.exponent("n"),
@@ -143,7 +145,7 @@ millfoam::drag::FlowCurve Foam::flowCurveOf(const dictionary& phase)
     std::string reason;
     try
     {
-        return found->second(modelEntries(phase, model));
+        return found->second(curveEntries(phase, model));
     }
     catch (const std::invalid_argument& error)
     {
