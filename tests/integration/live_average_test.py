@@ -183,6 +183,17 @@ class LiveAverages(unittest.TestCase):
         # As of an earlier run of the same plan, where this one was killed before it wrote its own
         os.utime(case / "solids.h5", (0, 0))
         self.assertIn("solids.h5", self.run_mill(case, *NO_DUMPS, "--resume"))
+        # It is kept whatever has become of the files from which it would resume
+        kept = {path: path.read_bytes() for path in (case / "dem").glob("*[0-9]") if path.suffix[1:].isdigit()}
+        self.assertEqual({path.stem for path in kept}, {"restart", "averages_1"})
+        for path in kept:
+            path.unlink()
+        self.assertIn("nothing to do", self.run_mill(case, *NO_DUMPS, "--resume"))
+        with self.assertRaisesRegex(RunError, "no complete restart file with the averages of its step"):
+            self.run_mill(case, *NO_DUMPS, "--resume", "--set", "dem.duration=0.2")
+        self.assertTrue((case / "dumps" / "run.json").exists())
+        for path, content in kept.items():
+            path.write_bytes(content)
         with self.assertRaisesRegex(RunError, r"run.json: the run wrote no dumps \(dem.dumps: no\): its averages"):
             run(case, "millAverage", "mill.yaml", "--case", ".")
         with self.assertRaisesRegex(RuntimeError, r"no dump.<step>.txt, because the run wrote none \(dem.dumps: no\)"):

@@ -57,7 +57,7 @@ def restart_times(case: Path) -> dict[Path, float]:
 def align(case: Path) -> float:
     """Makes both programs resume at the same time: removes what one of them has beyond the latest time that both
     have, and returns that time, s. 0: they begin anew. Balls that have ended would not meet the flow again, so both
-    compute the last piece anew."""
+    compute the last piece anew; run.json, which marks their run as complete, goes."""
     restarts = restart_times(case)
     end = max(restarts.values(), default=0.0) if (case / "dumps" / "run.json").is_file() else np.inf
     folders = flow_folders(case)
@@ -66,6 +66,7 @@ def align(case: Path) -> float:
     for at in restarts.values():
         if at < end and all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders):
             common = max(common, at)
+    (case / "dumps" / "run.json").unlink(missing_ok=True)
     for path, at in restarts.items():
         if at > common + interval:
             path.unlink()
