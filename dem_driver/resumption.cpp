@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
+constexpr char deck_kept[] = ", so its deck is kept; a run without --deck-only and --resume replaces it";
 
 /// What identifies a run of any ranks and length: its deck without the lines that depend on these.
 std::string identity(const std::string& deck) {
@@ -38,17 +39,17 @@ std::string read_text(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Throws std::runtime_error when the run in the folder has another deck, or none.
-void require_same_run(const CaseFolder& folder, const std::string& deck) {
+/// Throws std::runtime_error, which ends with `hence`, when the run in the folder has another deck, or none.
+void require_same_run(const CaseFolder& folder, const std::string& deck, const char* hence) {
   if (!fs::exists(folder.deck()))
     throw std::runtime_error(folder.deck().string() + ": no such file, expected the deck of the run in " +
-                             folder.root.string() + otherwise);
+                             folder.root.string() + hence);
   if (identity(read_text(folder.deck())) != identity(deck))
     throw std::runtime_error(
         folder.deck().string() +
         ": the existing run has another mill.yaml, other walls, another fluid, other averages or another "
         "begin" +
-        otherwise);
+        hence);
 }
 
 /// Throws when the run in the folder cannot be resumed at that step.
@@ -100,7 +101,7 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
   const bool interrupted =
       fs::exists(folder.deck()) && !restarts.empty() && restarts.back().step > plan.begin;
   if (!complete && !interrupted) return std::nullopt;
-  require_same_run(folder, deck);
+  require_same_run(folder, deck, otherwise);
   if (complete) {
     const long end = end_of_complete_run(folder);
     if (end >= plan.end_step()) {
@@ -118,6 +119,13 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
                              otherwise);
   }
   return step;
+}
+
+void require_deck_of_run(const CaseFolder& folder, const std::string& deck) {
+  const bool complete = fs::exists(folder.run_file());
+  const bool begun =
+      fs::exists(folder.deck()) && (!find_restarts(folder).empty() || !find_dumps(folder).empty());
+  if (complete || begun) require_same_run(folder, deck, deck_kept);
 }
 
 }  // namespace millfoam::dem_driver

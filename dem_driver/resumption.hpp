@@ -22,4 +22,8 @@ namespace millfoam::dem_driver {
 std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
                               std::ostream& out);
 
+/// Throws std::runtime_error when the folder has files of a run with another deck, or a complete run without
+/// one: a deck that is written alone, without a run, would give these files another identity.
+void require_deck_of_run(const CaseFolder& folder, const std::string& deck);
+
 }  // namespace millfoam::dem_driver

@@ -151,7 +151,9 @@ void run(const Options& options, const meshing::MillDescription& description) {
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
-  if (!options.deck_only) {
+  if (options.deck_only) {
+    dem_driver::require_deck_of_run(folder, deck.str());
+  } else {
     dem_driver::require_programs(plan, options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(plan.begin));
     prepare(folder, step);

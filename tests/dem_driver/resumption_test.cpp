@@ -144,5 +144,27 @@ TEST_F(Resumption, ARunFileThatIsDamagedIsNamed) {
   expect_refused(plan_, folder_.run_file().string() + ": no number 'duration_s'");
 }
 
+TEST_F(Resumption, ADeckAloneIsOneOfTheRunThatIsThere) {
+  const auto refusal = [&](const std::string& deck_alone) {
+    return message_of([&] { require_deck_of_run(folder_, deck_alone); });
+  };
+  EXPECT_EQ(refusal(deck), "");
+  write(folder_.deck(), deck);
+  EXPECT_EQ(refusal(other_deck), "") << "nothing was run with the deck that is there";
+  run_to(plan_.restart_steps);
+  EXPECT_EQ(refusal(deck), "");
+  const std::string message = refusal(other_deck);
+  EXPECT_EQ(message.find(folder_.deck().string() + ": the existing run has another mill.yaml"), 0u)
+      << message;
+  EXPECT_NE(message.find("a run without --deck-only and --resume replaces it"), std::string::npos) << message;
+  std::filesystem::remove(restart(plan_.restart_steps));
+  EXPECT_NE(refusal(other_deck), "") << "there are dumps";
+  prepare_folders(folder_);
+  write_run_file(folder_, small_mill(), plan_);
+  EXPECT_NE(refusal(other_deck), "") << "there is a complete run without dumps";
+  std::filesystem::remove(folder_.deck());
+  EXPECT_NE(refusal(deck), "") << "there is a complete run without a deck";
+}
+
 }  // namespace
 }  // namespace millfoam::dem_driver
