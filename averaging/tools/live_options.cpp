@@ -32,8 +32,7 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
   const meshing::Mill& mill = description.mill;
   Options options = parse(text);
   options.case_folder = case_folder;
-  const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
-  const bool own_windows = !options.windows.empty() || options.start || options.end;
+  const bool others = request_others(options), own_windows = has_windows(options);
   std::optional<double> end;
   if (!own_windows) {
     const double window = mill.averages.window;
@@ -41,11 +40,10 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
     options.start = begin + mill.averages.start.value_or(0);
     if (!mill.averages.whole_run) end = last_whole_window(*options.start, begin + duration, duration, window);
   }
-  if (!own_grid) take_grid(mill, options);
+  if (!has_grid(options)) take_grid(mill, options);
   if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
   LiveRequest result{as_request(options), end, !own_windows && !mill.averages.start, tolerance(options, 1)};
-  if (!own_grid && !own_windows && !options.solidity_cap)
-    result.request.mill_averages = mill.fingerprint.averages;
+  if (!others) result.request.mill_averages = mill.fingerprint.averages;
   return result;
 }
 
