@@ -28,7 +28,7 @@ Options parse(const std::string& text) {
 }  // namespace
 
 LiveRequest live_request(const meshing::MillDescription& description, const std::string& text,
-                         const std::string& case_folder, double begin, double duration) {
+                         const std::string& case_folder, double begin, double duration, double timestep) {
   const meshing::Mill& mill = description.mill;
   Options options = parse(text);
   options.case_folder = case_folder;
@@ -38,7 +38,8 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
     const double window = mill.averages.window;
     options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
     options.start = begin + mill.averages.start.value_or(0);
-    if (!mill.averages.whole_run) end = last_whole_window(*options.start, begin + duration, duration, window);
+    if (!mill.averages.whole_run)
+      end = last_whole_window(*options.start, begin + duration, duration, window, timestep);
   }
   if (!has_grid(options)) take_grid(mill, options);
   if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/tools/mill_averages.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "averaging/statistics/time_windows.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 
@@ -34,6 +35,13 @@ void require_charge_of(const nlohmann::json& run, const fs::path& file, const st
   if (found.empty() || found == fingerprint) return;
   throw std::invalid_argument(file.string() + ": the dumps are of another mill (charge " + found +
                               ", this mill's is " + fingerprint + "): run millDem again");
+}
+
+double time_step(const nlohmann::json& run, const fs::path& file, const Options& options) {
+  const double found = options.timestep.value_or(run.value("timestep_s", 0.0));
+  if (!(found > 0))
+    throw std::invalid_argument(file.string() + ": no number timestep_s above 0; run millDem again");
+  return found;
 }
 
 double steady_start(const fs::path& file) {
@@ -77,14 +85,15 @@ void refuse_without_grid(const Options& options) {
 
 }  // namespace
 
-double last_whole_window(double start, double end, double duration, double window) {
-  const double left = end - start;
-  const double count = std::floor(left / window * (1 + 1e-9));
+double last_whole_window(double start, double end, double duration, double window, double timestep) {
+  const auto steps = [&](double time, const char* what) { return whole_steps(time, timestep, what); };
+  const long long first = steps(start, "averages.start"), length = steps(window, "averages.window");
+  const long long count = (steps(end, "the end of the dry run") - first) / std::max(length, 1LL);
   if (count < 1)
     throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
-                                exact(duration) + " s has only " + exact(left) + " s from " + exact(start) +
-                                " s on: raise dem.duration, or lower averages.window");
-  return start + count * window;
+                                exact(duration) + " s has only " + exact(end - start) + " s from " +
+                                exact(start) + " s on: raise dem.duration, or lower averages.window");
+  return static_cast<double>(first + count * length) * timestep;
 }
 
 bool has_grid(const Options& options) {
@@ -129,7 +138,9 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohma
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
-  if (!mill.averages.whole_run) options.end = last_whole_window(start, begin + duration, duration, window);
+  if (!mill.averages.whole_run)
+    options.end = last_whole_window(start, begin + duration, duration, window,
+                                    time_step(run, dumps / "run.json", options));
   options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
   options.start = start;
 }

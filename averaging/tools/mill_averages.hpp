@@ -27,16 +27,18 @@ bool has_grid(const Options& options);
 bool has_windows(const Options& options);
 
 /// Fills in the grid of the section `averages` of a mill with its periods, and its walls and method where the
-/// options leave these open: a mill's method holds for its own grid. The options must not have one. Throws std::invalid_argument that names
+/// options leave these open: a mill's method holds for its own grid. The options must not have one. Throws
+/// std::invalid_argument that names
 /// `--shape`, `--frame`, `--components` or `--periodic`, which say nothing about a mill's grid.
 void take_grid(const meshing::Mill& mill, Options& options);
 
-/// DEM time at which the last whole window of a dry run ends, s. Throws std::invalid_argument where there is
-/// none.
+/// DEM time at which the last whole window of a dry run ends, s. Times are rounded to whole time-steps, as
+/// plan_windows does. Throws std::invalid_argument where there is none, WindowError.
 /// @param start  of the first window, s
 /// @param end  of the dry run, s
 /// @param duration  of the dry run, s, for the message
 /// @param window  length of the windows, s
-double last_whole_window(double start, double end, double duration, double window);
+/// @param timestep  of the dry run, s
+double last_whole_window(double start, double end, double duration, double window, double timestep);
 
 }  // namespace millfoam::averaging

@@ -84,8 +84,8 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
                    "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
   order_.run = run_of(mill_, plan);
   for (const std::string& text : texts)
-    requests_.push_back(
-        averaging::live_request(description, text, folder.root.string(), plan.begin_time(), plan.duration()));
+    requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),
+                                                plan.duration(), plan.step.value));
   require_different_outputs(requests_);
   plan.averages_bytes = 0;
   for (const averaging::LiveRequest& averages : requests_) {

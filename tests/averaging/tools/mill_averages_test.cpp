@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "averaging/statistics/time_windows.hpp"
 #include "averaging/tools/live_options.hpp"
 #include "tests/averaging/test_support.hpp"
 
@@ -46,7 +47,9 @@ class MillAverages : public ::testing::Test {
     return options;
   }
 
-  LiveRequest live(const std::string& text) const { return live_request(mill_, text, path(""), 0, 0.2); }
+  LiveRequest live(const std::string& text) const {
+    return live_request(mill_, text, path(""), 0, 0.2, 1e-5);
+  }
 
   /// Both programs must refuse it.
   void expect_refused(const std::string& text, const std::string& sentence) {
@@ -114,6 +117,51 @@ TEST_F(MillAverages, WithAGridOfTheirOwnTheOptionsDecideAlone) {
   const AverageRequest request = as_request(options);
   EXPECT_EQ(request.method, DepositionMethod::exact);
   EXPECT_EQ(request.template_points, 12);
+}
+
+TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
+  EXPECT_DOUBLE_EQ(*taken("").end, 0.2);
+  EXPECT_EQ(live("").end, taken("").end);
+  // Windows of 1667 steps of 1.8e-5 s are longer than 0.03 s: the fifth would end after the run
+  folder_.write("dumps/run.json", R"({"timestep_s": 1.8e-5, "duration_s": 0.2})");
+  EXPECT_DOUBLE_EQ(*taken("").end, 1.8e-5 * (2778 + 4 * 1667));
+  EXPECT_EQ(live_request(mill_, "", path(""), 0, 0.2, 1.8e-5).end, taken("").end);
+  folder_.write("dumps/run.json", R"({"duration_s": 0.2})");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"run.json", "timestep_s"});
+}
+
+/// Windows of 0.01 s over 3 s, and their end, of records at every 20th time-step.
+std::pair<WindowPlan, double> windows_of(double timestep) {
+  const double start = 0.5, end = 3.5;
+  const double last = last_whole_window(start, end, end, 0.01, timestep);
+  std::vector<long long> steps;
+  for (long long step = 0; static_cast<double>(step) * timestep <= end; step += 20) steps.push_back(step);
+  return {plan_windows(steps, {timestep, 20, 0.01, start, last}), last};
+}
+
+TEST(LastWholeWindow, WindowsThatAreNoWholeNumberOfStepsAreAllWhole) {
+  // 0.01 s are 333.33 and 333.66 steps, counted as 333 and 334
+  for (const double timestep : {3e-5, 0.01 / 333.66}) {
+    const auto [plan, last] = windows_of(timestep);
+    const long long length = whole_steps(0.01, timestep, "");
+    const long long from = whole_steps(0.5, timestep, ""), to = whole_steps(3.5, timestep, "");
+    EXPECT_EQ(plan.windows.size(), static_cast<std::size_t>((to - from) / length));
+    EXPECT_EQ(plan.windows.back().end, whole_steps(last, timestep, ""));
+    for (const WindowSpan& span : plan.windows) {
+      EXPECT_EQ(span.end - span.begin, length);
+      EXPECT_GE(span.records, static_cast<std::size_t>(length / 20));
+      EXPECT_FALSE(span.ends_short);
+    }
+  }
+}
+
+TEST(LastWholeWindow, OfWholeMultiplesAreThoseThatFit) {
+  const auto [plan, last] = windows_of(1e-5);
+  EXPECT_EQ(plan.windows.size(), 300u);
+  EXPECT_DOUBLE_EQ(last, 3.5);
+  EXPECT_DOUBLE_EQ(last_whole_window(0.5, 3.509, 3.5, 0.01, 1e-5), 3.5);
+  expect_named(message_of<std::invalid_argument>([] { last_whole_window(0.5, 0.505, 3.5, 0.01, 1e-5); }),
+               {"averages.window: 0.01 s", "only 0.005", "raise dem.duration"});
 }
 
 }  // namespace
