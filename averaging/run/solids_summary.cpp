@@ -140,6 +140,18 @@ SolidsSummary summarise(const std::filesystem::path& file) {
   return summary;
 }
 
+SolidsSummary read_ledgers(const std::filesystem::path& file) {
+  const SolidsReader solids(file);
+  const std::vector<Ledger> ledgers = solids.read_ledgers();
+  SolidsSummary summary = begin_summary(file, solids.header(), solids.grid());
+  summary.windows.resize(ledgers.size());
+  for (std::size_t w = 0; w < ledgers.size(); ++w) {
+    summary.windows[w].time = solids.windows()[w];
+    summary.windows[w].ledger = ledgers[w];
+  }
+  return summary;
+}
+
 WindowSummary overall(const SolidsSummary& summary) {
   WindowSummary all;
   double balls = 0;

@@ -58,6 +58,10 @@ SolidsSummary begin_summary(const std::filesystem::path& file, const SolidsHeade
 /// Reads a solids file through. Throws SolidsFileError.
 SolidsSummary summarise(const std::filesystem::path& file);
 
+/// The times and ledgers of a solids file's windows, without what follows from its fields. Throws
+/// SolidsFileError.
+SolidsSummary read_ledgers(const std::filesystem::path& file);
+
 /// Of all windows together; its time and ledger are left empty.
 WindowSummary overall(const SolidsSummary& summary);
 
