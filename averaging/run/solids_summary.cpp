@@ -105,7 +105,7 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
   summary.balls_per_cell = balls_per_cell;
   double balls = 0;
   for (std::size_t c = 0; c < fields.solidity.size(); ++c) {
-    if (fields.solidity[c] == 0) continue;
+    if (fields.solidity[c] < least_solidity) continue;
     const double d = fields.diameter[c], volume = cell_volume(grid, c);
     ++summary.occupied_cells;
     summary.occupied_volume += volume;

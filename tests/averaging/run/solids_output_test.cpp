@@ -96,5 +96,16 @@ TEST_F(AreWritten, TheirLedgersAreReadWithoutTheirFields) {
   EXPECT_EQ(failures, ledger_failures(summarise(folder_ / "long.h5"), 0.05));
 }
 
+TEST(OccupiedCells, AreNotThoseThatOnlyTailsOfSmoothingReach) {
+  const BoxGrid four({0, 0, 0}, {4, 1, 1}, {4, 1, 1}, {false, false, false});
+  const SolidsWindow fields{
+      {0.3, 0.1, 1e-7, 0}, std::vector<double>(12), {0.1, 0.1, 0.1, 0}, {0.1, 0.1, 0.1, 0}, {}};
+  const WindowSummary summary = summarise(four, {}, {}, 8, fields);
+  EXPECT_EQ(summary.occupied_cells, 2u);
+  EXPECT_DOUBLE_EQ(summary.occupied_volume, 2);
+  EXPECT_DOUBLE_EQ(summary.mean_solidity, 0.2);
+  EXPECT_EQ(summary.largest_solidity, 0.3);
+}
+
 }  // namespace
 }  // namespace millfoam::averaging
