@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iomanip>
@@ -37,6 +38,12 @@ std::uint64_t hash_bytes(const fs::path& file) {
       sum = (sum ^ static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)])) * 1099511628211U;
   } while (in);
   return sum;
+}
+
+double number(const Json& run, const char* key, const fs::path& file) {
+  if (!run.contains(key) || !run[key].is_number())
+    throw std::runtime_error(file.string() + ": no number '" + key + "', expected one");
+  return run[key].get<double>();
 }
 
 }  // namespace
@@ -156,6 +163,24 @@ void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const D
     run["fluid"]["time"] = name_of(plan.fluid.time);
   }
   write_json(folder.run_file(), run);
+}
+
+CompleteRun read_run_file(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": no such file, expected that of a complete run");
+  const Json run = Json::parse(in, nullptr, false);
+  if (!run.is_object())
+    throw std::runtime_error(file.string() + ": is not a JSON object, expected the file that millDem writes");
+  CompleteRun found;
+  found.charge = run.value(Json::json_pointer("/mill/charge"), std::string());
+  found.time_step = number(run, "timestep_s", file);
+  const double begin = run.contains("begin_s") ? number(run, "begin_s", file) : 0;
+  const double steps = (begin + number(run, "duration_s", file)) / found.time_step;
+  if (!(std::abs(steps) < 1e15))
+    throw std::runtime_error(file.string() +
+                             ": 'duration_s' is no number of steps of 'timestep_s', expected one");
+  found.end_step = std::lround(steps);
+  return found;
 }
 
 }  // namespace millfoam::dem_driver

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "dem_driver/json_file.hpp"
 #include "dem_driver/output_check.hpp"
 #include "meshing/files/text_numbers.hpp"
 
@@ -16,38 +15,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr char hence[] = ", so no run can continue from it";
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& found, const std::string& expected) {
-  throw std::runtime_error(file.string() + ": " + found + ", expected " + expected +
-                           ", so no run can continue from it");
+  throw std::runtime_error(file.string() + ": " + found + ", expected " + expected + hence);
 }
 
-Json read_run_file(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) refuse(file, "no such file", "that of a complete run");
-  Json run = Json::parse(in, nullptr, false);
-  if (!run.is_object()) refuse(file, "is not a JSON object", "the file that millDem writes");
-  return run;
-}
-
-double number(const Json& run, const char* key, const fs::path& file) {
-  if (!run.contains(key) || !run[key].is_number())
-    refuse(file, std::string("no number '") + key + "'", "one");
-  return run[key].get<double>();
+CompleteRun complete_run(const fs::path& file) {
+  try {
+    return read_run_file(file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(error.what() + std::string(hence));
+  }
 }
 
 /// The end of a complete run of this mill, a step.
 long end_of(const fs::path& file, const meshing::Mill& mill, const DemPlan& plan) {
-  const Json run = read_run_file(file);
-  const std::string charge = run.value(Json::json_pointer("/mill/charge"), std::string());
-  if (charge != mill.fingerprint.charge)
-    refuse(file, "the run is of another mill (charge " + charge + ")",
+  const CompleteRun run = complete_run(file);
+  if (run.charge != mill.fingerprint.charge)
+    refuse(file, "the run is of another mill (charge " + run.charge + ")",
            "this mill's, " + mill.fingerprint.charge);
-  const double time_step = number(run, "timestep_s", file);
-  if (std::abs(time_step - plan.step.value) > 1e-9 * plan.step.value)
-    refuse(file, "the time-step is " + exact(time_step) + " s",
+  if (std::abs(run.time_step - plan.step.value) > 1e-9 * plan.step.value)
+    refuse(file, "the time-step is " + exact(run.time_step) + " s",
            "this run's, " + exact(plan.step.value) + " s");
-  const double begin = run.contains("begin_s") ? number(run, "begin_s", file) : 0;
-  return std::lround((begin + number(run, "duration_s", file)) / time_step);
+  return run.end_step;
 }
 
 /// The deck of a run carries the checksums of its walls.

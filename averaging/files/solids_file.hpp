@@ -102,7 +102,7 @@ class SolidsReader {
   /// Where the particles' volume went, per window. Throws SolidsFileError.
   std::vector<Ledger> read_ledgers() const;
 
-  /// Mean number of balls in a cell that holds some, per window. Throws SolidsFileError.
+  /// Mean number of balls in an occupied cell, per window. Throws SolidsFileError.
   std::vector<double> read_balls_per_cell() const;
 
  private:

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "averaging/files/read_pieces.hpp"
 #include "averaging/files/solids_layout.hpp"
 
 namespace millfoam::averaging {
@@ -146,7 +147,10 @@ void WindowJournal::sync() {
 
 WindowAverage WindowJournal::read(std::size_t row) const {
   std::vector<double> numbers(row_bytes_ / sizeof(double));
-  const auto got = pread(file_, numbers.data(), row_bytes_, static_cast<off_t>(place(row, row_bytes_)));
+  const ssize_t got =
+      read_pieces(numbers.data(), row_bytes_, static_cast<off_t>(place(row, row_bytes_)),
+                  [&](void* data, std::size_t size, off_t begin) { return pread(file_, data, size, begin); });
+  if (got < 0) throw failure(path_, "read");
   const double expected = numbers.back();
   numbers.pop_back();
   if (got != static_cast<ssize_t>(row_bytes_) || checksum(numbers) != expected) {

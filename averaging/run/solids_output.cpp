@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/solids_output.hpp"
 
+#include <algorithm>
+
+#include "averaging/files/solids_file.hpp"
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/summary_file.hpp"
 
 namespace millfoam::averaging {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The run of which a solids file is; empty where there is no such file.
+std::string run_of_solids(const fs::path& file) {
+  try {
+    return SolidsReader(file).header().run_id;
+  } catch (const SolidsFileError&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
   std::vector<OutputLock> locks;
@@ -37,6 +55,17 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
     header.fines_share = metadata->fines_share;
   }
   return header;
+}
+
+bool are_written(const AverageRequest& request, const RunMetadata& run) {
+  const auto is_newer = [&](const fs::path& file) {
+    return fs::exists(file) && fs::last_write_time(file) >= fs::last_write_time(run.file);
+  };
+  return std::all_of(request.windows.begin(), request.windows.end(), [&](const WindowsRequest& windows) {
+    const fs::path summary = summary_path(windows.output);
+    return is_newer(windows.output) && run_of_solids(windows.output) == run.run_id &&
+           is_newer(xdmf_path(windows.output)) && is_newer(summary) && run_of_summary(summary) == run.run_id;
+  });
 }
 
 SolidsSummary write_solids(const std::filesystem::path& output, const Grid& grid, const SolidsHeader& header,

@@ -29,6 +29,12 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
                            const std::optional<RunMetadata>& metadata, double time0,
                            const std::string& program);
 
+/// Whether all files that a request asks of a run are there (solids files, their .xdmf and their summaries),
+/// each written after the run was complete. Runs of equal plans have one id, so that this alone does not
+/// tell.
+/// @param run  of run.json
+bool are_written(const AverageRequest& request, const RunMetadata& run);
+
 /// Writes a solids file, its .xdmf and its summary in JSON, which it returns. Throws SolidsFileError.
 /// @param output  the solids file
 /// @param grid  of the cells

@@ -105,7 +105,7 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
   summary.balls_per_cell = balls_per_cell;
   double balls = 0;
   for (std::size_t c = 0; c < fields.solidity.size(); ++c) {
-    if (fields.solidity[c] == 0) continue;
+    if (fields.solidity[c] < least_solidity) continue;
     const double d = fields.diameter[c], volume = cell_volume(grid, c);
     ++summary.occupied_cells;
     summary.occupied_volume += volume;
@@ -136,6 +136,18 @@ SolidsSummary summarise(const std::filesystem::path& file) {
   for (std::size_t w = 0; w < ledgers.size(); ++w) {
     summary.windows.push_back(
         summarise(solids.grid(), solids.windows()[w], ledgers[w], balls[w], solids.read_unchecked(w)));
+  }
+  return summary;
+}
+
+SolidsSummary read_ledgers(const std::filesystem::path& file) {
+  const SolidsReader solids(file);
+  const std::vector<Ledger> ledgers = solids.read_ledgers();
+  SolidsSummary summary = begin_summary(file, solids.header(), solids.grid());
+  summary.windows.resize(ledgers.size());
+  for (std::size_t w = 0; w < ledgers.size(); ++w) {
+    summary.windows[w].time = solids.windows()[w];
+    summary.windows[w].ledger = ledgers[w];
   }
   return summary;
 }

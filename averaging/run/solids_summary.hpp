@@ -18,8 +18,8 @@ inline constexpr double most_balls = 64;
 struct WindowSummary {
   TimeWindow time;                 ///< begin and end, s, and records
   Ledger ledger;                   ///< means over the records, m^3
-  double balls_per_cell = 0;       ///< mean number of balls in a cell that holds some
-  std::size_t occupied_cells = 0;  ///< with balls in them
+  double balls_per_cell = 0;       ///< mean number of balls in an occupied cell
+  std::size_t occupied_cells = 0;  ///< of `least_solidity` or more
   std::size_t small_cells = 0;     ///< of the occupied ones: smaller than a ball of their Sauter diameter
   double occupied_volume = 0;      ///< of the occupied cells, m^3
   double ball_density = 0;         ///< balls of the Sauter diameter per volume of the occupied cells, 1/m^3
@@ -47,7 +47,7 @@ struct Remark {
 /// @param grid            that its fields live on
 /// @param time            of the window
 /// @param ledger          of the window, m^3
-/// @param balls_per_cell  mean number of balls in a cell that holds some
+/// @param balls_per_cell  mean number of balls in an occupied cell
 /// @param fields          over the cells of `grid`
 WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& ledger, double balls_per_cell,
                         const SolidsWindow& fields);
@@ -57,6 +57,10 @@ SolidsSummary begin_summary(const std::filesystem::path& file, const SolidsHeade
 
 /// Reads a solids file through. Throws SolidsFileError.
 SolidsSummary summarise(const std::filesystem::path& file);
+
+/// The times and ledgers of a solids file's windows, without what follows from its fields. Throws
+/// SolidsFileError.
+SolidsSummary read_ledgers(const std::filesystem::path& file);
 
 /// Of all windows together; its time and ledger are left empty.
 WindowSummary overall(const SolidsSummary& summary);

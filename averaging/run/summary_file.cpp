@@ -127,6 +127,14 @@ void require_summary_or_nothing(const std::filesystem::path& path) {
                         " file; it would be overwritten: give another name or remove it");
 }
 
+std::string run_of_summary(const std::filesystem::path& path) {
+  std::ifstream input(path);
+  const Json found = Json::parse(input, nullptr, false);
+  if (!found.is_object() || found.value("format", Json()) != summary_format) return {};
+  const Json run = found.value("run_id", Json());
+  return run.is_string() ? run.get<std::string>() : std::string();
+}
+
 std::string as_json(const SolidsSummary& summary, const std::string& writer) {
   const WindowSummary all = overall(summary);
   Json json{{"format", summary_format},

@@ -15,6 +15,10 @@ std::filesystem::path summary_path(const std::filesystem::path& solids_file);
 /// Throws SolidsFileError when there is something at `path` that is no summary of a solids file.
 void require_summary_or_nothing(const std::filesystem::path& path);
 
+/// The run of whose averages a summary is (`run_id`); empty where that is not known, or where the file is no
+/// whole summary.
+std::string run_of_summary(const std::filesystem::path& path);
+
 /// The summary as JSON, see FORMATS.md: what `report` prints, as numbers with units in their keys.
 /// What is not known is null.
 /// @param summary  of a solids file

@@ -13,6 +13,10 @@ namespace {
 
 using Columns = RecordSums;
 
+/// Of the tails of smoothing, less than this share of a cell is nothing: quotients of numbers near the
+/// smallest that a computer knows are no diameters and velocities.
+constexpr double least_share = 1e-100;
+
 /// Means over the records: [n][columns] extensive quantities and [n] volumes inside the mill, m^3.
 struct Means {
   std::vector<double> values;
@@ -58,7 +62,7 @@ void fill_means(const Means& mean, WindowAverage& result) {
   SolidsWindow& fields = result.mean;
   for (std::size_t c = 0; c < mean.inside_volumes.size(); ++c) {
     const double volume = mean.at(c, Columns::volume);
-    if (volume == 0) continue;
+    if (!(volume > least_share * mean.inside_volumes[c])) continue;
     fields.solidity[c] = volume / mean.inside_volumes[c];
     fields.diameter[c] = volume / mean.at(c, Columns::volume_over_diameter);
     fields.diameter43[c] = mean.at(c, Columns::volume_times_diameter) / volume;

@@ -36,10 +36,11 @@ struct CellLimits {
 /// The temperature is about the window's mean velocity, so it holds the motion of single balls and the drift
 /// of the mean within the window; the drift's part is the mean square of velocity_deviation's components.
 ///
-/// V_k is the volume of balls in the cell in record k. Cells of which less than `smallest_inside_fraction` is
-/// inside are emptied into their neighbours (`redistribute_from_walls`), and what is above a cap on solidity
-/// moves to neighbours (`redistribute_excess`), with its momentum and all else that the means are made of;
-/// both are counted in the ledger's `clipped`. Deviations are those before anything moved.
+/// V_k is the volume of balls in the cell in record k. Cells with a share of 1e-100 or less are empty. Cells
+/// of which less than `smallest_inside_fraction` is inside are emptied into their neighbours
+/// (`redistribute_from_walls`), and what is above a cap on solidity moves to neighbours
+/// (`redistribute_excess`), with its momentum and all else that the means are made of; both are counted in
+/// the ledger's `clipped`. Deviations are those before anything moved.
 ///
 /// The moments must hold a record. `time.records` is filled in, the window's times are the caller's.
 /// Throws as `redistribute_excess`.

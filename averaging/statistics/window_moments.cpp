@@ -6,6 +6,8 @@
 #include <cstring>
 #include <functional>
 
+#include "averaging/values/solids_window.hpp"
+
 namespace millfoam::averaging {
 
 WindowMoments::WindowMoments(std::size_t cells)
@@ -26,7 +28,7 @@ void WindowMoments::add_to_spread(const RecordSums& record, std::size_t cell) {
   s[solidity_mean] += difference / totals_.records;
   s[solidity_squares] += difference * (solidity - s[solidity_mean]);
   if (volume == 0) return;
-  totals_.occupied += 1;
+  if (volume >= least_solidity * cell_volume) totals_.occupied += 1;
   totals_.balls += record.at(cell, RecordSums::balls);
   const double share = volume / sum(cell, RecordSums::volume);
   for (std::size_t a = 0; a < 3; ++a) {

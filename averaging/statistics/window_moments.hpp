@@ -31,7 +31,7 @@ class WindowMoments {
   std::size_t cells() const { return cells_; }                                   ///< their number
   long long records() const { return static_cast<long long>(totals_.records); }  ///< number of records added
   Ledger ledger() const { return totals_.ledger; }                               ///< sum over the records
-  /// Number of cells with balls in them, summed over the records.
+  /// Number of cells of `least_solidity` or more, summed over the records.
   double occupied() const { return totals_.occupied; }
   /// Number of balls deposited, summed over the records.
   double balls() const { return totals_.balls; }

@@ -28,24 +28,23 @@ Options parse(const std::string& text) {
 }  // namespace
 
 LiveRequest live_request(const meshing::MillDescription& description, const std::string& text,
-                         const std::string& case_folder, double begin, double duration) {
+                         const std::string& case_folder, double begin, double duration, double timestep) {
   const meshing::Mill& mill = description.mill;
   Options options = parse(text);
   options.case_folder = case_folder;
-  const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
-  const bool own_windows = !options.windows.empty() || options.start || options.end;
+  const bool others = request_others(options), own_windows = has_windows(options);
   std::optional<double> end;
   if (!own_windows) {
     const double window = mill.averages.window;
     options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
     options.start = begin + mill.averages.start.value_or(0);
-    if (!mill.averages.whole_run) end = last_whole_window(*options.start, begin + duration, duration, window);
+    if (!mill.averages.whole_run)
+      end = last_whole_window(*options.start, begin + duration, duration, window, timestep);
   }
-  if (!own_grid) take_grid(mill, options);
+  if (!has_grid(options)) take_grid(mill, options);
   if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
   LiveRequest result{as_request(options), end, !own_windows && !mill.averages.start, tolerance(options, 1)};
-  if (!own_grid && !own_windows && !options.solidity_cap)
-    result.request.mill_averages = mill.fingerprint.averages;
+  if (!others) result.request.mill_averages = mill.fingerprint.averages;
   return result;
 }
 

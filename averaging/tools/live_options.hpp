@@ -25,8 +25,9 @@ struct LiveRequest {
 /// @param case_folder  has walls/, and gets solids.h5
 /// @param begin  DEM time at which the run begins, s
 /// @param duration  of the run, s
-/// Throws std::invalid_argument naming the option, its value and what was expected.
+/// @param timestep  of the run, s
+/// Throws std::invalid_argument naming the option, its value and what was expected, and WindowError.
 LiveRequest live_request(const meshing::MillDescription& description, const std::string& options,
-                         const std::string& case_folder, double begin, double duration);
+                         const std::string& case_folder, double begin, double duration, double timestep);
 
 }  // namespace millfoam::averaging

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/tools/mill_averages.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "averaging/statistics/time_windows.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 
@@ -33,6 +37,13 @@ void require_charge_of(const nlohmann::json& run, const fs::path& file, const st
                               ", this mill's is " + fingerprint + "): run millDem again");
 }
 
+double time_step(const nlohmann::json& run, const fs::path& file, const Options& options) {
+  const double found = options.timestep.value_or(run.value("timestep_s", 0.0));
+  if (!(found > 0))
+    throw std::invalid_argument(file.string() + ": no number timestep_s above 0; run millDem again");
+  return found;
+}
+
 double steady_start(const fs::path& file) {
   const nlohmann::json results = read_object(file);
   if (!results.contains("steady_from_s") || !results["steady_from_s"].is_number())
@@ -48,19 +59,58 @@ void require_dumps(const nlohmann::json& run, const fs::path& file) {
       file.string() + ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
 }
 
+/// The values of an option in words.
+template <typename Values>
+std::string words_of(const Values& values) {
+  std::ostringstream words;
+  for (const auto& value : values) words << (words.tellp() > 0 ? " " : "") << value;
+  return words.str();
+}
+
+/// Throws for an option that belongs to a grid of its own.
+void refuse_without_grid(const Options& options) {
+  const std::array<std::pair<const char*, std::string>, 4> given{
+      {{"--shape", words_of(options.shape)},
+       {"--frame", options.frame.value_or("")},
+       {"--components", options.components},
+       {"--periodic", words_of(options.periodic)}}};
+  for (const auto& [name, value] : given) {
+    if (value.empty()) continue;
+    throw std::invalid_argument(
+        name + (" is " + value) +
+        ", but the cells are those of the mill; expected --box, --cylinder or --mesh with it, or a change of "
+        "the mill by --set averages.KEY=VALUE");
+  }
+}
+
 }  // namespace
 
-double last_whole_window(double start, double end, double duration, double window) {
-  const double left = end - start;
-  const double count = std::floor(left / window * (1 + 1e-9));
+double last_whole_window(double start, double end, double duration, double window, double timestep) {
+  const auto steps = [&](double time, const char* what) { return whole_steps(time, timestep, what); };
+  const long long first = steps(start, "averages.start"), length = steps(window, "averages.window");
+  const long long count = (steps(end, "the end of the dry run") - first) / std::max(length, 1LL);
   if (count < 1)
     throw std::invalid_argument("averages.window: " + exact(window) + " s, but the dry run of " +
-                                exact(duration) + " s has only " + exact(left) + " s from " + exact(start) +
-                                " s on: raise dem.duration, or lower averages.window");
-  return start + count * window;
+                                exact(duration) + " s has only " + exact(end - start) + " s from " +
+                                exact(start) + " s on: raise dem.duration, or lower averages.window");
+  return static_cast<double>(first + count * length) * timestep;
+}
+
+bool has_grid(const Options& options) {
+  return !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
+}
+
+bool has_windows(const Options& options) {
+  return !options.windows.empty() || options.start || options.end;
+}
+
+bool request_others(const Options& options) {
+  const bool own_method = options.method || options.template_points || !options.walls.empty();
+  return has_grid(options) || has_windows(options) || own_method || options.solidity_cap;
 }
 
 void take_grid(const meshing::Mill& mill, Options& options) {
+  refuse_without_grid(options);
   const std::array<int, 3> shape = mill.averages.shape();
   options.shape.assign(shape.begin(), shape.end());
   if (mill.averages.rings) {
@@ -74,8 +124,8 @@ void take_grid(const meshing::Mill& mill, Options& options) {
   }
   if (mill.geometry.ends == meshing::Ends::periodic) options.periodic = {"z"};
   if (options.walls.empty()) options.walls = {(fs::path(options.case_folder) / "walls" / "*.stl").string()};
-  options.method = mill.averages.method;
-  options.template_points = mill.averages.template_points;
+  if (!options.method) options.method = mill.averages.method;
+  if (!options.template_points) options.template_points = mill.averages.template_points;
 }
 
 namespace {
@@ -88,7 +138,9 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohma
   const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
-  if (!mill.averages.whole_run) options.end = last_whole_window(start, begin + duration, duration, window);
+  if (!mill.averages.whole_run)
+    options.end = last_whole_window(start, begin + duration, duration, window,
+                                    time_step(run, dumps / "run.json", options));
   options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
   options.start = start;
 }
@@ -99,8 +151,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   const meshing::Mill& mill = description.mill;
   const meshing::MillFingerprints& of = mill.fingerprint;
   const fs::path dumps = fs::path(options.case_folder) / "dumps";
-  const bool own_grid = !options.box.empty() || !options.cylinder.empty() || !options.mesh.empty();
-  const bool own_windows = !options.windows.empty() || options.start || options.end;
+  const bool others = request_others(options), own_windows = has_windows(options);
   if (options.dumps.empty()) {
     const nlohmann::json run = read_object(dumps / "run.json");
     require_charge_of(run, dumps / "run.json", of.charge);
@@ -110,9 +161,9 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }
-  if (!own_grid) take_grid(mill, options);
+  if (!has_grid(options)) take_grid(mill, options);
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();
-  return own_grid || own_windows || options.solidity_cap ? "" : of.averages;
+  return others ? "" : of.averages;
 }
 
 }  // namespace millfoam::averaging

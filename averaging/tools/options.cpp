@@ -15,6 +15,10 @@ namespace millfoam::averaging {
 
 namespace {
 
+constexpr char usual_frame[] = "lab";
+constexpr char usual_method[] = "exact";
+constexpr int usual_template = 12;
+
 /// Seconds, or nothing for the whole run.
 std::optional<double> window_length(const std::string& text) {
   if (text == "whole") return std::nullopt;
@@ -74,7 +78,7 @@ CylinderRequest cylinder_request(const Options& options) {
   const std::vector<double>& c = options.cylinder;
   CylinderRequest cylinder(CylinderGrid({c[0], c[1]}, {c[2], c[3]},
                                         {options.shape[0], options.shape[1], options.shape[2]}, periodic[2]));
-  cylinder.turning = options.frame == "turning";
+  cylinder.turning = options.frame.value_or(usual_frame) == "turning";
   if (cylinder.turning && options.components == "cartesian") {
     throw std::invalid_argument("--components is cartesian, expected cylindrical with --frame turning");
   }
@@ -116,7 +120,8 @@ GridRequest grid(const Options& options) {
     throw std::invalid_argument(std::string(kinds == 0 ? "none" : "more than one") +
                                 " of --box, --cylinder and --mesh is given, expected one of them");
   }
-  if (options.cylinder.empty() && (options.frame != "lab" || !options.components.empty())) {
+  if (options.cylinder.empty() &&
+      (options.frame.value_or(usual_frame) != usual_frame || !options.components.empty())) {
     throw std::invalid_argument("--frame and --components are for --cylinder");
   }
   if (!options.mesh.empty()) return mesh_request(options);
@@ -149,7 +154,8 @@ void declare_mill(CLI::App& app, Options& options) {
   app.add_option(
          "--case", options.case_folder,
          "folder with dumps/ and walls/ of the mill, which receives solids.h5; the mill's averages are "
-         "made unless the options below change them")
+         "made unless the options below change them. --shape, --frame, --components and --periodic need "
+         "--box or --cylinder")
       ->capture_default_str();
 }
 
@@ -176,7 +182,7 @@ void declare_cells(CLI::App& app, Options& options) {
   app.add_option("--frame", options.frame,
                  "of the cylinder: lab, or turning with the mill, whose balls are then in one place on it")
       ->check(CLI::IsMember({"lab", "turning"}))
-      ->capture_default_str();
+      ->default_str(usual_frame);
   app.add_option("--components", options.components,
                  "of velocities on the cylinder: cartesian or cylindrical [cartesian in the lab's frame, "
                  "cylindrical in the turning one]")
@@ -202,9 +208,9 @@ void declare_cells(CLI::App& app, Options& options) {
 void declare_method(CLI::App& app, Options& options) {
   app.add_option("--method", options.method, "how balls are shared between cells: exact or sample")
       ->check(CLI::IsMember({"exact", "sample"}))
-      ->capture_default_str();
+      ->default_str(usual_method);
   app.add_option("--template", options.template_points, "points along a sphere's diameter, to sample")
-      ->capture_default_str();
+      ->default_str(std::to_string(usual_template));
   app.add_option("--cap", options.solidity_cap,
                  "largest solidity; the volume above it moves to neighbours [none]");
 }
@@ -259,8 +265,9 @@ AverageRequest as_request(const Options& options) {
     throw std::invalid_argument("--cap is " + std::to_string(*options.solidity_cap) +
                                 ", expected a solidity between 0 and 1");
   }
-  if (options.template_points < 2 || options.template_points > 200) {
-    throw std::invalid_argument("--template is " + std::to_string(options.template_points) +
+  const int template_points = options.template_points.value_or(usual_template);
+  if (template_points < 2 || template_points > 200) {
+    throw std::invalid_argument("--template is " + std::to_string(template_points) +
                                 ", expected 2 to 200 points along a diameter");
   }
   if (!(options.checkpoint_interval >= 0)) {
@@ -271,8 +278,9 @@ AverageRequest as_request(const Options& options) {
   request.dumps = options.dumps;
   request.timestep = options.timestep;
   request.angular_velocity = options.speed;
-  request.method = options.method == "exact" ? DepositionMethod::exact : DepositionMethod::sample;
-  request.template_points = options.template_points;
+  request.method =
+      options.method.value_or(usual_method) == "exact" ? DepositionMethod::exact : DepositionMethod::sample;
+  request.template_points = template_points;
   request.walls = matching_files(options.walls);
   request.solidity_cap = options.solidity_cap;
   request.windows = windows(options);

@@ -21,7 +21,7 @@ struct Options {
   std::optional<double> speed;           ///< of the mill about z, rad/s
   std::vector<double> box;               ///< [6] two corners, m
   std::vector<double> cylinder;          ///< [4] two radii and two ends, m
-  std::string frame = "lab";             ///< of the cylinder: lab or turning
+  std::optional<std::string> frame;      ///< of the cylinder: lab (also without it) or turning
   std::string components;                ///< on it: cartesian or cylindrical; empty: those of the frame
   std::string mesh;                      ///< mesh file
   std::vector<int> shape;                ///< [3] numbers of voxels
@@ -29,8 +29,8 @@ struct Options {
   std::vector<std::string> motion;       ///< of the mesh, for `parse_motion`, or `none`
   std::optional<double> period;          ///< of the mesh along z, m
   std::optional<std::string> smoothing;  ///< width, m; empty: the usual one
-  std::string method = "exact";          ///< exact or sample
-  int template_points = 12;              ///< along a sphere's diameter
+  std::optional<std::string> method;     ///< exact (also without it) or sample
+  std::optional<int> template_points;    ///< along a sphere's diameter; without it 12
   std::vector<std::string> walls;        ///< patterns of STL files, or a mesh file
   std::optional<double> solidity_cap;    ///< largest solidity
   std::vector<std::string> windows;      ///< lengths, s, or `whole`

@@ -16,6 +16,9 @@ struct TimeWindow {
   bool ends_short = false;   ///< or at the requested end
 };
 
+/// A cell of less solidity is not occupied: the tails of smoothing reach cells far from any ball.
+inline constexpr double least_solidity = 1e-6;
+
 /// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
 struct SolidsWindow {
   std::vector<double> solidity;    ///< [n] particle volume over cell volume, in [0, 1)
@@ -36,7 +39,8 @@ struct WindowAverage {
   std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
   std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
   std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
-  double balls_per_cell = 0;  ///< mean over the records of balls deposited / cells that hold some of them
+  /// Mean over the records of balls deposited / cells of `least_solidity` or more.
+  double balls_per_cell = 0;
 };
 
 }  // namespace millfoam::averaging

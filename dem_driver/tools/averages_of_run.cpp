@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/tools/averages_of_run.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -59,17 +58,11 @@ double steady_from(const fs::path& results) {
   return json["steady_from_s"];
 }
 
-/// Whether all files of these averages are there, written after the run was complete. Runs of equal plans
-/// have one id, so that this alone does not tell.
-bool are_written(const averaging::AverageRequest& request, const averaging::RunMetadata& run) {
-  return std::all_of(request.windows.begin(), request.windows.end(), [&](const auto& windows) {
-    try {
-      return averaging::SolidsReader(windows.output).header().run_id == run.run_id &&
-             fs::last_write_time(windows.output) >= fs::last_write_time(run.file);
-    } catch (const averaging::SolidsFileError&) {
-      return false;
-    }
-  });
+/// Prints what is wrong with a ledger; returns whether it is within the tolerance.
+bool judge(const averaging::SolidsSummary& summary, double tolerance, std::ostream& out) {
+  const std::vector<std::string> failures = averaging::ledger_failures(summary, tolerance);
+  for (const std::string& failure : failures) out << summary.file.string() << ": " << failure << '\n';
+  return failures.empty();
 }
 
 }  // namespace
@@ -84,8 +77,8 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
                    "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
   order_.run = run_of(mill_, plan);
   for (const std::string& text : texts)
-    requests_.push_back(
-        averaging::live_request(description, text, folder.root.string(), plan.begin_time(), plan.duration()));
+    requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),
+                                                plan.duration(), plan.step.value));
   require_different_outputs(requests_);
   plan.averages_bytes = 0;
   for (const averaging::LiveRequest& averages : requests_) {
@@ -116,17 +109,18 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
   end.step = plan_.end_step();
   end.metadata = averaging::read_run_metadata(folder_.dumps());
   end.program = std::string("millDem ") + version();
-  if (keep && are_written(request, *end.metadata)) return true;
-  if (averages.steady) end.steady_from = steady_from(folder_.results());
   bool passes = true;
+  if (keep && averaging::are_written(request, *end.metadata)) {
+    for (const averaging::WindowsRequest& windows : request.windows)
+      passes = judge(averaging::read_ledgers(windows.output), averages.tolerance, out) && passes;
+    return passes;
+  }
+  if (averages.steady) end.steady_from = steady_from(folder_.results());
   for (const averaging::SolidsSummary& summary : averaging::finish_live(
            request, order_.run, averages_files(folder_.dem(), number), plan_.averages[number], end,
            [&](const std::string& sentence) { out << sentence << '\n'; })) {
     out << averaging::report(summary);
-    for (const std::string& failure : averaging::ledger_failures(summary, averages.tolerance)) {
-      out << summary.file.string() << ": " << failure << '\n';
-      passes = false;
-    }
+    passes = judge(summary, averages.tolerance, out) && passes;
   }
   return passes;
 }

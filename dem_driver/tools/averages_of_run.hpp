@@ -29,7 +29,7 @@ class AveragesOfRun {
 
   /// Writes the solids files of the complete run and prints their ledgers. The run's file and results must be
   /// there.
-  /// @param keep  files of this run that are there are kept
+  /// @param keep  files of this run that are all there are kept; their ledgers count as those of new ones
   /// Throws std::runtime_error when the ledger of one is beyond its tolerance, and as finish_live.
   void finish(bool keep, std::ostream& out) const;
 

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -24,14 +22,13 @@
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/mill_key.hpp"
-#include "dem_driver/output_check.hpp"
 #include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
+#include "dem_driver/resumption.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/tools/averages_of_run.hpp"
 #include "dem_driver/wall_fit.hpp"
 #include "meshing/files/output_file.hpp"
-#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_document.hpp"
 #include "meshing/tools/mill_options.hpp"
 
@@ -56,66 +53,6 @@ struct Options {
   std::string plan_file;
 };
 
-/// What identifies a run of any ranks and length: its deck without the lines that depend on these.
-std::string identity(const std::string& deck) {
-  std::istringstream in(deck);
-  std::string kept;
-  for (std::string line; std::getline(in, line);) {
-    const auto begins = [&](const std::string& start) { return line.rfind(start, 0) == 0; };
-    const bool of_length = begins("run ") && line.find(" upto ") != std::string::npos;
-    const bool of_restarts = line.find(" ave/histo ") != std::string::npos;
-    if (!begins("processors ") && !begins("thermo ") && !of_length && !of_restarts) kept += line + '\n';
-  }
-  return kept;
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
-
-/// Throws std::runtime_error when the run in the folder cannot be resumed at that step.
-void require_resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan, long step) {
-  if (step > plan.end_step()) {
-    const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
-    throw dem_driver::KeyError("dem.duration", seconds(plan.turning_steps),
-                               "at least the " + seconds(step - plan.begin) + " s that the run in " +
-                                   folder.root.string() + " has reached" + otherwise);
-  }
-  const long expected = plan.dumps > 0 ? (step - plan.begin) / plan.step.steps_per_record + 1 : 0;
-  const long found = dem_driver::count_dumps_until(folder, step);
-  if (found != expected)
-    throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
-                             std::to_string(step) + ", expected " + std::to_string(expected) +
-                             ": the run has lost some" + otherwise);
-  const std::string complaint = dem_driver::contacts_complaint(folder, plan, step);
-  if (!complaint.empty()) throw std::runtime_error(complaint + otherwise);
-}
-
-/// The step at which a run of this same deck resumes; nothing when there is no run to resume.
-std::optional<long> resumable(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
-                              const std::string& deck) {
-  auto restarts = dem_driver::find_restarts(folder);
-  // That of the run's begin is another run's
-  while (!restarts.empty() && restarts.front().step <= plan.begin) restarts.erase(restarts.begin());
-  if (!fs::exists(folder.deck()) || restarts.empty()) return std::nullopt;
-  if (identity(read_text(folder.deck())) != identity(deck))
-    throw std::runtime_error(
-        folder.deck().string() +
-        ": the existing run has another mill.yaml, other walls, another fluid, other averages or another "
-        "begin" +
-        otherwise);
-  const auto step = dem_driver::last_good_restart(folder, plan);
-  if (!step || *step != restarts.back().step)
-    std::cout << restarts.back().file.string()
-              << ": this file, or a dump before it, is not complete and is not used\n";
-  if (!step || *step <= plan.begin) return std::nullopt;
-  require_resumable(folder, plan, *step);
-  return step;
-}
-
 /// Prepares the folder for LIGGGHTS: to resume at `step`, or for a new run.
 void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
   if (step) {
@@ -134,7 +71,7 @@ std::optional<long> first_step(const Options& options, const dem_driver::CaseFol
                                const dem_driver::DemPlan& plan, const std::string& deck) {
   if (!options.resume) return std::nullopt;
   try {
-    return resumable(folder, plan, deck);
+    return dem_driver::resumable(folder, plan, deck, std::cout);
   } catch (const std::exception& reason) {
     if (!options.or_anew) throw;
     std::cout << reason.what() << ". The dry run starts from the beginning\n";
@@ -214,7 +151,9 @@ void run(const Options& options, const meshing::MillDescription& description) {
     return;
   }
   dem_driver::print_plan(std::cout, mill, plan);
-  if (!options.deck_only) {
+  if (options.deck_only) {
+    dem_driver::require_deck_of_run(folder, deck.str());
+  } else {
     dem_driver::require_programs(plan, options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(plan.begin));
     prepare(folder, step);

@@ -17,15 +17,13 @@ namespace {
 constexpr double usual_voxel = 2.5;
 constexpr double usual_voxels_of_radius = 4;
 
-/// Voxels together that memory and files can hold.
-constexpr double most_voxels = 1e9;
-
 void check_number_of_voxels(const Section& in, double across, double along) {
   const double voxels = across * across * along;
   if (voxels <= most_voxels) return;
   const bool counted = in.has("counts");
-  in.refuse(counted ? "counts" : "voxel_size", (counted ? "numbers that give" : "a length that gives") +
-                                                   std::string(" at most 1e9 voxels, not ") + shown(voxels));
+  in.refuse(counted ? "counts" : "voxel_size",
+            std::string(counted ? "numbers that give" : "a length that gives") + " at most " +
+                shown(most_voxels) + " voxels, not " + shown(voxels));
 }
 
 /// A number of records, as a time.

@@ -13,6 +13,10 @@ inline constexpr double windows_per_turn = 20;
 /// Most voxels or slices along an axis, which memory and files can hold.
 inline constexpr int most_along_axis = 10000;
 
+/// Most voxels together: a window of their velocity, 24 bytes each, is one chunk of an HDF5 file, which may
+/// have 4 GiB.
+inline constexpr double most_voxels = 1.7e8;
+
 /// Length along the axis that slurry and balls can reach, m.
 double axial_reach(const Geometry& geometry);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_averages.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/surface/pi.hpp"
 
@@ -25,6 +27,16 @@ int number_of(double length, double size) {
   return std::clamp(static_cast<int>(std::lround(length / size)), 1, most_rings);
 }
 
+/// The usual numbers are few, so that one of the keys that is given makes them many.
+void require_few_voxels(const Section& in, const Rings& rings) {
+  const double voxels = 1.0 * rings.radial * rings.azimuthal * rings.axial;
+  if (voxels <= most_voxels) return;
+  for (const char* key : {"radial", "azimuthal", "axial"})
+    if (in.has(key))
+      in.refuse(key,
+                "with the other two numbers at most " + shown(most_voxels) + " voxels, not " + shown(voxels));
+}
+
 }  // namespace
 
 Rings read_rings(const Section& in, const Geometry& geometry, double diameter) {
@@ -37,6 +49,7 @@ Rings read_rings(const Section& in, const Geometry& geometry, double diameter) {
                                quarters * number_of(2 * pi * middle * radius / quarters, size));
   rings.axial = in.integer("axial", whole_number("layers along the axis", 1, most_rings),
                            number_of(geometry.length, size));
+  require_few_voxels(in, rings);
   return rings;
 }
 

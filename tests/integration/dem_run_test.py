@@ -251,6 +251,10 @@ class DemRun(unittest.TestCase):
         before = sorted(path.name for path in (case / "dumps").iterdir())
         run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only")
         self.assertEqual(sorted(path.name for path in (case / "dumps").iterdir()), before)
+        deck = (case / "dem" / "in.mill").read_text()
+        with self.assertRaisesRegex(RunError, "in.mill: the existing run has another mill.yaml, .* its deck is kept"):
+            run(case, "millDem", "mill.yaml", "--case", ".", "--deck-only", "--set", "dem.seed=4")
+        self.assertEqual((case / "dem" / "in.mill").read_text(), deck)
 
         (case / "mill.yaml").write_text(MILL.replace("duration: 1.0", "duration: 0.05"))
         with self.assertRaisesRegex(RunError,

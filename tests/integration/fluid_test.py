@@ -291,9 +291,12 @@ class Passes(FluidCase):
         self.assertEqual(list(read_dumps(case / "pass_3"))[0], steps[-1])
         self.assertAlmostEqual(read_json(case / "pass_3" / "dumps" / "run.json")["begin_s"], 0.4, delta=1e-9)
         self.assertFalse((case / "pass_3" / "dumps" / "fluid.csv").exists())
-        # Killed before its first restart file, it begins again with the other's
+        # Complete, it needs no restart file
         for path in (case / "pass_2" / "dem").glob("restart.*"):
             path.unlink()
+        self.assertIn("nothing to do", run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew"))
+        # Killed before its first restart file, it begins again with the other's
+        (case / "pass_2" / "dumps" / "run.json").unlink()
         run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew")
         self.assertEqual(list(read_dumps(case / "pass_2")), list(steps))
 

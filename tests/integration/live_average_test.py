@@ -180,9 +180,24 @@ class LiveAverages(unittest.TestCase):
         self.assertIn("nothing to do", log)
         self.assert_same(case / "solids.h5", case / "kept.h5", 0, but=())
         self.assertNotIn("solids.h5", self.run_mill(case, *NO_DUMPS, "--resume"))
+        for name in ("solids.json", "solids.xdmf"):
+            (case / name).unlink()
+            self.run_mill(case, *NO_DUMPS, "--resume")
+            self.assertTrue((case / name).is_file())
         # As of an earlier run of the same plan, where this one was killed before it wrote its own
         os.utime(case / "solids.h5", (0, 0))
         self.assertIn("solids.h5", self.run_mill(case, *NO_DUMPS, "--resume"))
+        # It is kept whatever has become of the files from which it would resume
+        kept = {path: path.read_bytes() for path in (case / "dem").glob("*[0-9]") if path.suffix[1:].isdigit()}
+        self.assertEqual({path.stem for path in kept}, {"restart", "averages_1"})
+        for path in kept:
+            path.unlink()
+        self.assertIn("nothing to do", self.run_mill(case, *NO_DUMPS, "--resume"))
+        with self.assertRaisesRegex(RunError, "no complete restart file with the averages of its step"):
+            self.run_mill(case, *NO_DUMPS, "--resume", "--set", "dem.duration=0.2")
+        self.assertTrue((case / "dumps" / "run.json").exists())
+        for path, content in kept.items():
+            path.write_bytes(content)
         with self.assertRaisesRegex(RunError, r"run.json: the run wrote no dumps \(dem.dumps: no\): its averages"):
             run(case, "millAverage", "mill.yaml", "--case", ".")
         with self.assertRaisesRegex(RuntimeError, r"no dump.<step>.txt, because the run wrote none \(dem.dumps: no\)"):
@@ -193,6 +208,14 @@ class LiveAverages(unittest.TestCase):
         run(case, "millMesh", "mill.yaml", "--case", "next", "--walls")
         run(case, "millDem", "mill.yaml", "--case", "next", "--continue", ".", *NO_DUMPS)
         self.assertAlmostEqual(read_json(case / "next" / "solids.json")["time0_s"], 0.15, delta=1e-6)
+
+    def test_averages_beyond_their_tolerance_fail_each_time(self):
+        case = self.make_case(MILL.replace("duration: 0.2", "duration: 0.06"))
+        part = "--box -0.03 -0.03 0 0.01 0.03 0.03 --shape 5 10 5 --window 0.02 --tolerance 0.01 -o part.h5"
+        for options in ((), ("--resume",), ("--resume",)):
+            with self.assertRaisesRegex(RunError, "the averages are beyond their --tolerance"):
+                self.run_mill(case, "--average", part, *options)
+        self.assertTrue((case / "part.h5").is_file())
 
     def test_averages_of_a_steady_charge_have_whole_windows_since_it_is_steady(self):
         case = self.make_case(MILL.replace("start: 0.05", "start: steady"))

@@ -58,6 +58,7 @@ class Align(Case):
         self.assertAlmostEqual(align(self.case), 0.02)
         self.assertEqual(self.names("processor0"), ["0", "0.02"])
         self.assertEqual(self.names("dem"), ["fluid.json", "restart.1000", "restart.3000"])
+        self.assertEqual(self.names("dumps"), [], "millDem keeps a complete run")
 
     def test_begins_anew_without_a_common_time(self):
         self.make([0.02], ["0.01"])

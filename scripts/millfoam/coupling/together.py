@@ -57,7 +57,7 @@ def restart_times(case: Path) -> dict[Path, float]:
 def align(case: Path) -> float:
     """Makes both programs resume at the same time: removes what one of them has beyond the latest time that both
     have, and returns that time, s. 0: they begin anew. Balls that have ended would not meet the flow again, so both
-    compute the last piece anew."""
+    compute the last piece anew; run.json, which marks their run as complete, goes."""
     restarts = restart_times(case)
     end = max(restarts.values(), default=0.0) if (case / "dumps" / "run.json").is_file() else np.inf
     folders = flow_folders(case)
@@ -67,6 +67,7 @@ def align(case: Path) -> float:
         met = all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders)
         if met and at < end:
             common = max(common, at)
+    (case / "dumps" / "run.json").unlink(missing_ok=True)
     for path, at in restarts.items():
         if at > common + interval:
             path.unlink()

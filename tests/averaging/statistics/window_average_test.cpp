@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "averaging/deposition/exact_box_deposition.hpp"
+#include "averaging/files/solids_file.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -150,6 +151,35 @@ TEST_F(TwoVoxels, AboveACapGiveTheExcessToTheirNeighbours) {
 TEST_F(TwoVoxels, ACapThatLeavesNoRoomIsRefused) {
   limits.solidity_cap = 0.2;
   EXPECT_THROW(average_of(1), std::runtime_error);
+}
+
+TEST(WindowAverage, TailsOfSmoothingNearTheSmallestNumbersAreStoredAsEmptyCells) {
+  const BoxGrid two_voxels({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  RecordSums record;
+  record.cell_volumes = {1, 1};
+  // A ball of 4 mm and 1 m/s in both; times the diameter, the volume in the second one is 0
+  for (const double volume : {0.25, 5e-324})
+    for (const double value : {volume, volume, 0.0, 0.0, volume / 0.004, volume * 0.004, volume, volume})
+      record.values.push_back(value);
+  ASSERT_EQ(record.values.size(), 2 * RecordSums::columns);
+  WindowMoments moments(2);
+  moments.add(record);
+  WindowAverage window = average(moments, {});
+  EXPECT_EQ(window.mean.solidity, (std::vector<double>{0.25, 0}));
+  EXPECT_NEAR(window.mean.diameter43[0], 0.004, 1e-15);
+  for (const double value : {window.mean.diameter[1], window.mean.diameter43[1], window.mean.velocity[3],
+                             window.number[1], window.velocity_deviation[3]})
+    EXPECT_EQ(value, 0);
+
+  const TemporaryFolder folder;
+  window.time.end = 1;
+  SolidsHeader header;
+  header.timestep = 1e-5;
+  header.method = "exact";
+  SolidsWriter writer(folder / "solids.h5", two_voxels, header);
+  writer.append(window);
+  writer.finish();
+  EXPECT_EQ(SolidsReader(folder / "solids.h5").read_window(0).solidity, window.mean.solidity);
 }
 
 }  // namespace

@@ -97,5 +97,20 @@ TEST(WindowMoments, ClearedStartAfresh) {
   EXPECT_EQ(moments.packed(), moments_of(records, 5, 9).packed());
 }
 
+TEST(WindowMoments, CellsThatOnlyTailsOfSmoothingReachAreNotOccupied) {
+  RecordSums record;
+  record.cell_volumes.assign(cells, 0.5);
+  record.values.assign(cells * RecordSums::columns, 0.0);
+  const std::vector<double> solidities{0.3, 2e-6, 1e-7, 1e-40, 0};
+  for (std::size_t c = 0; c < cells; ++c) {
+    record.at(c, RecordSums::volume) = 0.5 * solidities[c];
+    record.at(c, RecordSums::balls) = 10 * solidities[c];
+  }
+  WindowMoments moments(cells);
+  moments.add(record);
+  EXPECT_EQ(moments.occupied(), 2);
+  EXPECT_DOUBLE_EQ(moments.balls(), 10 * (0.3 + 2e-6 + 1e-7)) << "all balls are counted";
+}
+
 }  // namespace
 }  // namespace millfoam::averaging

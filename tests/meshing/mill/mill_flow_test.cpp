@@ -85,6 +85,16 @@ TEST(Voxels, by_counts_end_at_the_shell) {
             std::string::npos);
 }
 
+TEST(Voxels, are_so_few_that_a_window_of_their_velocity_fits_into_a_chunk_of_a_file) {
+  const auto averages = [](const std::string& along) {
+    return bare_mill + "averages: {counts: {across: 1000, along: " + along + "}}\n";
+  };
+  EXPECT_EQ(mill_of(averages("170")).averages.voxels.shape[2], 170);
+  EXPECT_LT(170e6 * 3 * sizeof(double), 4.0 * (1 << 30));
+  EXPECT_NE(refusal_of(averages("171")).find("'averages.counts'"), std::string::npos);
+  EXPECT_NE(refusal_of(averages("171")).find("at most 1.7e+08 voxels, not 1.71e+08"), std::string::npos);
+}
+
 TEST(Voxels, of_the_slurry_are_as_thick_as_the_layers_where_their_number_is_open) {
   const Mill mill = mill_of(bare_mill, {"flow.averages.counts.across=20", "resolution.layers=7"});
   EXPECT_EQ(mill.flow.averages.voxels.shape, (std::array<int, 3>{20, 20, 7}));

@@ -172,6 +172,8 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   EXPECT_TRUE(says(set("charge.level=0.5"), "up to the mill's"));
   EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the impeller's tips"));
   EXPECT_TRUE(says(set("flow.turns=3"), "without it the mill has a dry run alone"));
+  EXPECT_TRUE(
+      says(set("averages={azimuthal: 1000, axial: 1000, radial: 200}"), "at most 1.7e+08 voxels, not 2e+08"));
   const std::string slurry = "slurry={density: 1000, plastic_viscosity: 0.001, yield_stress: 0, level: ";
   EXPECT_TRUE(says(set(slurry + "0.4}"), "above 0 and below the mill's"));
   const auto wet = [&](const std::string& change) {

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/resumption.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "dem_driver/mill_key.hpp"
+#include "dem_driver/output_check.hpp"
+#include "dem_driver/segments.hpp"
+#include "meshing/files/text_numbers.hpp"
+
+namespace millfoam::dem_driver {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
+constexpr char deck_kept[] = ", so its deck is kept; a run without --deck-only and --resume replaces it";
+
+/// What identifies a run of any ranks and length: its deck without the lines that depend on these.
+std::string identity(const std::string& deck) {
+  std::istringstream in(deck);
+  std::string kept;
+  for (std::string line; std::getline(in, line);) {
+    const auto begins = [&](const std::string& start) { return line.rfind(start, 0) == 0; };
+    const bool of_length = begins("run ") && line.find(" upto ") != std::string::npos;
+    const bool of_restarts = line.find(" ave/histo ") != std::string::npos;
+    if (!begins("processors ") && !begins("thermo ") && !of_length && !of_restarts) kept += line + '\n';
+  }
+  return kept;
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Throws std::runtime_error, which ends with `hence`, when the run in the folder has another deck, or none.
+void require_same_run(const CaseFolder& folder, const std::string& deck, const char* hence) {
+  if (!fs::exists(folder.deck()))
+    throw std::runtime_error(folder.deck().string() + ": no such file, expected the deck of the run in " +
+                             folder.root.string() + hence);
+  if (identity(read_text(folder.deck())) != identity(deck))
+    throw std::runtime_error(
+        folder.deck().string() +
+        ": the existing run has another mill.yaml, other walls, another fluid, other averages or another "
+        "begin" +
+        hence);
+}
+
+/// Throws when the run in the folder cannot be resumed at that step.
+void require_resumable(const CaseFolder& folder, const DemPlan& plan, long step) {
+  if (step > plan.end_step()) {
+    const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
+    throw KeyError("dem.duration", seconds(plan.turning_steps),
+                   "at least the " + seconds(step - plan.begin) + " s that the run in " +
+                       folder.root.string() + " has reached" + otherwise);
+  }
+  const long expected = plan.dumps > 0 ? (step - plan.begin) / plan.step.steps_per_record + 1 : 0;
+  const long found = count_dumps_until(folder, step);
+  if (found != expected)
+    throw std::runtime_error(folder.dumps().string() + ": " + std::to_string(found) + " dumps up to step " +
+                             std::to_string(step) + ", expected " + std::to_string(expected) +
+                             ": the run has lost some" + otherwise);
+  const std::string complaint = contacts_complaint(folder, plan, step);
+  if (!complaint.empty()) throw std::runtime_error(complaint + otherwise);
+}
+
+/// The last step of the complete run in the folder.
+long end_of_complete_run(const CaseFolder& folder) {
+  try {
+    return read_run_file(folder.run_file()).end_step;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(error.what() + std::string(otherwise));
+  }
+}
+
+/// The last restart file of this run from which it resumes, if any.
+std::optional<long> last_usable_restart(const CaseFolder& folder, const DemPlan& plan, std::ostream& out) {
+  const auto restarts = find_restarts(folder);
+  // That of the run's begin is another run's
+  if (restarts.empty() || restarts.back().step <= plan.begin) return std::nullopt;
+  const auto step = last_good_restart(folder, plan);
+  if (!step || *step != restarts.back().step)
+    out << restarts.back().file.string()
+        << ": this file, or a dump before it, is not complete and is not used\n";
+  if (!step || *step <= plan.begin) return std::nullopt;
+  return step;
+}
+
+}  // namespace
+
+std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
+                              std::ostream& out) {
+  const bool complete = fs::exists(folder.run_file());
+  const auto restarts = find_restarts(folder);
+  const bool interrupted =
+      fs::exists(folder.deck()) && !restarts.empty() && restarts.back().step > plan.begin;
+  if (!complete && !interrupted) return std::nullopt;
+  require_same_run(folder, deck, otherwise);
+  if (complete) {
+    const long end = end_of_complete_run(folder);
+    if (end >= plan.end_step()) {
+      require_resumable(folder, plan, end);
+      return end;
+    }
+  }
+  const auto step = last_usable_restart(folder, plan, out);
+  if (step) {
+    require_resumable(folder, plan, *step);
+  } else if (complete) {
+    throw std::runtime_error(folder.dem().string() +
+                             ": no complete restart file with the averages of its step, expected one from "
+                             "which the complete run is made longer" +
+                             otherwise);
+  }
+  return step;
+}
+
+void require_deck_of_run(const CaseFolder& folder, const std::string& deck) {
+  const bool complete = fs::exists(folder.run_file());
+  const bool begun =
+      fs::exists(folder.deck()) && (!find_restarts(folder).empty() || !find_dumps(folder).empty());
+  if (complete || begun) require_same_run(folder, deck, deck_kept);
+}
+
+}  // namespace millfoam::dem_driver

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "dem_driver/case_folder.hpp"
+#include "dem_driver/deck.hpp"
+
+namespace millfoam::dem_driver {
+
+/// The step at which a run of this same deck resumes: that of its last complete restart file, or the last
+/// step of a complete run, which needs no restart file unless it is made longer. Nothing where the folder has
+/// neither a complete run nor a restart file of an interrupted one.
+/// @param deck  of the run that resumes; numbers of ranks and the length may differ from those of the
+/// folder's
+/// @param out  gets a sentence about a restart file that is not used
+/// Throws KeyError for a plan that is shorter than the run, and std::runtime_error naming the file and what
+/// was expected for another run, for lost dumps, and for a complete run that is to be made longer without a
+/// complete restart file. So nothing of a complete run is removed.
+std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
+                              std::ostream& out);
+
+/// Throws std::runtime_error when the folder has files of a run with another deck, or a complete run without
+/// one: a deck that is written alone, without a run, would give these files another identity.
+void require_deck_of_run(const CaseFolder& folder, const std::string& deck);
+
+}  // namespace millfoam::dem_driver

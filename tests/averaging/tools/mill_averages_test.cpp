@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the options of millAverage, and of millDem --average, change in the averages of a mill.
+#include "averaging/tools/mill_averages.hpp"
+
+#include <gtest/gtest.h>
+
+#include "averaging/statistics/time_windows.hpp"
+#include "averaging/tools/live_options.hpp"
+#include "tests/averaging/test_support.hpp"
+
+namespace millfoam::averaging {
+namespace {
+
+constexpr char mill_text[] = R"(
+geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
+speed: {fraction_of_critical: 0.7, sense: clockwise}
+charge: {classes: [{diameter: 0.004, mass: 0.015}], start_radius: 0.02}
+materials: {ball: glass, wall: HDPE}
+dem: {youngs_modulus: 1e7, settle_time: 0.1, duration: 0.2, record_interval: 0.005, seed: 3}
+slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
+averages: {voxel_size: 0.006, window: 0.03, start: 0.05, method: sample, template: 9}
+resolution: {cell_size: 0.003, layers: 4}
+)";
+
+constexpr char run_text[] = R"({"timestep_s": 1e-5, "begin_s": 0, "duration_s": 0.2, "dumps": 41})";
+
+/// A case of that mill with its dry run.
+class MillAverages : public ::testing::Test {
+ protected:
+  MillAverages() {
+    for (const char* name : {"dumps", "walls"}) std::filesystem::create_directory(folder_ / name);
+    folder_.write("dumps/run.json", run_text);
+    folder_.write("walls/shell.stl", "");
+    folder_.write("other.stl", "");
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// The options that millAverage makes of those on its command line; `fingerprint` is what it notes.
+  Options taken(const std::string& text) {
+    Options options;
+    CLI::App app;
+    declare(app, options);
+    if (!text.empty()) app.parse(text);
+    options.case_folder = path("");
+    fingerprint = take_from_mill(mill_, options);
+    return options;
+  }
+
+  LiveRequest live(const std::string& text) const {
+    return live_request(mill_, text, path(""), 0, 0.2, 1e-5);
+  }
+
+  /// Both programs must refuse it.
+  void expect_refused(const std::string& text, const std::string& sentence) {
+    for (const std::string& message : {message_of<std::invalid_argument>([&] { taken(text); }),
+                                       message_of<std::invalid_argument>([&] { live(text); })})
+      expect_named(message, {sentence + ", but the cells are those of the mill; expected --box",
+                             "--set averages.KEY=VALUE"});
+  }
+
+  TemporaryFolder folder_;
+  meshing::MillDescription mill_ = meshing::describe_mill(folder_.write("mill.yaml", mill_text));
+  const std::string averages_ = mill_.mill.fingerprint.averages;
+  std::string fingerprint;
+};
+
+TEST_F(MillAverages, WithoutOptionsTheyAreThoseOfTheMill) {
+  const Options options = taken("");
+  EXPECT_EQ(options.shape, (std::vector<int>{10, 10, 5}));
+  EXPECT_EQ(options.method, "sample");
+  EXPECT_EQ(options.template_points, 9);
+  EXPECT_EQ(options.periodic, std::vector<std::string>{"z"});
+  EXPECT_EQ(fingerprint, averages_);
+  EXPECT_NE(fingerprint, "");
+  EXPECT_EQ(live("").request.mill_averages, averages_);
+}
+
+TEST_F(MillAverages, AMethodOfTheOptionsReplacesTheMills) {
+  const Options exact = taken("--method exact");
+  EXPECT_EQ(exact.method, "exact");
+  EXPECT_EQ(exact.template_points, 9);
+  EXPECT_EQ(fingerprint, "") << "others than the mill's";
+  const Options finer = taken("--template 20");
+  EXPECT_EQ(finer.method, "sample");
+  EXPECT_EQ(finer.template_points, 20);
+  EXPECT_EQ(fingerprint, "");
+
+  const AverageRequest request = live("--method exact --template 20").request;
+  EXPECT_EQ(request.method, DepositionMethod::exact);
+  EXPECT_EQ(request.template_points, 20);
+  EXPECT_EQ(request.mill_averages, "");
+}
+
+TEST_F(MillAverages, WallsOfTheOptionsReplaceTheMills) {
+  EXPECT_EQ(taken("--inside " + path("other.stl")).walls, std::vector<std::string>{path("other.stl")});
+  EXPECT_EQ(fingerprint, "");
+  const AverageRequest request = live("--inside " + path("other.stl")).request;
+  EXPECT_EQ(request.walls, std::vector<std::filesystem::path>{path("other.stl")});
+  EXPECT_EQ(request.mill_averages, "");
+}
+
+TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {
+  expect_refused("--shape 4 5 6", "--shape is 4 5 6");
+  expect_refused("--frame turning", "--frame is turning");
+  expect_refused("--frame lab", "--frame is lab");
+  expect_refused("--components cylindrical", "--components is cylindrical");
+  expect_refused("--periodic x z", "--periodic is x z");
+}
+
+TEST_F(MillAverages, WithAGridOfTheirOwnTheOptionsDecideAlone) {
+  const Options options = taken("--cylinder 0 0.03 0 0.03 --shape 4 5 6 --periodic z --frame turning");
+  EXPECT_EQ(options.shape, (std::vector<int>{4, 5, 6}));
+  EXPECT_EQ(options.frame, "turning");
+  EXPECT_TRUE(options.walls.empty());
+  EXPECT_EQ(fingerprint, "");
+  const AverageRequest request = as_request(options);
+  EXPECT_EQ(request.method, DepositionMethod::exact);
+  EXPECT_EQ(request.template_points, 12);
+}
+
+TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
+  EXPECT_DOUBLE_EQ(*taken("").end, 0.2);
+  EXPECT_EQ(live("").end, taken("").end);
+  // Windows of 1667 steps of 1.8e-5 s are longer than 0.03 s: the fifth would end after the run
+  folder_.write("dumps/run.json", R"({"timestep_s": 1.8e-5, "duration_s": 0.2})");
+  EXPECT_DOUBLE_EQ(*taken("").end, 1.8e-5 * (2778 + 4 * 1667));
+  EXPECT_EQ(live_request(mill_, "", path(""), 0, 0.2, 1.8e-5).end, taken("").end);
+  folder_.write("dumps/run.json", R"({"duration_s": 0.2})");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"run.json", "timestep_s"});
+}
+
+/// Windows of 0.01 s over 3 s, and their end, of records at every 20th time-step.
+std::pair<WindowPlan, double> windows_of(double timestep) {
+  const double start = 0.5, end = 3.5;
+  const double last = last_whole_window(start, end, end, 0.01, timestep);
+  std::vector<long long> steps;
+  for (long long step = 0; static_cast<double>(step) * timestep <= end; step += 20) steps.push_back(step);
+  return {plan_windows(steps, {timestep, 20, 0.01, start, last}), last};
+}
+
+TEST(LastWholeWindow, WindowsThatAreNoWholeNumberOfStepsAreAllWhole) {
+  // 0.01 s are 333.33 and 333.66 steps, counted as 333 and 334
+  for (const double timestep : {3e-5, 0.01 / 333.66}) {
+    const auto [plan, last] = windows_of(timestep);
+    const long long length = whole_steps(0.01, timestep, "");
+    const long long from = whole_steps(0.5, timestep, ""), to = whole_steps(3.5, timestep, "");
+    EXPECT_EQ(plan.windows.size(), static_cast<std::size_t>((to - from) / length));
+    EXPECT_EQ(plan.windows.back().end, whole_steps(last, timestep, ""));
+    for (const WindowSpan& span : plan.windows) {
+      EXPECT_EQ(span.end - span.begin, length);
+      EXPECT_GE(span.records, static_cast<std::size_t>(length / 20));
+      EXPECT_FALSE(span.ends_short);
+    }
+  }
+}
+
+TEST(LastWholeWindow, OfWholeMultiplesAreThoseThatFit) {
+  const auto [plan, last] = windows_of(1e-5);
+  EXPECT_EQ(plan.windows.size(), 300u);
+  EXPECT_DOUBLE_EQ(last, 3.5);
+  EXPECT_DOUBLE_EQ(last_whole_window(0.5, 3.509, 3.5, 0.01, 1e-5), 3.5);
+  expect_named(message_of<std::invalid_argument>([] { last_whole_window(0.5, 0.505, 3.5, 0.01, 1e-5); }),
+               {"averages.window: 0.01 s", "only 0.005", "raise dem.duration"});
+}
+
+}  // namespace
+}  // namespace millfoam::averaging

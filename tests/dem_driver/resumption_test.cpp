@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/resumption.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "dem_driver/segments.hpp"
+#include "small_mill.hpp"
+
+namespace millfoam::dem_driver {
+namespace {
+
+using tests::message_of;
+using tests::small_mill;
+using tests::TemporaryFolder;
+
+const std::string deck = "# small drum\nprocessors 1 1 1\nrun 300 upto\n";
+const std::string other_deck = "# another drum\nprocessors 1 1 1\nrun 300 upto\n";
+
+DemPlan plan_of(double duration) {
+  meshing::Mill mill = small_mill();
+  mill.dem.duration = duration;
+  return plan_dem(mill);
+}
+
+/// A folder with the files of a run of 0.3 s that matter to the next one.
+class Resumption : public ::testing::Test {
+ protected:
+  Resumption() { prepare_folders(folder_); }
+
+  static void write(const std::filesystem::path& file, const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+  }
+  std::filesystem::path restart(long step) const {
+    return folder_.dem() / ("restart." + std::to_string(step));
+  }
+  /// What a run has left that has reached a step.
+  void run_to(long step) const {
+    write(folder_.deck(), deck);
+    for (long at = 0; at <= step; at += plan_.step.steps_per_record) {
+      std::ofstream out(folder_.dumps() / ("dump." + std::to_string(at) + ".txt"));
+      out << "ITEM: TIMESTEP\n" << at << "\nITEM: NUMBER OF ATOMS\n250\nBOX\n0 1\n0 1\n0 1\nITEM: ATOMS id\n";
+      for (int ball = 1; ball <= 250; ++ball) out << ball << '\n';
+    }
+    tests::write_restart(restart(step), {250});
+  }
+  void complete_run() const {
+    run_to(plan_.end_step());
+    write_run_file(folder_, small_mill(), plan_);
+  }
+  std::optional<long> step(const DemPlan& plan, const std::string& deck_of_plan = deck) {
+    return resumable(folder_, plan, deck_of_plan, said_);
+  }
+  /// Refused, and nothing is taken away.
+  void expect_refused(const DemPlan& plan, const std::string& words, const std::string& deck_of_plan = deck) {
+    const std::string message = message_of([&] { step(plan, deck_of_plan); });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_NE(message.find("cannot be resumed; without --resume it is replaced"), std::string::npos)
+        << message;
+  }
+
+  TemporaryFolder temporary_;
+  CaseFolder folder_{temporary_.path()};
+  DemPlan plan_ = plan_of(0.3);
+  DemPlan longer_ = plan_of(0.4);
+  std::ostringstream said_;
+};
+
+TEST_F(Resumption, AnEmptyFolderHasNoRun) {
+  EXPECT_EQ(step(plan_), std::nullopt);
+}
+
+TEST_F(Resumption, AnInterruptedRunResumesAtItsLastRestartFile) {
+  run_to(plan_.restart_steps);
+  EXPECT_EQ(step(plan_), plan_.restart_steps);
+  expect_refused(plan_, "another mill.yaml", other_deck);
+}
+
+TEST_F(Resumption, AnInterruptedRunWithoutAWholeRestartFileStartsAgain) {
+  run_to(plan_.restart_steps);
+  write(restart(plan_.restart_steps), "cut");
+  EXPECT_EQ(step(plan_), std::nullopt);
+  EXPECT_NE(said_.str().find("is not complete and is not used"), std::string::npos);
+  std::filesystem::remove(restart(plan_.restart_steps));
+  EXPECT_EQ(step(plan_), std::nullopt);
+}
+
+TEST_F(Resumption, ACompleteRunIsKeptWithoutItsRestartFileToo) {
+  complete_run();
+  EXPECT_EQ(step(plan_), plan_.end_step());
+  write(restart(plan_.end_step()), "damaged");
+  EXPECT_EQ(step(plan_), plan_.end_step());
+  std::filesystem::remove(restart(plan_.end_step()));
+  EXPECT_EQ(step(plan_), plan_.end_step());
+  expect_refused(plan_, "another mill.yaml", other_deck);
+}
+
+TEST_F(Resumption, ACompleteRunIsKeptWithoutTheStateOfItsAverages) {
+  plan_.averages = {"id"};
+  complete_run();
+  EXPECT_EQ(step(plan_), plan_.end_step());
+}
+
+TEST_F(Resumption, ACompleteRunOfWhichDumpsAreLostIsNotTakenForWhole) {
+  complete_run();
+  std::filesystem::remove(restart(plan_.end_step()));
+  std::filesystem::remove(folder_.dumps() / "dump.0.txt");
+  expect_refused(plan_, "30 dumps up to step " + std::to_string(plan_.end_step()) + ", expected 31");
+}
+
+TEST_F(Resumption, ACompleteRunIsMadeLongerFromItsRestartFileOrNotAtAll) {
+  complete_run();
+  EXPECT_EQ(step(longer_), plan_.end_step());
+  std::filesystem::remove(restart(plan_.end_step()));
+  expect_refused(longer_, "no complete restart file");
+  write(restart(plan_.end_step()), "damaged");
+  expect_refused(longer_, "no complete restart file");
+  tests::write_restart(restart(plan_.end_step()), {250});
+  longer_.averages = {"id"};
+  expect_refused(longer_, "no complete restart file with the averages of its step");
+}
+
+TEST_F(Resumption, ACompleteRunIsNotMadeShorter) {
+  complete_run();
+  std::filesystem::remove(restart(plan_.end_step()));
+  expect_refused(plan_of(0.2), "at least the 0.3 s");
+}
+
+TEST_F(Resumption, ACompleteRunWithoutItsDeckIsNotReplaced) {
+  complete_run();
+  std::filesystem::remove(folder_.deck());
+  expect_refused(plan_, folder_.deck().string() + ": no such file");
+}
+
+TEST_F(Resumption, ARunFileThatIsDamagedIsNamed) {
+  complete_run();
+  write(folder_.run_file(), "{");
+  expect_refused(plan_, folder_.run_file().string() + ": is not a JSON object");
+  write(folder_.run_file(), R"({"timestep_s": 0, "duration_s": 1})");
+  expect_refused(plan_, folder_.run_file().string() + ": 'duration_s' is no number of steps of 'timestep_s'");
+  write(folder_.run_file(), R"({"timestep_s": 1e-5})");
+  expect_refused(plan_, folder_.run_file().string() + ": no number 'duration_s'");
+}
+
+TEST_F(Resumption, ADeckAloneIsOneOfTheRunThatIsThere) {
+  const auto refusal = [&](const std::string& deck_alone) {
+    return message_of([&] { require_deck_of_run(folder_, deck_alone); });
+  };
+  EXPECT_EQ(refusal(deck), "");
+  write(folder_.deck(), deck);
+  EXPECT_EQ(refusal(other_deck), "") << "nothing was run with the deck that is there";
+  run_to(plan_.restart_steps);
+  EXPECT_EQ(refusal(deck), "");
+  const std::string message = refusal(other_deck);
+  EXPECT_EQ(message.find(folder_.deck().string() + ": the existing run has another mill.yaml"), 0u)
+      << message;
+  EXPECT_NE(message.find("a run without --deck-only and --resume replaces it"), std::string::npos) << message;
+  std::filesystem::remove(restart(plan_.restart_steps));
+  EXPECT_NE(refusal(other_deck), "") << "there are dumps";
+  prepare_folders(folder_);
+  write_run_file(folder_, small_mill(), plan_);
+  EXPECT_NE(refusal(other_deck), "") << "there is a complete run without dumps";
+  std::filesystem::remove(folder_.deck());
+  EXPECT_NE(refusal(deck), "") << "there is a complete run without a deck";
+}
+
+}  // namespace
+}  // namespace millfoam::dem_driver
