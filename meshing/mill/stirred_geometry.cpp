@@ -206,8 +206,7 @@ double read_stirred_speed(Section& in, const Geometry& geometry) {
       in.number("tip_speed", {"a speed of the impeller's tips in m/s from " + shown(slowest_tip) + " to " +
                                   shown(fastest_tip) + " (or the key angular_velocity)",
                               [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
-  const double sign =
-      in.choice("sense", {"clockwise", "anticlockwise"}, usual_sense) == "clockwise" ? -1 : 1;
+  const double sign = in.choice("sense", {"clockwise", "anticlockwise"}, usual_sense) == "clockwise" ? -1 : 1;
   return sign * tip / reach;
 }
 

@@ -67,7 +67,8 @@ void run_faces(const FacesOptions& options) {
     throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
   const Mill mill = options.mill.read().mill;
   if (mill.machine() == Machine::stirred)
-    throw std::runtime_error(options.mill.file + ": faces of a stirred mill are not written: expected a tumbling one");
+    throw std::runtime_error(options.mill.file +
+                             ": faces of a stirred mill are not written: expected a tumbling one");
   if (mill.geometry.ends == Ends::periodic)
     throw std::runtime_error(
         options.mill.file +

@@ -427,15 +427,14 @@ class Grates(RefusedTest):
         self.assert_says(case, "grateProperties", f"grate has no {kind}", "topoSet, in m")
 
     def test_a_zone_without_cells(self):
-        self.assert_empty_zone_refused("cells", """
-            { name grate; type cellZoneSet; action new; source boxToCell; box (20 -9 -9) (30 9 9); }""",
-            "cellZone grate; darcy 1e7;")
+        zone = "{ name grate; type cellZoneSet; action new; source boxToCell; box (20 -9 -9) (30 9 9); }"
+        self.assert_empty_zone_refused("cells", zone, "cellZone grate; darcy 1e7;")
 
     def test_a_zone_without_faces(self):
-        self.assert_empty_zone_refused("faces", """
+        zone = """
             { name found; type faceSet; action new; source boxToFace; box (20 -9 -9) (30 9 9); }
-            { name grate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }""",
-            "faces grate; loss 18;")
+            { name grate; type faceZoneSet; action new; source setToFaceZone; faceSet found; }"""
+        self.assert_empty_zone_refused("faces", zone, "faces grate; loss 18;")
 
     def test_a_plate_outside_of_a_grate(self):
         case = self.small()

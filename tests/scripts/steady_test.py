@@ -69,7 +69,6 @@ class NextTime(unittest.TestCase):
             found = next_time(mill(feed=FEED / 2), balance(end, feed=FEED / 2), 0)
             self.assertEqual(isinstance(found, End), ends, end)
 
-
     def test_a_stirred_mill_waits_for_its_surface_and_its_torque(self):
         for late, ends in ((100.0, False), (0.1, True)):  # s, in which they become steady
             columns = balance(12.0)

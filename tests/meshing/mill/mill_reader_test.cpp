@@ -254,8 +254,9 @@ TEST(ReadMill, holes_of_grates_need_slurryFoam) {
                         "sectors: 6", "sectors: 6, open_fraction: " + holes) +
                    "flow: {solver: interFoam}\n");
   };
-  EXPECT_NE(refused("0.4").find("'flow.solver' = interFoam: expected slurryFoam: only it knows the resistance"),
-            std::string::npos)
+  EXPECT_NE(
+      refused("0.4").find("'flow.solver' = interFoam: expected slurryFoam: only it knows the resistance"),
+      std::string::npos)
       << refused("0.4");
   EXPECT_EQ(refused("1").find("resistance"), std::string::npos) << refused("1");
 }
