@@ -108,7 +108,7 @@ class Direct(unittest.TestCase):
         self.assertLess(apart[0], 0.05)
         # Killed after the balls' end, before the stage was noted
         (folders / ".stages" / "flow").unlink()
-        self.assertIn("Balls and flow resume at the flow's time", run_mill(case, "mill.yaml"))
+        self.assertIn("Balls and flow are complete", run_mill(case, "mill.yaml"))
 
     def test_a_flow_without_its_balls_ends_with_a_sentence(self):
         case = self.copy("-alone")

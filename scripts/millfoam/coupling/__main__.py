@@ -18,6 +18,7 @@ from pathlib import Path
 import matplotlib
 
 from ..files.data_files import write_json
+from ..files.flow_record import read_flow_record
 from ..files.mill import read_mill
 from ..files.slurry_file import read_ball_forces
 from . import ball_forces, passes, table, together
@@ -57,10 +58,14 @@ def judge(case: Path, count: int) -> None:
 
 
 def run_direct(case: Path, before: Path, ranks: int, resume: bool) -> None:
-    """Runs balls and flow of a case until both have ended; `resume`: from the latest time that both have."""
+    """Runs balls and flow of a case until both have ended; `resume`: from the latest time that both have, and not at
+    all if both have ended."""
     balls = ["millDem", "mill.json", "--case", ".", "--continue", str(before), "--with-flow", together.EXCHANGE,
              "-np", str(ranks)]
     flow = ["slurryFoam"] if ranks == 1 else ["mpirun", "-np", str(ranks), "slurryFoam", "-parallel"]
+    if resume and (case / "dumps" / "run.json").is_file() and read_flow_record(case).complete:
+        print("Balls and flow are complete", file=sys.stderr)
+        return
     if resume:
         common = together.align(case)
         print(f"Balls and flow resume at the flow's time {common:g} s" if common else "Balls and flow begin anew",
