@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
 from held_flows import (Held, HoldUps, Kind, Stay, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
-                        expected_volume, read_all)
+                        expected_volume, late_turns, read_all)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -102,6 +102,12 @@ class Trials(unittest.TestCase):
                           "trial at 75 %, with balls: 4.000 l discharge 70.0 ± 2.0 ml/s"])
 
 
+class LateTurns(unittest.TestCase):
+    def test_are_those_of_the_last_half_and_at_least_those_that_were_judged(self):
+        for judged, end, turns in ((12.0, 20.0, 6), (12.0, 40.0, 10), (11.99, 16.0, 6), (0.5, 0.9, 1)):
+            self.assertEqual(late_turns(judged, end, turn=2.0), turns)
+
+
 class SteadyHoldUps(unittest.TestCase):
     """Trials of 40 and 100 ml/s at 3 and 5 l: 2 l for 60 ml/s, of which 1.6 l are in front of the grates."""
     TRIALS = (trial(5e-3, 1e-4), trial(3e-3, 4e-5))
@@ -134,7 +140,7 @@ class SteadyHoldUps(unittest.TestCase):
         base, wide = (held(f"fluid_75_65{change}", 65e-6, volume, law=None)
                       for change, volume in (("", 4e-3), ("_wide_lifters", 4.4e-3)))
         base = replace(base, steady=HoldUps(Mean(9e-3, 1e-5), Mean(8e-3, 1e-5)))
-        self.assertIn("hold-up over the judged turns in front of the grates +10.00",
+        self.assertIn("hold-up over the late turns in front of the grates +10.00",
                       "\n".join(study.lines_of([base, wide])))
         wide = replace(wide, steady=HoldUps(Mean(9e-3, 1e-5), Mean(8.8e-3, 1e-5)))
         self.assertIn("hold-up in front of the grates +10.00", "\n".join(study.lines_of([base, wide])))
@@ -183,7 +189,7 @@ class Table(unittest.TestCase):
         self.assertIn("coarse, 75 %, with balls: hold-up in front of the grates ~ feed^0.500", text)
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
-        self.assertRegex(text, r"coarse/high: hold-up over the judged turns \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+        self.assertRegex(text, r"coarse/high: hold-up over the late turns \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
 
     def test_a_changed_mill_is_compared_with_its_base_and_has_no_exponent(self):
         flows = [held("Beetstra_75_65", 65e-6, 3e-3),
@@ -191,7 +197,7 @@ class Table(unittest.TestCase):
                    for name, volume, whole in (("65", 4e-3, 1.1), ("65_wide_lifters", 4.4e-3, 1.0),
                                                ("131", 5e-3, 1.1)))]
         lines = list(study.lines_of(flows))
-        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up over the judged turns in "
+        self.assertTrue(any(line.startswith("coarse/fluid_75_65_wide_lifters: hold-up over the late turns in "
                                             "front of the grates +10.00 ± "
                                             "0.35 % from fluid_75_65's") for line in lines), lines)
         self.assertTrue(any("without balls: hold-up" in line and "(2 feeds)" in line for line in lines), lines)

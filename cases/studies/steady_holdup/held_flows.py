@@ -57,10 +57,10 @@ class HoldUps:
 
 @dataclass(frozen=True)
 class Held:
-    """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over the turns that were judged: hold-up
-    of the mill with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of
-    the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, at which
-    the discharge is the feed, if trials show them."""
+    """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over its late turns: hold-up of the mill
+    with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of the slurry's
+    centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, at which the discharge is
+    the feed, if trials show them."""
     mesh: str
     name: str
     case: MillCase
@@ -90,12 +90,12 @@ class Held:
 
     @property
     def measured(self) -> HoldUps:
-        """Over the judged turns."""
+        """Over the late turns."""
         return HoldUps(self.whole, self.chamber)
 
     @property
     def holdups(self) -> HoldUps:
-        """The steady ones or, without trials, those over the judged turns."""
+        """The steady ones or, without trials, those over the late turns."""
         return self.steady or self.measured
 
 
@@ -124,12 +124,18 @@ def axial_holdup(case: MillCase) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return found
 
 
+def late_turns(judged: float, end: float, turn: float) -> int:
+    """Number of the late turns of a flow that ends at flow time `end` (s), of which the time `judged` (s) was judged:
+    the whole turns of its last half, or those that were judged if they are more; one at least. turn: time of one, s."""
+    return max(int(max(judged, end / 2) / turn + 0.005), 1)
+
+
 def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
         raise RuntimeError("the flow has not come to its end")
     ended, case = read_json(folder / "steady.json", "steady"), case_with_flow(folder)
-    turns = max(int((ended["end_s"] - ended["begin_s"]) / case.turn + 0.005), 1)
+    turns = late_turns(ended["end_s"] - ended["begin_s"], ended["end_s"], case.turn)
     begin = ended["end_s"] - turns * case.turn
 
     def over_turns(times: np.ndarray, values: np.ndarray) -> Mean:

@@ -124,7 +124,7 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
 
 def comparisons(found: Sequence[Held]) -> Iterator[str]:
     """What flows from other starts and of changed mills hold, compared with the flow that they belong to: by their
-    steady hold-ups if both have them, otherwise by those over the judged turns. A changed mill may have no pulp
+    steady hold-ups if both have them, otherwise by those over their late turns. A changed mill may have no pulp
     lifters, so it is compared by what it holds in front of the grates."""
     for one in (one for one in found if not one.is_base):
         name = f"{one.mesh}/{one.name}"
@@ -136,7 +136,7 @@ def comparisons(found: Sequence[Held]) -> Iterator[str]:
         steady = one.steady and base.steady
         found_of_both = (flow.holdups if steady else flow.measured for flow in (one, base))
         ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
-        words = ("" if steady else "over the judged turns ") + ("in front of the grates " if one.kind.change else "")
+        words = ("" if steady else "over the late turns ") + ("in front of the grates " if one.kind.change else "")
         apart, share = ours - theirs, 100 / theirs.value
         yield (f"{name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, "
                f"after {one.end:.1f} s")
