@@ -114,6 +114,7 @@ class Direct(unittest.TestCase):
         case = self.copy("-alone")
         (case / "direct" / "walls" / "shell.stl").unlink()
         (case / "direct" / ".stages" / "flow").unlink()
+        (case / "direct" / "dumps" / "run.json").unlink()
         with self.assertRaisesRegex(RunError, "shell"):
             run_mill(case, "mill.yaml")
 
