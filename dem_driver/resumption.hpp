@@ -13,6 +13,8 @@ namespace millfoam::dem_driver {
 /// The step at which a run of this same deck resumes: that of its last complete restart file, or the last
 /// step of a complete run, which needs no restart file unless it is made longer. Nothing where the folder has
 /// neither a complete run nor a restart file of an interrupted one.
+/// @param folder  of the case
+/// @param plan  of the run that resumes
 /// @param deck  of the run that resumes; numbers of ranks and the length may differ from those of the
 /// folder's
 /// @param out  gets a sentence about a restart file that is not used

@@ -32,6 +32,7 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
 /// Whether all files that a request asks of a run are there (solids files, their .xdmf and their summaries),
 /// each written after the run was complete. Runs of equal plans have one id, so that this alone does not
 /// tell.
+/// @param request  of the averages
 /// @param run  of run.json
 bool are_written(const AverageRequest& request, const RunMetadata& run);
 
