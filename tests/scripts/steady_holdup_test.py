@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
 from held_flows import (Held, HoldUps, Kind, Stay, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
-                        expected_volume, late_turns, read_all)
+                        expected_volume, late_turns, read_all, scatter)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -37,7 +37,7 @@ def mill(speed=0.75, discharge_radius=0.0467):
 def held(name, feed, volume, law="Beetstra", mesh="coarse", error=1e-5, whole=1.1, **of_mill):
     case = SimpleNamespace(mill=mill(**of_mill), law=law, flow=SimpleNamespace(mesh=SimpleNamespace(cells=9515)))
     one = Mean(volume, error)
-    return Held(mesh, name, case, feed, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
+    return Held(mesh, name, case, feed, 10, Mean(whole * volume, error), one, Mean(feed, 1e-7), Mean(-0.05, 1e-4), 20.0,
                 "steady", "holds")
 
 
@@ -106,6 +106,38 @@ class LateTurns(unittest.TestCase):
     def test_are_those_of_the_last_half_and_at_least_those_that_were_judged(self):
         for judged, end, turns in ((12.0, 20.0, 6), (12.0, 40.0, 10), (11.99, 16.0, 6), (0.5, 0.9, 1)):
             self.assertEqual(late_turns(judged, end, turn=2.0), turns)
+
+
+class TurnsScatter(unittest.TestCase):
+    TRIALS = (trial(5e-3, 1e-4), trial(3e-3, 4e-5))
+
+    def flow(self, turns):
+        """Turns of 1 s with independent discharges, 100 times in each, of a mill that discharges 60 ml/s more with 2 l
+        more."""
+        random, times = np.random.default_rng(1), np.arange(100 * turns + 1) / 100
+        held_so_far, discharge, holdup = 4e-3, np.empty(len(times)), np.empty(len(times))
+        for k in range(len(times)):
+            if k % 100 == 0:
+                by_chance = random.normal(0, 8e-6)
+            discharge[k] = 65e-6 + by_chance + (held_so_far - 4e-3) * 6e-5 / 2e-3
+            held_so_far += (65e-6 - discharge[k]) / 100
+            holdup[k] = held_so_far
+        case = SimpleNamespace(mill=mill(), law="Beetstra", turn=1.0, balance={
+            "Time": times, "discharge": discharge, "holdUp": holdup})
+        return replace(held("Beetstra_75_65", 65e-6, 4e-3), case=case, end=float(turns), turns=turns)
+
+    def test_the_hold_up_s_follows_from_the_discharge_s(self):
+        found = scatter(self.flow(3000), self.TRIALS)
+        self.assertAlmostEqual(found.discharge, 8e-6, delta=4e-7)
+        self.assertAlmostEqual(found.expected, 8e-6 * np.sqrt(0.5 * 2e-3 / 6e-5), delta=2e-6)
+        self.assertAlmostEqual(found.holdup / found.expected, 1, delta=0.1)
+
+    def test_it_is_listed_for_more_than_one_turn_and_with_trials(self):
+        flow = self.flow(20)
+        self.assertRegex("".join(study.scatter_lines([flow], self.TRIALS)), r"^coarse/Beetstra_75_65: 20 turns scatter "
+                         r"by \d\.\d ml/s and \d+ ml; by their discharges \d+ ml are expected$")
+        self.assertEqual(list(study.scatter_lines([flow], ())), [])
+        self.assertEqual(list(study.scatter_lines([replace(flow, turns=1)], self.TRIALS)), [])
 
 
 class SteadyHoldUps(unittest.TestCase):

@@ -57,14 +57,15 @@ class HoldUps:
 
 @dataclass(frozen=True)
 class Held:
-    """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); over its late turns: hold-up of the mill
-    with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s), height of the slurry's
-    centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, at which the discharge is
-    the feed, if trials show them."""
+    """A flow that came to its end: mesh; name; its mill and case; feed (m3/s); number of its late turns, and over them:
+    hold-up of the mill with its pulp lifters (m3), and of what lies in front of the grates (m3), discharge (m3/s),
+    height of the slurry's centre (m); flow time of the end (s); why it ended; the verdict in words; steady hold-ups, at
+    which the discharge is the feed, if trials show them."""
     mesh: str
     name: str
     case: MillCase
     feed: float
+    turns: int
     whole: Mean
     chamber: Mean
     discharge: Mean
@@ -92,6 +93,11 @@ class Held:
     def measured(self) -> HoldUps:
         """Over the late turns."""
         return HoldUps(self.whole, self.chamber)
+
+    def of_turns(self, column: str) -> np.ndarray:
+        """Means of a column of slurryBalance over each of the late turns [turns]."""
+        turn, columns = self.case.turn, self.case.balance
+        return batch_means(columns["Time"], columns[column], self.end - self.turns * turn, turn, self.turns)
 
     @property
     def holdups(self) -> HoldUps:
@@ -142,7 +148,7 @@ def read_held(mesh: str, folder: Path) -> Held:
         return block_mean(batch_means(times, values, begin, case.turn, turns))
     columns = case.balance
     _, moments, slices = axial_holdup(case)
-    return Held(mesh, folder.name, case, case.feed or 0.0, over_turns(columns["Time"], columns["holdUp"]),
+    return Held(mesh, folder.name, case, case.feed or 0.0, turns, over_turns(columns["Time"], columns["holdUp"]),
                 over_turns(moments, slices.sum(axis=1)), over_turns(columns["Time"], columns["discharge"]),
                 over_turns(columns["Time"], columns["y"]), ended["end_s"], ended["reason"], ended["found"])
 
@@ -199,17 +205,24 @@ def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
     return float(np.clip(volume, 0.2 * more.volume, 1.5 * more.volume))
 
 
-def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
-    """Hold-ups of a flow, moved along the straight line through the two trials of its kind, which are on coarse cells,
-    to where its discharge is its feed. The errors are those of hold-up, discharge and slope. None without these trials,
-    or if they do not show, by two standard errors, that more slurry discharges more."""
+def trials_of(one: Held, trials: Sequence[Trial]) -> tuple[Trial, Trial] | None:
+    """The two trials of a flow's kind, which are on coarse cells, the one with less slurry first. None without them, or
+    if they do not show, by two standard errors, that more slurry discharges more."""
     pair = sorted((trial for trial in trials if trial.kind == one.kind), key=lambda trial: trial.volume)
     if len(pair) != 2:
         return None
+    gain = pair[1].discharge - pair[0].discharge
+    return (pair[0], pair[1]) if gain.value > 2 * gain.error else None
+
+
+def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
+    """Hold-ups of a flow, moved along the straight line through trials_of it to where its discharge is its feed. The
+    errors are those of hold-up, discharge and slope. None without these trials."""
+    pair = trials_of(one, trials)
+    if pair is None:
+        return None
     less, more = pair
     gain, lacking = more.discharge - less.discharge, Mean(one.feed) - one.discharge
-    if not gain.value > 2 * gain.error:
-        return None
 
     def moved(held: Mean, way: float) -> Mean:
         of_lack = way / gain.value
@@ -217,6 +230,30 @@ def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
         errors = held.error, of_lack * lacking.error, way_to_go * gain.error / gain.value
         return Mean(held.value + way_to_go, float(np.linalg.norm(errors)))
     return HoldUps(moved(one.whole, more.volume - less.volume), moved(one.chamber, more.chamber - less.chamber))
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Standard deviations of the means of single late turns: of the discharge (m3/s) and of the hold-up (m3); and the
+    hold-up's that follows from the discharge's (m3)."""
+    discharge: float
+    holdup: float
+    expected: float
+
+
+def scatter(one: Held, trials: Sequence[Trial]) -> Scatter | None:
+    """Scatter of a flow; None without trials_of it.
+
+    A hold-up V sums up what the discharges Q of single turns differ from the feed, and returns to its steady value
+    within the time dV/dQ of the trials. If these differences are independent, its variance is var(Q) T/2 dV/dQ, where T
+    is the time of a turn (Ornstein & Uhlenbeck 1930, Phys. Rev. 36:823)."""
+    pair = trials_of(one, trials)
+    if pair is None:
+        return None
+    less, more = pair
+    back = (more.volume - less.volume) / (more.discharge - less.discharge).value
+    discharge, holdup = (float(one.of_turns(name).std(ddof=1)) for name in ("discharge", "holdUp"))
+    return Scatter(discharge, holdup, discharge * float(np.sqrt(one.case.turn * back / 2)))
 
 
 def named(folder: Path, read: Callable[[Path], Found]) -> Found:

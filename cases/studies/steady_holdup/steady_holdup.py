@@ -19,7 +19,7 @@ from millfoam.readings import models
 from millfoam.readings.means import Mean
 
 from held_flows import (Held, Stay, Trial, at_feed, by_groups, expected_volume, named, read_all, read_held, read_trial,
-                        read_trials)
+                        read_trials, scatter)
 
 STEADY, STEADY_IN_FRONT = "steady, l", "steady, in front of the grates, l"
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
@@ -111,6 +111,15 @@ def trial_lines(trials: Sequence[Trial]) -> Iterator[str]:
     """Hold-up and discharge of each trial."""
     for one in sorted(trials, key=lambda one: (one.kind, one.volume)):
         yield f"trial at {one.kind}: {1e3 * one.volume:.3f} l discharge {one.discharge.text('ml/s', 1e6, '.1f')}"
+
+
+def scatter_lines(found: Sequence[Held], trials: Sequence[Trial]) -> Iterator[str]:
+    """By how much single turns differ, for flows of more than one late turn with trials."""
+    for one in found:
+        apart = scatter(one, trials) if one.turns > 1 else None
+        if apart:
+            yield (f"{one.mesh}/{one.name}: {one.turns} turns scatter by {1e6 * apart.discharge:.1f} ml/s and "
+                   f"{1e6 * apart.holdup:.0f} ml; by their discharges {1e6 * apart.expected:.0f} ml are expected")
 
 
 def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
@@ -237,7 +246,7 @@ def main() -> None:
         writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
         writer.writeheader()
         writer.writerows(rows)
-    lines = [*lines_of(found), "", *trial_lines(trials), *stay_lines(stays),
+    lines = [*lines_of(found), "", *trial_lines(trials), *scatter_lines(found, trials), *stay_lines(stays),
              *(f"not finished: {text}" for text in missing)]
     (options.folder / "steady_holdup.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))

@@ -2,6 +2,8 @@
 """Means of a series over batches of equal time, by turns of the mill, and the errors that follow from them."""
 import numpy as np
 
+from .means import block_mean
+
 BATCHES = 5  # at least, of each half of a series
 
 
@@ -46,9 +48,9 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
 
 
 def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
-    """Standard error of the mean of values from `begin` (s) on, from the means of the last whole turns of a mill whose
-    turn takes `turn` s; NaN if fewer than two fit."""
+    """Standard error (block_mean) of the mean of values from `begin` (s) on, from the means of the last whole turns of
+    a mill whose turn takes `turn` s; NaN if fewer than two fit."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
     if turns < 2:
         return np.nan
-    return float(batch_means(times, values, times[-1] - turns * turn, turn, turns).std(ddof=1) / np.sqrt(turns))
+    return block_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)).error
