@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Standard errors of means over successive blocks of time: readings.means."""
+"""Standard errors of means over successive blocks and turns: readings.means, and what uses them."""
 import unittest
 
 import numpy as np
 
-from millfoam.readings.means import CORRELATED, block_mean, mean_variance
+from millfoam.readings.batches import error_over_turns
+from millfoam.readings.means import CORRELATED, block_mean, mean_variance, turns_mean
+from millfoam.readings.stirred_power import mean_from
 
 
 def series(correlation, count, seed):
@@ -18,24 +20,25 @@ def series(correlation, count, seed):
 
 
 def error_over_spread(correlation, count):
-    """Root mean square of block_mean's errors over the spread of the means that it has errors of."""
-    found = [block_mean(series(correlation, count, seed)) for seed in range(1500)]
+    """Root mean square of turns_mean's errors over the spread of the means that it has errors of."""
+    found = [turns_mean(series(correlation, count, seed)) for seed in range(1500)]
     return np.sqrt(np.mean([one.error**2 for one in found])) / np.std([one.value for one in found])
 
 
 class MeansTest(unittest.TestCase):
-    def test_few_blocks_have_the_plain_error(self):
-        values = np.arange(CORRELATED - 1.0)
-        self.assertAlmostEqual(block_mean(values).error, values.std(ddof=1) / np.sqrt(len(values)))
-        self.assertTrue(np.isnan(block_mean([1.0]).error))
+    def test_blocks_and_few_turns_have_the_plain_error(self):
+        few, many = np.arange(CORRELATED - 1.0), np.arange(3.0 * CORRELATED)
+        for found, values in ((turns_mean(few), few), (block_mean(few), few), (block_mean(many), many)):
+            self.assertAlmostEqual(found.error, values.std(ddof=1) / np.sqrt(len(values)))
+        self.assertTrue(np.isnan(turns_mean([1.0]).error))
 
-    def test_equal_blocks_have_no_error(self):
+    def test_equal_turns_have_no_error(self):
         for count in (2, 3 * CORRELATED):
-            self.assertEqual(block_mean(np.full(count, 2.5)).error, 0)
+            self.assertEqual(turns_mean(np.full(count, 2.5)).error, 0)
 
-    def test_blocks_that_alternate_have_the_plain_error(self):
+    def test_turns_that_alternate_have_the_plain_error(self):
         values = np.tile([-1.0, 1.0], CORRELATED)
-        self.assertAlmostEqual(block_mean(values).error, values.std(ddof=1) / np.sqrt(len(values)))
+        self.assertAlmostEqual(turns_mean(values).error, values.std(ddof=1) / np.sqrt(len(values)))
 
     def test_variance_of_a_mean(self):
         # Three values with correlations r, r, r^2: (3 + 4 r + 2 r^2)/9
@@ -44,17 +47,26 @@ class MeansTest(unittest.TestCase):
         # Few values of which neighbours are nearly equal are like a single one
         self.assertAlmostEqual(mean_variance(1 - 1e-9, 7), 1)
 
-    def test_error_of_independent_blocks_is_hardly_larger(self):
+    def test_error_of_independent_turns_is_hardly_larger(self):
         # Neighbours that are alike by chance count, those that differ by chance do not
-        for count, most in ((2 * CORRELATED, 1.3), (5 * CORRELATED, 1.15)):
+        for count, most in ((CORRELATED, 1.35), (5 * CORRELATED, 1.15)):
             self.assertGreater(error_over_spread(0, count), 1)
             self.assertLess(error_over_spread(0, count), most)
 
-    def test_error_of_blocks_that_are_alike_is_not_too_small(self):
-        # The plain error is 0.32 and 0.17 of the spread here
-        for correlation in (0.8, 0.93):
-            self.assertGreater(error_over_spread(correlation, 5 * CORRELATED), 0.9)
-            self.assertLess(error_over_spread(correlation, 5 * CORRELATED), 1.6)
+    def test_error_of_turns_that_are_alike(self):
+        # The plain errors are 0.32 and 0.17 of the spread
+        for correlation, count, least, most in ((0.8, 40, 0.9, 1.6), (0.93, 40, 0.9, 1.6), (0.93, 16, 0.5, 0.9)):
+            found = error_over_spread(correlation, count)
+            self.assertGreater(found, least)
+            self.assertLess(found, most)
+
+    def test_errors_of_flows_and_of_stirred_runs_allow_for_it(self):
+        values = series(0.93, 40, seed=3)
+        plain = values.std(ddof=1) / np.sqrt(40)
+        times = np.arange(401) / 10
+        of_turns = np.repeat(values, 10)
+        self.assertGreater(error_over_turns(times[1:], of_turns, 0, 1), 2 * plain)
+        self.assertGreater(mean_from(times[1:], of_turns, 0, 1).error, 2 * plain)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from millfoam.files.slurry_file import SlurryMap
 from millfoam.files.solids_file import SolidsMap
 from millfoam.readings.batches import batch_means
 from millfoam.readings.charge import circulation_centre
-from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.means import Mean, block_mean, turns_mean
 from millfoam.readings.slurry_on_maps import axial_velocity
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millfoam.report.steadiness import flow_steadiness
@@ -60,7 +60,7 @@ class Flow:
 def over_turns(case: MillCase, column: str, turns: int) -> Mean:
     """Mean of a column of slurryBalance over a MillCase's last whole turns."""
     columns = case.balance
-    return block_mean(batch_means(columns["Time"], columns[column], case.last - turns * case.turn, case.turn, turns))
+    return turns_mean(batch_means(columns["Time"], columns[column], case.last - turns * case.turn, case.turn, turns))
 
 
 def net_rate(case: MillCase, turns: int) -> Mean:

@@ -12,7 +12,7 @@ from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.batches import batch_means, error_over_turns
-from millfoam.readings.means import Mean, block_mean, time_mean
+from millfoam.readings.means import Mean, mean_variance, time_mean, turns_mean
 from millfoam.readings.residence import Residence, read_tracer, residence
 
 MESHES = ("coarse", "own")
@@ -145,7 +145,7 @@ def read_held(mesh: str, folder: Path) -> Held:
     begin = ended["end_s"] - turns * case.turn
 
     def over_turns(times: np.ndarray, values: np.ndarray) -> Mean:
-        return block_mean(batch_means(times, values, begin, case.turn, turns))
+        return turns_mean(batch_means(times, values, begin, case.turn, turns))
     columns = case.balance
     _, moments, slices = axial_holdup(case)
     return Held(mesh, folder.name, case, case.feed or 0.0, turns, over_turns(columns["Time"], columns["holdUp"]),
@@ -217,7 +217,8 @@ def trials_of(one: Held, trials: Sequence[Trial]) -> tuple[Trial, Trial] | None:
 
 def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
     """Hold-ups of a flow, moved along the straight line through trials_of it to where its discharge is its feed. The
-    errors are those of hold-up, discharge and slope. None without these trials."""
+    errors are from those of hold-up, discharge and slope. They are upper limits, by 5 to 25 %: where a flow discharges
+    less by chance, it holds more, and the line takes this back. None without these trials."""
     pair = trials_of(one, trials)
     if pair is None:
         return None
@@ -235,25 +236,28 @@ def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
 @dataclass(frozen=True)
 class Scatter:
     """Standard deviations of the means of single late turns: of the discharge (m3/s) and of the hold-up (m3); and the
-    hold-up's that follows from the discharge's (m3)."""
+    hold-up's (m3) that follows from the discharge's if the discharges of turns are independent."""
     discharge: float
     holdup: float
     expected: float
 
 
 def scatter(one: Held, trials: Sequence[Trial]) -> Scatter | None:
-    """Scatter of a flow; None without trials_of it.
+    """Scatter of a flow of two late turns or more; None without trials_of it.
 
-    A hold-up V sums up what the discharges Q of single turns differ from the feed, and returns to its steady value
-    within the time dV/dQ of the trials. If these differences are independent, its variance is var(Q) T/2 dV/dQ, where T
-    is the time of a turn (Ornstein & Uhlenbeck 1930, Phys. Rev. 36:823)."""
+    The hold-up V is the sum of the differences between feed and discharge Q. A difference from its steady value falls
+    to 37 % within the time t = dV/dQ of the trials. If the discharges of turns of T s are independent, the variance of
+    V is var(Q) T t/2, and neighbouring turns have the correlation exp(-T/t) (Uhlenbeck & Ornstein 1930, Phys. Rev.
+    36:823). That of n turns about their own mean is less by the variance of this mean."""
     pair = trials_of(one, trials)
     if pair is None:
         return None
     less, more = pair
     back = (more.volume - less.volume) / (more.discharge - less.discharge).value
     discharge, holdup = (float(one.of_turns(name).std(ddof=1)) for name in ("discharge", "holdUp"))
-    return Scatter(discharge, holdup, discharge * float(np.sqrt(one.case.turn * back / 2)))
+    own_mean = mean_variance(float(np.exp(-one.case.turn / back)), one.turns)
+    variance = one.case.turn * back / 2 * (1 - own_mean) * one.turns / (one.turns - 1)
+    return Scatter(discharge, holdup, discharge * float(np.sqrt(variance)))
 
 
 def named(folder: Path, read: Callable[[Path], Found]) -> Found:

@@ -119,7 +119,7 @@ def scatter_lines(found: Sequence[Held], trials: Sequence[Trial]) -> Iterator[st
         apart = scatter(one, trials) if one.turns > 1 else None
         if apart:
             yield (f"{one.mesh}/{one.name}: {one.turns} turns scatter by {1e6 * apart.discharge:.1f} ml/s and "
-                   f"{1e6 * apart.holdup:.0f} ml; by their discharges {1e6 * apart.expected:.0f} ml are expected")
+                   f"{1e6 * apart.holdup:.0f} ml; independent discharges give {1e6 * apart.expected:.0f} ml")
 
 
 def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:

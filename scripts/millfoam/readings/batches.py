@@ -2,7 +2,7 @@
 """Means of a series over batches of equal time, by turns of the mill, and the errors that follow from them."""
 import numpy as np
 
-from .means import block_mean
+from .means import turns_mean
 
 BATCHES = 5  # at least, of each half of a series
 
@@ -36,8 +36,9 @@ def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: flo
 
 
 def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
-    """error_over_turns of what the turns' means differ from a straight line, so that a drift does not increase it; NaN
-    if fewer than three turns fit."""
+    """Standard error of the mean of values from `begin` (s) on, from what the means of the last whole turns of `turn` s
+    differ from a straight line, so that a drift does not increase it; NaN if fewer than three fit. It does not allow
+    for turns that are correlated."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
     if turns < 3:
         return np.nan
@@ -48,9 +49,9 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
 
 
 def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
-    """Standard error (block_mean) of the mean of values from `begin` (s) on, from the means of the last whole turns of
+    """Standard error (turns_mean) of the mean of values from `begin` (s) on, from the means of the last whole turns of
     a mill whose turn takes `turn` s; NaN if fewer than two fit."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
     if turns < 2:
         return np.nan
-    return block_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)).error
+    return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)).error

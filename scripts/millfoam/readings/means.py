@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..files.solids_file import SolidsMap, mean_map
 
 BLOCKS = 5  # of the averaged time, for errors
-CORRELATED = 8  # blocks, from which on the correlation of neighbours can be told from chance
+CORRELATED = 12  # turns; of fewer, the correlation of neighbours is hardly known
 
 
 @dataclass(frozen=True)
@@ -44,20 +44,25 @@ def neighbour_correlation(values: np.ndarray) -> float:
 
 
 def block_mean(values: ArrayLike) -> Mean:
-    """Mean of readings [n] of successive blocks of time.
-
-    The error is the readings' standard deviation over the root of their number. From CORRELATED blocks on it allows for
-    neighbours that are alike, as in an autoregressive process of first order (A. M. Law, Simulation Modeling and
-    Analysis, section 9.5.3): the hold-up of a mill with a feed forgets what it was within ten turns or more. The error
-    of fewer blocks is too small if neighbours are alike."""
+    """Mean of readings [n] of blocks of time, or of runs, that are independent."""
     values = np.asarray(values, dtype=float)
-    count = len(values)
-    if count < 2:
-        return Mean(float(values.mean()), np.nan)
-    correlated = count >= CORRELATED and values.std() > 0
-    share = mean_variance(neighbour_correlation(values) if correlated else 0.0, count)
+    return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else np.nan)
+
+
+def turns_mean(values: ArrayLike) -> Mean:
+    """Mean of readings [n] of successive turns, in order of time.
+
+    From CORRELATED turns on its error allows for neighbours that are correlated, as in an autoregressive process of
+    first order (A. M. Law, Simulation Modeling and Analysis, section 9.5.3): the hold-up of a mill with a feed changes
+    over ten turns or more. It is still too small where readings change more slowly than over a tenth of the turns, and
+    by up to a quarter too large for few turns that are independent. Of fewer turns, the error is that of block_mean."""
+    values = np.asarray(values, dtype=float)
+    count, spread = len(values), values.std()
+    if count < CORRELATED or not spread > 0:
+        return block_mean(values)
+    share = mean_variance(neighbour_correlation(values), count)
     # The deviations are from the values' own mean, which takes its variance from theirs
-    return Mean(float(values.mean()), float(values.std() * np.sqrt(share / (1 - share))))
+    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))))
 
 
 def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ from ..files.data_files import read_csv
 from ..files.dumps import numbered_dumps, read_balls, read_timestep
 from ..files.stirred_case import StirredCase
 from .batches import batch_means
-from .means import Mean, block_mean
+from .means import Mean, turns_mean
 from .power_models import bulk_density
 
 DUMPS = 400  # of which the mean speed is taken, at most, at equal distances
@@ -25,7 +25,7 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     if turns < 2:
         return Mean(float(values.mean()), np.nan)
     means = batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns)
-    return Mean(float(values.mean()), block_mean(means).error)
+    return Mean(float(values.mean()), turns_mean(means).error)
 
 
 def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
