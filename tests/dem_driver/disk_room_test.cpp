@@ -39,7 +39,7 @@ TEST(DiskRoom, ARunThatCannotFitIsRefusedWithBothNumbers) {
   plan.charge.classes.front().count = 1000000000000;
   const std::string message = message_of([&] { require_room({temporary.path()}, plan, 0); });
   EXPECT_NE(message.find("the disk has room for "), std::string::npos) << message;
-  EXPECT_NE(message.find("B, expected at least 2.6e+06 GB for 31 dumps of 1000000000100 balls"),
+  EXPECT_NE(message.find("GB, expected at least 2.6e+06 GB for 31 dumps of 1000000000100 balls"),
             std::string::npos)
       << message;
 }
