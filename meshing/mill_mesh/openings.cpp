@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -38,6 +39,14 @@ double area(const CrossSection& section, const std::vector<bool>& chosen) {
   double sum = 0;
   for (std::size_t q = 0; q < chosen.size(); ++q) sum += chosen[q] ? area(section, q) : 0;
   return sum;
+}
+
+double smallest_area(const CrossSection& section, const std::vector<bool>& chosen) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t q = 0; q < chosen.size(); ++q) {
+    if (chosen[q]) smallest = std::min(smallest, area(section, q));
+  }
+  return smallest;
 }
 
 /// Quadrilaterals inside a radius that sides follow.
@@ -181,9 +190,13 @@ Openings find_openings(const CrossSection& section, const Geometry& geometry) {
   }
   openings.inlet_area = area(section, openings.inlet);
   openings.grate_area = area(section, openings.grates);
+  double smallest = smallest_area(section, openings.inlet);
   if (geometry.pulp_lifters) {
-    openings.outlet_area = area(section, inside(section, geometry.pulp_lifters->discharge_radius));
+    const std::vector<bool> outlet = inside(section, geometry.pulp_lifters->discharge_radius);
+    openings.outlet_area = area(section, outlet);
+    smallest = std::min(smallest, smallest_area(section, outlet));
   }
+  if (std::isfinite(smallest)) openings.smallest_quad = smallest;
   return openings;
 }
 

@@ -18,6 +18,7 @@ struct Openings {
   double inlet_area = 0;         ///< 0 without an inlet
   double grate_area = 0;         ///< of all grates; 0 without
   double outlet_area = 0;        ///< of the pulp lifters' end inside the discharge radius
+  double smallest_quad = 0;      ///< of the inlet and of that end; 0 without both
 };
 
 /// Largest relative error in area of an inlet that is made of whole quadrilaterals.

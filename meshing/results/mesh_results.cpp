@@ -48,6 +48,7 @@ void write_mesh_results(const MillDescription& description, const VolumeMesh& me
   json["inlet_area_m2"] = openings.inlet_area;
   json["grate_area_m2"] = openings.grate_area;
   json["outlet_area_m2"] = openings.outlet_area;
+  json["smallest_opening_cell_m2"] = openings.smallest_quad;
   write_json(case_folder / "mesh.json", json);
 }
 

@@ -32,7 +32,7 @@ head -c 2000000 /dev/zero > walls/shell.stl
 head -c 3000000 /dev/zero > constant/polyMesh/points
 echo "$@" > constant/asked
 echo '{{"format": "millfoam-mesh", "cells": {CELLS}, "faces": {FACES}, "cells_in_section": {SECTION_CELLS},
-    "volume_m3": {VOLUME}}}' > mesh.json"""
+    "volume_m3": {VOLUME}, "smallest_opening_cell_m2": 0}}' > mesh.json"""
 REFUSAL = "millDem: error: mill.yaml:7: key 'dem.duration' = 0: expected more"
 MILL_DEM = f"""[ ! -e "$STUBS/refuse" ] || {{ echo "{REFUSAL}" >&2; exit 1; }}
 """ + """while [ "$1" != --json ]; do shift; done
@@ -131,6 +131,19 @@ class Arithmetic(Folder):
             self.assertLessEqual(content["flow_time_step_s"], expected)
             self.assertGreater(content["flow_time_step_s"], 0.9 * expected)
         self.assertLess(content["flow_time_step_s"], 0.001)
+
+    def test_small_cells_that_slurry_falls_through_limit_the_time_step_but_not_by_the_air_in_them(self):
+        # A face of inlet or outlet of 1.5 mm; cells are of 6.3 mm in the mean
+        small, speed = 1.5e-3, (4 * 9.81 * RADIUS) ** 0.5
+        mesh = MILL_MESH.replace('cell_m2": 0', f'cell_m2": {small ** 2}')
+        (self.folder / "stubs" / "millMesh").write_text(f"#!/bin/sh\n{mesh}\n")
+        self.write(mill(max_courant=0.1))
+        content, _, _ = self.planned()
+        expected = 0.1 * 1.05 * small / speed
+        self.assertLessEqual(content["flow_time_step_s"], expected)
+        self.assertGreater(content["flow_time_step_s"], 0.9 * expected)
+        self.write(mill(max_air_courant=0.1))
+        self.assertGreater(self.planned()[0]["flow_time_step_s"], 2 * expected * 0.55 / 1.05)
 
     def test_a_stirred_mill_has_its_own_walls_and_cells_like_cubes(self):
         stubs = self.folder / "stubs"

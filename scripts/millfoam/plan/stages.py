@@ -53,8 +53,10 @@ def flow_number(mill: Mill, *keys: str) -> float:
     return mill.derived("flow", *keys)
 
 
-def typical_time_step(mill: Mill, cell: float) -> float:
+def typical_time_step(mill: Mill, cell: float, opening_cell: float = 0.0) -> float:
     """Time-step in s of a flow through cells of that size (m, across the mill) during most of its time.
+
+    opening_cell: size in m of the smallest cell of inlet and outlet, through which slurry falls; 0 without both.
 
     The limits are the largest one allowed, and those at which slurry that falls through the mill, U = sqrt(2 g D +
     (omega R)^2), and the air above it reach their Courant numbers. A flow is below the smallest for part of the time,
@@ -64,7 +66,7 @@ def typical_time_step(mill: Mill, cell: float) -> float:
     apart = mill.flow("solver") == "slurryFoam"
     slurry = min(flow_number(mill, key) for key in ("max_courant", "max_surface_courant"))
     limits = (flow_number(mill, "max_time_step_s"),
-              SLURRY_COURANT * slurry * cell / speed,
+              SLURRY_COURANT * slurry * (min(cell, opening_cell) if opening_cell else cell) / speed,
               AIR_COURANT * flow_number(mill, "max_air_courant" if apart else "max_courant") * cell / speed)
     smallest = min(limits)
     return smallest * sum((limit / smallest) ** -8 for limit in limits) ** (-1 / 8)
@@ -75,7 +77,7 @@ def plan_flow(mill: Mill, mesh: MeshTrial) -> FlowPlan:
     # A stirred mill's cells are in no layers, and about cubes
     cell = (math.sqrt(mesh.volume / mill.length / mesh.cells_in_section) if mesh.cells_in_section
             else (mesh.volume / mesh.cells) ** (1 / 3))
-    time_step = typical_time_step(mill, cell)
+    time_step = typical_time_step(mill, cell, math.sqrt(mesh.smallest_opening_cell))
     duration, interval = flow_number(mill, "duration_s"), flow_number(mill, "write_interval_s")
     time_step = interval / math.ceil(interval / time_step - 1e-6)
     windows = duration / flow_number(mill, "averages", "window_s")

@@ -30,12 +30,13 @@ class Cost:
 @dataclass(frozen=True)
 class MeshTrial:
     """A mesh made here: its cost; its cells, faces and cells of a cross-section (0: in no layers); its volume in m3;
-    disk of walls and mesh in bytes."""
+    smallest face of inlet and outlet in m2 (0: without both); disk of walls and mesh in bytes."""
     cost: Cost
     cells: int
     faces: int
     cells_in_section: int
     volume: float
+    smallest_opening_cell: float
     walls_disk: float
     mesh_disk: float
 
@@ -109,8 +110,9 @@ def try_mesh(folder: Path | str, mill: Path | str, machine: str = "tumbling") ->
     file = folder / "mesh.json"
     mesh = read_json(file, "mesh")
     count = {key: int(number(mesh, file, key)) for key in ("cells", "faces", "cells_in_section")}
-    return MeshTrial(cost, **count, volume=number(mesh, file, "volume_m3"), walls_disk=disk(folder / "walls"),
-                     mesh_disk=disk(folder / "constant"))
+    return MeshTrial(cost, **count, volume=number(mesh, file, "volume_m3"),
+                     smallest_opening_cell=number(mesh, file, "smallest_opening_cell_m2"),
+                     walls_disk=disk(folder / "walls"), mesh_disk=disk(folder / "constant"))
 
 
 def shorten(folder: Path, largest_step: float) -> None:

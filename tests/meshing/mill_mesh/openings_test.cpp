@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -162,6 +163,25 @@ TEST(Inlet, has_the_area_of_its_circle_wherever_the_grates_are) {
     EXPECT_NEAR(area_of(mesh, "inlet").z(), -0.01287, 1e-15);
     EXPECT_NEAR(find_openings(section, mill).inlet_area, 0.01287, 1e-15);
     EXPECT_NEAR(area_of(mesh, "feedEnd").z() - 0.01287, -quality(mesh).volume / mill.length, 1e-13);
+  }
+}
+
+TEST(Openings, have_the_smallest_face_of_inlet_and_outlet) {
+  for (Geometry mill : {mill_with_grates(), mill_with_pulp_lifters(), shipped_mill(3)}) {
+    const CrossSection section = make_cross_section(mill, 0.009);
+    const VolumeMesh mesh = make_mill_mesh(section, mill, mill_layers);
+    const MeshMeasures m = measure(mesh);
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Patch& p : mesh.patches) {
+      if (p.name != "inlet" && p.name != "outlet") continue;
+      for (int f = p.start; f < p.start + p.size; ++f) {
+        smallest = std::min(smallest, m.face_area[static_cast<std::size_t>(f)].norm());
+      }
+    }
+    EXPECT_NEAR(find_openings(section, mill).smallest_quad / smallest, 1, 1e-9);
+    mill.inlet.reset();
+    mill.pulp_lifters.reset();
+    EXPECT_EQ(find_openings(section, mill).smallest_quad, 0);
   }
 }
 
