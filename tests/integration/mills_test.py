@@ -283,6 +283,9 @@ flow: {{turns: 0.02, start: {{volume: 1.5}}, law: Hill}}
     def test_the_law_is_the_one_asked_for(self):
         self.assertIn("Hill", (self.case / "log.flow").read_text())
 
+    def test_dictionaries_are_read_without_warnings(self):
+        self.assertNotIn("IOstreams", (self.case / "log.flow").read_text())
+
 
 class SliceWithOneLifter(MillRun, unittest.TestCase):
     """0.1 m, one lifter, rad/s instead of a share of the critical speed, water."""
