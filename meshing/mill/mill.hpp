@@ -172,10 +172,11 @@ struct Air {
 
 /// Numbers of cells along the sides of the cross-section's blocks (mill_mesh/cross_section.hpp).
 struct BlockCounts {
-  int gap = 0;     ///< along the shell between two lifters, or around a smooth drum
-  int lifter = 0;  ///< along a lifter's top; 0 for a smooth drum
-  int height = 0;  ///< along a lifter's side; 0 for a smooth drum
-  int ring = 0;    ///< between the core and the lifters' tops
+  int gap = 0;          ///< along the shell between two lifters, or around a smooth drum
+  int lifter = 0;       ///< along a lifter's top; 0 for a smooth drum
+  int height = 0;       ///< along a lifter's side; 0 for a smooth drum
+  int ring = 0;         ///< between the core and the lifters' tops, without the row that halves the columns
+  bool halved = false;  ///< the core's side is an eighth of the perimeter, not a quarter
 };
 
 /// Size or numbers of the flow's cells.

@@ -77,8 +77,10 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   if (geometry.contains("grates") && geometry["grates"].is_object())
     for (const char* key : {"sectors", "sector_share", "open_fraction", "pegged"})
       geometry["grates"].erase(key);
-  // Walls have none of the mesh's layers
-  for (const char* key : {"layers", "last_layer"}) of["resolution"].erase(key);
+  // Walls have none of the mesh's layers, nor its core
+  Json& resolution = of["resolution"];
+  for (const char* key : {"layers", "last_layer"}) resolution.erase(key);
+  if (resolution.contains("counts") && resolution["counts"].is_object()) resolution["counts"].erase("core");
   if (geometry.contains("pulp_lifters") && geometry["pulp_lifters"].is_object())
     geometry["pulp_lifters"].erase("layers");
   MillFingerprints result;

@@ -173,6 +173,19 @@ void read_openings(const Section& in, Geometry& geometry) {
   }
 }
 
+/// Whether the core's side is an eighth of the `around` cells of the perimeter, and not a quarter.
+bool read_core(const Section& in, const Geometry& geometry, int around) {
+  const int whole = around / 4;
+  const bool may_halve = around % 8 == 0 && around >= 16 && !opening_circles(geometry).empty();
+  const std::string half = may_halve ? " or " + std::to_string(whole / 2) : "";
+  const std::string why = may_halve                           ? ""
+                          : opening_circles(geometry).empty() ? ": half of it with openings only"
+                                                              : ": half of it with a multiple of 8 around";
+  return in.integer("core", {std::to_string(whole) + half + ", a quarter" +
+                                 (may_halve ? " or an eighth" : "") + " of the cells around the mill" + why,
+                             [=](double v) { return v == whole || (may_halve && 2 * v == whole); }}) != whole;
+}
+
 BlockCounts read_counts(const Section& in, const Geometry& geometry) {
   const Rule cells = whole_number("cells", 1, most_along_side);
   BlockCounts counts;
@@ -190,14 +203,15 @@ BlockCounts read_counts(const Section& in, const Geometry& geometry) {
   Rule ring = whole_number("cells", static_cast<int>(bands), most_along_side);
   ring.expected += " (at least one between each two circles of the openings)";
   counts.ring = in.integer("ring", ring);
+  if (in.has("core")) counts.halved = read_core(in, geometry, static_cast<int>(around));
   return counts;
 }
 
 /// Quadrilaterals of the cross-section.
 double section_cells(const BlockCounts& counts, const Geometry& geometry) {
   const double around = std::max(1, geometry.lifters.count) * (1.0 * counts.gap + counts.lifter);
-  return around * around / 16 + around * counts.ring +
-         1.0 * geometry.lifters.count * counts.gap * counts.height;
+  const double inside = counts.halved ? around * around / 64 + 1.5 * around : around * around / 16;
+  return inside + around * counts.ring + 1.0 * geometry.lifters.count * counts.gap * counts.height;
 }
 
 /// Layers of about 2.5 cells; between two walls at least two.
@@ -240,8 +254,8 @@ Resolution read_resolution(const Section& in, const Geometry& geometry) {
   double section = 0;  // cells in the cross-section
   if (in.has("counts")) {
     if (in.has("cell_size")) in.refuse("cell_size", "either cell_size or counts");
-    const auto keys = geometry.lifters.count > 0 ? Section::Keys{"gap", "lifter", "height", "ring"}
-                                                 : Section::Keys{"gap", "ring"};
+    const auto keys = geometry.lifters.count > 0 ? Section::Keys{"gap", "lifter", "height", "ring", "core"}
+                                                 : Section::Keys{"gap", "ring", "core"};
     resolution.counts = read_counts(in.section("counts", keys), geometry);
     section = section_cells(*resolution.counts, geometry);
   } else {

@@ -12,9 +12,10 @@ struct Divisions {
   int lifter = 0;          ///< along a lifter's top; 0 for a smooth drum
   int gap = 0;             ///< along the shell between two lifters; 0 for a smooth drum
   int height = 0;          ///< along a lifter's side; 0 for a smooth drum
-  int core = 0;            ///< along a side of the core: a quarter of the perimeter
+  int core = 0;            ///< along a side of the core: a quarter of the perimeter, or an eighth
   std::vector<int> bands;  ///< between the core and the lifters' tops: in each band between two circles
                            ///< (opening_circles), from the core outwards
+  bool halved = false;     ///< an eighth: a row of cells inside the smallest circle halves the columns
 };
 
 /// Quadrilaterals that fill the mill's cross-section at DEM time 0, the lifters left out.
@@ -26,7 +27,8 @@ struct Divisions {
 ///
 /// Where the mill has openings, the ring consists of bands between their circles (opening_circles), and the
 /// core lies inside the smallest. The points of a circle are equally spaced and lie so far outside it that
-/// their polygon has the circle's area.
+/// their polygon has the circle's area. Inside a small circle all columns would make cells much smaller than
+/// elsewhere. A row of cells may halve their number there.
 struct CrossSection {
   /// What a side on a wall belongs to.
   enum class Part { shell, lifters };
@@ -40,12 +42,13 @@ struct CrossSection {
   std::vector<Eigen::Vector2d> points;    ///< m; those on the shell lie on its circle
   std::vector<std::array<int, 4>> quads;  ///< anticlockwise
   std::vector<int> columns;     ///< of each quadrilateral: its column around the axis, between the lines
-                                ///< `column` and `column` + 1; -1 in the core
+                                ///< `column` and `column` + 1; -1 in the core,
+                                ///< and inside the smallest circle of halved columns
   std::vector<WallEdge> walls;  ///< all sides on shell and lifters
   Divisions divisions;          ///< from which the quadrilaterals were made
 
   /// Number of columns.
-  int around() const { return 4 * divisions.core; }
+  int around() const { return (divisions.halved ? 8 : 4) * divisions.core; }
   /// Angle, rad, of line 0 on the openings' circles; the line ends at lifter 1's first corner.
   double first_line_angle() const;
 };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -92,11 +93,49 @@ RingThickness ring_thickness(double radius) {
   return {radius - corner, radius - middle};
 }
 
+double core_side(double radius) {
+  return std::sqrt(2.0) * corner_radius * radius;
+}
+
 double ring_layers(double radius, int side) {
   const RingThickness thickness = ring_thickness(radius);
-  const double chord = std::sqrt(2.0) * corner_radius * radius;
-  const double width = (pi / 2 * radius + chord) / 2 / side;
+  const double width = (pi / 2 * radius + core_side(radius)) / 2 / side;
   return (thickness.least + thickness.most) / 2 / width;
+}
+
+double radius_inside_halving(double radius, int around) {
+  return radius * (1 - 4 * pi / around);
+}
+
+std::vector<int> add_halving(CrossSection& section, const std::vector<int>& outer, int first) {
+  const std::size_t around = outer.size();
+  assert(around % 4 == 0);
+  std::vector<int> ring(outer);
+  std::rotate(ring.begin(), ring.begin() + first % static_cast<int>(around), ring.end());
+  const double inner_share = radius_inside_halving(1, static_cast<int>(around));
+  const auto add_inside = [&](std::size_t p, double share) {
+    section.points.push_back(share * section.points[static_cast<std::size_t>(ring[p % around])]);
+    return static_cast<int>(section.points.size()) - 1;
+  };
+  std::vector<int> inner;
+  for (std::size_t p = 0; p < around; p += 2) inner.push_back(add_inside(p, inner_share));
+  for (std::size_t p = 0; p < around; p += 4) {
+    std::array<int, 5> o{};
+    for (std::size_t i = 0; i < 5; ++i) o[i] = ring[(p + i) % around];
+    const std::array<int, 3> in = {inner[p / 2], inner[p / 2 + 1], inner[(p / 2 + 2) % inner.size()]};
+    std::array<int, 3> m{};
+    for (std::size_t i = 0; i < 3; ++i) m[i] = add_inside(p + i + 1, (1 + inner_share) / 2);
+    for (const std::array<int, 4>& quad : {std::array{in[0], o[0], o[1], m[0]},
+                                           {m[0], o[1], o[2], m[1]},
+                                           {in[0], m[0], m[1], in[1]},
+                                           {m[1], o[2], o[3], m[2]},
+                                           {m[2], o[3], o[4], in[2]},
+                                           {in[1], m[1], m[2], in[2]}}) {
+      section.quads.push_back(quad);
+      section.columns.push_back(-1);
+    }
+  }
+  return inner;
 }
 
 void add_o_grid(CrossSection& section, const std::vector<int>& rim, int first_corner, int layers) {

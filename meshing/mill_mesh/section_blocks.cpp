@@ -2,6 +2,7 @@
 #include "meshing/mill_mesh/section_blocks.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "meshing/mill/mill_shape.hpp"
@@ -118,15 +119,25 @@ std::vector<int> add_circle(CrossSection& section, double radius) {
   return circle;
 }
 
+/// The O-grid inside the smallest ring of points.
+void add_core(CrossSection& section, const Divisions& divisions, const std::vector<int>& ring) {
+  // Half a side from lifter 1 puts the core's corners on the diagonals.
+  const int first_corner = divisions.lifter / 2 + section.around() / 8;
+  if (!divisions.halved) {
+    add_o_grid(section, ring, first_corner, divisions.bands.front());
+    return;
+  }
+  add_o_grid(section, add_halving(section, ring, first_corner), 0, divisions.bands.front());
+  std::fill(section.columns.begin(), section.columns.end(), -1);
+}
+
 /// Core and ring: the O-grid inside the smallest circle, and a band between each two.
 void add_core_and_bands(CrossSection& section, const Geometry& geometry, const Divisions& divisions,
                         const std::vector<int>& rim) {
   std::vector<std::vector<int>> rings;
   for (double radius : opening_circles(geometry)) rings.push_back(add_circle(section, radius));
   rings.push_back(rim);
-  // Half a side from lifter 1 puts the core's corners on the diagonals.
-  const int first_corner = divisions.lifter / 2 + divisions.core / 2;
-  add_o_grid(section, rings.front(), first_corner, divisions.bands.front());
+  add_core(section, divisions, rings.front());
   for (std::size_t i = 1; i < rings.size(); ++i) {
     add_band(section, rings[i - 1], rings[i], divisions.bands[i], 0);
   }
@@ -136,7 +147,7 @@ CrossSection divided(const Geometry& geometry, const Divisions& divisions) {
   CrossSection section;
   section.divisions = divisions;
   if (geometry.lifters.count == 0) {
-    const std::vector<int> rim = add_smooth_rim(section, geometry, 4 * divisions.core);
+    const std::vector<int> rim = add_smooth_rim(section, geometry, section.around());
     add_core_and_bands(section, geometry, divisions, rim);
     return section;
   }

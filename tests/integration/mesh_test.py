@@ -92,6 +92,9 @@ class Mesh(unittest.TestCase):
                 report = self.check(f"resolution.layers={number}", NO_PULP_LIFTERS, mill=LARGE)
                 self.assertRegex(report, r"grates +\d+ .* ok")
 
+    def test_half_of_the_columns_inside_the_smallest_opening(self):
+        self.check("resolution.counts.ring=17", "resolution.counts.core=10", mill=LARGE)
+
     def test_layers_that_are_thinner_at_the_grates(self):
         report = self.check("resolution.last_layer=0.010", *NINE_LAYERS, mill=LARGE)
         self.assertIn("Number of regions: 1 (OK)", report)

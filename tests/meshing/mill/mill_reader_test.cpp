@@ -310,6 +310,31 @@ TEST(ReadMill, takes_counts_of_cells_instead_of_their_size) {
   EXPECT_FALSE(read(example_mill).resolution.counts);
 }
 
+TEST(ReadMill, takes_a_core_of_half_the_columns_inside_openings) {
+  const auto with_core = [](const std::string& gap, const std::string& core) {
+    const std::string counts =
+        "counts: {gap: " + gap + ", lifter: 3, height: 5, ring: 9, core: " + core + "}";
+    return with(example_mill, "cell_size: 0.003", counts);
+  };
+  const auto opened = [](const std::string& text) { return with(text, "speed:", grates_lines + "speed:"); };
+  const auto halved = [](const std::string& text) { return read(text).resolution.counts->halved; };
+  EXPECT_TRUE(halved(opened(with_core("11", "21"))));
+  EXPECT_FALSE(halved(opened(with_core("11", "42"))));
+  EXPECT_FALSE(halved(with_core("11", "42")));
+  EXPECT_NE(refusal(opened(with_core("11", "20")))
+                .find("'resolution.counts.core' = 20: expected 42 or 21, a quarter or an eighth of the cells "
+                      "around the mill"),
+            std::string::npos);
+  EXPECT_NE(refusal(with_core("11", "21"))
+                .find("'resolution.counts.core' = 21: expected 42, a quarter of the cells around the mill: "
+                      "half of it with openings only"),
+            std::string::npos);
+  // 12 times 13 cells around
+  EXPECT_NE(refusal(opened(with_core("10", "19")))
+                .find("expected 39, a quarter of the cells around the mill: half of it with a multiple of 8"),
+            std::string::npos);
+}
+
 TEST(ReadMill, refuses_counts_that_the_blocks_cannot_have) {
   const std::string counts = "counts: {gap: 11, lifter: 3, height: 5, ring: 9}";
   const auto refused = [&](const std::string& text, const std::string& from, const std::string& to) {

@@ -88,6 +88,18 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
+TEST(Fingerprints, of_walls_and_charge_do_not_know_the_core) {
+  const auto with_core = [](const std::string& core) {
+    const std::string counts = "resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9" + core + "}}";
+    return describe(example_mill, {"geometry.inlet.radius=0.02", counts}).mill.fingerprint;
+  };
+  const MillFingerprints whole = with_core(""), halved = with_core(", core: 21");
+  EXPECT_EQ(halved.walls, whole.walls);
+  EXPECT_EQ(halved.charge, whole.charge);
+  EXPECT_EQ(halved.averages, whole.averages);
+  EXPECT_NE(halved.flow, whole.flow);
+}
+
 TEST(ResolvedMill, has_the_last_layers_thickness) {
   const auto last_layer = [](const std::vector<std::string>& changes) {
     return resolved_mill(describe(example_mill, changes), "test")["derived"]["resolution"]["last_layer_m"]

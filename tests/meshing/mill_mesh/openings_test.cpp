@@ -40,7 +40,8 @@ std::vector<Published> published() {
           {large, {5, 1, 1, 5}, 1616, 9},
           {mill_with_grates(), {3, 1, 2, 14}, 1616, 9},
           {shipped_mill(2), {3, 1, 2, 14}, 1616, 9},
-          {shipped_mill(3), {3, 1, 2, 14}, 1616, 33}};
+          {shipped_mill(3), {3, 1, 2, 14}, 1616, 33},
+          {shipped_mill(3), {3, 1, 2, 17, true}, 1616, 33}};
 }
 
 CrossSection section_of(const Published& mill) {
@@ -99,6 +100,48 @@ TEST(PulpLifters, of_three_layers_behind_nine_are_refused_with_their_keys) {
         << message;
     EXPECT_NE(message.find("(layers, last_layer)"), std::string::npos) << message;
   }
+}
+
+double smallest_cell(const CrossSection& section) {
+  Geometry smooth = {0.3, 1, Ends::plain, {20, 0.01, 0.01, 0.01}};
+  return quality(make_mill_mesh(section, smooth, 1)).smallest_cell;
+}
+
+TEST(CrossSection, with_halved_columns_has_larger_cells_at_the_axis_and_the_same_openings) {
+  const Geometry mill = shipped_mill(3);
+  const CrossSection whole = make_cross_section(mill, Resolution{0, 9, BlockCounts{3, 1, 2, 14}});
+  const CrossSection halved = make_cross_section(mill, Resolution{0, 9, BlockCounts{3, 1, 2, 14, true}});
+  EXPECT_EQ(halved.around(), whole.around());
+  EXPECT_EQ(whole.divisions.core, 20);
+  EXPECT_EQ(halved.divisions.core, 10);
+  EXPECT_GT(smallest_cell(halved), 1.9 * smallest_cell(whole));
+  const Openings a = find_openings(whole, mill), b = find_openings(halved, mill);
+  EXPECT_NEAR(b.inlet_area / a.inlet_area, 1, 1e-12);
+  EXPECT_NEAR(b.grate_area / a.grate_area, 1, 1e-12);
+  EXPECT_NEAR(b.outlet_area / a.outlet_area, 1, 1e-12);
+  for (std::size_t q = 0; q < halved.quads.size(); ++q) {
+    EXPECT_TRUE(halved.columns[q] >= 0 || b.inlet[q]);
+  }
+}
+
+TEST(CrossSection, halves_its_columns_where_the_core_would_have_cells_below_a_third_of_their_size) {
+  Geometry mill = mill_with_grates();
+  mill.grates.reset();
+  int halved_ones = 0;
+  for (const double radius : {0.04, 0.05, 0.064, 0.08, 0.12}) {
+    mill.inlet->radius = radius;
+    for (const double cell_size : {0.012, 0.008, 0.004}) {
+      SCOPED_TRACE(std::to_string(radius) + ", cells " + std::to_string(cell_size));
+      const CrossSection section = make_cross_section(mill, cell_size);
+      const double whole = std::sqrt(2.0) * 0.75 * radius / (section.around() / 4);
+      EXPECT_EQ(section.divisions.halved, section.around() % 8 == 0 && whole < cell_size / 3);
+      halved_ones += section.divisions.halved;
+      const VolumeMesh mesh = make_mill_mesh(section, mill, mill_layers);
+      EXPECT_NO_THROW(require_quality(quality(mesh), flow_volume(mill), mill.length));
+      EXPECT_NEAR(find_openings(section, mill).inlet_area / asked_inlet_area(mill), 1, 1e-12);
+    }
+  }
+  EXPECT_GE(halved_ones, 4);
 }
 
 /// cases/mills/mill_30cm/mill.yaml with one line more.
