@@ -173,17 +173,22 @@ void read_openings(const Section& in, Geometry& geometry) {
   }
 }
 
+/// With fewer cells around the mill, those of a core with half of the columns are too skewed.
+constexpr int fewest_to_halve = 40;
+
 /// Whether the core's side is an eighth of the `around` cells of the perimeter, and not a quarter.
 bool read_core(const Section& in, const Geometry& geometry, int around) {
   const int whole = around / 4;
-  const bool may_halve = around % 8 == 0 && around >= 16 && !opening_circles(geometry).empty();
-  const std::string half = may_halve ? " or " + std::to_string(whole / 2) : "";
-  const std::string why = may_halve                           ? ""
-                          : opening_circles(geometry).empty() ? ": half of it with openings only"
-                                                              : ": half of it with a multiple of 8 around";
-  return in.integer("core", {std::to_string(whole) + half + ", a quarter" +
-                                 (may_halve ? " or an eighth" : "") + " of the cells around the mill" + why,
-                             [=](double v) { return v == whole || (may_halve && 2 * v == whole); }}) != whole;
+  Rule core{std::to_string(whole) +
+                ", a quarter of the cells around the mill (half of it with openings, and a " +
+                "multiple of 8 from 40 on around)",
+            [=](double cells) { return cells == whole; }};
+  if (around % 8 == 0 && around >= fewest_to_halve && !opening_circles(geometry).empty()) {
+    core = {std::to_string(whole) + " or " + std::to_string(whole / 2) +
+                ", a quarter or an eighth of the cells around the mill",
+            [=](double cells) { return cells == whole || 2 * cells == whole; }};
+  }
+  return in.integer("core", core) != whole;
 }
 
 BlockCounts read_counts(const Section& in, const Geometry& geometry) {
@@ -207,7 +212,7 @@ BlockCounts read_counts(const Section& in, const Geometry& geometry) {
   return counts;
 }
 
-/// Quadrilaterals of the cross-section.
+/// Quadrilaterals of the cross-section; at most so many where the core has half of the columns.
 double section_cells(const BlockCounts& counts, const Geometry& geometry) {
   const double around = std::max(1, geometry.lifters.count) * (1.0 * counts.gap + counts.lifter);
   const double inside = counts.halved ? around * around / 64 + 1.5 * around : around * around / 16;

@@ -67,29 +67,16 @@ void divide_pitch(const Geometry& geometry, double cell_size, Divisions& divisio
   assert(divisions.gap > 0);
 }
 
-/// Sets core and halved from the number of columns.
-void divide_core(Divisions& divisions, int around, bool halved) {
-  divisions.halved = halved;
-  divisions.core = around / (halved ? 8 : 4);
-}
-
-/// Number of columns.
-int around_of(const Divisions& divisions) {
-  return (divisions.halved ? 8 : 4) * divisions.core;
-}
-
-/// Radius of the ring around core and first band, m, where the smallest circle has this radius.
-double core_rim(const Divisions& divisions, double circle) {
-  return divisions.halved ? radius_inside_halving(circle, around_of(divisions)) : circle;
-}
-
-/// Layers in each band of the ring that would make cells as thick as they are wide.
-std::vector<double> wished_bands(const Geometry& geometry, const Divisions& divisions) {
+/// Layers in each band of the ring that would make cells as thick as they are wide. The core has a quarter of
+/// the `around` columns along a side, or, if they are halved, an eighth.
+std::vector<double> wished_bands(const Geometry& geometry, int around, bool halved) {
   std::vector<double> circles = opening_circles(geometry);
   circles.push_back(lifter_top_distance(geometry));
-  std::vector<double> wished = {ring_layers(core_rim(divisions, circles.front()), divisions.core)};
+  std::vector<double> wished = {halved
+                                    ? ring_layers(radius_inside_halving(circles.front(), around), around / 8)
+                                    : ring_layers(circles.front(), around / 4)};
   for (std::size_t i = 1; i < circles.size(); ++i) {
-    const double width = 2 * pi * (circles[i - 1] + circles[i]) / 2 / around_of(divisions);
+    const double width = 2 * pi * (circles[i - 1] + circles[i]) / 2 / around;
     wished.push_back((circles[i] - circles[i - 1]) / width);
   }
   return wished;
@@ -125,16 +112,12 @@ bool thin_out(const Layers& layers, const Layers& other) {
   return true;
 }
 
-/// Adds layers to the bands, and rows next to the lifters, until all that touch are alike. False where the
-/// row that halves the columns is too thick for that.
-bool even_out(const Geometry& geometry, Divisions& divisions) {
+/// Adds layers to the bands, and rows next to the lifters, until all that touch are alike.
+void even_out(const Geometry& geometry, Divisions& divisions) {
   std::vector<double> circles = opening_circles(geometry);
   circles.push_back(lifter_top_distance(geometry));
-  const double rim = core_rim(divisions, circles.front());
-  const RingThickness inner = ring_thickness(rim);
+  const RingThickness inner = ring_thickness(circles.front());
   std::vector<Layers> all = {{inner.least, inner.most, &divisions.bands.front()}};
-  int halving = 2;  // its cells are up to half as thick as the row
-  if (divisions.halved) all.push_back({circles.front() - rim, circles.front() - rim, &halving});
   for (std::size_t i = 1; i < circles.size(); ++i) {
     all.push_back({circles[i] - circles[i - 1], circles[i] - circles[i - 1], &divisions.bands[i]});
   }
@@ -149,21 +132,6 @@ bool even_out(const Geometry& geometry, Divisions& divisions) {
       changed = thin_out(all[i - 1], all[i]) || changed;
     }
   }
-  return halving == 2;
-}
-
-/// Whether all columns would make cells in the core that are less than a third as wide as asked for.
-bool is_crowded(const Geometry& geometry, int around, double cell_size) {
-  const std::vector<double> circles = opening_circles(geometry);
-  return !circles.empty() && around % 8 == 0 && core_side(circles.front()) / (around / 4) < cell_size / 3;
-}
-
-/// Bands for a core; false where even_out is.
-bool divide_bands(const Geometry& geometry, int around, bool halved, Divisions& divisions) {
-  divide_core(divisions, around, halved);
-  divisions.bands.clear();
-  for (double wished : wished_bands(geometry, divisions)) divisions.bands.push_back(rounded(wished));
-  return even_out(geometry, divisions);
 }
 
 }  // namespace
@@ -177,9 +145,9 @@ Divisions choose_divisions(const Geometry& geometry, double cell_size) {
     divisions.height = rounded(lifter_side(geometry) / cell_size);
     around = geometry.lifters.count * (divisions.lifter + divisions.gap);
   }
-  Divisions halved = divisions;
-  if (is_crowded(geometry, around, cell_size) && divide_bands(geometry, around, true, halved)) return halved;
-  divide_bands(geometry, around, false, divisions);
+  divisions.core = around / 4;
+  for (double wished : wished_bands(geometry, around, false)) divisions.bands.push_back(rounded(wished));
+  even_out(geometry, divisions);
   return divisions;
 }
 
@@ -192,8 +160,9 @@ Divisions given_divisions(const Geometry& geometry, const BlockCounts& counts) {
     divisions.gap = counts.gap;
     divisions.height = counts.height;
   }
-  divide_core(divisions, around, counts.halved);
-  divisions.bands = share_out(wished_bands(geometry, divisions), counts.ring);
+  divisions.halved = counts.halved;
+  divisions.core = around / (counts.halved ? 8 : 4);
+  divisions.bands = share_out(wished_bands(geometry, around, counts.halved), counts.ring);
   return divisions;
 }
 

@@ -93,13 +93,10 @@ RingThickness ring_thickness(double radius) {
   return {radius - corner, radius - middle};
 }
 
-double core_side(double radius) {
-  return std::sqrt(2.0) * corner_radius * radius;
-}
-
 double ring_layers(double radius, int side) {
   const RingThickness thickness = ring_thickness(radius);
-  const double width = (pi / 2 * radius + core_side(radius)) / 2 / side;
+  const double chord = std::sqrt(2.0) * corner_radius * radius;
+  const double width = (pi / 2 * radius + chord) / 2 / side;
   return (thickness.least + thickness.most) / 2 / width;
 }
 
@@ -109,7 +106,7 @@ double radius_inside_halving(double radius, int around) {
 
 std::vector<int> add_halving(CrossSection& section, const std::vector<int>& outer, int first) {
   const std::size_t around = outer.size();
-  assert(around % 4 == 0);
+  assert(around % 8 == 0 && static_cast<double>(around) > 4 * pi);
   std::vector<int> ring(outer);
   std::rotate(ring.begin(), ring.begin() + first % static_cast<int>(around), ring.end());
   const double inner_share = radius_inside_halving(1, static_cast<int>(around));

@@ -21,9 +21,6 @@ struct RingThickness {
 /// The thickness of the ring whose smallest radius is `radius`, m.
 RingThickness ring_thickness(double radius);
 
-/// Chord of a side of the core inside a ring whose smallest radius is `radius`, both m.
-double core_side(double radius);
-
 /// Layers of cells between core and ring that would make them as thick as they are wide. `radius` is the
 /// ring's smallest, m, `side` the number of cells along a side of the core.
 double ring_layers(double radius, int side);
@@ -33,9 +30,9 @@ double ring_layers(double radius, int side);
 double radius_inside_halving(double radius, int around);
 
 /// Adds the row of cells that halves the columns inside a closed ring of points, six for every four columns.
-/// `outer` are the indices of the ring's points, anticlockwise, a multiple of four. Returns those of the ring
-/// inside the row: one opposite each second point, the first opposite `outer[first]`. The columns of the row
-/// are -1.
+/// `outer` are the indices of the ring's points, anticlockwise, a multiple of eight. Returns those of the
+/// ring inside the row: one opposite each second point, the first opposite `outer[first]`. The columns of the
+/// row are -1.
 std::vector<int> add_halving(CrossSection& section, const std::vector<int>& outer, int first);
 
 /// Adds core and ring to a section. `rim` are the indices of the ring's points, anticlockwise, four times as

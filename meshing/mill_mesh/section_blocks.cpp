@@ -127,8 +127,9 @@ void add_core(CrossSection& section, const Divisions& divisions, const std::vect
     add_o_grid(section, ring, first_corner, divisions.bands.front());
     return;
   }
+  const auto first_quad = static_cast<std::ptrdiff_t>(section.columns.size());
   add_o_grid(section, add_halving(section, ring, first_corner), 0, divisions.bands.front());
-  std::fill(section.columns.begin(), section.columns.end(), -1);
+  std::fill(section.columns.begin() + first_quad, section.columns.end(), -1);
 }
 
 /// Core and ring: the O-grid inside the smallest circle, and a band between each two.

@@ -9,7 +9,7 @@ from pathlib import Path
 
 FUNCTIONS = (Path(__file__).resolve().parents[2] / "scripts" / "case_functions").read_text()
 STEP = FUNCTIONS[FUNCTIONS.index("report_little_room() {"):FUNCTIONS.index("\nonce() {")]
-ROOM = 'df() { printf "Avail\\n%s\\n" "$left"; }\n'
+ROOM = 'df() { printf "Avail\\n %s\\n" "$left"; }\n'
 
 
 class Step(unittest.TestCase):
@@ -40,6 +40,20 @@ class Step(unittest.TestCase):
 
     def test_no_room_for_the_costs_fails_the_step(self):
         (self.folder / "log.costs").symlink_to("/dev/full")
+        code, errors = self.step("true", 0)
+        self.assertEqual(code, 1)
+        self.assertIn("step 'flow' failed", errors)
+        self.assertIn("has 0 MB left", errors)
+
+
+    def test_an_unknown_room_is_not_reported(self):
+        for left in ("-", "", "twenty"):
+            code, errors = self.step("false", left)
+            self.assertEqual(code, 1)
+            self.assertEqual(errors, f"{self.folder.name}: step 'flow' failed; {self.folder}/log.flow ends with:\n")
+
+    def test_a_log_that_cannot_be_made_fails_the_step(self):
+        (self.folder / "log.flow").mkdir()
         code, errors = self.step("true", 0)
         self.assertEqual(code, 1)
         self.assertIn("step 'flow' failed", errors)

@@ -325,14 +325,17 @@ TEST(ReadMill, takes_a_core_of_half_the_columns_inside_openings) {
                 .find("'resolution.counts.core' = 20: expected 42 or 21, a quarter or an eighth of the cells "
                       "around the mill"),
             std::string::npos);
-  EXPECT_NE(refusal(with_core("11", "21"))
-                .find("'resolution.counts.core' = 21: expected 42, a quarter of the cells around the mill: "
-                      "half of it with openings only"),
+  EXPECT_NE(
+      refusal(with_core("11", "21"))
+          .find("'resolution.counts.core' = 21: expected 42, a quarter of the cells around the mill (half "
+                "of it with openings, and a multiple of 8 from 40 on around)"),
+      std::string::npos);
+  // 12 times 13 cells around, and 12 times 2
+  EXPECT_NE(refusal(opened(with_core("10", "19"))).find("expected 39, a quarter of the cells"),
             std::string::npos);
-  // 12 times 13 cells around
-  EXPECT_NE(refusal(opened(with_core("10", "19")))
-                .find("expected 39, a quarter of the cells around the mill: half of it with a multiple of 8"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(with(opened(with_core("1", "3")), "lifter: 3", "lifter: 1")).find("expected 6, a quarter"),
+      std::string::npos);
 }
 
 TEST(ReadMill, refuses_counts_that_the_blocks_cannot_have) {

@@ -26,15 +26,15 @@ void expect_lines(const std::string& report, const std::vector<std::string>& par
 
 TEST(MeshReport, holds_the_quality_against_its_limits) {
   expect_lines(report_of(mill_with_grates(), 0.002),
-               {"cells                    23200, 1160 of them in the cross-section\n"
-                "faces                    71960\n"
+               {"cells                    33200, 1660 of them in the cross-section\n"
+                "faces                    102460\n"
                 "volume                   0.0209316 m^3 (closed form 0.0209509)\n"
                 "volume error             9.19e-04 (limit 0.005)\n"
-                "max non-orthogonality    21.0 degrees (limit 45)\n"
-                "max skewness             0.64 (limit 1)\n"
-                "max volume ratio         2.48 (limit 3)\n"
-                "edges                    4.63 to 15.3 mm\n",
-                "largest ball             2 mm; cells 7.18 mm (smallest), 9.66 mm (mean volume's)\n"});
+                "max non-orthogonality    25.3 degrees (limit 45)\n"
+                "max skewness             0.49 (limit 1)\n"
+                "max volume ratio         2.11 (limit 3)\n"
+                "edges                    3.2 to 15.3 mm\n",
+                "largest ball             2 mm; cells 5.47 mm (smallest), 8.57 mm (mean volume's)\n"});
 }
 
 TEST(MeshReport, says_which_value_is_too_large) {
@@ -62,9 +62,9 @@ TEST(MeshReport, holds_the_areas_of_the_openings_against_those_asked_for) {
 
 TEST(MeshReport, names_the_averages_to_use_where_the_smallest_cell_is_smaller_than_the_largest_ball) {
   expect_lines(
-      report_of(mill_with_grates(), 0.009),
-      {"largest ball             9 mm; cells 7.18 mm (smallest), 9.66 mm (mean volume's)\n"
-       "advice: 47.2 % of the cells are smaller than the largest ball, of which the smallest holds 0.48 in a "
+      report_of(mill_with_grates(), 0.007),
+      {"largest ball             7 mm; cells 5.47 mm (smallest), 8.57 mm (mean volume's)\n"
+       "advice: 44.3 % of the cells are smaller than the largest ball, of which the smallest holds 0.46 in a "
        "dense charge; drag laws were derived on averages over 8 to 64: average on voxels coarser than the "
        "cells (millAverage --box), or on the mesh with --smooth; see averaging/README.md\n"});
   EXPECT_EQ(report_of(mill_with_grates(), 0.002).find("advice"), std::string::npos);
