@@ -45,7 +45,6 @@ class Step(unittest.TestCase):
         self.assertIn("step 'flow' failed", errors)
         self.assertIn("has 0 MB left", errors)
 
-
     def test_an_unknown_room_is_not_reported(self):
         for left in ("-", "", "twenty"):
             code, errors = self.step("false", left)
