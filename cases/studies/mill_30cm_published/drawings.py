@@ -26,19 +26,21 @@ def profiles(flows: Sequence[Flow]) -> Figure:
     def of(speed: int, balls: bool) -> list[Flow]:
         return [one for one in flows
                 if is_published(one.run) and one.run.speed == speed and bool(one.run.law) == balls]
-    groups = [(f"{speed} % of critical, {words}", of(speed, balls))
+    groups = [(f"{speed} % of critical, {words}", of(speed, balls), True)
               for balls, words in ((False, "without balls"), (True, "with balls")) for speed in (60, 75)]
     groups.append(("75 %, 20 % slurry, without balls: unknown parts", [
-        one for one in flows if one.run.law is None and (not is_published(one.run) or one.run.name == "fluid_75_20")]))
+        one for one in flows if one.run.law is None and (not is_published(one.run) or one.run.name == "fluid_75_20")],
+        False))
     groups.append(("75 %, 20 % slurry, with balls: other runs", [
-        one for one in flows if one.run.law and (not is_published(one.run) or one.run.name == "Beetstra_75_20")]))
+        one for one in flows if one.run.law and (not is_published(one.run) or one.run.name == "Beetstra_75_20")],
+        False))
     figure, axes = plt.subplots(3, 2, figsize=(12, 12), layout="constrained")
-    for axis, (title, group) in zip(axes.flat, groups):
+    for axis, (title, group, all_published) in zip(axes.flat, groups):
         for one in group:
             z, heights = 1e3 * one.slices.z, 1e3 * one.slices.profile()
-            style = {"color": SOLIDS_COLOURS[one.run.solids], "ls": LAW_LINES[one.run.law]}
-            if "20 % slurry" in title:
-                style = {"color": "black"} if is_published(one.run) else {}
+            style = {"color": "black"} if is_published(one.run) else {}
+            if all_published:
+                style = {"color": SOLIDS_COLOURS[one.run.solids], "ls": LAW_LINES[one.run.law]}
             line, = axis.plot(z, heights, marker="o", ms=3, label=one.run.name, **style)
             spread = 1e3 * one.slices.height.std(axis=0)
             axis.fill_between(z, heights - spread, heights + spread, color=line.get_color(), alpha=0.12, lw=0)
