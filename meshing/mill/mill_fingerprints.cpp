@@ -77,10 +77,11 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   if (geometry.contains("grates") && geometry["grates"].is_object())
     for (const char* key : {"sectors", "sector_share", "open_fraction", "pegged"})
       geometry["grates"].erase(key);
-  // Walls have none of the mesh's layers, nor its core
+  // Walls have none of the mesh's layers, nor those of its core and ring
   Json& resolution = of["resolution"];
   for (const char* key : {"layers", "last_layer"}) resolution.erase(key);
-  if (resolution.contains("counts") && resolution["counts"].is_object()) resolution["counts"].erase("core");
+  if (resolution.contains("counts") && resolution["counts"].is_object())
+    for (const char* key : {"core", "ring"}) resolution["counts"].erase(key);
   if (geometry.contains("pulp_lifters") && geometry["pulp_lifters"].is_object())
     geometry["pulp_lifters"].erase("layers");
   MillFingerprints result;

@@ -88,16 +88,20 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_NE(changed("dem.duration=3").averages, mill.averages);
 }
 
-TEST(Fingerprints, of_walls_and_charge_do_not_know_the_core) {
-  const auto with_core = [](const std::string& core) {
-    const std::string counts = "resolution={counts: {gap: 11, lifter: 3, height: 5, ring: 9" + core + "}}";
-    return describe(example_mill, {"geometry.inlet.radius=0.02", counts}).mill.fingerprint;
+TEST(Fingerprints, of_walls_and_charge_do_not_know_core_and_ring) {
+  const auto with_counts = [](const std::string& counts) {
+    return describe(example_mill, {"geometry.inlet.radius=0.02", "resolution={counts: {" + counts + "}}"})
+        .mill.fingerprint;
   };
-  const MillFingerprints whole = with_core(""), halved = with_core(", core: 21");
-  EXPECT_EQ(halved.walls, whole.walls);
-  EXPECT_EQ(halved.charge, whole.charge);
-  EXPECT_EQ(halved.averages, whole.averages);
-  EXPECT_NE(halved.flow, whole.flow);
+  const MillFingerprints usual = with_counts("gap: 11, lifter: 3, height: 5, ring: 9");
+  for (const char* other : {"ring: 9, core: 21", "ring: 12"}) {
+    const MillFingerprints mill = with_counts("gap: 11, lifter: 3, height: 5, " + std::string(other));
+    EXPECT_EQ(mill.walls, usual.walls) << other;
+    EXPECT_EQ(mill.charge, usual.charge) << other;
+    EXPECT_EQ(mill.averages, usual.averages) << other;
+    EXPECT_NE(mill.flow, usual.flow) << other;
+  }
+  EXPECT_NE(with_counts("gap: 11, lifter: 3, height: 6, ring: 9").walls, usual.walls);
 }
 
 TEST(ResolvedMill, has_the_last_layers_thickness) {
