@@ -103,6 +103,9 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   of["dem"] = dem_numbers(keys, mill);
   of["materials"] = materials;
   of.erase("title");
+  // A core with all columns is that without the key
+  if (const auto& counts = mill.resolution.counts; counts && !counts->halved)
+    of["resolution"]["counts"].erase("core");
   // How often balls and flow are computed in turn changes none of these flows
   for (const char* key : {"coupling", "passes", "relaxation"}) of["flow"].erase(key);
   // A flow that may take more hours is the same

@@ -102,6 +102,8 @@ TEST(Fingerprints, of_walls_and_charge_do_not_know_core_and_ring) {
     EXPECT_NE(mill.flow, usual.flow) << other;
   }
   EXPECT_NE(with_counts("gap: 11, lifter: 3, height: 6, ring: 9").walls, usual.walls);
+  // The default, written out
+  EXPECT_EQ(with_counts("gap: 11, lifter: 3, height: 5, ring: 9, core: 42").flow, usual.flow);
 }
 
 TEST(ResolvedMill, has_the_last_layers_thickness) {
