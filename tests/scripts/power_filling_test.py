@@ -13,6 +13,8 @@ from millfoam.files.data_files import read_csv
 from millfoam.files.mill import Mill
 from millfoam.readings import power_models
 from millfoam.readings.means import Mean
+from millstudies.mill_runs import resolved
+from millstudies.published_mills import MILLS, charge_setting
 
 ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "cases" / "studies" / "power_filling" / "power_filling.py"
@@ -77,6 +79,17 @@ class Table(unittest.TestCase):
         numbers.write_text("".join(",".join(line.split(",")[k] for k in chosen) + "\n"
                                    for line in path.read_text().splitlines()))
         self.assertEqual(list(read_csv(numbers)["filling"]), [0, 0.5, 1, 0.5, 1])
+
+
+class Loads(unittest.TestCase):
+    def test_a_published_load_is_that_of_the_mill(self):
+        for load in ("25", "50"):
+            found = resolved(MILLS["12cm"], [charge_setting(load)])
+            self.assertAlmostEqual(found.load, float(load) / 100, delta=0.005)
+
+    def test_another_load_is_refused_with_the_known_ones(self):
+        with self.assertRaisesRegex(ValueError, "loads.csv: no load 30 %; expected one of 12.5, 25, 37.5, 50"):
+            charge_setting("30")
 
 
 class Missing(unittest.TestCase):

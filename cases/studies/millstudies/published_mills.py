@@ -2,8 +2,9 @@
 """Dry runs of the published matrix, as studies make them: settings, their mills, their averages.
 
 M. Malahe, MSc thesis, University of Cape Town, 2012: the 12 cm mill with 4 loads at 8 speeds, the 30 cm mill at 2
-speeds."""
+speeds. As a program it prints the setting of the charge of a load."""
 import csv
+import sys
 from dataclasses import dataclass
 
 from .mill_runs import ROOT, resolved
@@ -41,6 +42,16 @@ def published_loads():
             for load in table[0] if load != "diameter_m"}
 
 
+def charge_setting(load):
+    """The setting `path=value` of the 12 cm mill's charge with that published load (% as text). ValueError if it is
+    none."""
+    loads = published_loads()
+    if load not in loads:
+        raise ValueError(f"{LOADS}: no load {load} %; expected one of {', '.join(loads)}")
+    return "charge.classes=[" + ", ".join(f"{{diameter: {diameter:g}, mass: {mass:g}}}"
+                                          for diameter, mass in loads[load]) + "]"
+
+
 def matrix():
     """Every run of the published matrix by name."""
     small = [Setting("12cm", load, speed) for load in published_loads() for speed in SPEEDS]
@@ -61,12 +72,17 @@ def mill(setting, duration, slice_length, left_out=LEFT_OUT, window=WINDOW, chan
            f"speed.fraction_of_critical={setting.speed / 100:g}", f"dem.duration={duration:g}",
            averages(VOXELS, left_out, window), f"geometry.slice={f'{slice_length:g}' if slice_length else '~'}"]
     if setting.mill == "12cm":
-        load = published_loads()[setting.load]
-        classes = ", ".join(f"{{diameter: {diameter:g}, mass: {mass:g}}}" for diameter, mass in load)
-        own.append(f"charge.classes=[{classes}]")
+        own.append(charge_setting(setting.load))
     return resolved(MILLS[setting.mill], (*own, *changes))
 
 
 def run_name(name, slice_length):
     """Name of a run's folder; slices have folders of their own."""
     return name + (f"_slice{1e3 * slice_length:g}mm" if slice_length else "")
+
+
+if __name__ == "__main__":
+    try:
+        print(charge_setting(*sys.argv[1:]))
+    except ValueError as error:
+        sys.exit(str(error))

@@ -160,7 +160,8 @@ def draw_power(studies):
             except ValueError as error:
                 print(f"{study.name}: {name}: {error}")
         axis.set(xlabel="volume of slurry over that of the resting charge's pores", ylabel="power, W", ylim=(0, None),
-                 title=f"{study.mill.title}: {100 * study.mill.critical_share:.0f} % of critical")
+                 title=f"{study.name}: {200 * study.mill.radius:.0f} cm, {100 * study.mill.critical_share:.0f} % of "
+                       f"critical, load {100 * study.mill.load:.3g} %")
         axis.title.set_fontsize(9)
         axis.grid(alpha=0.3)
         axis.legend(fontsize=7, ncols=2)
