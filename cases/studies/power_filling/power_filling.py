@@ -170,14 +170,14 @@ def draw_power(studies):
 
 def draw_maps(studies):
     """Figure with a row for each mill and a panel for each filling with direct coupling: solidity and slurry."""
-    most = max(sum(run.way == "direct" for run in study.runs) for study in studies)
-    figure, axes = plt.subplots(len(studies), max(most, 1), figsize=(2.9 * most + 1, 3.2 * len(studies)),
+    rows = [[run for run in study.runs if run.way == "direct"] for study in studies]
+    most = max(1, *map(len, rows))
+    figure, axes = plt.subplots(len(studies), most, figsize=(2.1 * most + 1.2, 2.5 * len(studies) + 0.4),
                                 squeeze=False, layout="constrained")
-    for line, study in zip(axes, studies):
-        for axis in line:
+    for line, study, runs in zip(axes, studies, rows):
+        for axis in line[len(runs):]:
             axis.set_axis_off()
-        for axis, run in zip(line, (run for run in study.runs if run.way == "direct")):
-            axis.set_axis_on()
+        for axis, run in zip(line, runs):
             charge = run.numbers.charge
             mesh = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(charge.inside > 0, charge.solidity, np.nan),
                                    vmin=0, vmax=0.65, cmap="YlOrBr")
@@ -186,10 +186,12 @@ def draw_maps(studies):
             if share.max() > HALF:
                 axis.contour(x, y, share, [HALF], colors="#0072B2")
             draw_outline(axis, run.case.outline, run.case.radius, run.case.omega)
-            axis.set(title=f"{study.name}: filling {run.fill:g}", aspect="equal", xlabel="x, mm")
-            axis.title.set_fontsize(9)
-            figure.colorbar(mesh, ax=axis, label="solidity, –", shrink=0.7)
-    figure.suptitle("Solidity; blue: half slurry. Balls and slurry at the same time", fontsize=10)
+            axis.set(title=f"{study.name}, filling {run.fill:g}", aspect="equal", xlabel="x, mm",
+                     ylabel="y, mm" if axis is line[0] else "")
+            axis.title.set_fontsize(8)
+    if any(rows):
+        figure.colorbar(mesh, ax=axes, label="solidity, –", shrink=0.8)
+    figure.suptitle("Solidity; blue: where half of the fluid is slurry. Balls and slurry at the same time", fontsize=9)
     return figure
 
 
