@@ -301,7 +301,7 @@ struct Flow {
 /// Fingerprints of the inputs of stages: hashes of those keys of the resolved mill on which a stage's result
 /// depends, 16 hexadecimal digits each.
 struct MillFingerprints {
-  std::string walls;     ///< geometry, and what divides the shell into facets
+  std::string walls;     ///< geometry, and what divides shell and lifters into facets
   std::string charge;    ///< walls, speed, charge, materials, and dem but for its duration
   std::string averages;  ///< charge, duration of the dry run, averages
   std::string flow;      ///< everything but the title and how often balls and flow are computed in turn

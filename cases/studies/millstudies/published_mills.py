@@ -82,7 +82,9 @@ def run_name(name, slice_length):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(f"published_mills: expected one load in %, got {len(sys.argv) - 1} arguments")
     try:
-        print(charge_setting(*sys.argv[1:]))
+        print(charge_setting(sys.argv[1]))
     except ValueError as error:
         sys.exit(str(error))
