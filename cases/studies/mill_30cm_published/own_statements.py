@@ -86,7 +86,7 @@ def bed(flows: Flows) -> Iterator[Verdict]:
     def returns(flow: Flow) -> tuple[str, str]:
         return by_sign(Mean(0.0) - flow.top_velocity), f"{flow.top_velocity.text('mm/s', 1e3)} (+: to the discharge)"
 
-    for name in ("Beetstra_75_20", "ErgunWenYu_75_20", "Beetstra_75_40", "Beetstra_60_20"):
+    for name in ("Beetstra_75_20", "ErgunWenYu_75_20", "Beetstra_75_40", "ErgunWenYu_75_40", "Beetstra_60_20"):
         yield tested("the charge has a dry patch at its centre of circulation", flows, (name,), patch)
         yield tested("slurry returns to the feed at the top of the shoulder", flows, (name,), returns)
 
