@@ -128,22 +128,26 @@ def write_csv(rows, path):
 def lines_of(rows):
     """The table as text, a block for each mill."""
     for mill in dict.fromkeys(row["mill"] for row in rows):
-        yield (f"{mill:<12}{'filling':>8}" + "".join(f"{f'{name}, W':>20}" for name in POWERS.values())
+        yield (f"{mill:<16}{'filling':>8}" + "".join(f"{f'{name}, W':>20}" for name in POWERS.values())
                + f"{'pool':>8}  flow is steady")
         for row in (row for row in rows if row["mill"] == mill):
             powers = "".join(f"{row[f'{key}_W']:11.4f} ± {row[f'{key}_error_W']:.4f}"
                              if np.isfinite(row.get(f"{key}_W", np.nan)) else f"{'–':>20}" for key in POWERS)
             share = row.get("slurry_in_pool")
-            yield (f"{row['coupling']:<12}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
+            yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
                    + f"  {row.get('steady', '')}")
         yield ""
 
 
 def draw_power(studies):
     """Figure with a panel for each mill: power of drive and charge over the filling, and the models."""
-    figure, axes = plt.subplots(1, len(studies), figsize=(6.4 * len(studies), 5), squeeze=False, layout="constrained")
+    columns = min(2, len(studies))
+    lines = -(-len(studies) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(6.4 * columns, 5 * lines), squeeze=False, layout="constrained")
     fills = np.linspace(0, 1.5, 61)
-    for axis, study in zip(axes[0], studies):
+    for axis in axes.flat[len(studies):]:
+        axis.set_axis_off()
+    for axis, study in zip(axes.flat, studies):
         axis.errorbar(0, study.dry.value, study.dry.error, fmt="ks", label="dry charge")
         for way, marker, colour in (("one_way", "o", "#D55E00"), ("direct", "D", "#0072B2")):
             runs = [run for run in study.runs if run.way == way]
