@@ -81,6 +81,20 @@ class Table(unittest.TestCase):
         self.assertEqual(list(read_csv(numbers)["filling"]), [0, 0.5, 1, 0.5, 1])
 
 
+class Relative(unittest.TestCase):
+    def test_begins_with_the_dry_mill_and_has_the_errors_of_both(self):
+        def run(way, fill, power):
+            return study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "holds")
+        runs = [run("one_way", 0.5, Mean(9.0, 9.0)), run("direct", 0.5, Mean(0.25, 0.01)),
+                run("direct", 1.0, Mean(np.nan, np.nan))]
+        found = study.relative_power(study.Study("12cm_50", None, Mean(0.2, 0.006), runs, []), "direct")
+        self.assertEqual([fill for fill, _ in found], [0.0, 0.5])
+        self.assertEqual(found[0][1].value, 1.0)
+        self.assertAlmostEqual(found[0][1].error, 0.03)
+        self.assertAlmostEqual(found[1][1].value, 1.25)
+        self.assertAlmostEqual(found[1][1].error, 1.25 * 0.05)  # 4 % and 3 %
+
+
 class Loads(unittest.TestCase):
     def test_a_published_load_is_that_of_the_mill(self):
         for load in ("25", "50"):

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Power of mills against the share of the resting charge's pores that slurry fills: a table on the screen, and, in the
-folder of the runs, power_filling.txt, power_filling.csv, power_filling.png (power, with the classical models) and
-power_filling_maps.png (charge and slurry). Runs that are not complete are listed."""
+folder of the runs, power_filling.txt, power_filling.csv, power_filling.png (power, with the classical models),
+power_filling_relative.png (power over that of the dry mill) and power_filling_maps.png (charge and slurry). Runs that
+are not complete are listed."""
 import argparse
 import csv
 from collections.abc import Callable
@@ -172,6 +173,32 @@ def draw_power(studies):
     return figure
 
 
+def relative_power(study: Study, way: str) -> list[tuple[float, Mean]]:
+    """(filling, drive's power over the dry mill's) of the runs of a way whose power is known. The errors of the two are
+    taken as independent."""
+    dry, found = study.dry, [(0.0, Mean(1.0, study.dry.error / study.dry.value))]
+    for run in study.runs:
+        drive = run.numbers.quantities["drive_power"]
+        if run.way == way and np.isfinite(drive.value):
+            ratio = drive.value / dry.value
+            found.append((run.fill, Mean(ratio, ratio * np.hypot(drive.error / drive.value, dry.error / dry.value))))
+    return found
+
+
+def draw_relative(studies):
+    """Figure with a curve for each mill: drive's power with balls that feel the slurry, over that of the dry mill."""
+    figure, axis = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    for study, marker in zip(studies, "osD^v<>P"):
+        fills, means = zip(*relative_power(study, "direct"))
+        axis.errorbar(fills, [one.value for one in means], [one.error for one in means], marker=marker, capsize=2,
+                      label=study.name)
+    axis.set(xlabel="volume of slurry over that of the resting charge's pores",
+             ylabel="power of the drive over that of the dry mill", title="Balls and slurry at the same time")
+    axis.grid(alpha=0.3)
+    axis.legend()
+    return figure
+
+
 def draw_maps(studies):
     """Figure with a row for each mill and a panel for each filling with direct coupling: solidity and slurry."""
     rows = [[run for run in study.runs if run.way == "direct"] for study in studies]
@@ -220,6 +247,7 @@ def main():
     (options.runs / "power_filling.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
     draw_power(studies).savefig(options.runs / "power_filling.png", dpi=130)
+    draw_relative(studies).savefig(options.runs / "power_filling_relative.png", dpi=130)
     draw_maps(studies).savefig(options.runs / "power_filling_maps.png", dpi=130)
 
 
