@@ -82,17 +82,23 @@ class Table(unittest.TestCase):
 
 
 class Relative(unittest.TestCase):
-    def test_begins_with_the_dry_mill_and_has_the_errors_of_both(self):
-        def run(way, fill, power):
-            return study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "holds")
-        runs = [run("one_way", 0.5, Mean(9.0, 9.0)), run("direct", 0.5, Mean(0.25, 0.01)),
-                run("direct", 1.0, Mean(np.nan, np.nan))]
-        found = study.relative_power(study.Study("12cm_50", None, Mean(0.2, 0.006), runs, []), "direct")
-        self.assertEqual([fill for fill, _ in found], [0.0, 0.5])
-        self.assertEqual(found[0][1].value, 1.0)
-        self.assertAlmostEqual(found[0][1].error, 0.03)
-        self.assertAlmostEqual(found[1][1].value, 1.25)
-        self.assertAlmostEqual(found[1][1].error, 1.25 * 0.05)  # 4 % and 3 %
+    def mill(self, name, *runs):
+        made = [study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "holds")
+                for way, fill, power in runs]
+        return study.Study(name, None, Mean(0.2, 0.006), made, [])
+
+    def test_has_the_direct_runs_with_the_errors_of_both(self):
+        (fill, ratio), = study.relative_power(self.mill(
+            "12cm_50", ("one_way", 0.5, Mean(9.0, 9.0)), ("direct", 0.5, Mean(0.25, 0.01)),
+            ("direct", 1.0, Mean(np.nan, np.nan))))
+        self.assertEqual(fill, 0.5)
+        self.assertAlmostEqual(ratio.value, 1.25)
+        self.assertAlmostEqual(ratio.error, 1.25 * 0.05)  # 4 % and 3 %
+
+    def test_picture_has_all_mills_that_have_direct_runs(self):
+        mills = [self.mill(f"mill{k}", ("direct", 0.5, Mean(0.25, 0.01))) for k in range(10)]
+        axis, = study.draw_relative([*mills, self.mill("none")]).axes
+        self.assertEqual(axis.get_legend_handles_labels()[1], ["dry", *(f"mill{k}" for k in range(10))])
 
 
 class Loads(unittest.TestCase):

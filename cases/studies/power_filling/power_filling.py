@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Power of mills against the share of the resting charge's pores that slurry fills: a table on the screen, and, in the
 folder of the runs, power_filling.txt, power_filling.csv, power_filling.png (power, with the classical models),
-power_filling_relative.png (power over that of the dry mill) and power_filling_maps.png (charge and slurry). Runs that
-are not complete are listed."""
+power_filling_relative.png (direct: the drive's power over that of the dry mill) and power_filling_maps.png (charge and
+slurry). Runs that are not complete are listed."""
 import argparse
 import csv
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -173,25 +174,26 @@ def draw_power(studies):
     return figure
 
 
-def relative_power(study: Study, way: str) -> list[tuple[float, Mean]]:
-    """(filling, drive's power over the dry mill's) of the runs of a way whose power is known. The errors of the two are
-    taken as independent."""
-    dry, found = study.dry, [(0.0, Mean(1.0, study.dry.error / study.dry.value))]
+def relative_power(study: Study) -> list[tuple[float, Mean]]:
+    """(filling, drive's power over the dry mill's) of the direct runs whose power is known. The errors of the two are
+    independent."""
+    dry, found = study.dry, []
     for run in study.runs:
         drive = run.numbers.quantities["drive_power"]
-        if run.way == way and np.isfinite(drive.value):
+        if run.way == "direct" and np.isfinite(drive.value):
             ratio = drive.value / dry.value
-            found.append((run.fill, Mean(ratio, ratio * np.hypot(drive.error / drive.value, dry.error / dry.value))))
+            found.append((run.fill, Mean(ratio, np.hypot(drive.error, ratio * dry.error) / dry.value)))
     return found
 
 
 def draw_relative(studies):
     """Figure with a curve for each mill: drive's power with balls that feel the slurry, over that of the dry mill."""
     figure, axis = plt.subplots(figsize=(7, 4.5), layout="constrained")
-    for study, marker in zip(studies, "osD^v<>P"):
-        fills, means = zip(*relative_power(study, "direct"))
-        axis.errorbar(fills, [one.value for one in means], [one.error for one in means], marker=marker, capsize=2,
-                      label=study.name)
+    axis.plot(0, 1, "k*", label="dry")
+    for study, marker in zip(studies, itertools.cycle("osD^v<>P")):
+        found = [(fill, one.value, one.error) for fill, one in relative_power(study)]
+        if found:
+            axis.errorbar(*zip(*found), marker=marker, capsize=2, label=study.name)
     axis.set(xlabel="volume of slurry over that of the resting charge's pores",
              ylabel="power of the drive over that of the dry mill", title="Balls and slurry at the same time")
     axis.grid(alpha=0.3)
