@@ -25,6 +25,7 @@ slurry: {density: 1200, plastic_viscosity: 0.005, yield_stress: 0.1, level: -0.0
 resolution: {cell_size: 0.008, layers: 2}
 flow: {duration: 0.5}
 """
+MILLS = Path(__file__).resolve().parents[2] / "cases" / "mills"
 CELLS, FACES, SECTION_CELLS, VOLUME, LENGTH, RADIUS = 1000, 3500, 250, 0.001, 0.1, 0.05
 STEP = 0.5  # s that the stub's flow takes for a step, after a first one of 40 s
 MILL_MESH = f"""mkdir -p walls constant/polyMesh
@@ -184,6 +185,33 @@ class Arithmetic(Folder):
         self.assertEqual(content["charge_from"], "../dry")
         self.assertIn("are those of ../dry", text)
 
+    def test_a_plan_until_a_stage_ends_with_it_and_makes_no_trial_of_what_follows(self):
+        self.write(mill())
+        (self.folder / "stubs" / "slurryFoam").unlink()
+        for last, expected in (("average", ["walls", "charge", "average"]),
+                               ("mesh", ["walls", "charge", "average", "mesh"])):
+            content, stages, text = self.planned("--until", last)
+            self.assertEqual(list(stages), expected)
+            self.assertIsNone(content["flow_steps"])
+            self.assertNotIn("The flow", text)
+            self.assertAlmostEqual(content["total"]["time_s"], sum(stage["time_s"] for stage in stages.values()))
+
+    def test_a_plan_until_the_flow_has_no_pictures(self):
+        self.write(mill())
+        content, stages, _ = self.planned("--until", "flow")
+        self.assertEqual(list(stages), ["walls", "charge", "average", "mesh", "start", "flow"])
+        self.assertEqual(content["flow_steps"], 1000)
+
+    def test_the_dry_run_of_a_flow_without_balls_is_planned_where_it_is_asked_for(self):
+        self.write(mill(balls=False))
+        self.assertEqual(list(self.planned("--until", "charge")[1]), ["walls", "charge"])
+
+    def test_a_stage_that_does_not_exist_is_refused(self):
+        self.write(mill())
+        done = self.plan("--until", "flows")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'flows' (choose from 'walls', 'charge', 'average', 'mesh', 'start', 'flow')", done.stderr)
+
     def test_table_and_total(self):
         self.write(mill())
         content, stages, text = self.planned()
@@ -249,6 +277,23 @@ class SmallMill(Folder):
             self.assertGreater(flow.step_time, 0)
             # Of a rank with OpenFOAM's libraries, not of mpirun
             self.assertGreater(flow.memory, 80e6)
+
+    def test_a_mesh_of_balls_that_feel_the_slurry_is_that_of_slurry_alone(self):
+        (self.folder / "mill.yaml").write_text(SMALL)
+        cells = {}
+        for coupling in ("one_way", "iterated", "direct"):
+            subprocess.run(["millMesh", "mill.yaml", "--set", f"flow.coupling={coupling}", "--resolved", "mill.json"],
+                           cwd=self.folder, check=True)
+            case = self.folder / coupling
+            case.mkdir()
+            cells[coupling] = trial.try_mesh(case, self.folder / "mill.json").cells
+        self.assertEqual(len(set(cells.values())), 1, cells)
+
+    def test_a_stirred_mill_whose_balls_feel_the_slurry_has_a_mesh_without_their_voxels(self):
+        subprocess.run(["millMesh", MILLS / "stirred_A" / "mill.yaml", "--set", "variant=quick_wet", "--set",
+                        "flow.coupling=direct", "--set", "flow.exchange={voxel_size: 0.01}", "--resolved", "mill.json"],
+                       cwd=self.folder, check=True)
+        self.assertGreater(trial.try_mesh(self.folder, self.folder / "mill.json", "stirred").cells, 1000)
 
     def test_every_stage_of_a_real_mill_is_planned(self):
         (self.folder / "mill.yaml").write_text(SMALL)

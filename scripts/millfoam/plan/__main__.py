@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Predicts time, disk and memory of every stage of a mill's case, from trials on this machine.
 
-    python3 -m millfoam.plan FOLDER -np N [--charge OTHER]
+    python3 -m millfoam.plan FOLDER -np N [--charge OTHER] [--until STAGE]
 
 FOLDER contains mill.json. Prints a table and writes FOLDER/plan.json. scripts/README.md, "What it will cost", says what
 is measured here and what is calibrated on earlier runs."""
@@ -15,7 +15,7 @@ from typing import Any
 from ..files.data_files import DataError, write_json
 from ..files.mill import Mill, NoMill, read_mill
 from ..run import RunError
-from .stages import FlowPlan, Stage, make_stages, total
+from .stages import STAGES, FlowPlan, Stage, make_stages, total
 from .trial import MeshTrial
 
 BUSY = 0.4  # load per core above which the plan reports that other programs are running
@@ -46,14 +46,15 @@ def table(stages: Sequence[Stage]) -> list[str]:
     return [f"{row[0]:20} {row[1]:>8} {row[2]:>9} {row[3]:>9}   {row[4]}".rstrip() for row in rows]
 
 
-def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: Sequence[Stage], plan: FlowPlan,
-               mesh: MeshTrial) -> None:
-    """Writes plan.json: the Stages as numbers, and the numbers from which the flow's are computed."""
+def write_plan(path: Path, mill: Mill, ranks: int, charge: str | None, stages: Sequence[Stage],
+               plan: FlowPlan | None, mesh: MeshTrial) -> None:
+    """Writes plan.json: the Stages as numbers, and the numbers from which the flow's are computed, if it has one."""
     def numbers(one: Stage) -> dict[str, Any]:
         return {"time_s": one.time, "disk_bytes": round(one.disk), "memory_bytes": round(one.memory)}
     content = {"format": "millfoam-plan", "program": "plan", "tools": mill.content.get("program"),
                "mill": mill.fingerprint, "ranks": ranks, "charge_from": charge, "cells": mesh.cells,
-               "flow_steps": plan.steps, "flow_time_step_s": plan.time_step, "written_times": plan.written_times,
+               "flow_steps": plan and plan.steps, "flow_time_step_s": plan and plan.time_step,
+               "written_times": plan and plan.written_times,
                "stages": [{"stage": one.name, **numbers(one), "from": one.source} for one in stages],
                "total": numbers(total(stages))}
     write_json(path, content)
@@ -65,21 +66,24 @@ def main() -> None:
     parser.add_argument("folder", help="folder with the resolved mill, mill.json")
     parser.add_argument("-np", dest="ranks", type=int, default=1, metavar="N", help="number of processes")
     parser.add_argument("--charge", metavar="FOLDER", help="case from which the charge and its averages are taken")
+    parser.add_argument("--until", choices=STAGES, metavar="STAGE",
+                        help=f"the last stage of the plan: one of {', '.join(STAGES)}; without it, all stages")
     options = parser.parse_args()
     if options.ranks < 1:
         parser.error(f"-np {options.ranks}: expected 1 or more")
     before = os.getloadavg()[0]
     try:
         mill = read_mill(options.folder, None)
-        stages, plan, mesh = make_stages(mill, options.ranks, options.charge)
+        stages, plan, mesh = make_stages(mill, options.ranks, options.charge, options.until)
         write_plan(Path(options.folder) / "plan.json", mill, options.ranks, options.charge, stages, plan, mesh)
     except (NoMill, DataError, RunError) as error:
         sys.exit(str(error))
     except OSError as error:
         sys.exit(f"plan: {error.filename or options.folder}: {error.strerror or error}")
     print("\n".join(table(stages)))
-    print(f"The flow: {mesh.cells} cells, about {plan.steps} steps of {1e3 * plan.time_step:.3g} ms, "
-          f"{plan.written_times} written times, on {options.ranks} process{'es' if options.ranks > 1 else ''}")
+    if plan:
+        print(f"The flow: {mesh.cells} cells, about {plan.steps} steps of {1e3 * plan.time_step:.3g} ms, "
+              f"{plan.written_times} written times, on {options.ranks} process{'es' if options.ranks > 1 else ''}")
     cores = os.cpu_count() or 1
     if before > BUSY * cores:
         print(f"Other programs were running (load {before:.1f} on {cores} cores): a free machine takes less time")

@@ -27,6 +27,8 @@ PICTURES_TIME, FRAME_TIME, FRAMES = 8.0, 0.1, 60  # s; of a frame of the animati
 PICTURES_DISK, PYTHON_MEMORY = 6e6, 190e6
 AVERAGE_MEMORY = 21e6  # without the memory of one record of all balls
 RECORD_BYTES = 100  # of one ball in memory
+CHARGE_STAGES = ("walls", "charge", "average")
+STAGES = (*CHARGE_STAGES, "mesh", "start", "flow")  # after which Allrun --until stops
 
 
 @dataclass(frozen=True)
@@ -150,27 +152,40 @@ def pictures_stage(plan: FlowPlan) -> Stage:
                  PYTHON_MEMORY, "earlier runs")
 
 
-def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list[Stage], FlowPlan, MeshTrial]:
-    """All Stages of a Mill's case and its FlowPlan and MeshTrial; trials are made in a temporary folder.
+def stages_until(last: str | None, stages: Sequence[Stage]) -> list[Stage]:
+    """Stages up to one of STAGES, itself included; None: all."""
+    return [one for one in stages if last is None or STAGES.index(one.name) <= STAGES.index(last)]
 
-    charge: folder of the case from which the charge is taken; its stages are then left out. RunError with a tool's own
-    message if the tool refuses the mill."""
+
+def make_stages(mill: Mill, ranks: int, charge: str | None = None,
+                until: str | None = None) -> tuple[list[Stage], FlowPlan | None, MeshTrial]:
+    """Stages of a Mill's case, its FlowPlan and MeshTrial; trials are made in a temporary folder.
+
+    charge: folder of the case from which the charge is taken; its stages are then left out. until: the last one of
+    STAGES; None: all, with further passes, pictures and report. Up to the mesh there is no FlowPlan. RunError with a
+    tool's own message if the tool refuses the mill."""
     path = mill.path.resolve()
+    trial = None
     with tempfile.TemporaryDirectory(prefix="millfoam-plan-") as folder:
-        dry = try_charge(folder, path, ranks) if mill.flow("balls") and not charge else None
+        dry = try_charge(folder, path, ranks) if (mill.flow("balls") or until in CHARGE_STAGES) and not charge else None
         case = Path(folder) / "case"
         case.mkdir()
         mesh = try_mesh(case, path, mill.machine)
-        trial = try_flow(case, mill.flow("solver"), flow_number(mill, "max_time_step_s"), ranks)
-    plan = plan_flow(mill, mesh)
+        if until not in (*CHARGE_STAGES, "mesh"):
+            trial = try_flow(case, mill.flow("solver"), flow_number(mill, "max_time_step_s"), ranks)
     made = Cost(mesh.cost.time, mesh.cost.memory)
     stages = []
     if dry:
         stages = [Stage("walls", made.time, mesh.walls_disk, made.memory, "made here"), charge_stage(dry),
                   average_stage(mill, dry)]
-    stages += [Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"),
-               Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
+    stages.append(Stage("mesh", made.time, mesh.mesh_disk, made.memory, "made here"))
+    if not trial:
+        return stages_until(until, stages), None, mesh
+    plan = plan_flow(mill, mesh)
+    stages += [Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
                flow_stage(mill, mesh, trial, plan, ranks)]
+    if until:
+        return stages_until(until, stages), plan, mesh
     if dry and mill.flow("coupling", "one_way") == "direct":
         stages[-1] = together_stage(mill, stages[1], stages[-1])
     passes = passes_stage(mill, stages)
@@ -181,4 +196,4 @@ def make_stages(mill: Mill, ranks: int, charge: str | None = None) -> tuple[list
 def total(stages: Sequence[Stage]) -> Stage:
     """Stage of all: sums of time and disk, the largest memory."""
     return Stage("total", sum(one.time for one in stages), sum(one.disk for one in stages),
-                 max(one.memory for one in stages), "")
+                 max((one.memory for one in stages), default=0.0), "")

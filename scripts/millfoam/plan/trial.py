@@ -17,6 +17,7 @@ TEMPLATE = Path(__file__).resolve().parents[2] / "mill_case"
 TRIAL_TIME = 20.0  # s, longest time of the flow's trial
 LARGEST_STEPS = 30  # its length in largest time-steps: about 40 steps, because the first ones are shorter
 FIRST_STEPS = 10  # not counted, because the time-step grows from its first value
+WITHOUT_BALLS = ("flow.balls=no", "flow.coupling=one_way", "flow.exchange=~")  # what makes a mill's flow one of slurry
 FEWEST_STEPS = 4  # on a mesh too large for the trial's time, the trial makes this many, or a multiple
 
 
@@ -100,13 +101,14 @@ def try_charge(folder: Path | str, mill: Path | str, ranks: int) -> dict[str, An
 
 def try_mesh(folder: Path | str, mill: Path | str, machine: str = "tumbling") -> MeshTrial:
     """Makes `folder` a case of the mill without balls, with its mesh, and returns its MeshTrial; machine: tumbling or
-    stirred, whose walls need other dictionaries."""
+    stirred, whose walls need other dictionaries. Balls that feel the slurry have the same mesh."""
     folder = Path(folder)
     for part in ("0.orig", "constant", "system"):
         shutil.copytree(TEMPLATE / part, folder / part)
     if machine != "tumbling":
         shutil.copytree(TEMPLATE / machine, folder, dirs_exist_ok=True)
-    cost = run_measured(folder, "millMesh", mill, "--set", "flow.balls=no", "--case", ".")
+    alone = [word for change in WITHOUT_BALLS for word in ("--set", change)]
+    cost = run_measured(folder, "millMesh", mill, *alone, "--case", ".")
     file = folder / "mesh.json"
     mesh = read_json(file, "mesh")
     count = {key: int(number(mesh, file, key)) for key in ("cells", "faces", "cells_in_section")}
