@@ -4,8 +4,8 @@ import unittest
 
 import numpy as np
 
-from millfoam.readings.batches import error_over_turns
-from millfoam.readings.means import CORRELATED, block_mean, mean_variance, turns_mean
+from millfoam.readings.batches import batch_means, error_over_turns
+from millfoam.readings.means import CORRELATED, Mean, block_mean, mean_of_series, mean_variance, turns_mean
 from millfoam.readings.stirred_power import mean_from
 
 
@@ -67,6 +67,56 @@ class MeansTest(unittest.TestCase):
         of_turns = np.repeat(values, 10)
         self.assertGreater(error_over_turns(times[1:], of_turns, 0, 1), 2 * plain)
         self.assertGreater(mean_from(times[1:], of_turns, 0, 1).error, 2 * plain)
+
+
+class Differences(unittest.TestCase):
+    def test_reach_is_students(self):
+        # Printed tables: 12.706, 4.303 and 2.776 for 1, 2 and 4 degrees of freedom
+        for count, factor in ((2, 12.706), (3, 4.303), (5, 2.776)):
+            found = block_mean(np.arange(float(count)))
+            self.assertAlmostEqual(found.reach / found.error, factor, delta=1e-3)
+        self.assertAlmostEqual(Mean(3.0, 1.0).reach, 1.96, delta=1e-3)
+
+    def test_freedom_of_a_difference_is_welchs(self):
+        # Equal errors of two turns each: 2; an error that is much the larger keeps its own
+        self.assertAlmostEqual((Mean(1.0, 0.3, 1) - Mean(0.0, 0.3, 1)).freedom, 2)
+        self.assertAlmostEqual((Mean(1.0, 0.3, 4) - Mean(0.0, 1e-6, 1)).freedom, 4, delta=1e-3)
+        self.assertEqual((Mean(1.0) - Mean(0.5)).freedom, np.inf)
+        self.assertEqual((Mean(1.0, 0.3, 4) - Mean(0.5)).freedom, 4)
+
+    def test_two_turns_hardly_show_a_sign(self):
+        self.assertEqual(block_mean([1.0, 1.1]).sign, 1)
+        self.assertEqual(block_mean([1.0, 1.4]).sign, 0)  # 1.2 +- 0.2, six errors
+        self.assertEqual(block_mean([-1.0, -1.4, -1.2]).sign, -1)
+        self.assertEqual(block_mean([1.0]).sign, 0)
+        self.assertEqual(Mean(0.0).sign, 0)
+
+    def test_of_equal_means_one_in_twenty_has_a_sign(self):
+        # Of means over two and three turns; with a limit of two errors it is one in five or more
+        random = np.random.default_rng(7)
+        for count in (2, 3):
+            found = [block_mean(random.normal(0, 1, count)).sign != 0 for _ in range(4000)]
+            self.assertAlmostEqual(np.mean(found), 0.05, delta=0.012)
+
+    def test_a_series_has_its_blocks_freedom(self):
+        found = mean_of_series(np.arange(10.0))
+        self.assertEqual((found.value, found.freedom), (4.5, 4))
+
+
+class Batches(unittest.TestCase):
+    def test_values_count_by_their_time_steps(self):
+        # 1 for 0.8 s in one step, then 3 for 0.1 s in two steps, in the first batch; 2 for 0.5 s and 4 for 0.45 s
+        times, values = np.array([0.05, 0.85, 0.9, 0.95, 1.45, 1.9]), np.array([0.0, 1.0, 3.0, 3.0, 2.0, 4.0])
+        np.testing.assert_allclose(batch_means(times, values, 0.1, 0.9, 2),
+                                   [(0.8 * 1 + 0.1 * 3) / 0.9, (0.5 * 2 + 0.45 * 4) / 0.95], rtol=1e-12)
+
+    def test_equal_values_have_an_error_of_zero(self):
+        times = np.cumsum(np.random.default_rng(1).uniform(0.01, 0.1, 300))
+        self.assertEqual(np.ptp(batch_means(times, np.full(300, 0.1 + 0.2), times[0], 1.0, 8)), 0)
+
+    def test_without_a_value_a_batch_is_nan(self):
+        self.assertTrue(np.isnan(batch_means(np.array([]), np.array([]), 0.0, 1.0, 2)).all())
+        np.testing.assert_array_equal(batch_means(np.array([0.5]), np.array([2.0]), 0.0, 1.0, 2), [2, np.nan])
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -17,8 +18,9 @@ import numpy as np
 from millfoam.readings.axial import gaussians
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
-from millstudies.axial_slices import jackknife, pressure_drop, read_profile, read_slices
+from millstudies.axial_slices import Slices, jackknife, pressure_drop, read_profile, read_slices
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
+from charge_test import RADIUS, below, cell, charge_map
 from slurry_on_maps_test import slurry_map
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -35,6 +37,7 @@ LOWER, UPPER, SHAPE = np.array([-0.15, -0.15, 0.0]), np.array([0.15, 0.15, 0.338
 LENGTH = 0.305
 PEAKS, HIGH, WIDE, BASE = (0.09, 0.21), (0.02, 0.015), (0.03, 0.03), -0.09
 FALL = 300.0  # of the pressure along the axis, Pa/m
+JUMP = 200.0  # of the pressure in the first slice, in the one that is partly behind the grates, and in those behind, Pa
 
 
 class Runs(unittest.TestCase):
@@ -93,7 +96,8 @@ def write_slurry(path):
         slurry[window, np.arange(SHAPE[0]), row, 16] = 1 - above
         slurry[window, np.arange(SHAPE[0]), row + 1, 16] = above
         slurry[window, :, np.argmin(np.abs(y + 0.03)), 16] += 1e-9
-        pressure[window] = 1000 - FALL * z[:, None, None] - 9810 * y[None, :, None]
+        jump = np.where((z < 0.01) | (z > LENGTH - 0.01), JUMP, 0.0)
+        pressure[window] = 1000 - FALL * z[:, None, None] + jump[:, None, None] - 9810 * y[None, :, None]
     with h5py.File(path, "w") as file:
         grid = file.create_group("grid")
         grid.attrs.update(lower=LOWER, upper=UPPER, shape=SHAPE)
@@ -109,7 +113,7 @@ def case_of(path):
                            folder=path.parent, unusable=[])
 
 
-class Slices(unittest.TestCase):
+class Axis(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
@@ -142,6 +146,7 @@ class Slices(unittest.TestCase):
             drop = pressure_drop(self.slices, name, LENGTH)
             self.assertAlmostEqual(drop.value, FALL * LENGTH, delta=1e-3)
             self.assertAlmostEqual(drop.error, 0, delta=1e-3)
+            self.assertEqual(drop.freedom, 2)
         # Where slurry stands higher, its own pressure is lower
         self.assertNotAlmostEqual(pressure_drop(self.slices, "pressure", LENGTH).value, FALL * LENGTH, delta=10)
 
@@ -175,9 +180,9 @@ class Bed(unittest.TestCase):
 class Statements(unittest.TestCase):
     def flow(self, **numbers):
         series = SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)), height=np.full((60, 2), -0.05))
-        run = SimpleNamespace(series=series, speed=75, diameter=0.3, name="run")
+        run = SimpleNamespace(series=series, speed=75, diameter=0.3, name="run", steady=None)
         drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(10.0, 1.0))
-        return SimpleNamespace(readings=run, **{"drops": drops, **numbers})
+        return SimpleNamespace(readings=run, run=RUNS["Beetstra_75_20"], **{"drops": drops, **numbers})
 
     def test_none_is_tested_without_runs(self):
         found = own_statements.own_verdicts({}, {})
@@ -192,20 +197,75 @@ class Statements(unittest.TestCase):
         self.assertEqual(judged(15.0), {CONFIRMED})
         self.assertEqual(judged(5.0), {CONTRADICTED})
 
-    def test_humps_must_stand_still_and_fit(self):
-        def judged(error, rmsd):
-            profile = SimpleNamespace(humps=SimpleNamespace(places=(0.05, 0.2), rmsd=rmsd), at_ends=0,
-                                      distances=[Mean(0.15, error)], amplitude=Mean(0.02, 0.001))
-            found = own_statements.humps({"fluid_60_20": self.flow(chamber=profile)}, "chamber", "in front")
-            return next(one.verdict for one in found)
-        self.assertEqual(judged(0.01, 0.001), CONFIRMED)
-        self.assertEqual(judged(0.08, 0.001), UNDECIDED)
-        self.assertEqual(judged(0.01, 0.004), UNDECIDED)
+    def profile_of(self, height, noise=1e-4, turns=3):
+        """Profile by read_profile of heights (z -> m) that differ from turn to turn by a noise (m)."""
+        z = (np.arange(SHAPE[0]) + 0.5) * UPPER[2] / SHAPE[0]
+        by_turn = height(z) + noise * np.random.default_rng(5).standard_normal((turns, len(z)))
+        return read_profile(Slices(z, np.ones((turns, len(z))), by_turn, {}), 2, LENGTH)
 
-    def test_patch_and_return(self):
-        flows = {"Beetstra_75_20": self.flow(centre_share=0.3, top_velocity=Mean(-0.01, 0.001))}
-        found = [one.verdict for one in own_statements.bed(flows) if one.verdict != NOT_TESTED]
-        self.assertEqual(found, [CONFIRMED, CONFIRMED])
+    def humps(self, height, **more):
+        flows = {"fluid_60_20": self.flow(chamber=self.profile_of(height, **more))}
+        return next(own_statements.humps(flows, "chamber", "in front")).verdict
+
+    def test_two_humps_are_two_maxima(self):
+        def two(z):
+            return gaussians(z, BASE, 0.02, 0.09, 0.03, second, 0.21, 0.03)
+        second = 0.015
+        self.assertEqual(self.humps(two), CONFIRMED)
+        self.assertEqual(self.humps(two, noise=0.01), UNDECIDED)
+        self.assertEqual(self.humps(two, turns=1), UNDECIDED)
+        second = 0.0
+        self.assertEqual(self.humps(two), CONTRADICTED)
+
+    def test_profiles_with_one_hump_or_none_have_not_two(self):
+        # Two Gaussians can be fitted to each of them
+        for name, height in (("parabola", lambda z: -0.5 * (z - 0.16)**2),
+                             ("cosine", lambda z: 0.02 * np.cos(12 * z - 2)), ("ramp", lambda z: 0.1 * z),
+                             ("flat top", lambda z: -8.0 * np.abs(z - 0.16)**3),
+                             ("skewed", lambda z: 0.5 * z * np.exp(-z / 0.08))):
+            with self.subTest(name):
+                self.assertEqual(self.humps(height), CONTRADICTED)
+
+    def test_distances_are_compared_only_of_two_maxima(self):
+        def verdict(slow, fast):
+            flows = {"fluid_60_20": self.flow(chamber=self.profile_of(slow)),
+                     "fluid_75_20": self.flow(chamber=self.profile_of(fast))}
+            found = own_statements.humps(flows, "chamber", "in front")
+            return next(one.verdict for one in found if "twice" in one.statement)
+
+        def apart(distance):
+            return lambda z: gaussians(z, BASE, 0.02, 0.16 - distance / 2, 0.02, 0.02, 0.16 + distance / 2, 0.02)
+        self.assertEqual(verdict(apart(0.08), apart(0.16)), CONFIRMED)
+        self.assertEqual(verdict(apart(0.1), apart(0.12)), CONTRADICTED)
+        self.assertEqual(verdict(lambda z: -0.5 * (z - 0.16)**2, apart(0.16)), UNDECIDED)
+
+    def test_patch_and_return_are_those_of_every_flow_with_balls(self):
+        flows = {name: self.flow(centre_share=Mean(share, 0.01, 2), top_velocity=Mean(velocity, 0.001, 2))
+                 for name, share, velocity in (("Beetstra_60_30", 0.3, -0.01), ("direct_75_20", 0.9, 0.01),
+                                               ("Beetstra_75_20", 0.52, -0.003))}
+        found = [(one.runs, one.verdict) for one in own_statements.bed(flows)]
+        self.assertEqual(found, [("Beetstra_60_30", CONFIRMED)] * 2 + [("direct_75_20", CONTRADICTED)] * 2
+                         + [("Beetstra_75_20", UNDECIDED)] * 2)
+
+    def test_maps_of_the_balls_are_compared_with_the_dry_run(self):
+        dry = {"dry_75": "dry", "dry_seed": "seed"}
+        flows = {"direct_75_20": SimpleNamespace(case="felt")}
+        apart = {"felt": 0.03, "seed": 0.01}
+        with mock.patch.object(own_statements, "charge_apart", lambda one, _: (apart[one], "far")), \
+                mock.patch.object(own_statements, "noise", lambda _: 0.002):
+            found = list(own_statements.charges(flows, dry))
+            missing = list(own_statements.charges(flows, {"dry_seed": "seed"}))
+        self.assertEqual([one.verdict for one in found], [CONTRADICTED, CONFIRMED])
+        self.assertIn("far (limit 2 % of solidity; halves of dry_75 differ by 0.20 %)", found[0].figure)
+        self.assertEqual([one.figure for one in missing], ["not complete: dry_75"] * 2)
+
+    def test_a_charge_is_apart_from_one_that_is_turned(self):
+        def case(tilt):
+            charge = charge_map(below(lambda x: -np.tan(np.radians(tilt)) * x), cell)
+            return SimpleNamespace(charge=charge, charge_windows=[charge] * 4, radius=RADIUS)
+        apart, words = own_statements.charge_apart(case(30), case(33))
+        self.assertAlmostEqual(apart, own_statements.HARDLY, delta=0.015)
+        self.assertRegex(words, r"toe by -(2\.[89]|3\.[01])\d ± 0\.00 degrees, shoulder by -(2\.[89]|3\.[01])\d ± 0\.00 degrees")
 
 
 class Tables(unittest.TestCase):
@@ -215,8 +275,8 @@ class Tables(unittest.TestCase):
         (folder / "dry_75" / "mill.json").write_text("{}")
         found, missing = study.read_each(folder, [RUNS["dry_75"], RUNS["dry_60"]], study.dry_case)
         self.assertEqual(found, {})
-        self.assertRegex(missing[0], "dry_75: .*mill.json")
-        self.assertEqual(missing[1], "dry_60: not begun")
+        self.assertRegex(missing[0], "not read: dry_75: .*mill.json")
+        self.assertEqual(missing[1], "not finished: dry_60: not begun")
 
     def test_cost_of_a_dry_run_stands_beside_its_plan(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

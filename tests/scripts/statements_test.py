@@ -151,7 +151,17 @@ class WithBalls(unittest.TestCase):
 
     def test_concentration_raises(self):
         runs = run(law="Beetstra", series=series(-0.05)), run(law="Beetstra", solids=40, series=series(-0.04))
-        self.assertEqual(verdicts_of(statements.concentration_raises, *runs), [CONFIRMED, NOT_TESTED])
+        self.assertEqual(verdicts_of(statements.concentration_raises, *runs), [CONFIRMED, NOT_TESTED, NOT_TESTED])
+        slow = run(60, "Beetstra", series=series(-0.05)), run(60, "Beetstra", 40, series=series(-0.06))
+        self.assertEqual(verdicts_of(statements.concentration_raises, *runs, *slow),
+                         [CONFIRMED, NOT_TESTED, CONTRADICTED])
+
+    def test_runs_that_the_report_does_not_call_steady_are_named(self):
+        runs = (run(law="Beetstra", series=series(-0.05), steady="holds"),
+                run(law="Beetstra", solids=40, series=series(-0.04), steady="fails"))
+        found = statements.concentration_raises(Runs(runs))[0]
+        self.assertEqual(found.verdict, CONFIRMED)
+        self.assertTrue(found.figure.endswith("(not steady by the report: run_75_Beetstra_40)"), found.figure)
 
     def test_reynolds_numbers_are_weighted_by_slurry(self):
         numbers = np.array([50.0, 400.0])
@@ -315,21 +325,40 @@ class Reading(unittest.TestCase):
             with h5py.File(path, "w") as file:
                 file["window/begin"] = 1 + 0.05 * np.arange(12)
                 file["window/end"] = 1.05 + 0.05 * np.arange(12)
-            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path,
+            case = SimpleNamespace(begin=0.3, last=0.6, length=0.1, omega=-6.0, slurry=path, turn=1.05,
                                    flow=SimpleNamespace(time0=1.0))
             list(slurry_over_time.slurry_blocks(case))
             parts = [call.args[1:3] for call in read.call_args_list]
             np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.45), (1.45, 1.5), (1.5, 1.55), (1.55, 1.6)])
+            case.turn = 0.1  # three whole turns
+            read.reset_mock()
+            list(slurry_over_time.slurry_blocks(case))
+            parts = [call.args[1:3] for call in read.call_args_list]
+            np.testing.assert_allclose(parts, [(1.3, 1.4), (1.4, 1.5), (1.5, 1.6)])
+            case.begin = 0.35  # two of them, and a half that is left out
+            read.reset_mock()
+            list(slurry_over_time.slurry_blocks(case))
+            parts = [call.args[1:3] for call in read.call_args_list]
+            np.testing.assert_allclose(parts, [(1.4, 1.5), (1.5, 1.6)])
             case.begin = 0.58
             with self.assertRaisesRegex(RuntimeError, "slurry.h5: no window from DEM time 1.58 to 1.6 s"):
                 list(slurry_over_time.slurry_blocks(case))
 
     def test_written_times_are_parted_where_there_is_no_slurry_file(self):
         frames = [(0.1 * k, f"time {k}") for k in range(11)]
-        case = SimpleNamespace(begin=0.5, last=1.0, slurry=None, flow=SimpleNamespace(time0=0.0, frames=frames))
+        case = SimpleNamespace(begin=0.5, last=1.0, slurry=None, turn=1.05,
+                               flow=SimpleNamespace(time0=0.0, frames=frames))
         with mock.patch.object(slurry_over_time, "mean_flow", lambda flow, begin: [path for _, path in flow.frames]):
             parts = list(slurry_over_time.slurry_blocks(case))
+            case.turn = 0.2
+            turns = list(slurry_over_time.slurry_blocks(case))
         self.assertEqual(parts, [["time 5", "time 6"], ["time 7"], ["time 8"], ["time 9"], ["time 10"]])
+        self.assertEqual(turns, [["time 7", "time 8"], ["time 9", "time 10"]])
+
+    def test_many_turns_are_parted_into_five(self):
+        case = SimpleNamespace(begin=0.0, last=12.0, turn=1.0)
+        parts = slurry_over_time.parts_of(case, np.arange(0.25, 12, 0.5))
+        self.assertEqual([len(part) for part in parts], [6, 6, 4, 4, 4])
 
     def test_tables_of_function_objects_are_taken_from_the_beginning_of_the_averages_on(self):
         times = np.array([1.0, 2.0, 3.0])

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of one flow of the study."""
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,18 +25,24 @@ TOP = 0.1  # share of the slurry, by height, that is the top of its shoulder
 NEAR = 2  # pixels about the centre of circulation
 
 
+class NotFinished(RuntimeError):
+    """A run has not come to its end."""
+
+
 @dataclass(frozen=True)
 class Flow:
-    """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m); discharge (m3/s, by the
+    """A flow: its Run, case and number of averaged turns; height of the slurry's centre, of all and of
+    that in front of the grates (m); discharge (m3/s, by the
     outlet's own flux) and net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed
     volume over what was asked for; its Slices; Profile of the published slices, which reach over the pulp lifters, and
     of those in front of the grates; drops of the pressure by PRESSURES (Pa); what is read for published statements; map
     of the slurry; velocity along the axis at the top of the shoulder (m/s); slurry's share of the fluid at the charge's
-    centre of circulation (NaN without balls); verdict on its steadiness."""
+    centre of circulation (NaN without balls)."""
     run: Run
     case: MillCase
     turns: int
     height: Mean
+    chamber_height: Mean
     discharge: Mean
     net: Mean
     missing: float
@@ -47,8 +54,7 @@ class Flow:
     readings: RunReadings
     slurry: SlurryMap
     top_velocity: Mean
-    centre_share: float
-    steady: str
+    centre_share: Mean
 
     @property
     def holdup(self) -> tuple[float, float]:
@@ -70,6 +76,13 @@ def net_rate(case: MillCase, turns: int) -> Mean:
     return block_mean(np.diff(np.interp(ends, columns["Time"], columns["holdUp"])) / case.turn)
 
 
+def height_of(slices: Slices, length: float = np.inf) -> Mean:
+    """Height of the centre of the slurry in the Slices that end before z = length (m), m."""
+    inside = slice(0, slices.count_before(length))
+    holdup, height = slices.holdup[:, inside], slices.height[:, inside]
+    return block_mean(np.nansum(holdup * height, axis=1) / holdup.sum(axis=1))
+
+
 def top_velocity(slurry: SlurryMap) -> float:
     """Mean velocity along the axis (m/s) of the highest TOP of a SlurryMap's slurry on the rising side, where its share
     is above a half; NaN without slurry."""
@@ -84,30 +97,34 @@ def top_velocity(slurry: SlurryMap) -> float:
     return float(np.average(velocity[top], weights=slurry.share[top]))
 
 
-def share_at_centre(charge: SolidsMap, radius: float, slurry: SlurryMap) -> float:
-    """Mean share of slurry in the fluid about a charge's centre of circulation."""
+def share_at_centre(charge: SolidsMap, radius: float, maps: Sequence[SlurryMap]) -> Mean:
+    """Mean share of slurry in the fluid about a charge's centre of circulation, over SlurryMap of blocks of time."""
     centre = circulation_centre(charge, radius)
-    column, row = (int(np.argmin(np.abs(at - place))) for at, place in zip(slurry.centres(), centre))
-    about = slurry.share[row - NEAR:row + NEAR + 1, column - NEAR:column + NEAR + 1]
-    return float(np.nanmean(about))
+    column, row = (int(np.argmin(np.abs(at - place))) for at, place in zip(maps[0].centres(), centre))
+    about = np.s_[row - NEAR:row + NEAR + 1, column - NEAR:column + NEAR + 1]
+    return block_mean([np.nanmean(one.share[about]) for one in maps])
 
 
 def read_flow(run: Run, folder: Path) -> Flow:
-    """Flow of a run's folder. RuntimeError if it is not complete."""
+    """Flow of a run's folder. NotFinished if it is not complete, RuntimeError if a reading fails."""
     case = MillCase(folder)
     if case.flow is None or case.is_cut_short:
         last = 0 if case.flow is None else case.last
-        raise RuntimeError(f"the flow ends at {last:.3g} s; expected {case.mill.flow('duration_s', np.nan):.3g} s")
+        raise NotFinished(f"the flow ends at {last:.3g} s; expected {case.mill.flow('duration_s', np.nan):.3g} s")
     if case.balance is None:
         raise RuntimeError("no table of slurryBalance; expected one in postProcessing")
+    if run.law and case.solids is None:
+        raise NotFinished("; ".join(["no averages of its balls; expected solids.h5", *case.unusable]))
     slices, blocks = read_slices(case), list(slurry_blocks(case))
     humps = 3 if run.law else 2
     turns, slurry, columns = len(slices.holdup), mean_slurry(case, blocks), case.balance
-    heights = np.nansum(slices.holdup * slices.height, axis=1) / slices.holdup.sum(axis=1)
-    return Flow(run, case, turns, block_mean(heights), over_turns(case, "discharge", turns), net_rate(case, turns),
+    readings = read(case)
+    readings.steady = flow_steadiness(case).state
+    return Flow(run, case, turns, height_of(slices), height_of(slices, case.length),
+                over_turns(case, "discharge", turns), net_rate(case, turns),
                 float(np.abs(columns["missing"]).max() / columns["holdUp"].max()),
                 float(abs(columns["fed"][-1] / (case.feed * columns["Time"][-1]) - 1)) if case.feed else np.nan,
                 slices, read_profile(slices, humps), read_profile(slices, humps, case.length),
-                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, read(case), slurry,
+                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, readings, slurry,
                 block_mean([top_velocity(one) for one in blocks]),
-                share_at_centre(case.charge, case.radius, slurry) if run.law else np.nan, flow_steadiness(case).state)
+                share_at_centre(case.charge, case.radius, blocks) if run.law else Mean(np.nan, np.nan))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the complete runs of the study: tables on the screen and, in the folder of the runs, charges.csv, flows.csv,
 statements.csv, costs.csv, mill_30cm_published.txt with all of them, profiles.png, axial_flow.png, holdup.png, and
-comparison.html, one page of all flows. Runs that are not complete are listed."""
+comparison.html, one page of all runs. Runs that are not complete, or cannot be read, are listed."""
 import argparse
 import csv
 from collections.abc import Callable, Iterator, Sequence
@@ -23,9 +23,11 @@ from millstudies.compared_runs import NOT_TESTED, SLICE, Verdict
 from millstudies.statements import verdicts
 
 import drawings
-from flow_numbers import Flow, read_flow
+from flow_numbers import Flow, NotFinished, read_flow
 from own_statements import own_verdicts
 from runs import RUNS, Run, is_published
+
+REFERENCE = RUNS["Beetstra_75_20"]  # on the page of all runs, where it is complete
 
 Row = dict[str, Any]
 
@@ -72,17 +74,18 @@ def flow_row(flow: Flow) -> Row:
     unknown = Mean(np.nan, np.nan)
     first, last = flow.holdup
     return {"run": run.name, "speed, %": run.speed, "solids, %": run.solids, "law": run.law or "–",
-            "turns": flow.turns, "steady": flow.steady, "hold-up at first, l": 1e3 * first,
+            "turns": flow.turns, "steady": readings.steady, "hold-up at first, l": 1e3 * first,
             "hold-up at last, l": 1e3 * last, "feed, ml/s": 1e6 * (flow.case.feed or 0),
             **pair("discharge", "ml/s", flow.discharge, 1e6), **pair("net", "ml/s", flow.net, 1e6),
             **pair("height", "mm", flow.height, 1e3),
+            **pair("in front of the grates: height", "mm", flow.chamber_height, 1e3),
             **profile_columns("", flow.profile), **profile_columns("in front of the grates: ", flow.chamber),
             **pair("velocity at the toe", "mm/s", readings.toe or unknown, 1e3),
             **pair("velocity at the shoulder", "mm/s", readings.shoulder or unknown, 1e3),
             **pair("velocity at the shoulder's top", "mm/s", flow.top_velocity, 1e3),
             **{key: value for name, words in PRESSURES.items()
                for key, value in pair(f"drop of {words}", "Pa", flow.drops[name]).items()},
-            "slurry at the centre of circulation": flow.centre_share,
+            **pair("slurry at the centre of circulation", "%", flow.centre_share, 100),
             "force over weight": flow.case.load[0] if flow.case.load else np.nan,
             "missing over hold-up": flow.missing, "error of the feed": flow.feed_error}
 
@@ -141,22 +144,24 @@ def lines_of(rows: Sequence[Row]) -> Iterator[str]:
 
 
 def read_each(root: Path, chosen: Sequence[Run], read: Callable[[Run, Path], Any]) -> tuple[dict[str, Any], list[str]]:
-    """Run -> what is read of its folder; and why the others are not complete."""
+    """Run -> what is read of its folder; and why the others are not finished or not read."""
     found, missing = {}, []
     for run in chosen:
         try:
             found[run.name] = read(run, place_of(root, run))
+        except NotFinished as error:
+            missing.append(f"not finished: {run.name}: {error}")
         except (RuntimeError, OSError) as error:
-            missing.append(f"{run.name}: {error}" if (root / run.name / "mill.json").is_file()
-                           else f"{run.name}: not begun")
+            missing.append(f"not read: {run.name}: {error}" if (root / run.name / "mill.json").is_file()
+                           else f"not finished: {run.name}: not begun")
     return found, missing
 
 
 def dry_case(_: Run, folder: Path) -> MillCase:
-    """The case of a dry run. RuntimeError if it is not complete."""
+    """The case of a dry run. NotFinished if it is not complete."""
     case = MillCase(folder)
     if case.results is None or case.solids is None:
-        raise RuntimeError("; ".join(["the dry run has no results or no averages", *case.unusable]))
+        raise NotFinished("; ".join(["the dry run has no results or no averages", *case.unusable]))
     return case
 
 
@@ -172,10 +177,12 @@ def write_all(root: Path, dry: dict[str, MillCase], flows: dict[str, Flow], miss
         if table:
             write_csv(table, root / f"{name}.csv")
     drawings.draw_all(root, flows)
-    if flows:
-        (root / "comparison.html").write_text(compare_cases([flow.case.folder for flow in flows.values()]))
+    cases = {**dry, **{name: flow.case for name, flow in flows.items()}}
+    names = sorted(cases, key=lambda name: (RUNS[name].speed != REFERENCE.speed, name != REFERENCE.name))
+    if len(names) > 1:
+        (root / "comparison.html").write_text(compare_cases([cases[name].folder for name in names], names=names))
     return [*lines_of(charges), *lines_of(rows), *lines_of(costs), *map(line_of, found), "",
-            *(f"not finished: {text}" for text in missing)]
+            *missing]
 
 
 def line_of(one: Verdict) -> str:

@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verdicts on published statements that only this study can read: the humps of the profile as it was published, the
-pressure's drop by each definition, the dry patch, the shoulder's top, and balls that feel the slurry."""
+pressure's drop by each definition, the dry patch, the shoulder's top, and balls that feel the slurry; and whether
+another random insertion of the balls changes the charge."""
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
 from millfoam.files.mill_case import MillCase
+from millfoam.files.solids_file import mean_map
 from millfoam.readings.compare import difference
-from millfoam.readings.means import Mean
+from millfoam.readings.free_surface import toe_and_shoulder
+from millfoam.readings.means import Mean, with_error
 from millstudies.axial_slices import PRESSURES, Profile
-from millstudies.compared_runs import (CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Verdict, by_sign, judged, sign)
-from millstudies.statements import CLEARLY, TWICE
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged
+from millstudies.statements import CLEARLY, TWICE, circulation, maxima, millimetres, reynolds_below, surface_follows
 
 from flow_numbers import Flow
 
 DRY = 0.5  # share of slurry in the fluid below which the centre of circulation is a dry patch
 POOR = 0.1  # root mean square of a fit's residuals over the profile's amplitude, above which it shows no humps
-HARDLY = 0.02  # difference of two maps of solidity (compare.Difference) that is hardly one
+HARDLY = 0.02  # difference of two maps of solidity (compare.Difference) that is hardly one: that of a turn by 3 degrees
+FELT = "direct_75_20"  # the run whose balls feel the slurry
 
 Flows = dict[str, Flow]
+Cases = dict[str, MillCase]
 
 
 def tested(statement: str, flows: Flows, names: tuple[str, ...],
@@ -30,27 +37,40 @@ def tested(statement: str, flows: Flows, names: tuple[str, ...],
 
 
 def is_known(profile: Profile) -> bool:
-    """Whether the distance of a Profile's first peaks is more than two errors, and the Gaussians describe it."""
-    return (profile.distances[0].value > 2 * profile.distances[0].error
-            and profile.humps.rmsd <= POOR * profile.amplitude.value)
+    """Whether the first peaks of a Profile's Gaussians are apart with 95 % confidence, and describe it."""
+    return profile.distances[0].sign > 0 and profile.humps.rmsd <= POOR * profile.amplitude.value
+
+
+def clear_maxima(profile: Profile) -> np.ndarray:
+    """Places (m) of a Profile's maxima between its ends (statements.maxima)."""
+    return maxima(profile.z, profile.height, profile.error)
+
+
+def has_two(profile: Profile) -> str:
+    """Verdict on two maxima of a Profile; undecided where the error decides, or is not known."""
+    counts = {len(clear_maxima(profile)), len(maxima(profile.z, profile.height, 0.0))}
+    if np.isnan(profile.error) or (2 in counts and len(counts) > 1):
+        return UNDECIDED
+    return CONFIRMED if counts == {2} else CONTRADICTED
 
 
 def humps(flows: Flows, which: str, where: str) -> Iterator[Verdict]:
     """Two humps of a Profile of the flows, by its name in Flow, and twice as far apart at 75 % speed."""
     def two(flow: Flow) -> tuple[str, str]:
         profile = getattr(flow, which)
-        places = ", ".join(f"{1e3 * one:.0f}" for one in profile.humps.places)
-        return (CONTRADICTED if profile.at_ends else CONFIRMED if is_known(profile) else UNDECIDED,
-                f"two Gaussians at {places} mm ({profile.at_ends} at the profile's ends), "
-                f"{profile.distances[0].text('mm', 1e3)} apart, RMSD {1e3 * profile.humps.rmsd:.1f} mm, amplitude "
-                f"{profile.amplitude.text('mm', 1e3)}")
+        seen = clear_maxima(profile)
+        return has_two(profile), (
+            f"{f'maxima at {millimetres(seen)} mm' if len(seen) else 'no maximum'} between the ends; two Gaussians at "
+            f"{millimetres(profile.humps.places)} mm ({profile.at_ends} at the profile's ends), "
+            f"{profile.distances[0].text('mm', 1e3)} apart, RMSD {1e3 * profile.humps.rmsd:.1f} mm, amplitude "
+            f"{profile.amplitude.text('mm', 1e3)}")
 
     def twice(slow: Flow, fast: Flow) -> tuple[str, str]:
         ends = [getattr(one, which) for one in (slow, fast)]
         ratio = ends[1].distances[0].value / ends[0].distances[0].value
         figure = f"{ratio:.2f} times"
-        if any(one.at_ends for one in ends):
-            return UNDECIDED, figure + "; not all peaks are maxima of the profile"
+        if any(has_two(one) != CONFIRMED for one in ends):
+            return UNDECIDED, figure + "; not both profiles have two maxima"
         if not all(map(is_known, ends)):
             return UNDECIDED, figure + "; the peaks move from turn to turn, or the fit is poor"
         return CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED, figure
@@ -68,7 +88,7 @@ def drops(flows: Flows) -> Iterator[Verdict]:
         def larger(less: Flow, more: Flow, name: str = name) -> tuple[str, str]:
             small, large = less.drops[name], more.drops[name]
             verdict = by_sign(large - small)
-            if verdict == CONFIRMED and (sign(large) <= 0 or large.value < CLEARLY * small.value):
+            if verdict == CONFIRMED and (large.sign <= 0 or large.value < CLEARLY * small.value):
                 verdict = CONTRADICTED
             return verdict, f"{large.text('Pa')} compared with {small.text('Pa')}"
 
@@ -78,32 +98,61 @@ def drops(flows: Flows) -> Iterator[Verdict]:
 
 
 def bed(flows: Flows) -> Iterator[Verdict]:
-    """A dry patch at the centre of circulation; slurry returns at the top of the shoulder."""
+    """A dry patch at the centre of circulation; slurry returns at the top of the shoulder: of each flow with balls."""
     def patch(flow: Flow) -> tuple[str, str]:
-        return (CONFIRMED if flow.centre_share < DRY else CONTRADICTED,
-                f"slurry takes {100 * flow.centre_share:.0f} % of the fluid there")
+        return by_sign(Mean(DRY) - flow.centre_share), (
+            f"slurry takes {flow.centre_share.text('%', 100)} of the fluid there")
 
     def returns(flow: Flow) -> tuple[str, str]:
         return by_sign(Mean(0.0) - flow.top_velocity), f"{flow.top_velocity.text('mm/s', 1e3)} (+: to the discharge)"
 
-    for name in ("Beetstra_75_20", "ErgunWenYu_75_20", "Beetstra_75_40", "ErgunWenYu_75_40", "Beetstra_60_20"):
+    for name in [name for name, flow in flows.items() if flow.run.law] or ["Beetstra_75_20"]:
         yield tested("the charge has a dry patch at its centre of circulation", flows, (name,), patch)
         yield tested("slurry returns to the feed at the top of the shoulder", flows, (name,), returns)
 
 
-def coupled_balls(flows: Flows, dry: dict[str, MillCase]) -> Iterator[Verdict]:
-    """The balls' map hardly differs where they feel the slurry."""
-    statement = "the balls' map hardly differs where they feel the slurry"
-    if "direct_75_20" not in flows or "dry_75" not in dry:
-        yield Verdict(statement, "direct_75_20, dry_75", NOT_TESTED, "not complete: direct_75_20")
-        return
-    apart = difference(flows["direct_75_20"].case.charge, dry["dry_75"].charge)
-    yield Verdict(statement, "direct_75_20, dry_75", CONFIRMED if apart.solidity <= HARDLY else CONTRADICTED,
-                  f"solidity differs by {100 * apart.solidity:.1f} % in the mean, velocities by "
-                  f"{100 * apart.velocity_x:.1f} and {100 * apart.velocity_y:.1f} % of the largest")
+def felt(flows: Flows) -> Iterator[Verdict]:
+    """What is published of each flow with balls, of the one whose balls feel the slurry."""
+    if FELT in flows:
+        readings = flows[FELT].readings
+        for statement in (surface_follows, reynolds_below, circulation):
+            yield from (one for one in statement(Runs([readings])) if one.runs == readings.name)
 
 
-def own_verdicts(flows: Flows, dry: dict[str, MillCase]) -> list[Verdict]:
+def charge_apart(one: MillCase, other: MillCase) -> tuple[float, str]:
+    """Difference of the maps of solidity of two charges (compare.Difference), and in words, with toe and shoulder."""
+    apart = difference(one.charge, other.charge)
+    ends = [with_error(lambda part, case=case: toe_and_shoulder(part, case.radius), case.charge_windows)
+            for case in (one, other)]
+    toe, shoulder = (Mean(ends[0].value[k], ends[0].error[k]) - Mean(ends[1].value[k], ends[1].error[k])
+                     for k in (0, 1))
+    return apart.solidity, (f"solidity differs by {100 * apart.solidity:.2f} % in the mean, velocities by "
+                            f"{100 * apart.velocity_x:.1f} and {100 * apart.velocity_y:.1f} % of the largest, toe by "
+                            f"{toe.text('degrees', 1, '.2f')}, shoulder by {shoulder.text('degrees', 1, '.2f')}")
+
+
+def noise(case: MillCase) -> float:
+    """Difference of the maps of solidity of the two halves of a charge's time."""
+    windows = case.charge_windows
+    return difference(*(mean_map(half) for half in (windows[:len(windows) // 2], windows[len(windows) // 2:]))).solidity
+
+
+def charges(flows: Flows, dry: Cases) -> Iterator[Verdict]:
+    """The balls' map hardly differs where they feel the slurry, and after another random insertion."""
+    wet = {name: flow.case for name, flow in flows.items() if name == FELT}
+    for statement, name in (("the balls' map hardly differs where they feel the slurry", FELT),
+                            ("the balls' map hardly differs after another random insertion", "dry_seed")):
+        gone = [one for one in (name, "dry_75") if one not in {**dry, **wet}]
+        if gone:
+            yield Verdict(statement, f"{name}, dry_75", NOT_TESTED, "not complete: " + ", ".join(gone))
+            continue
+        apart, words = charge_apart({**dry, **wet}[name], dry["dry_75"])
+        yield Verdict(statement, f"{name}, dry_75", CONFIRMED if apart <= HARDLY else CONTRADICTED,
+                      f"{words} (limit {100 * HARDLY:g} % of solidity; halves of dry_75 differ by "
+                      f"{100 * noise(dry['dry_75']):.2f} %)")
+
+
+def own_verdicts(flows: Flows, dry: Cases) -> list[Verdict]:
     """All verdicts of this module, on the complete Flows and the complete dry runs' cases by name."""
     return [*humps(flows, "profile", "of 338 mm"), *humps(flows, "chamber", "in front of the grates"), *drops(flows),
-            *bed(flows), *coupled_balls(flows, dry)]
+            *bed(flows), *felt(flows), *charges(flows, dry)]

@@ -27,10 +27,14 @@ class Slices:
     height: np.ndarray
     pressures: dict[str, np.ndarray]
 
-    def read(self, length: float = np.inf) -> slice:
-        """The slices of the published profile, of those that lie before z = length (m)."""
+    def count_before(self, length: float) -> int:
+        """Number of the slices that end before z = length (m)."""
         half = (self.z[1] - self.z[0]) / 2
-        return slice(LEFT_OUT[0], int(np.sum(self.z + half <= length + 1e-9)) - LEFT_OUT[1])
+        return int(np.sum(self.z + half <= length + 1e-9))
+
+    def read(self, length: float = np.inf) -> slice:
+        """The slices of the published profile, of those that end before z = length (m)."""
+        return slice(LEFT_OUT[0], self.count_before(length) - LEFT_OUT[1])
 
     def profile(self, turns: np.ndarray | slice = slice(None)) -> np.ndarray:
         """Height (m) [n] of the centre of mass over some of the turns."""
@@ -41,9 +45,13 @@ class Slices:
 
 @dataclass(frozen=True)
 class Profile:
-    """What is read of a profile: z (m) of its slices; fit of Gaussians; distances (m) of successive peaks
-    and amplitude (m), highest minus lowest slice, with errors over the turns; number of peaks at the profile's ends."""
+    """What is read of a profile: z (m) and mean height (m) [n] of its slices; error (m) of a slice's height, the root
+    mean square of the standard errors over the turns, NaN for a single turn; fit of Gaussians; distances (m) of
+    successive peaks and amplitude (m), highest minus lowest slice, with errors over the turns; number of peaks at the
+    profile's ends."""
     z: np.ndarray
+    height: np.ndarray
+    error: float
     humps: Humps
     distances: list[Mean]
     amplitude: Mean
@@ -132,18 +140,22 @@ def read_profile(slices: Slices, count: int, length: float = np.inf) -> Profile:
         height = slices.profile(turns)[chosen]
         return np.array([np.ptp(height), *fit_gaussians(z, height, count).distances])
 
-    values, errors = jackknife(read, len(slices.holdup))
-    amplitude, *distances = (Mean(float(value), float(error)) for value, error in zip(values, errors))
-    humps = fit_gaussians(z, slices.profile()[chosen], count)
-    return Profile(z, humps, distances, amplitude, humps_at_ends(humps, z))
+    turns = len(slices.holdup)
+    values, errors = jackknife(read, turns)
+    amplitude, *distances = (Mean(float(value), float(error), turns - 1) for value, error in zip(values, errors))
+    height = slices.profile()[chosen]
+    humps = fit_gaussians(z, height, count)
+    error = float(np.sqrt(slices.height[:, chosen].var(axis=0, ddof=1).mean() / turns)) if turns > 1 else np.nan
+    return Profile(z, height, error, humps, distances, amplitude, humps_at_ends(humps, z))
 
 
 def pressure_drop(slices: Slices, name: str, length: float) -> Mean:
     """Fall (Pa) of one of PRESSURES from the feed to the discharge end of a mill of `length` (m): of the straight line
-    through its slices, over that length; NaN where fewer than three slices have it."""
-    within = slices.z < length
-    drops = []
-    for line in slices.pressures[name]:
-        known = within & np.isfinite(line)
-        drops.append(-length * np.polyfit(slices.z[known], line[known], 1)[0] if known.sum() > 2 else np.nan)
+    through the slices of its profile, over that length; NaN where fewer than three slices have it. The profile leaves
+    out where slurry enters, and slices that are partly behind the grates: their pressures are hundreds of Pa apart."""
+    chosen = slices.read(length)
+    z, drops = slices.z[chosen], []
+    for line in slices.pressures[name][:, chosen]:
+        known = np.isfinite(line)
+        drops.append(-length * np.polyfit(z[known], line[known], 1)[0] if known.sum() > 2 else np.nan)
     return block_mean(drops)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of the 30 cm mill and of the 12 cm mill's slice for comparisons, whether they are steady, and verdicts.
 
-Verdicts: `confirmed` and `contradicted` if the difference is more than twice its standard error over time, `undecided`
-if it is not or a run is not steady (see `unsteady`), `not tested` if a run is missing, which the verdict names. Runs of
-the 30 cm mill count if they reach LATEST."""
+Verdicts: `confirmed` and `contradicted` if the difference is one with 95 % confidence (Mean.sign), `undecided` if it is
+not or the height of a run drifts (see `unsteady`), `not tested` if a run is missing, which the verdict names. A verdict
+on runs that the report does not call steady says so. Runs of the 30 cm mill count if they reach LATEST."""
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from millfoam.readings.means import Mean, series_mean
+from millfoam.readings.means import mean_of_series
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 LARGE, SLICE = "30 cm mill", "12 cm slice"
@@ -26,14 +26,9 @@ class Verdict:
     figure: str
 
 
-def sign(difference):
-    """Sign 1 or -1 of a Mean that differs from zero by more than twice its error; otherwise 0."""
-    return 0 if not abs(difference.value) > 2 * difference.error else int(np.sign(difference.value))
-
-
 def by_sign(difference):
     """The verdict on a statement that a Mean is positive."""
-    return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[sign(difference)]
+    return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[difference.sign]
 
 
 def mill_of(run):
@@ -113,7 +108,8 @@ def turn(run):
 
 def unsteady(run):
     """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
-    or the height of the slurry's centre of mass differs between its halves by more than two standard errors.
+    or the height of the slurry's centre of mass differs between its halves by more than two standard errors: a limit
+    that sooner calls a steady run unsteady than the reverse.
 
     The errors are those of HALF_BLOCKS block means within each half. Blocks over the whole time would include the
     drift."""
@@ -123,15 +119,20 @@ def unsteady(run):
     span = times[-1] - times[0]
     if span < 0.999 * turn(run):  # times are rounded
         return f"{run.name}: averaged over {span:.2g} s, less than a turn of the mill, {turn(run):.2g} s"
-    halves = [Mean(*map(float, series_mean(half, HALF_BLOCKS))) for half in np.array_split(heights, 2)]
+    halves = [mean_of_series(half, HALF_BLOCKS) for half in np.array_split(heights, 2)]
     drift = halves[1] - halves[0]
     if not np.isfinite(drift.error):
         return f"{run.name}: {len(times)} times are too few to find a drift"
-    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if sign(drift) else ""
+    drifts = abs(drift.value) > 2 * drift.error
+    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if drifts else ""
 
 
 def judged(verdict, figure, *runs):
-    """A verdict on runs and its number; if a run is not steady, `undecided` with the reason."""
+    """A verdict on runs and its number, with the names of runs that the report does not call steady; if the height of a
+    run drifts, `undecided` with the reason."""
+    moving = [run.name for run in runs if run.steady not in (None, "holds")]
+    if moving:
+        figure += f" (not steady by the report: {', '.join(moving)})"
     reasons = [reason for reason in map(unsteady, runs) if reason]
     if verdict in (CONFIRMED, CONTRADICTED) and reasons:
         return UNDECIDED, f"{figure}; not steady: {'; '.join(reasons)}"
@@ -147,4 +148,4 @@ def height_over_time(run):
 
 def height(run):
     """Mean height of the slurry's centre of mass above the axis (m)."""
-    return Mean(*map(float, series_mean(height_over_time(run))))
+    return mean_of_series(height_over_time(run))

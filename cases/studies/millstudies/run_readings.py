@@ -30,7 +30,7 @@ class Surface:
 class RunReadings:
     """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
-    has two ends.
+    has two ends; steady, the state of the report's check whether the flow is steady, None if it was not made.
 
     Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
     along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
@@ -42,6 +42,7 @@ class RunReadings:
     solids: int
     last: float
     ends: bool
+    steady: str = None
     surface: Surface = None
     series: AxialSeries = None
     toe: Mean = None

@@ -7,11 +7,11 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from millfoam.readings.axial import fit_gaussians
-from millfoam.readings.means import Mean, series_mean
+from millfoam.readings.means import Mean, mean_of_series, series_mean
 from millfoam.readings.slurry_over_time import read_series
 
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
-                            height, judged, sign, unread)
+                            height, judged, unread)
 from .run_readings import read_run
 
 # Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
@@ -96,7 +96,7 @@ def surface_follows(runs):
     for run in runs.runs:
         if run.law and run.surface and run.surface.charge_tilt is not None:
             tilt, charge = run.surface.tilt, run.surface.charge_tilt
-            margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error)
+            margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error, tilt.freedom)
             figure = f"tilt of the slurry {tilt.text('degrees')}, of the charge {charge:.1f} (level: 0)"
             found.append(Verdict(statement, run.name, *judged(by_sign(margin), figure, run)))
         elif run.law:
@@ -134,9 +134,10 @@ def concentration_raises(runs):
         rise = height(thick) - height(thin)
         return by_sign(rise), f"rises by {rise.text('mm', 1e3, '.2f')}"
 
+    places = [(law, *place) for place in runs.places() for law in ("Beetstra", "ErgunWenYu")]
     return [pair(runs, "a higher slurry concentration raises it",
                  *(Which(speed, law, one, mill) for one in (solids[0], solids[-1])), judge)
-            for mill, speed, solids in runs.places() for law in ("Beetstra", "ErgunWenYu")]
+            for law, mill, speed, solids in (*places, ("Beetstra", LARGE, 60, (20, 40)))]
 
 
 def drag_raises(runs):
@@ -207,14 +208,14 @@ def median(values, weights):
 
 
 def drop(run):
-    """Fall of p_rgh in the slurry from feed to discharge (Pa): of the straight line through all slices, over their
-    way."""
+    """Fall of p_rgh in the slurry from feed to discharge (Pa): of the straight line through the slices but the first
+    and the last, over the way of all. In these two slurry enters and leaves, with a pressure of its own."""
     series = run.series
-    slopes = [np.polyfit(series.z[known], line[known], 1)[0]
-              for line, known in zip(series.pressure, np.isfinite(series.pressure)) if known.sum() > 1]
-    value, error = series_mean(slopes)
-    way = series.z[-1] - series.z[0]
-    return Mean(float(-way * value), float(way * error))
+    z, pressure = series.z[1:-1], series.pressure[:, 1:-1]
+    slopes = [np.polyfit(z[known], line[known], 1)[0]
+              for line, known in zip(pressure, np.isfinite(pressure)) if known.sum() > 1]
+    found, way = mean_of_series(slopes), series.z[-1] - series.z[0]
+    return Mean(-way * found.value, way * found.error, found.freedom)
 
 
 def pressure_drops(runs):
@@ -222,7 +223,7 @@ def pressure_drops(runs):
     def judge(beetstra, ergun):
         less, more = drop(beetstra), drop(ergun)
         verdict = by_sign(more - less)
-        if verdict == CONFIRMED and (sign(more) <= 0 or more.value < CLEARLY * less.value):
+        if verdict == CONFIRMED and (more.sign <= 0 or more.value < CLEARLY * less.value):
             verdict = CONTRADICTED
         return verdict, f"{more.text('Pa')} compared with {less.text('Pa')}" + (
             "; the pressure does not fall towards the discharge" if max(more.value, less.value) < 0 else "")
@@ -236,7 +237,7 @@ def circulation(runs):
     statement, found = "slurry moves to the discharge in the toe region and back at the shoulder", []
     for run in runs.of(LARGE):
         if run.toe:
-            signs = sign(run.toe), sign(run.shoulder)
+            signs = run.toe.sign, run.shoulder.sign
             verdict = CONFIRMED if signs == (1, -1) else CONTRADICTED if signs[0] < 0 or signs[1] > 0 else UNDECIDED
             figure = (f"mean {run.toe.text('mm/s', 1e3)} on the toe's half, {run.shoulder.text('mm/s', 1e3)} on the "
                       "shoulder's")

@@ -73,8 +73,8 @@ def read_numbers(folder: Path) -> Numbers:
     impeller = torques["impeller"]
     missing = mean(np.sum([columns[f"{part}_Nm"] for part in parts], axis=0))
     return Numbers(folder.name, mill, results["balls"], turns, begin, torques,
-                   scaled(Mean(abs(impeller.value), impeller.error), abs(mill.omega)),
-                   Mean(1 - missing.value / impeller.value, abs(missing.error / impeller.value)),
+                   scaled(Mean(abs(impeller.value), impeller.error, impeller.freedom), abs(mill.omega)),
+                   Mean(1 - missing.value / impeller.value, abs(missing.error / impeller.value), missing.freedom),
                    mean_speed(folder / "dumps", since, mill.turn),
                    tuple(name for name in ("power_W", "kinetic_J", "potential_J")
                          if drifts(batch_means(energy["time_s"], energy[name], begin, mill.turn, turns))),

@@ -44,7 +44,7 @@ def ratio(one: Mean, other: Mean) -> Mean:
 
 
 def higher(read: Reading, unit: str, scale: float = 1.0) -> Judge:
-    """A judge of two runs: whether what is read of the second is higher by more than twice the error."""
+    """A judge of two runs: whether what is read of the second is higher, with 95 % confidence."""
 
     def judge(low: Numbers, high: Numbers) -> tuple[str, str]:
         return by_sign(read(high) - read(low)), " and ".join(read(one).text(unit, scale, ".3f") for one in (low, high))

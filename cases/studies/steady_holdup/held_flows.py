@@ -169,12 +169,11 @@ def read_trial(folder: Path) -> Trial:
     columns = case.balance
     times = columns["Time"]
     begin = times[-1] / 2
-    late = times >= begin
-    discharge = Mean(columns["discharge"][late].mean(),
+    discharge = Mean(time_mean(times, columns["discharge"], begin),
                      error_over_turns(times, columns["discharge"], begin, case.turn))
     _, moments, slices = axial_holdup(case)
-    return Trial(kind_of(case, change_of_trial(folder.name)), columns["holdUp"][late].mean(),
-                 slices[moments >= begin].sum(axis=1).mean(), discharge)
+    return Trial(kind_of(case, change_of_trial(folder.name)), time_mean(times, columns["holdUp"], begin),
+                 time_mean(moments, slices.sum(axis=1), begin), discharge)
 
 
 @dataclass(frozen=True)

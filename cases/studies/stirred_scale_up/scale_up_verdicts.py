@@ -46,7 +46,7 @@ def names_of(*places: Place) -> tuple[str, ...]:
 
 def density(one: Numbers) -> Mean:
     """Power of the drive for each m3 of slurry, W/m3."""
-    return Mean(one.power.value / one.volume, one.power.error / one.volume)
+    return Mean(one.power.value / one.volume, one.power.error / one.volume, one.power.freedom)
 
 
 def order_of_speeds(found: Found) -> Iterator[Verdict]:

@@ -2,7 +2,7 @@
 """Means of a series over batches of equal time, by turns of the mill, and the errors that follow from them."""
 import numpy as np
 
-from .means import turns_mean
+from .means import time_steps, turns_mean
 
 BATCHES = 5  # at least, of each half of a series
 
@@ -26,13 +26,17 @@ def batches_of(span: float, turn: float) -> tuple[float, int]:
 
 
 def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: float, count: int) -> np.ndarray:
-    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN for a batch without a value."""
+    """Means of values over `count` batches of a length (s) from `begin` (s) on, each weighted by the time since the one
+    before; NaN for a batch without a value."""
     places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
     # The last time closes the last batch
     places[np.isclose(times, begin + count * length)] = count - 1
     within = (places >= 0) & (places < count)
+    weights, any_value = time_steps(times)[within], values[within][0] if within.any() else 0.0
+    # The differences from a value: equal values have an error of exactly 0
     with np.errstate(invalid="ignore"):
-        return np.bincount(places[within], values[within], count) / np.bincount(places[within], minlength=count)
+        return any_value + (np.bincount(places[within], weights * (values[within] - any_value), count)
+                            / np.bincount(places[within], weights, count))
 
 
 def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:

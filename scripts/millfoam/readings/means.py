@@ -6,21 +6,41 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.special import stdtrit
 
 from ..files.solids_file import SolidsMap, mean_map
 
 BLOCKS = 5  # of the averaged time, for errors
+CONFIDENCE = 0.95  # with which a difference is one
 CORRELATED = 12  # turns; of fewer, the correlation of neighbours is hardly known
 
 
 @dataclass(frozen=True)
 class Mean:
-    """A mean over time and its standard error, which is NaN for fewer than two blocks."""
+    """A mean over time; its standard error, which is NaN for fewer than two blocks; and the error's degrees of freedom:
+    one less than the blocks, infinity for an error that is exact."""
     value: float
     error: float = 0.0
+    freedom: float = np.inf
 
     def __sub__(self, other: "Mean") -> "Mean":
-        return Mean(self.value - other.value, float(np.hypot(self.error, other.error)))
+        """Degrees of freedom: B. L. Welch 1947, Biometrika 34:28."""
+        parts = [(one.error**2, one.freedom) for one in (self, other) if one.error > 0]
+        variance = sum(part for part, _ in parts)
+        inexact = sum(part**2 / freedom for part, freedom in parts)
+        return Mean(self.value - other.value, float(np.hypot(self.error, other.error)),
+                    variance**2 / inexact if inexact > 0 else np.inf)
+
+    @property
+    def reach(self) -> float:
+        """Half of the interval about the value that has the mean with a probability of CONFIDENCE, by Student's
+        distribution: 2.0 errors if the error is exact, 2.8 for five blocks, 4.3 for three and 12.7 for two."""
+        return float(stdtrit(self.freedom, (1 + CONFIDENCE) / 2)) * self.error
+
+    @property
+    def sign(self) -> int:
+        """1 or -1 if the value is further from zero than `reach`, otherwise 0, also if the error is not known."""
+        return int(np.sign(self.value)) if abs(self.value) > self.reach else 0
 
     def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
@@ -46,7 +66,8 @@ def neighbour_correlation(values: np.ndarray) -> float:
 def block_mean(values: ArrayLike) -> Mean:
     """Mean of readings [n] of blocks of time, or of runs, that are independent."""
     values = np.asarray(values, dtype=float)
-    return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(len(values))) if len(values) > 1 else np.nan)
+    count = len(values)
+    return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(count)) if count > 1 else np.nan, count - 1)
 
 
 def turns_mean(values: ArrayLike) -> Mean:
@@ -62,7 +83,7 @@ def turns_mean(values: ArrayLike) -> Mean:
         return block_mean(values)
     share = mean_variance(neighbour_correlation(values), count)
     # The deviations are from the values' own mean, which takes its variance from theirs
-    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))))
+    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))), count - 1)
 
 
 def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
@@ -73,11 +94,17 @@ def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np
     return np.mean(values, axis=0), error
 
 
+def mean_of_series(values: ArrayLike, blocks: int = BLOCKS) -> Mean:
+    """series_mean of a series [times] as a Mean."""
+    value, error = series_mean(values, blocks)
+    return Mean(float(value), float(error), min(blocks, np.size(values)) - 1)
+
+
 def angle_mean(angles: ArrayLike) -> Mean:
     """block_mean of angles [n] (degrees), which may be on both sides of 180; from -180 to 180."""
     about = np.degrees(np.angle(np.mean(np.exp(1j * np.radians(angles)))))
     found = block_mean((np.asarray(angles) - about + 180) % 360 - 180)
-    return Mean(float((found.value + about + 180) % 360 - 180), found.error)
+    return Mean(float((found.value + about + 180) % 360 - 180), found.error, found.freedom)
 
 
 @dataclass
@@ -115,13 +142,17 @@ def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsM
     return Reading(value, error, len(found), len(parts) - len(found))
 
 
+def time_steps(times: np.ndarray) -> np.ndarray:
+    """Time (s) from the time before to each of times [n] (s); the first has that of the second, a single one 1 s."""
+    return np.diff(times, prepend=2 * times[0] - times[1]) if len(times) > 1 else np.ones(len(times))
+
+
 def time_mean(times: ArrayLike, values: ArrayLike, begin: float) -> float:
     """Mean of values [times] from `begin` (s) on, each weighted by the time since the one before; NaN if there are
     none."""
     times = np.asarray(times)
-    steps = np.diff(times, prepend=2 * times[0] - times[1] if len(times) > 1 else times[0] - 1)
     late = times >= begin
-    return float(np.average(np.asarray(values)[late], weights=steps[late])) if late.any() else np.nan
+    return float(np.average(np.asarray(values)[late], weights=time_steps(times)[late])) if late.any() else np.nan
 
 
 def weighted_percentile(values: np.ndarray, weights: np.ndarray, percents: ArrayLike) -> np.ndarray:

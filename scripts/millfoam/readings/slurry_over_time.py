@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 from ..files.mill_case import MillCase
-from ..files.slurry_file import SlurryMap, read_slurry_map
+from ..files.slurry_file import SlurryMap, VoxelMap, read_slurry_map
 from . import slurry_on_maps
 from .axial import AxialSeries, axial_series
 from .maps_of_times import TimesMap, mean_flow, mean_of_times
@@ -30,10 +30,9 @@ class Way:
     @property
     def circulates(self) -> str:
         """Whether slurry flows to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` if
-        that is within two standard errors."""
-        signs = [0 if not abs(half.value) > 2 * half.error else int(np.sign(half.value))
-                 for half in (self.toe, self.shoulder)]
-        return "yes" if signs == [1, -1] else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
+        that is not clear with 95 % confidence (Mean.sign)."""
+        toe, shoulder = self.toe.sign, self.shoulder.sign
+        return "yes" if (toe, shoulder) == (1, -1) else "no" if toe < 0 or shoulder > 0 else "undecided"
 
 
 def ring_depth(lifter_height: float) -> float:
@@ -54,18 +53,24 @@ def mean_slurry(case: MillCase, maps: Sequence[SlurryMap]) -> SlurryMap:
     of_times = [one for one in maps if isinstance(one, TimesMap)]
     if len(of_times) == len(maps):
         return mean_of_times(of_times)
-    return read_slurry_map(case.slurry, case.flow.time0 + case.begin, case.flow.time0 + case.last, case.length,
-                           np.sign(case.omega))
+    spans = [(one.begin, one.end) for one in maps if isinstance(one, VoxelMap)]
+    return read_slurry_map(case.slurry, spans[0][0], spans[-1][1], case.length, np.sign(case.omega))
 
 
-def blocks_of(count: int) -> list[np.ndarray]:
-    """Numbers of `count` successive windows or times, in at most BLOCKS parts of nearly equal size."""
-    return np.array_split(np.arange(count), min(BLOCKS, count))
+def parts_of(case: MillCase, times: np.ndarray) -> list[np.ndarray]:
+    """Numbers of flow times [n] (s) in the averages of a MillCase, in at most BLOCKS successive parts: of its last
+    whole turns, if two fit, and otherwise of nearly equal size."""
+    turns = int((case.last - case.begin) / case.turn + 0.005)  # times are rounded
+    if turns < 2:
+        return np.array_split(np.arange(len(times)), min(BLOCKS, len(times)))
+    turn_of = np.floor((times - case.last) / case.turn) + turns
+    parts = np.array_split(np.arange(turns), min(BLOCKS, turns))
+    return [part for part in (np.flatnonzero(np.isin(turn_of, some)) for some in parts) if len(part)]
 
 
 def slurry_blocks(case: MillCase) -> Iterator[SlurryMap]:
-    """SlurryMap of successive parts of the averaged time of a MillCase: of slurry.h5's windows that
-    lie in it, or of the written times. RuntimeError if there are none."""
+    """SlurryMap of successive parts (parts_of) of the averaged time of a MillCase: of slurry.h5's windows that lie in
+    it, or of the written times. RuntimeError if there are none."""
     begin, end = case.flow.time0 + case.begin, case.flow.time0 + case.last
     if case.slurry:
         with h5py.File(case.slurry) as file:
@@ -74,12 +79,13 @@ def slurry_blocks(case: MillCase) -> Iterator[SlurryMap]:
         if len(late) == 0:
             raise RuntimeError(f"{case.slurry}: no window from DEM time {begin:g} to {end:g} s; the file has "
                                f"{begins[0]:g} to {ends[-1]:g} s")
-        for part in blocks_of(len(late)):
+        for part in parts_of(case, (begins + ends)[late] / 2 - case.flow.time0):
             yield read_slurry_map(case.slurry, begins[late[part[0]]], ends[late[part[-1]]], case.length,
                                   np.sign(case.omega))
         return
     frames = [frame for frame in case.flow.frames if frame[0] >= max(case.begin, 1e-9) - 1e-9]
-    for part in blocks_of(len(frames)):
+    # A written time stands for the time before it
+    for part in parts_of(case, np.array([time for time, _ in frames]) - 1e-6):
         some = copy.copy(case.flow)
         some.frames = [frames[index] for index in part]
         yield mean_flow(some, some.frames[0][0])

@@ -24,8 +24,8 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     turns = int((np.ptp(times) + interval) / turn + 0.005)  # times are rounded
     if turns < 2:
         return Mean(float(values.mean()), np.nan)
-    means = batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns)
-    return Mean(float(values.mean()), turns_mean(means).error)
+    found = turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
+    return Mean(float(values.mean()), found.error, found.freedom)
 
 
 def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
@@ -77,7 +77,7 @@ class StirredNumbers:
 
 def scaled(mean: Mean, factor: float) -> Mean:
     """A mean and its error times a factor above 0."""
-    return Mean(mean.value * factor, mean.error * factor)
+    return Mean(mean.value * factor, mean.error * factor, mean.freedom)
 
 
 def driven(case: StirredCase) -> tuple[Mean, dict[str, Mean]]:

@@ -48,17 +48,19 @@ def report_stirred(case: StirredCase) -> str:
                      first_lines(case, found))
 
 
-def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> str:
-    """HTML text of a comparison of cases' folders with the first one. RuntimeError for mills of both machines."""
+def compare_cases(folders: Sequence[Path | str], begin: float | None = None,
+                  names: Sequence[str] | None = None) -> str:
+    """HTML text of a comparison of cases' folders with the first one; names: of the cases, otherwise of their folders.
+    RuntimeError for mills of both machines."""
     machines = [read_mill(folder, None).machine for folder in folders]
     if len(set(machines)) > 1:
         raise RuntimeError("expected mills of one machine: " + ", ".join(
             f"{folder} is {machine}" for folder, machine in zip(folders, machines)))
     if machines[0] == StirredCase.machine:
-        return compare_stirred([StirredCase(folder, begin) for folder in folders])
+        return compare_stirred([StirredCase(folder, begin) for folder in folders], names)
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
-    names = comparison.distinct(cases)
+    names = names or comparison.distinct(cases)
     found = [all_checks(case) for case in cases]
     lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
     subtitle = ", ".join(names[1:]) + f" compared with {names[0]}"
@@ -66,9 +68,9 @@ def compare_cases(folders: Sequence[Path | str], begin: float | None = None) -> 
                      FOOT.format(datetime.datetime.now()), lines)
 
 
-def compare_stirred(cases: Sequence[StirredCase]) -> str:
-    """HTML text of a comparison of stirred mills with the first one."""
-    names = comparison.distinct(cases)
+def compare_stirred(cases: Sequence[StirredCase], names: Sequence[str] | None = None) -> str:
+    """HTML text of a comparison of stirred mills with the first one; names: as compare_cases has them."""
+    names = names or comparison.distinct(cases)
     found = [all_checks(case) for case in cases]
     lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
     return page.page("Comparison of stirred mills", ", ".join(names[1:]) + f" compared with {names[0]}",

@@ -77,7 +77,7 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
               uncertain(1e3 * mean.value, 1e3 * mean.error, "mm/s")
               + f" ({1e3 * half.lowest:+.3g} to {1e3 * half.highest:+.3g})")
              for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]
-    words = {"undecided": "undecided: a mean is within two standard errors of zero, or its error is not known"}
+    words = {"undecided": "undecided: a mean may be zero (95 % confidence), or its error is not known"}
     return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
 
 

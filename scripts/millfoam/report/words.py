@@ -7,6 +7,8 @@ import numpy as np
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
+ROUND_OFF = 1e-12  # of a value, an error that is none
+
 # Ends of keys that are units, longer ones first
 UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s", "_N_m": "N m", "_m_s": "m/s",
          "_deg": "degrees",
@@ -29,9 +31,9 @@ def decimals(error: float) -> int:
 
 
 def uncertain(value: float, error: float, unit: str) -> str:
-    """A value with its standard error and unit; three digits if the error is unknown or zero."""
+    """A value with its standard error and unit; three digits if the error is unknown, zero or round-off."""
     gap = "" if unit == "°" else " "
-    if not (np.isfinite(error) and error > 0):
+    if not (np.isfinite(error) and error > ROUND_OFF * abs(value)):
         return f"{value:.3g}{gap}{unit}"
     digits = decimals(error)
     return f"{value:.{digits}f} ± {error:.{digits}f}{gap}{unit}"
