@@ -10,6 +10,7 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -179,6 +180,48 @@ class Again(unittest.TestCase):
         self.assertEqual(kept, ["walls", "charge", "average", *self.FLOW])
         self.assertEqual(made, ["pictures", "report"])
 
+    def test_a_mill_that_a_tool_refuses_leaves_all_results_valid(self):
+        poor = "resolution={counts: {gap: 1, lifter: 1, height: 1, ring: 40}, layers: 2}"
+        for change, words in (("dem.dumps=no", "dem.dumps"), (poor, "choose another resolution")):
+            costs = (self.case / "log.costs").read_text()
+            self.assertIn(words, self.refused("./Allrun", "--set", change))
+            made, kept = self.allrun()
+            self.assertEqual((made, kept), (["pictures", "report"], ["walls", "charge", "average", *self.FLOW]))
+            for stage in ("charge", "mesh"):
+                lines = [[line for line in text.splitlines() if line.startswith(f"{stage},")]
+                         for text in (costs, (self.case / "log.costs").read_text())]
+                self.assertEqual(lines[1][0], lines[0][0])
+            self.assertNotIn("~", (self.case / "log.costs").read_text())
+
+    def test_a_result_that_is_gone_is_made_again(self):
+        for file, stage in (("constant/polyMesh/points", "mesh"), ("solids.h5", "average"), ("0.05", "flow")):
+            path = self.case / file
+            shutil.rmtree(path) if path.is_dir() else path.unlink()
+            made, _ = self.allrun("--until", "flow")
+            self.assertEqual(made[0], stage)
+            self.assertTrue(path.exists())
+
+    def test_averages_without_dumps_say_which_stage_makes_them(self):
+        for path in (self.case / "dumps").glob("dump.*.txt"):
+            path.unlink()
+        output = self.refused("./Allrun", "--set", "averages.window=0.05")
+        self.assertIn("no dump.*.txt; expected those of the dry run: remove .stages/charge", output)
+
+    def test_files_of_the_owner_that_begin_with_a_digit_are_kept(self):
+        (self.case / "2024-05-01").write_text("a note\n")
+        (self.case / "30cm_2").mkdir()
+        (self.case / "7").write_text("a file, not a time\n")
+        self.allrun("--set", "flow.max_courant=0.4", "--until", "start")
+        for name in ("2024-05-01", "30cm_2", "7"):
+            self.assertTrue((self.case / name).exists(), name)
+        self.assertFalse((self.case / "0.05").exists())
+
+    def test_a_number_of_processes_is_checked_first(self):
+        for number in ("abc", "0", "-1", "1.5"):
+            with mock.patch.dict(os.environ, {"MILLFOAM_NP": number}):
+                self.assertIn(f"MILLFOAM_NP is '{number}', the number of processes; expected a whole number from 1 on",
+                              self.refused("./Allrun"))
+
     def test_another_law_makes_mesh_and_flow_again(self):
         made, kept = self.allrun("--set", "flow.law=Hill")
         self.assertEqual(kept, ["walls", "charge", "average"])
@@ -283,6 +326,16 @@ class Again(unittest.TestCase):
 
     def test_a_charge_of_a_folder_without_averages_is_refused(self):
         self.assertIn("whose averages are made", self.refused("./Allrun", "--charge", "constant"))
+        other = self.case.with_name("other")
+        run(self.case, ROOT / "scripts" / "new_mill", "mill.yaml", other)
+        for damage, words in ((lambda path: path.write_text(path.read_text()[:100]), "solids.json is missing or not"),
+                              (lambda path: path.unlink(), "solids.json is missing or not"),
+                              (lambda path: (path.parent / "solids.h5").unlink(), "no solids.h5; expected")):
+            damage(self.case / "solids.json")
+            with self.assertRaises(RunError) as refusal:
+                run(other, "./Allrun", "--charge", self.case, "--until", "mesh")
+            self.assertIn(words, str(refusal.exception))
+            self.assertNotIn("Traceback", str(refusal.exception))
 
     def test_a_case_takes_the_charge_of_another_only_if_it_is_its_own(self):
         other = self.case.with_name("other")

@@ -8,6 +8,7 @@ import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -189,6 +190,19 @@ class Judging(unittest.TestCase):
         self.assertAlmostEqual(content["force_disagreement"], 0.1, places=6)
         # The flows are shorter than two turns, so that errors of the slurry are not known
         self.assertEqual((content["settled"], content["largest_change"]), (False, "centre of the slurry, x"))
+
+    def test_a_thin_charge_without_a_centre_of_circulation_is_judged_by_the_rest(self):
+        def too_thin(*_):
+            raise RuntimeError("no centre of circulation")
+        with mock.patch.object(passes, "circulation_centre", too_thin):
+            thin = passes.read_pass(2, self.case / "pass_2")
+        whole = passes.read_pass(2, self.case / "pass_2")
+        self.assertTrue(np.isnan(thin.quantities["charge_x"].value) and np.isnan(thin.quantities["charge_y"].error))
+        self.assertEqual(thin.quantities["toe"], whole.quantities["toe"])
+        self.assertNotIn("charge_x", passes.change(thin, thin).over_limit)
+        # One of two passes without it is a change
+        self.assertTrue(np.isnan(passes.change(thin, whole).over_limit["charge_x"]))
+        self.assertFalse(passes.change(thin, whole).within)
 
     def test_the_report_of_the_last_pass_shows_the_passes_and_their_verdicts(self):
         page = report_case(self.case / "pass_3")

@@ -51,6 +51,18 @@ class Damaged(Case):
                 self.assertIn(path.name, words, path)
             path.write_bytes(whole)
 
+    def test_tables_that_end_before_the_flow_are_named(self):
+        for table, name in (("flow/0/steps.csv", "steps.csv of postProcessing/flow"),
+                            ("slurryBalance/0/slurryBalance.dat", "the table of slurryBalance")):
+            flow = write_flow(self.folder / table.split("/")[0])
+            path = flow / "postProcessing" / table
+            lines = path.read_text().splitlines(keepends=True)
+            path.write_text("".join(lines[:len(lines) // 2]))
+            case = MillCase(flow)
+            self.assertTrue(case.balance and case.record.steps)
+            self.assertEqual(len(case.unusable), 1, case.unusable)
+            self.assertRegex(case.unusable[0], rf"^{name} ends at [\d.]+ s, and the flow's fields at {case.last:.3g} s")
+
     def test_files_and_folders_that_are_missing(self):
         flow = write_flow(self.folder / "flow")
         folders = [path for path in flow.iterdir() if path.is_dir()]

@@ -128,6 +128,16 @@ class StirredReport(unittest.TestCase):
         with self.assertRaisesRegex(DataError, "wall 1; expected -1 to 0"):
             read_partner_spectra(self.case / "dumps", PARTS[:1])
 
+    def test_an_earlier_flow_of_a_mill_without_slurry_is_not_read(self):
+        content = json.loads((self.case / "mill.json").read_text())
+        content["derived"]["flow"] = None
+        (self.case / "mill.json").write_text(json.dumps(content))
+        (self.case / "postProcessing" / "flow").mkdir(parents=True)
+        (self.case / "0.1").mkdir()
+        text = text_of(report_case(self.case))
+        self.assertIn("25.00 ± 0.20 W", text)
+        self.assertNotIn("The flow is not shown", text)
+
     def test_the_report_shows_numbers_checks_and_contacts(self):
         text = text_of(report_case(self.case))
         for words in ("25.00 ± 0.20 W", "−0.800 ± 0.004 N m", "0.9900", "power number", "W/kg", "5 m/s",

@@ -240,7 +240,7 @@ def main() -> None:
         return
     found, trials, stays, missing = read_all(options.folder)
     if not found:
-        parser.exit(1, "\n".join(["no flow is complete:", *missing]) + "\n")
+        parser.exit(1, "\n".join([f"{options.folder}: no flow is complete", *missing]) + "\n")
     rows = list(rows_of(found))
     with open(options.folder / "steady_holdup.csv", "w", newline="") as file:
         writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of one pass of balls and slurry, and of the change from one pass to the next."""
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..files.data_files import read_csv
 from ..files.mill import read_mill
@@ -13,10 +14,10 @@ from ..files.slurry_file import read_ball_forces
 from ..files.solids_file import SolidsMap, mean_map
 from ..files.stirred_case import StirredCase
 from ..readings.batches import error_over_turns
-from ..readings.charge import charge_with_errors, circulation_centre
+from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
-from ..readings.means import Mean, time_mean
+from ..readings.means import Mean, time_mean, with_error
 from . import ball_forces
 
 FORCES = "forces.h5"  # in a pass's folder: what its balls felt
@@ -26,6 +27,7 @@ QUANTITIES = {"toe": ("toe of the charge", "°", 1.0), "shoulder": ("shoulder of
               "charge_power": ("power of the charge", "W", 1.0), "slurry_x": ("centre of the slurry, x", "mm", 1e3),
               "slurry_y": ("centre of the slurry, y", "mm", 1e3), "slurry_power": ("power for the slurry", "W", 1.0),
               "drive_power": ("power of the drive", "W", 1.0)}
+MAY_LACK = ("toe", "shoulder", "charge_x", "charge_y")  # which a thin charge does not have
 # Standard errors that a quantity may change by in a pass that has settled: of ten comparisons, made twice, one would
 # exceed two errors by chance in most cases
 LIMIT = 3.0
@@ -55,7 +57,7 @@ class Pass:
 @dataclass
 class Change:
     """From one pass to the next: difference of the charges' solidity (compare.Difference), over NOISE times its noise;
-    key of QUANTITIES -> difference, and over LIMIT standard errors."""
+    key of QUANTITIES -> difference, and over LIMIT standard errors, without those of MAY_LACK that neither pass has."""
     solidity: float
     solidity_over_limit: float
     quantities: dict[str, Mean]
@@ -89,16 +91,19 @@ def read_pass(number: int, folder: Path) -> Pass:
 
 
 def charge_quantities(case: MillCase, charge: SolidsMap) -> dict[str, Mean]:
-    """Readings of the charge of a MillCase; charge: its map."""
+    """Readings of the charge of a MillCase; charge: its map. A thin charge has no centre of circulation: NaN."""
     windows = case.charge_windows
-    errors = charge_with_errors(windows, case.radius) if len(windows) >= 4 else None
 
-    def error(name: str, k: int) -> float:
-        return float(np.atleast_1d(errors[name].error)[k]) if errors else np.nan
-    toe, shoulder = toe_and_shoulder(charge, case.radius, WALL)
-    centre = circulation_centre(charge, case.radius)
-    return {"toe": Mean(toe, error("ends", 0)), "shoulder": Mean(shoulder, error("ends", 1)),
-            "charge_x": Mean(centre[0], error("centre", 0)), "charge_y": Mean(centre[1], error("centre", 1)),
+    def read(reading: Callable[[SolidsMap], ArrayLike]) -> list[Mean]:
+        try:
+            values = reading(charge)
+            errors = with_error(reading, windows).error if len(windows) >= 4 else (np.nan, np.nan)
+        except RuntimeError:
+            values = errors = np.nan, np.nan
+        return [Mean(float(value), float(error)) for value, error in zip(np.asarray(values), np.asarray(errors))]
+    toe, shoulder = read(lambda one: toe_and_shoulder(one, case.radius, WALL))
+    centre_x, centre_y = read(lambda one: circulation_centre(one, case.radius))
+    return {"toe": toe, "shoulder": shoulder, "charge_x": centre_x, "charge_y": centre_y,
             "charge_power": Mean(case.result("power_W"), case.result("power_error_W"))}
 
 
@@ -208,7 +213,8 @@ def change(before: Pass, after: Pass) -> Change:
     apart = difference(after.charge, before.charge).solidity
     noise = float(np.hypot(before.noise, after.noise) / np.sqrt(2))
     quantities = {key: after.quantities[key] - before.quantities[key] for key in QUANTITIES}
-    over = {key: abs(one.value) / (LIMIT * one.error) if one.error > 0 else np.nan for key, one in quantities.items()}
+    over = {key: abs(one.value) / (LIMIT * one.error) if one.error > 0 else np.nan for key, one in quantities.items()
+            if not (key in MAY_LACK and all(np.isnan(step.quantities[key].value) for step in (before, after)))}
     return Change(apart, apart / (NOISE * noise), quantities, over)
 
 

@@ -242,6 +242,9 @@ class MillCase:
     @cached_property
     def flow(self) -> MillFlow | None:
         """MillFlow of the written times; None without a flow, or if `unusable` reports that it cannot be used."""
+        # An earlier flow of a mill that has none now belongs to another mill
+        if self.mill.content.get("derived", {}).get("flow", {}) is None:
+            return None
         # millMesh writes the mill's mesh and numbers for a dry run, too
         record = self.folder / "postProcessing" / "flow"
         if not (times(self.folder) or any(self.folder.glob("processor*")) or record.is_dir()):
@@ -255,7 +258,10 @@ class MillCase:
     @cached_property
     def record(self) -> FlowRecord:
         """FlowRecord of the flow's steps and summaries, empty if there is none."""
-        return self._reported(lambda: read_flow_record(self.folder), FlowRecord(None, []))
+        found = self._reported(lambda: read_flow_record(self.folder), FlowRecord(None, []))
+        if found.steps:
+            self._require_end("steps.csv of postProcessing/flow", found.steps["time_s"])
+        return found
 
     @cached_property
     def last(self) -> float:
@@ -304,7 +310,10 @@ class MillCase:
     @cached_property
     def balance(self) -> dict[str, np.ndarray] | None:
         """Columns of slurryBalance."""
-        return self._table("slurryBalance", lambda: tables.read_columns(self.folder, "slurryBalance"))
+        found = self._table("slurryBalance", lambda: tables.read_columns(self.folder, "slurryBalance"))
+        if found:
+            self._require_end("the table of slurryBalance", found["Time"])
+        return found
 
     @cached_property
     def is_open(self) -> bool:
@@ -325,6 +334,13 @@ class MillCase:
             return None
         names, rows = found
         return np.array(names[1:], dtype=float), rows[:, 0], rows[:, 1:]
+
+    def _require_end(self, name: str, times: np.ndarray) -> None:
+        """Reports in `unusable` a table whose last time (s) is before that of the written fields."""
+        end = float(times[-1]) if len(times) else 0.0
+        if self.flow and self.flow.frames and end < (1 - CUT) * self.last:
+            self.unusable.append(f"{name} ends at {end:.3g} s, and the flow's fields at {self.last:.3g} s: numbers "
+                                 "from the table are of a part of the flow")
 
     def _table(self, name: str, read: Callable[[], Any]) -> Any:
         """The result of read() of a function object's table; None without a flow or table, or if `unusable` reports
