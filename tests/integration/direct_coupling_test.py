@@ -83,6 +83,20 @@ class Direct(unittest.TestCase):
         self.assertIn("Balls and slurry at the same time", page)
         self.assertNotIn("The slurry would not move the balls", page)
 
+    def test_a_new_title_is_in_the_report_and_computes_nothing_again(self):
+        case = self.copy("-title")
+        output = run_mill(case, "mill.yaml", "title=another title")
+        self.assertIn("Keeping flow: it is up to date", output)
+        self.assertIn("another title", (case / "report.html").read_text())
+
+    def test_stops_after_a_stage(self):
+        case = self.copy("-until")
+        shutil.rmtree(case / "direct")
+        for stage, product in (("mesh", "constant/polyMesh/owner"), ("start", "0/alpha.slurry")):
+            output = run_mill(case, "mill.yaml", until=stage)
+            self.assertTrue((case / "direct" / product).is_file())
+            self.assertNotIn("Running flow", output)
+
     def test_a_killed_run_resumes_both_at_the_same_time(self):
         case = self.copy("-killed")
         shutil.rmtree(case / "direct")
@@ -113,6 +127,7 @@ class Direct(unittest.TestCase):
     def test_a_flow_without_its_balls_ends_with_a_sentence(self):
         case = self.copy("-alone")
         (case / "direct" / "walls" / "shell.stl").unlink()
+        (case / "direct" / ".stages" / "walls.files").unlink()  # otherwise the walls are made again
         (case / "direct" / ".stages" / "flow").unlink()
         (case / "direct" / "dumps" / "run.json").unlink()
         with self.assertRaisesRegex(RunError, "shell"):
