@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from millfoam.readings.means import mean_of_series
+from millfoam.readings.batches import batch_means
+from millfoam.readings.means import mean_of_series, turns_mean
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 LARGE, SLICE = "30 cm mill", "12 cm slice"
@@ -134,7 +135,7 @@ def judged(verdict, figure, *runs):
     if moving:
         figure += f" (not steady by the report: {', '.join(moving)})"
     reasons = [reason for reason in map(unsteady, runs) if reason]
-    if verdict in (CONFIRMED, CONTRADICTED) and reasons:
+    if reasons:
         return UNDECIDED, f"{figure}; not steady: {'; '.join(reasons)}"
     return verdict, figure
 
@@ -146,6 +147,15 @@ def height_over_time(run):
     return (known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1)
 
 
+def over_turns(run, values):
+    """Mean of values at the times of a run's series, over its last whole turns if two fit, otherwise by fifths."""
+    times, length = run.series.times, turn(run)
+    turns = int((times[-1] - times[0]) / length + 0.005)  # times are rounded
+    if turns < 2:
+        return mean_of_series(values)
+    return turns_mean(batch_means(times, np.asarray(values), times[-1] - turns * length, length, turns))
+
+
 def height(run):
     """Mean height of the slurry's centre of mass above the axis (m)."""
-    return mean_of_series(height_over_time(run))
+    return over_turns(run, height_over_time(run))

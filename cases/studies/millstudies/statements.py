@@ -7,11 +7,11 @@ import numpy as np
 from scipy.signal import find_peaks
 
 from millfoam.readings.axial import fit_gaussians
-from millfoam.readings.means import Mean, mean_of_series, series_mean
+from millfoam.readings.means import Mean, series_mean
 from millfoam.readings.slurry_over_time import read_series
 
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
-                            height, judged, unread)
+                            height, judged, over_turns, unread)
 from .run_readings import read_run
 
 # Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
@@ -212,9 +212,9 @@ def drop(run):
     and the last, over the way of all. In these two slurry enters and leaves, with a pressure of its own."""
     series = run.series
     z, pressure = series.z[1:-1], series.pressure[:, 1:-1]
-    slopes = [np.polyfit(z[known], line[known], 1)[0]
-              for line, known in zip(pressure, np.isfinite(pressure)) if known.sum() > 1]
-    found, way = mean_of_series(slopes), series.z[-1] - series.z[0]
+    slopes = [np.polyfit(z[known], line[known], 1)[0] if known.sum() > 1 else np.nan
+              for line, known in zip(pressure, np.isfinite(pressure))]
+    found, way = over_turns(run, slopes), series.z[-1] - series.z[0]
     return Mean(-way * found.value, way * found.error, found.freedom)
 
 

@@ -63,15 +63,21 @@ def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchan
             "force_disagreement": known(exchanged.disagreement)}
 
 
+def cell(mean: Mean, scale: float) -> str:
+    """A mean times `scale` with its error, as far as they are known."""
+    if np.isnan(mean.value):
+        return "–"
+    return f"{scale * mean.value:.4g}" + ("" if np.isnan(mean.error) else f" ± {scale * mean.error:.2g}")
+
+
 def lines(passes: Sequence[Pass], changes: Sequence[Change]) -> list[str]:
     """The passes as text, a line for each quantity."""
     found = ["pass".ljust(28) + "".join(f"{one.number:>21d}" for one in passes)]
     for key, (name, unit, scale) in QUANTITIES.items():
-        means = [one.quantities[key] for one in passes]
-        cells = [f"{scale * one.value:.4g} ± {scale * one.error:.2g}" for one in means]
-        found.append(f"{name}, {unit}".ljust(28) + "".join(cell.rjust(21) for cell in cells))
+        cells = [cell(one.quantities[key], scale) for one in passes]
+        found.append(f"{name}, {unit}".ljust(28) + "".join(one.rjust(21) for one in cells))
     apart = ["–", *(f"{one.solidity:.3f} ({one.solidity_over_limit:.2g})" for one in changes)]
-    found.append("solidity's change (÷ limit)".ljust(28) + "".join(cell.rjust(21) for cell in apart))
+    found.append("solidity's change (÷ limit)".ljust(28) + "".join(one.rjust(21) for one in apart))
     found.append("force over weight".ljust(28) + "".join(f"{one.load:21.3f}" for one in passes))
     found.append("forces disagree by".ljust(28) + "".join(
         ("–" if one.disagreement is None else f"{one.disagreement:.1%}").rjust(21) for one in passes))
