@@ -194,7 +194,8 @@ class Again(unittest.TestCase):
             self.assertNotIn("~", (self.case / "log.costs").read_text())
 
     def test_a_result_that_is_gone_is_made_again(self):
-        for file, stage in (("constant/polyMesh/points", "mesh"), ("solids.h5", "average"), ("0.05", "flow")):
+        for file, stage in (("constant/polyMesh/points", "mesh"), ("solids.h5", "average"), ("0.05", "flow"),
+                            ("slurry.h5", "start")):
             path = self.case / file
             shutil.rmtree(path) if path.is_dir() else path.unlink()
             made, _ = self.allrun("--until", "flow")
