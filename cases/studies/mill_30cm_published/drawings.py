@@ -15,14 +15,14 @@ from flow_numbers import Flow
 from runs import is_published
 
 FASTEST = 40  # of the maps' colours, mm/s
-COLUMNS = 4  # of maps in a row
+COLUMNS = 4  # of maps in a row, at most
 SOLIDS_COLOURS = {20: "#0072B2", 30: "#009E73", 40: "#D55E00"}
 LAW_LINES = {None: "-", "Beetstra": "-", "ErgunWenYu": "--"}
 
 
 def profiles(flows: Sequence[Flow]) -> Figure:
     """Height of the slurry's centre of mass along the axis: a panel for each speed without and with balls, and two for
-    what changes the flow with 20 % slurry at 75 %, which is black there."""
+    what changes the flow with 20 % slurry at 75 %, which is black there; panels without a flow are left out."""
     def of(speed: int, balls: bool) -> list[Flow]:
         return [one for one in flows
                 if is_published(one.run) and one.run.speed == speed and bool(one.run.law) == balls]
@@ -34,7 +34,11 @@ def profiles(flows: Sequence[Flow]) -> Figure:
     groups.append(("75 %, 20 % slurry, with balls: other runs", [
         one for one in flows if one.run.law and (not is_published(one.run) or one.run.name == "Beetstra_75_20")],
         False))
-    figure, axes = plt.subplots(3, 2, figsize=(12, 12), layout="constrained")
+    groups = [one for one in groups if one[1]]
+    rows = -(-len(groups) // 2)
+    figure, axes = plt.subplots(rows, 2, figsize=(12, 4 * rows), layout="constrained", squeeze=False)
+    for axis in axes.flat[len(groups):]:
+        axis.set_visible(False)
     for axis, (title, group, all_published) in zip(axes.flat, groups):
         for one in group:
             z, heights = 1e3 * one.slices.z, 1e3 * one.slices.profile()
@@ -49,11 +53,7 @@ def profiles(flows: Sequence[Flow]) -> Figure:
             axis.axvline(1e3 * one.case.length, color="0.6", lw=0.8)
         axis.set(title=title, xlabel="z from the feed end, mm", ylabel="height of the slurry's centre of mass, mm")
         axis.grid(alpha=0.3)
-        if group:
-            axis.legend(fontsize=8)
-        else:
-            axis.text(0.5, 0.5, "no complete run", ha="center", transform=axis.transAxes)
-            axis.set(xticks=[], yticks=[])
+        axis.legend(fontsize=8)
     figure.suptitle("Points: slices of 10 mm; thin lines: Gaussians through those in front of the grates "
                     "(grey); shaded: standard deviation of the turns", fontsize=10)
     return figure
@@ -61,8 +61,9 @@ def profiles(flows: Sequence[Flow]) -> Figure:
 
 def axial_flow_maps(flows: Sequence[Flow]) -> Figure:
     """Velocity along the axis where slurry is more than half of the fluid, a panel for each flow."""
-    rows = -(-len(flows) // COLUMNS)
-    figure, axes = plt.subplots(rows, COLUMNS, figsize=(3.4 * COLUMNS, 3.5 * rows), squeeze=False,
+    columns = min(COLUMNS, len(flows))
+    rows = -(-len(flows) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(3.4 * columns + 1, 3.5 * rows), squeeze=False,
                                 layout="constrained")
     for axis in axes.flat:
         axis.set_axis_off()
