@@ -184,7 +184,8 @@ class Again(unittest.TestCase):
         poor = "resolution={counts: {gap: 1, lifter: 1, height: 1, ring: 40}, layers: 2}"
         for change, words in (("dem.dumps=no", "dem.dumps"), (poor, "choose another resolution")):
             costs = (self.case / "log.costs").read_text()
-            self.assertIn(words, self.refused("./Allrun", "--set", change))
+            for until in ((), ("--until", "charge")):
+                self.assertIn(words, self.refused("./Allrun", "--set", change, *until))
             made, kept = self.allrun()
             self.assertEqual((made, kept), (["pictures", "report"], ["walls", "charge", "average", *self.FLOW]))
             for stage in ("charge", "mesh"):
@@ -207,6 +208,7 @@ class Again(unittest.TestCase):
             path.unlink()
         output = self.refused("./Allrun", "--set", "averages.window=0.05")
         self.assertIn("no dump.*.txt; expected those of the dry run: remove .stages/charge", output)
+        self.assertEqual(self.allrun("--until", "flow"), ([], ["walls", "charge", "average", *self.FLOW]))
 
     def test_files_of_the_owner_that_begin_with_a_digit_are_kept(self):
         (self.case / "2024-05-01").write_text("a note\n")

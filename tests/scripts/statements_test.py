@@ -247,12 +247,14 @@ class Steady(unittest.TestCase):
                                          surface=Surface(Mean(30, 1), Mean(0.01), 40.0))).verdict,
                          UNDECIDED)
 
-    def test_a_slice_is_read_with_its_series(self):
+    def test_a_slice_is_read_with_its_series_and_the_reports_verdict(self):
         for ends, read in ((False, True), (True, False)):
             found = RunReadings("a", 0.12, 50, "Beetstra", 30, 5.0, ends)
             with mock.patch.object(statements, "read_run", lambda _, found=found: found), \
+                    mock.patch.object(statements, "flow_steadiness", lambda _: SimpleNamespace(state="look")), \
                     mock.patch.object(statements, "read_series", lambda _: "its series"):
-                self.assertEqual(statements.read(None).series, "its series" if read else None)
+                one = statements.read(None)
+            self.assertEqual((one.series, one.steady), ("its series" if read else None, "look"))
 
 
 class Study(unittest.TestCase):

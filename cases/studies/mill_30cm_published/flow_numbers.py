@@ -14,7 +14,6 @@ from millfoam.readings.charge import circulation_centre
 from millfoam.readings.means import Mean, block_mean, turns_mean
 from millfoam.readings.slurry_on_maps import axial_velocity
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
-from millfoam.report.steadiness import flow_steadiness
 from millstudies.axial_slices import PRESSURES, Profile, Slices, pressure_drop, read_profile, read_slices
 from millstudies.run_readings import RunReadings
 from millstudies.statements import read
@@ -31,13 +30,12 @@ class NotFinished(RuntimeError):
 
 @dataclass(frozen=True)
 class Flow:
-    """A flow: its Run, case and number of averaged turns; height of the slurry's centre, of all and of
-    that in front of the grates (m); discharge (m3/s, by the
-    outlet's own flux) and net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed
-    volume over what was asked for; its Slices; Profile of the published slices, which reach over the pulp lifters, and
-    of those in front of the grates; drops of the pressure by PRESSURES (Pa); what is read for published statements; map
-    of the slurry; velocity along the axis at the top of the shoulder (m/s); slurry's share of the fluid at the charge's
-    centre of circulation (NaN without balls)."""
+    """A flow: its Run, case and number of averaged turns; height of the slurry's centre, of all and of that in front of
+    the grates (m); discharge (m3/s, by the outlet's own flux) and net rate of volume (m3/s); largest error of the
+    volume over the hold-up, and of the fed volume over what was asked for; its Slices; Profile of the published slices,
+    which reach over the pulp lifters, and of those in front of the grates; drops of the pressure by PRESSURES (Pa);
+    what is read for published statements; map of the slurry; velocity along the axis at the top of the shoulder (m/s);
+    slurry's share of the fluid at the charge's centre of circulation (NaN without balls)."""
     run: Run
     case: MillCase
     turns: int
@@ -118,13 +116,11 @@ def read_flow(run: Run, folder: Path) -> Flow:
     slices, blocks = read_slices(case), list(slurry_blocks(case))
     humps = 3 if run.law else 2
     turns, slurry, columns = len(slices.holdup), mean_slurry(case, blocks), case.balance
-    readings = read(case)
-    readings.steady = flow_steadiness(case).state
     return Flow(run, case, turns, height_of(slices), height_of(slices, case.length),
                 over_turns(case, "discharge", turns), net_rate(case, turns),
                 float(np.abs(columns["missing"]).max() / columns["holdUp"].max()),
                 float(abs(columns["fed"][-1] / (case.feed * columns["Time"][-1]) - 1)) if case.feed else np.nan,
                 slices, read_profile(slices, humps), read_profile(slices, humps, case.length),
-                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, readings, slurry,
+                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, read(case), slurry,
                 block_mean([top_velocity(one) for one in blocks]),
                 share_at_centre(case.charge, case.radius, blocks) if run.law else Mean(np.nan, np.nan))

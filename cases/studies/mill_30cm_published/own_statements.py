@@ -13,13 +13,14 @@ from millfoam.readings.free_surface import toe_and_shoulder
 from millfoam.readings.means import Mean, with_error
 from millstudies.axial_slices import PRESSURES, Profile
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged
-from millstudies.statements import CLEARLY, TWICE, circulation, maxima, millimetres, reynolds_below, surface_follows
+from millstudies.statements import (TWICE, circulation, larger_drop, maxima, millimetres, reynolds_below,
+                                    surface_follows)
 
 from flow_numbers import Flow
 
 DRY = 0.5  # share of slurry in the fluid below which the centre of circulation is a dry patch
 POOR = 0.1  # root mean square of a fit's residuals over the profile's amplitude, above which it shows no humps
-HARDLY = 0.02  # difference of two maps of solidity (compare.Difference) that is hardly one: that of a turn by 3 degrees
+HARDLY = 0.02  # difference of two maps of solidity (compare.Difference) that is hardly one: that of a turn by 4 degrees
 FELT = "direct_75_20"  # the run whose balls feel the slurry
 
 Flows = dict[str, Flow]
@@ -49,7 +50,7 @@ def clear_maxima(profile: Profile) -> np.ndarray:
 def has_two(profile: Profile) -> str:
     """Verdict on two maxima of a Profile; undecided where the error decides, or is not known."""
     counts = {len(clear_maxima(profile)), len(maxima(profile.z, profile.height, 0.0))}
-    if np.isnan(profile.error) or (2 in counts and len(counts) > 1):
+    if np.isnan(profile.error) or (len(counts) > 1 and min(counts) <= 2 <= max(counts)):
         return UNDECIDED
     return CONFIRMED if counts == {2} else CONTRADICTED
 
@@ -87,10 +88,7 @@ def drops(flows: Flows) -> Iterator[Verdict]:
     for name, words in PRESSURES.items():
         def larger(less: Flow, more: Flow, name: str = name) -> tuple[str, str]:
             small, large = less.drops[name], more.drops[name]
-            verdict = by_sign(large - small)
-            if verdict == CONFIRMED and (large.sign <= 0 or large.value < CLEARLY * small.value):
-                verdict = CONTRADICTED
-            return verdict, f"{large.text('Pa')} compared with {small.text('Pa')}"
+            return larger_drop(small, large), f"{large.text('Pa')} compared with {small.text('Pa')}"
 
         for solids in (20, 30, 40):
             yield tested(f"the drop of the {words} is clearly larger with Ergun/Wen-Yu".replace("the p_rgh", "p_rgh"),

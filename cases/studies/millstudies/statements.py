@@ -9,6 +9,7 @@ from scipy.signal import find_peaks
 from millfoam.readings.axial import fit_gaussians
 from millfoam.readings.means import Mean, series_mean
 from millfoam.readings.slurry_over_time import read_series
+from millfoam.report.steadiness import flow_steadiness
 
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
                             height, judged, over_turns, unread)
@@ -218,14 +219,21 @@ def drop(run):
     return Mean(-way * found.value, way * found.error, found.freedom)
 
 
+def larger_drop(less, more):
+    """The verdict on whether a drop of the pressure (Mean) is a drop and clearly larger than another."""
+    verdict = by_sign(more - less)
+    if verdict != CONFIRMED:
+        return verdict
+    if more.value < max(0.0, CLEARLY * less.value):
+        return CONTRADICTED
+    return CONFIRMED if more.sign > 0 else UNDECIDED
+
+
 def pressure_drops(runs):
     """The axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra."""
     def judge(beetstra, ergun):
         less, more = drop(beetstra), drop(ergun)
-        verdict = by_sign(more - less)
-        if verdict == CONFIRMED and (more.sign <= 0 or more.value < CLEARLY * less.value):
-            verdict = CONTRADICTED
-        return verdict, f"{more.text('Pa')} compared with {less.text('Pa')}" + (
+        return larger_drop(less, more), f"{more.text('Pa')} compared with {less.text('Pa')}" + (
             "; the pressure does not fall towards the discharge" if max(more.value, less.value) < 0 else "")
 
     return [pair(runs, "the axial pressure drop is clearly larger with Ergun/Wen-Yu than with Beetstra",
@@ -261,6 +269,7 @@ def verdicts(runs):
 def read(case):
     """RunReadings of a MillCase with a flow; also a slice gets its series, which shows whether it is steady."""
     found = read_run(case)
+    found.steady = flow_steadiness(case).state
     if found.series is None and not found.ends:
         try:
             found.series = read_series(case)
