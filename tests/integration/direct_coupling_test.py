@@ -91,6 +91,8 @@ class Direct(unittest.TestCase):
 
     def test_stops_after_a_stage(self):
         case = self.copy("-until")
+        (case / "direct" / "slurry.h5").unlink()
+        self.assertIn("slurry.h5 is gone: start runs again", run_mill(case, "mill.yaml", until="start"))
         shutil.rmtree(case / "direct")
         for stage, product in (("mesh", "constant/polyMesh/owner"), ("start", "0/alpha.slurry")):
             output = run_mill(case, "mill.yaml", until=stage)
