@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from millfoam.readings.batches import batch_means
-from millfoam.readings.means import mean_of_series, turns_mean
+from millfoam.readings.batches import mean_over_turns
+from millfoam.readings.means import mean_of_series
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 LARGE, SLICE = "30 cm mill", "12 cm slice"
@@ -149,11 +149,8 @@ def height_over_time(run):
 
 def over_turns(run, values):
     """Mean of values at the times of a run's series, over its last whole turns if two fit, otherwise by fifths."""
-    times, length = run.series.times, turn(run)
-    turns = int((times[-1] - times[0]) / length + 0.005)  # times are rounded
-    if turns < 2:
-        return mean_of_series(values)
-    return turns_mean(batch_means(times, np.asarray(values), times[-1] - turns * length, length, turns))
+    times = run.series.times
+    return mean_over_turns(times, np.asarray(values), times[0], turn(run)) or mean_of_series(values)
 
 
 def height(run):

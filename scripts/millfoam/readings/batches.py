@@ -2,7 +2,7 @@
 """Means of a series over batches of equal time, by turns of the mill, and the errors that follow from them."""
 import numpy as np
 
-from .means import time_steps, turns_mean
+from .means import Mean, time_steps, turns_mean
 
 BATCHES = 5  # at least, of each half of a series
 
@@ -52,10 +52,14 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
     return float(np.sqrt(np.sum(apart**2) / (turns - 2) / turns))
 
 
-def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
-    """Standard error (turns_mean) of the mean of values from `begin` (s) on, from the means of the last whole turns of
-    a mill whose turn takes `turn` s; NaN if fewer than two fit."""
+def mean_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean | None:
+    """turns_mean of values from `begin` (s) on over the last whole turns of a mill whose turn takes `turn` s; None if
+    fewer than two fit."""
     turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
-    if turns < 2:
-        return np.nan
-    return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)).error
+    return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)) if turns > 1 else None
+
+
+def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:
+    """Standard error of mean_over_turns; NaN if fewer than two turns fit."""
+    found = mean_over_turns(times, values, begin, turn)
+    return found.error if found else np.nan
