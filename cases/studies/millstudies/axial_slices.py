@@ -9,6 +9,7 @@ import numpy as np
 
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.axial import Humps, fit_gaussians, humps_at_ends
+from millfoam.readings.batches import whole_turns
 from millfoam.readings.means import Mean, block_mean
 
 LEFT_OUT = 3, 1  # slices at the feed end and at the discharge end that the published profile leaves out
@@ -62,7 +63,7 @@ def turn_windows(case: MillCase, begins: np.ndarray, ends: np.ndarray) -> list[n
     """Numbers of the windows of slurry.h5 (DEM times, s) in each of a MillCase's last whole averaged turns. A window
     belongs to the turn of its middle. RuntimeError if no turn fits."""
     last = case.flow.time0 + case.last
-    turns = int((case.last - case.begin) / case.turn + 0.005)  # times are rounded
+    turns = whole_turns(case.last - case.begin, case.turn)
     if turns < 1:
         raise RuntimeError(f"{case.folder}: averaged over {case.last - case.begin:.3g} s; expected a turn of "
                            f"{case.turn:.3g} s or more")

@@ -11,7 +11,7 @@ import numpy as np
 
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.mill import Mill, read_mill
-from millfoam.readings.batches import batch_means
+from millfoam.readings.batches import batch_means, whole_turns
 from millfoam.readings.means import Mean, block_mean
 from millfoam.readings.stirred_power import mean_from, mean_speed, scaled
 
@@ -59,7 +59,7 @@ def read_numbers(folder: Path) -> Numbers:
     end = float(mill.asked("dem", "duration"))
     if results["duration_s"] < end * (1 - 1e-6):
         raise RuntimeError(f"{folder}: the run ends at {results['duration_s']:.4g} s; expected {end:.4g} s")
-    turns = int((end - float(mill.asked("averages", "start"))) / mill.turn + 0.005)  # times are rounded
+    turns = whole_turns(end - float(mill.asked("averages", "start")), mill.turn)
     if turns < 1:
         raise RuntimeError(f"{folder}: averaged over less than a turn of the impeller, {mill.turn:.4g} s")
     begin = end - turns * mill.turn

@@ -11,7 +11,7 @@ import numpy as np
 from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
-from millfoam.readings.batches import batch_means, error_over_turns
+from millfoam.readings.batches import batch_means, error_over_turns, whole_turns
 from millfoam.readings.means import Mean, mean_variance, time_mean, turns_mean
 from millfoam.readings.residence import Residence, read_tracer, residence
 
@@ -133,7 +133,7 @@ def axial_holdup(case: MillCase) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def late_turns(judged: float, end: float, turn: float) -> int:
     """Number of the late turns of a flow that ends at flow time `end` (s), of which the time `judged` (s) was judged:
     the whole turns of its last half, or those that were judged if they are more; one at least. turn: time of one, s."""
-    return max(int(max(judged, end / 2) / turn + 0.005), 1)
+    return max(whole_turns(max(judged, end / 2), turn), 1)
 
 
 def read_held(mesh: str, folder: Path) -> Held:

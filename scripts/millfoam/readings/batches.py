@@ -7,6 +7,11 @@ from .means import Mean, time_steps, turns_mean
 BATCHES = 5  # at least, of each half of a series
 
 
+def whole_turns(span: float, turn: float) -> int:
+    """Whole turns of `turn` s in a span (s). Times are rounded, so the last one may lack 0.5 %."""
+    return int(span / turn + 0.005)
+
+
 def batches_of(span: float, turn: float) -> tuple[float, int]:
     """Length (s) of batches of equal time in a span (s) of a mill whose turn takes `turn` s, and their number in a
     half.
@@ -15,7 +20,7 @@ def batches_of(span: float, turn: float) -> tuple[float, int]:
     as fit, and the rest of the span, in the middle, belongs to neither: what repeats with every turn of the mill, as
     lifters do, is not a drift. A batch is one or more whole turns if a half has BATCHES of them, otherwise a half, a
     third, … of a turn."""
-    turns = int(span / 2 / turn + 0.005)  # times are rounded
+    turns = whole_turns(span / 2, turn)
     if turns < 1:
         return span / 2 / BATCHES, BATCHES
     if turns < BATCHES:
@@ -43,7 +48,7 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
     """Standard error of the mean of values from `begin` (s) on, from what the means of the last whole turns of `turn` s
     differ from a straight line, so that a drift does not increase it; NaN if fewer than three fit. It does not allow
     for turns that are correlated."""
-    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
+    turns = whole_turns(times[-1] - begin, turn)
     if turns < 3:
         return np.nan
     means = batch_means(times, values, times[-1] - turns * turn, turn, turns)
@@ -55,7 +60,7 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
 def mean_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean | None:
     """turns_mean of values from `begin` (s) on over the last whole turns of a mill whose turn takes `turn` s; None if
     fewer than two fit."""
-    turns = int((times[-1] - begin) / turn + 0.005)  # times are rounded
+    turns = whole_turns(times[-1] - begin, turn)
     return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)) if turns > 1 else None
 
 

@@ -12,6 +12,7 @@ from ..files.mill_case import MillCase
 from ..files.slurry_file import SlurryMap, VoxelMap, read_slurry_map
 from . import slurry_on_maps
 from .axial import AxialSeries, axial_series
+from .batches import whole_turns
 from .maps_of_times import TimesMap, mean_flow, mean_of_times
 from .means import BLOCKS, Mean, angle_mean, block_mean
 
@@ -60,7 +61,7 @@ def mean_slurry(case: MillCase, maps: Sequence[SlurryMap]) -> SlurryMap:
 def parts_of(case: MillCase, times: np.ndarray) -> list[np.ndarray]:
     """Numbers of flow times [n] (s) in the averages of a MillCase, in at most BLOCKS successive parts: of its last
     whole turns, if two fit, and otherwise of nearly equal size."""
-    turns = int((case.last - case.begin) / case.turn + 0.005)  # times are rounded
+    turns = whole_turns(case.last - case.begin, case.turn)
     if turns < 2:
         return np.array_split(np.arange(len(times)), min(BLOCKS, len(times)))
     turn_of = np.floor((times - case.last) / case.turn) + turns

@@ -8,7 +8,7 @@ import numpy as np
 from ..files.data_files import read_csv
 from ..files.dumps import numbered_dumps, read_balls, read_timestep
 from ..files.stirred_case import StirredCase
-from .batches import batch_means
+from .batches import batch_means, whole_turns
 from .means import Mean, turns_mean
 from .power_models import bulk_density
 
@@ -21,7 +21,7 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     late = times >= begin - 1e-6 * turn
     times, values = times[late], values[late]
     interval = np.ptp(times) / max(len(times) - 1, 1)
-    turns = int((np.ptp(times) + interval) / turn + 0.005)  # times are rounded
+    turns = whole_turns(np.ptp(times) + interval, turn)
     if turns < 2:
         return Mean(float(values.mean()), np.nan)
     found = turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
