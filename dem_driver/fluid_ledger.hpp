@@ -14,8 +14,8 @@ namespace millfoam::dem_driver {
 
 /// Sums over balls and steps of what the fluid did: numbers that add up over ranks.
 struct FluidSums {
-  /// Pressure x y z and drag x y z, N; power, W; balls without field.
-  std::array<double, 8> values = {};
+  /// Pressure x y z and drag x y z, N; power, W; torque about z, N m; balls without field.
+  std::array<double, 9> values = {};
   /// Adds a ball of one step.
   void add(const BallInFluid& ball, const FluidForce& force);
 };
@@ -40,6 +40,7 @@ struct FluidRow {
   Vector pressure = {};      ///< N
   Vector drag = {};          ///< N
   double power = 0;          ///< of both on the balls, W
+  double torque = 0;         ///< of both about +z, N m
   double without_field = 0;  ///< balls, mean number
 };
 

@@ -57,6 +57,7 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
       mean.drag[k] += row.drag[k];
     }
     mean.power += row.power;
+    mean.torque += row.torque;
     mean.without_field += row.without_field;
     ++rows;
   }
@@ -71,6 +72,7 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
   fluid["pressure_force_N"] = mean.pressure;
   fluid["drag_force_N"] = mean.drag;
   fluid["power_W"] = mean.power / rows;
+  fluid["torque_Nm"] = mean.torque / rows;
   fluid["balls_without_field"] = mean.without_field / rows;
   return fluid;
 }
@@ -122,6 +124,7 @@ Json result_of(const meshing::Mill& mill, const DemPlan& plan, const Results& re
                {"memory_bytes", results.run.memory},
                {"steady", results.steady()},
                {"steady_from_s", results.steady_from()},
+               {"power_from_s", results.time.empty() ? 0 : results.time[results.power_steadiness.begin]},
                {"power_W", results.power_steadiness.mean},
                {"power_error_W", results.power_steadiness.standard_error}});
   add_part_torques(json, results);
@@ -151,8 +154,7 @@ ContactResults contacts_of(const CaseFolder& folder, const Results& results) {
 
 void write_fluid(std::ostream& out, const Results& results) {
   out << "time_s,force_x_N,force_y_N,force_z_N,pressure_x_N,pressure_y_N,pressure_z_N,drag_x_N,drag_y_N,drag_"
-         "z_N,"
-         "power_W,balls_without_field\n"
+         "z_N,power_W,torque_Nm,balls_without_field\n"
       << std::setprecision(8);
   for (std::size_t i = 0; i < results.fluid.size(); ++i) {
     const FluidRow& row = results.fluid[i];
@@ -160,7 +162,7 @@ void write_fluid(std::ostream& out, const Results& results) {
     for (std::size_t k = 0; k < 3; ++k) out << ',' << row.pressure[k] + row.drag[k];
     for (const Vector& part : {row.pressure, row.drag})
       for (const double component : part) out << ',' << component;
-    out << ',' << row.power << ',' << row.without_field << '\n';
+    out << ',' << row.power << ',' << row.torque << ',' << row.without_field << '\n';
   }
 }
 

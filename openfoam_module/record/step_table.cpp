@@ -25,7 +25,7 @@ Value component(const std::optional<std::array<double, 3>>& vector, std::size_t 
 
 }  // namespace
 
-const std::array<StepColumn, 31> step_columns{{
+const std::array<StepColumn, 32> step_columns{{
     {"time_s", [](const StepRow& r) -> Value { return r.time; }},
     {"deltaT_s", [](const StepRow& r) -> Value { return r.delta_t; }},
     {"courant", [](const StepRow& r) -> Value { return r.courant; }},
@@ -53,6 +53,7 @@ const std::array<StepColumn, 31> step_columns{{
     {"given_force_x_N", [](const StepRow& r) { return component(r.given_force, 0); }},
     {"given_force_y_N", [](const StepRow& r) { return component(r.given_force, 1); }},
     {"given_force_z_N", [](const StepRow& r) { return component(r.given_force, 2); }},
+    {"given_torque_Nm", [](const StepRow& r) { return r.given_torque; }},
     {"continuity_residual_per_s", [](const StepRow& r) { return r.continuity_residual; }},
     {"continuity_speed_m_per_s", [](const StepRow& r) { return r.continuity_speed; }},
     {"slip_m_per_s", [](const StepRow& r) { return r.slip; }},

@@ -36,6 +36,7 @@ struct StepRow {
   std::optional<double> force_mean;  ///< of the fluid on the balls over their weight, mean over the balls
   std::optional<double> force_95;    ///< what 95 % of the balls stay below
   std::optional<std::array<double, 3>> given_force;  ///< on all balls that feel the flow in its next step, N
+  std::optional<double> given_torque;                ///< of this force about +z, N m
   std::optional<double> continuity_residual;         ///< rms of d(phi)/dt + div(phi u_s) over the solids, 1/s
   std::optional<double>
       continuity_speed;        ///< rms of the flow that it drives, over the slurry between balls, m/s
@@ -50,7 +51,7 @@ struct StepColumn {
 };
 
 /// All columns, in their order.
-extern const std::array<StepColumn, 31> step_columns;
+extern const std::array<StepColumn, 32> step_columns;
 
 /// steps.csv: one row per time-step, each handed to the operating system at once. What is not known is `nan`.
 class StepTable {

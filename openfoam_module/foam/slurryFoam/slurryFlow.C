@@ -135,7 +135,8 @@ Foam::slurryFlow::slurryFlow(
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
   misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
-  givenForce_(Zero)
+  givenForce_(Zero),
+  givenTorque_(0)
 {
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
@@ -225,6 +226,7 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     if (bed_.feelsFlow())
     {
         row.given_force = {givenForce_.x(), givenForce_.y(), givenForce_.z()};
+        row.given_torque = givenTorque_;
     }
     return row;
 }

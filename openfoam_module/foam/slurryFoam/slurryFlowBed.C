@@ -154,10 +154,13 @@ void Foam::slurryFlow::tellBalls()
     {
         clock_.begin("balls");
         const ballForces feel(onBalls_->present());
-        givenForce_ = gSum(
-            (feel.solidity * mesh_.V() *
-             (feel.pressure +
-              feel.exchange * (U_.primitiveField() - feel.velocity)))());
+        const vectorField force(
+            feel.solidity * mesh_.V() *
+            (feel.pressure +
+             feel.exchange * (U_.primitiveField() - feel.velocity)));
+        givenForce_ = gSum(force);
+        givenTorque_ =
+            gSum((mesh_.C().primitiveField() ^ force)().component(vector::Z)());
         bed_.tell(feel, U_.primitiveField());
     }
 }
