@@ -6,7 +6,8 @@
                                                     was asked for last, "flowDuration TIME;", if there is one
 
 The flow ends when the slurry is steady by the report's rule over the last turns that the mill asks for, at
-flow.duration, or after a piece in which the hours of wall time that the mill allows are over."""
+flow.duration, or after a piece in which the hours of wall time that the mill allows are over. Where these turns are too
+few to decide, because their errors are too large, the whole turns of the last half of the flow are judged."""
 import re
 import sys
 from dataclasses import dataclass
@@ -18,7 +19,9 @@ from ..files.data_files import write_json
 from ..files.flow_record import read_flow_record, wall_time
 from ..files.mill import Mill, read_mill
 from ..files.tables import TableError, read_columns
+from ..readings.batches import whole_turns
 from .steadiness import judge_steadiness
+from .verdict import Check
 
 HOUR = 3600.0
 START = 0.5  # of the judged turns, before them
@@ -35,6 +38,21 @@ class End:
     found: str
 
 
+def judge_end(mill: Mill, columns: dict[str, np.ndarray], span: float) -> tuple[float, Check]:
+    """Time (s) from which the end of a Mill's flow is judged, and the verdict: over the last `span` (s) or, where this
+    is undecided, over the whole turns of the last half if they are more and hold. columns: of slurryBalance."""
+    last = float(columns["Time"][-1])
+
+    def judge(begin: float) -> Check:
+        return judge_steadiness(columns, begin, mill.turn, mill.radius, mill.flow("feed_m3_s", 0.0), mill.machine)
+    begin, longer = max(last - span, 0.0), last - whole_turns(last / 2, mill.turn) * mill.turn
+    check = judge(begin)
+    if check.undecided and longer < begin - mill.turn / 2:
+        more = judge(longer)
+        return (longer, more) if more.state == "holds" else (begin, check)
+    return begin, check
+
+
 def next_time(mill: Mill, columns: dict[str, np.ndarray] | None, hours: float) -> float | End:
     """Flow time (s) up to which a Mill's flow is to be computed next, or its End. columns: of slurryBalance up to the
     end of the last piece, None before the flow; hours: of wall time that it took."""
@@ -44,8 +62,7 @@ def next_time(mill: Mill, columns: dict[str, np.ndarray] | None, hours: float) -
     last = 0.0 if columns is None else float(columns["Time"][-1])
     if columns is None or last < first * (1 - SLACK):
         return first
-    begin = max(last - span, 0.0)
-    check = judge_steadiness(columns, begin, mill.turn, mill.radius, mill.flow("feed_m3_s", 0.0), mill.machine)
+    begin, check = judge_end(mill, columns, span)
     late = asked["hours"] is not None and hours >= asked["hours"]
     for reason, reached in (("steady", check.state == "holds"), ("duration", last >= duration * (1 - SLACK)),
                             ("hours", late)):

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 @dataclass
 class Check:
     """state: holds, look (doubtful), fails or unknown; advice: what to do if it does not hold; meaning: what a failure
-    means for the numbers, only of checks that a longer run cannot make hold."""
+    means for the numbers, only of checks that a longer run cannot make hold; undecided: whether it is doubtful only
+    because its errors are too large."""
     name: str
     state: str
     found: str
     advice: str = ""
     meaning: str = ""
+    undecided: bool = False
 
     @property
     def lasting(self) -> bool:
