@@ -168,6 +168,20 @@ class Flow(Verdicts):
         columns["discharge"] = 0.5 * columns["discharge"]
         self.check(checks.flow_steadiness(case(balance=columns, feed=rate, turn=3.0)), "fails")
 
+    def test_a_mill_without_slurry_or_feed_fails_in_words(self):
+        time = np.linspace(0, 30, 3001)
+        none = {"Time": time, **dict.fromkeys(("holdUp", "fed", "discharged", "discharge"), 0 * time),
+                **dict.fromkeys("xy", np.full(3001, np.nan))}
+        with np.errstate(all="raise"):
+            empty = checks.flow_steadiness(case(balance=none, feed=1e-5, turn=3.0))
+            unfed = checks.flow_steadiness(case(balance={**none, "holdUp": 1e-3 + 0 * time, "y": 0 * time}, feed=1e-5,
+                                                turn=3.0))
+        for found, words in ((empty, "from 2 s on (9.3 turns) there is no slurry in the mill"),
+                             (unfed, "nothing was fed in this time"), (unfed, "centre's x not known")):
+            self.check(found, "fails")
+            self.assertIn(words, found.found)
+            self.assertNotIn("nan", found.found)
+
     def test_a_discharge_that_still_grows_is_not_the_feed(self):
         time = np.linspace(0, 20, 4001)
         rate = 1e-5 * (1 - np.exp(-(time - 2) / 6))

@@ -99,10 +99,12 @@ def difference_with_error(value: float, error: float) -> str:
 
 def discharge_gap(columns: dict[str, np.ndarray], begin: float, turn: float) -> tuple[float, float]:
     """Slurry that does not leave, over the feed, from `begin` (s) on, and its standard error over whole turns, which a
-    drift of the discharge does not increase."""
+    drift of the discharge does not increase; NaN if nothing was fed."""
     times = columns["Time"]
     late = times >= begin
     fed, gone = (columns[key][late][-1] - columns[key][late][0] for key in ("fed", "discharged"))
+    if not fed > 0:
+        return np.nan, np.nan
     rate = fed / (times[late][-1] - times[late][0])
     return 1 - gone / fed, error_about_line(times, columns["discharge"], begin, turn) / rate
 
@@ -115,17 +117,19 @@ def drifts(columns: dict[str, np.ndarray], begin: float, turn: float, radius: fl
         difference, error = halves(columns["Time"], columns[key], begin, turn)
         whole = radius if key in "xyz" else abs(columns[key][columns["Time"] >= begin].mean())
         of_what = f"{WORDS[key]} over the radius" if key in "xyz" else f"the {WORDS[key]}"
+        text = f"{difference_with_error(scale * difference, scale * error)} {unit}"
         found.append(Difference(of_what, difference / whole, error / whole,
                                 OF_TORQUE if key == "torque_impeller" else OF_PLACE,
-                                f"{WORDS[key]} {difference_with_error(scale * difference, scale * error)} {unit}"))
+                                f"{WORDS[key]} {text if np.isfinite(difference) else 'not known'}"))
     return found
 
 
 def gap_of_feed(columns: dict[str, np.ndarray], begin: float, turn: float) -> Difference:
     """Difference of feed and discharge from `begin` (s) on, over the feed."""
     share, error = discharge_gap(columns, begin, turn)
+    text = f"{difference_with_error(100 * share, 100 * error)} % of the feed stays"
     return Difference("feed less discharge over the feed", share, error, OF_FEED,
-                      f"{difference_with_error(100 * share, 100 * error)} % of the feed stays")
+                      text if np.isfinite(share) else "nothing was fed in this time")
 
 
 def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, radius: float, feed: float,
@@ -135,6 +139,10 @@ def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, 
     feed has replaced the slurry once since the flow's start. It is doubtful and undecided if they agree only because
     errors are large. columns: of slurryBalance; turn: of the mill, its time in s; radius: of the mill, m; machine: a
     key of QUANTITIES."""
+    turns, held = (columns["Time"][-1] - begin) / turn, columns["holdUp"][columns["Time"] >= begin].mean()
+    when = f"from {begin:g} s on ({turns:.2g} turns)"
+    if not held > 0:
+        return Check(NAME, "fails", f"{when} there is no slurry in the mill", ADVICE)
     found = drifts(columns, begin, turn, radius, machine)
     words = ", ".join(one.text for one in found)
     own = ", of the radius and of the torque" if machine == "stirred" else " and of the radius"
@@ -143,14 +151,13 @@ def judge_steadiness(columns: dict[str, np.ndarray], begin: float, turn: float, 
     if feed > 0:
         gap = gap_of_feed(columns, begin, turn)
         found.append(gap)
-        held, fed = columns["holdUp"][columns["Time"] >= begin].mean(), columns["fed"][-1]
+        fed = columns["fed"][-1]
         # Slurry needs the time in which it is replaced to find its place along the axis. Alone this is only a doubt
         over += [gap.over_limit, held / max(fed, held / 2)]
         words += f"; {gap.text}; so far the feed has replaced the slurry {fed / held:.2g} times"
         limits += f", or {100 * OF_FEED.small:g} % of the feed; the slurry replaced once"
-    turns = (columns["Time"][-1] - begin) / turn
     undecided = [one.undecided for one in found if one.undecided]
-    text = (f"from {begin:g} s on ({turns:.2g} turns), second half minus first: {words} ({limits})"
+    text = (f"{when}, second half minus first: {words} ({limits})"
             + "".join(f"; undecided: {why}" for why in undecided))
     check = judged(NAME, float(np.max(over)), 1, text, ADVICE, doubtful=2)
     if undecided and check.state == "holds":
