@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from millfoam.readings import models
-from millfoam.readings.means import Mean
+from millfoam.readings.means import Mean, turns_mean
 from millfoam.readings.residence import Residence
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
 from held_flows import (Held, HoldUps, Kind, Stay, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
-                        expected_volume, late_turns, read_all, scatter)
+                        expected_volume, late_turns, read_all, scatter, with_relaxation)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -108,7 +108,7 @@ class LateTurns(unittest.TestCase):
             self.assertEqual(late_turns(judged, end, turn=2.0), turns)
 
 
-class TurnsScatter(unittest.TestCase):
+class RelaxingFlow(unittest.TestCase):
     TRIALS = (trial(5e-3, 1e-4), trial(3e-3, 4e-5))
 
     def flow(self, turns, seed=1):
@@ -126,6 +126,8 @@ class TurnsScatter(unittest.TestCase):
             "Time": times, "discharge": discharge, "holdUp": holdup})
         return replace(held("Beetstra_75_65", 65e-6, 4e-3), case=case, end=float(turns), turns=turns)
 
+
+class TurnsScatter(RelaxingFlow):
     def test_the_hold_up_s_follows_from_the_discharge_s(self):
         found = scatter(self.flow(3000), self.TRIALS)
         self.assertAlmostEqual(found.discharge, 8e-6, delta=4e-7)
@@ -145,6 +147,27 @@ class TurnsScatter(unittest.TestCase):
                          r"by \d\.\d ml/s and \d+ ml; independent discharges give \d+ ml$")
         self.assertEqual(list(study.scatter_lines([flow], ())), [])
         self.assertEqual(list(study.scatter_lines([replace(flow, turns=1)], self.TRIALS)), [])
+
+
+class LateErrors(RelaxingFlow):
+    """Errors of hold-ups over late turns, of a mill whose hold-up relaxes over 33 turns."""
+
+    def test_cover_the_steady_hold_up(self):
+        within, plainly = [], []
+        for seed in range(60):
+            flow = self.flow(300, seed)
+            flow = replace(flow, turns=12, case=SimpleNamespace(**vars(flow.case), axial=lambda _, of=flow.case.balance: (
+                np.zeros(1), of["Time"], 0.8 * of["holdUp"][:, None])))
+            found, plain = with_relaxation(flow, self.TRIALS), turns_mean(flow.of_turns("holdUp"))
+            within.append(abs(found.whole.value - 4e-3) < found.whole.reach)
+            plainly.append(abs(plain.value - 4e-3) < plain.reach)
+            self.assertAlmostEqual(found.chamber.error / found.whole.error, 0.8)
+        self.assertGreater(np.mean(within), 0.9)
+        self.assertLess(np.mean(plainly), 0.7)
+
+    def test_without_trials_are_those_of_its_turns(self):
+        flow = self.flow(20)
+        self.assertIs(with_relaxation(flow, ()), flow)
 
 
 class SteadyHoldUps(unittest.TestCase):

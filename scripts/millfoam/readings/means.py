@@ -70,20 +70,34 @@ def block_mean(values: ArrayLike) -> Mean:
     return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(count)) if count > 1 else np.nan, count - 1)
 
 
-def turns_mean(values: ArrayLike) -> Mean:
-    """Mean of readings [n] of successive turns, in order of time.
+def deviation_freedom(correlation: float, count: int) -> float:
+    """Degrees of freedom of the variance of `count` successive values about their own mean, in an autoregressive process
+    of first order in which neighbours have this correlation, 0 to 1: twice the square of the variance's mean over its
+    variance, as for values that are independent (F. E. Satterthwaite 1946, Biometrics Bulletin 2:110)."""
+    order = np.arange(count)
+    about_mean = correlation**np.abs(order[:, None] - order)
+    for axis in (0, 1):
+        about_mean = about_mean - about_mean.mean(axis=axis, keepdims=True)
+    return float(np.trace(about_mean)**2 / np.sum(about_mean**2))
+
+
+def turns_mean(values: ArrayLike, least: float = 0.0) -> Mean:
+    """Mean of readings [n] of successive turns, in order of time; least: correlation of neighbours that is known, below
+    1; it may be more.
 
     From CORRELATED turns on its error allows for neighbours that are correlated, as in an autoregressive process of
     first order (A. M. Law, Simulation Modeling and Analysis, section 9.5.3): the hold-up of a mill with a feed changes
     over ten turns or more. It is still too small where readings change more slowly than over a tenth of the turns, and
-    by up to a quarter too large for few turns that are independent. Of fewer turns, the error is that of block_mean."""
+    by up to a quarter too large for few turns that are independent. Of fewer turns, the error is that of block_mean.
+    With `least` it holds for any number of turns, and its degrees of freedom are those of this correlation."""
     values = np.asarray(values, dtype=float)
     count, spread = len(values), values.std()
-    if count < CORRELATED or not spread > 0:
+    if count < 2 or not spread > 0 or (count < CORRELATED and not least > 0):
         return block_mean(values)
-    share = mean_variance(neighbour_correlation(values), count)
+    share = mean_variance(max(neighbour_correlation(values), least), count)
     # The deviations are from the values' own mean, which takes its variance from theirs
-    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))), count - 1)
+    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))),
+                deviation_freedom(least, count) if least > 0 else count - 1)
 
 
 def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
