@@ -126,9 +126,11 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
     """How long slurry stays, over hold-up over feed, and how its times are spread."""
     for one in stays:
         found = one.found
+        mean, spread = (100 * abs(share) for share in found.doubt)
         yield (f"residence/{one.name}: slurry stays {found.mean:.1f} s, {100 * (found.mean / one.expected - 1):+.1f} % "
                f"from hold-up over feed, {one.expected:.1f} s; {found.tanks:.2f} stirred tanks in series, Pe "
-               f"{found.peclet:.2f}; {100 * found.left:.0f} % had not left")
+               f"{found.peclet:.2f}; estimates, mean and spread by {mean:.1f} and {spread:.1f} % with another fit of the "
+               f"tail; {100 * found.left:.0f} % had not left")
 
 
 def comparisons(found: Sequence[Held]) -> Iterator[str]:

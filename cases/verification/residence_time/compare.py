@@ -54,7 +54,11 @@ def vessels():
             Vessel("stirred tank, short record", 1, 0.0, 0.1, 0.0, "upwind", 2.0, 1.0, 1e-2),
             Vessel("five tanks", 5, 0.2, 0.1, 0.0, "upwind", 5.0, 0.2, 4e-3),
             Vessel("dispersion in a bed", 100, plug, 0.1, interstitial * HEIGHT / peclet, "vanLeer", 5.0,
-                   closed_spread(peclet), 4e-3)]
+                   closed_spread(peclet), 4e-3),
+            # What has not left makes the spread 7 and 3 % too large, as the tail is not yet an exponential
+            Vessel("five tanks, short record", 5, 0.2, 0.1, 0.0, "upwind", 1.5, 0.2, 2e-2),
+            Vessel("dispersion, short record", 100, plug, 0.1, interstitial * HEIGHT / peclet, "vanLeer", 1.5,
+                   closed_spread(peclet), 1e-2)]
 
 
 @dataclass
@@ -106,7 +110,7 @@ def print_table(runs, out):
 def plot(runs, out):
     figure, axis = plt.subplots(figsize=(8, 5), constrained_layout=True)
     for one in runs:
-        if "step" in one.vessel.name:
+        if "step" in one.vessel.name or "short" in one.vessel.name:
             continue
         axis.plot(one.found.time / one.vessel.mean, one.found.density * one.vessel.mean, label=one.vessel.name)
     ages = np.linspace(0, 4, 400)

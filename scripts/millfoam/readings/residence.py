@@ -8,7 +8,12 @@ from scipy.optimize import brentq
 
 from ..files.tables import TableError, read_table
 
-LEFT = 0.4  # of the tracer that may still be in the mill; above it no tail can be fitted
+# Share of the tracer that may still be in the mill. With 20 % the mean of two to five stirred tanks is 1 % too large and
+# the variance over its square 7 to 12 %; with 28 % they are 3 and 12 to 20 %
+LEFT = 0.2
+LATE, WIDER = 1.5, 3.0  # times what has not left: what is still to come where the tail is fitted, and for another fit
+FEWEST = 5  # rows of a fit
+SPARSE = 0.01  # of the tracer that left, by which rates times rows may differ from it
 
 
 @dataclass(frozen=True)
@@ -16,7 +21,8 @@ class TracerTable:
     """A slurryTracer's table: time [n] of the ends of its rows, and their lengths [n], s; tracer in the mill [n], m3;
     tracer that came in and left in a row's time [n], m3; rates of slurry in and out [n], m3/s; whether the feed was a
     pulse or a step; begin: of its tracer, s; missing: largest volume that the balance misses, over all tracer; lowest
-    and highest concentration, nan if no cell ever held slurry."""
+    and highest concentration, nan if no cell ever held slurry; skipped: by how much the rates at the rows' ends, times
+    their lengths, differ from the tracer that left, over all of it: 0 if each time-step has a row."""
     time: np.ndarray
     length: np.ndarray
     tracer: np.ndarray
@@ -29,19 +35,24 @@ class TracerTable:
     missing: float
     lowest: float
     highest: float
+    skipped: float = 0.0
 
 
 @dataclass(frozen=True)
 class Residence:
     """Distribution of residence times: time [n] since the middle of the pulse or the begin of the step, s, and E(t)
     [n], 1/s, of what has left; mean, s, and variance, s2, with the tail; left: share of the tracer that has not left,
-    whose times are those of an exponential tail; tail: its time, s."""
+    whose times are those of an exponential tail; tail: its time, s; other_mean, other_variance: with another fit of the
+    tail, to WIDER instead of LATE, None if nothing is left. For stirred tanks the mean and variance are off by up to
+    twice the difference to these, for a zone that exchanges its slurry slowly by up to seven times."""
     time: np.ndarray
     density: np.ndarray
     mean: float
     variance: float
     left: float
     tail: float
+    other_mean: float | None = None
+    other_variance: float | None = None
 
     @property
     def spread(self) -> float:
@@ -50,8 +61,16 @@ class Residence:
 
     @property
     def tanks(self) -> float:
-        """Number of stirred tanks in series with this spread."""
-        return 1 / self.spread
+        """Number of stirred tanks in series with this spread; inf for no spread, or one below 0 by the wide feed."""
+        return 1 / self.spread if self.spread > 0 else np.inf
+
+    @property
+    def doubt(self) -> tuple[float, float]:
+        """How much mean and spread differ, as shares, with another fit of the tail."""
+        if self.other_mean is None or self.other_variance is None:
+            return 0.0, 0.0
+        other = self.other_variance / self.other_mean**2
+        return self.other_mean / self.mean - 1, other / self.spread - 1 if self.spread > 0 else np.nan
 
     @property
     def peclet(self) -> float:
@@ -85,11 +104,13 @@ def read_tracer(case: Path | str, name: str = "tracer") -> TracerTable:
     into, out = (np.diff(values[key], prepend=0.0) for key in ("allIn", "allOut"))
     fed = into > 1e-9 * values["slurryIn"] * length  # after a pulse less than round-off
     begin = float((time - length)[fed][0]) if fed.any() else np.nan
+    by_rates = np.abs(values["out"] * length - out)[1:].sum()
+    skipped = float(by_rates / out.sum()) if out.sum() > 0 else 0.0
     all_tracer = max(values["tracer"].max(), values["allIn"].max())
     missing = float(np.abs(values["missing"]).max() / all_tracer) if all_tracer > 0 else 0.0
     return TracerTable(time, length, values["tracer"], into, out, values["slurryIn"], values["slurryOut"],
                        bool(not fed[-1]), begin, missing, float(np.fmin.reduce(values["smallest"])),
-                       float(np.fmax.reduce(values["largest"])))
+                       float(np.fmax.reduce(values["largest"])), skipped)
 
 
 def residence(table: TracerTable) -> Residence:
@@ -112,8 +133,15 @@ def of_pulse(table: TracerTable) -> Residence:
 
 def of_step(table: TracerTable) -> Residence:
     """Residence of a step: the feed's concentration is 1, that of the outflow the share F(t) of slurry that is younger
-    than t."""
+    than t. RuntimeError if no slurry leaves, or if time-steps have no row: their flow of slurry is not known."""
+    if table.skipped > SPARSE:
+        raise RuntimeError(f"a step needs a row for each time-step, and rates times rows differ by "
+                           f"{100 * table.skipped:.2g} % from the tracer that left; expected at most {100 * SPARSE:g} "
+                           "%: let the tracer write every step, or feed a pulse")
     after = (table.time > table.begin) & (table.slurry_out > 0)
+    if not after.any():
+        raise RuntimeError(f"no slurry has left since the tracer's begin at {table.begin:.4g} s, up to "
+                           f"{table.time[-1]:.4g} s: let the flow run longer")
     length = table.length[after]
     # The outflow of a row is a mean over its time
     middle = table.time[after] - length / 2 - table.begin
@@ -125,15 +153,19 @@ def of_step(table: TracerTable) -> Residence:
 def of_shares(time: np.ndarray, share: np.ndarray, length: np.ndarray, end: float, wide: float) -> Residence:
     """Residence of shares of the tracer that left around these times [n] (s), over lengths [n] (s); end: of the record,
     s; wide: variance of the feed, s2."""
-    left, tail = end_of(time, share)
-    mean = float((share * time).sum() + left * (end + tail))
-    square = float((share * time**2).sum() + left * ((end + tail)**2 + tail**2))
-    return Residence(time, share / length, mean, square - mean**2 - wide, left, tail)
+    left, tail, other = end_of(time, share)
+
+    def moments(tail: float) -> tuple[float, float]:
+        mean = float((share * time).sum() + left * (end + tail))
+        square = float((share * time**2).sum() + left * ((end + tail)**2 + tail**2))
+        return mean, square - mean**2 - wide
+    return Residence(time, share / length, *moments(tail), left, tail, *(moments(other) if left else ()))
 
 
-def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float]:
+def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
     """Share that has not left, and the time (s) of its exponential tail: that with which the last of what has left came
-    out. RuntimeError if more than LEFT has not left, if more left than was fed, or if what leaves does not decay."""
+    out, while LATE times the rest were still to come; and the same for WIDER. RuntimeError if more than LEFT has not
+    left, if more left than was fed, or if what leaves does not decay."""
     left = float(1 - share.sum())
     if left < -1e-3:
         raise RuntimeError(f"{-100 * left:.3g} % more tracer left than was fed; expected at most 0.1 %")
@@ -141,12 +173,18 @@ def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float]:
         raise RuntimeError(f"{100 * left:.0f} % of the tracer has not left at the end; expected at most "
                            f"{100 * LEFT:.0f} %: let the flow run longer")
     if left < 1e-6:
-        return max(left, 0.0), 0.0
-    # What is still to come at each time falls by the exponential
-    to_come = 1 - np.cumsum(share)
-    late = (to_come < max(0.5, left + 0.2)) & (to_come > 0)
-    slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0
-    if not slope < 0:
+        return max(left, 0.0), 0.0, 0.0
+    tail, other = (decay(time, 1 - np.cumsum(share), times * left) for times in (LATE, WIDER))
+    if tail is None:
         raise RuntimeError(f"{100 * left:.2g} % of the tracer has not left at the end, and what leaves does not decay: "
                            "let the flow run longer")
-    return left, float(-1 / slope)
+    return left, tail, tail if other is None else other
+
+
+def decay(time: np.ndarray, to_come: np.ndarray, most: float) -> float | None:
+    """Time (s) of the exponential by which what is still to come at times [n] (s) falls while it is less than `most`, at
+    least in the last FEWEST rows; None if it does not."""
+    late = (to_come < most) & (to_come > 0)
+    late[-FEWEST:] = to_come[-FEWEST:] > 0
+    slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0
+    return float(-1 / slope) if slope < 0 else None

@@ -27,8 +27,19 @@ def residence_cards(case: MillCase) -> list[str]:
                                "each second. Second curve: stirred tanks in series with the same mean and variance.",
                                title=title),
                   page.table(None, rows(case, table, found), title=f"{title}, numbers",
-                             note="What has not left is taken to leave as an exponential.")]
+                             note=note(found))]
     return cards
+
+
+def note(found: Residence) -> str:
+    """What the numbers of a Residence assume of the tracer that has not left, and how much depends on it."""
+    if not found.tail:
+        return "All tracer has left."
+    mean, spread = found.doubt
+    return (f"{100 * found.left:.2g} % of the tracer has not left and is taken to leave as an exponential. So mean, "
+            f"deviation, tanks and Péclet number are estimates: another fit of the exponential changes the mean by "
+            f"{100 * mean:+.2g} % and the variance over its square by {100 * spread:+.2g} %. They may be off by twice as "
+            "much, and by more where slurry hardly moves. Let the flow run longer to make this smaller.")
 
 
 def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str, str]]:
@@ -41,7 +52,7 @@ def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str
         numbers.append(("hold-up over feed, from the tracer's begin on",
                         f"{held / fed:.4g} s, {100 * (found.mean / (held / fed) - 1):+.2g} %"))
     return numbers + [("standard deviation", f"{np.sqrt(max(found.variance, 0)):.4g} s"),
-                      ("stirred tanks in series", f"{found.tanks:.3g}"),
+                      ("stirred tanks in series", f"{found.tanks:.3g}" if np.isfinite(found.tanks) else "no spread"),
                       ("Péclet number of axial dispersion, both ends closed", peclet),
                       ("tracer that has not left", f"{100 * found.left:.3g} %"),
                       ("time of its exponential", f"{found.tail:.3g} s" if found.left else "–"),
