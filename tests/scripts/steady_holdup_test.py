@@ -13,13 +13,14 @@ import numpy as np
 from millfoam.readings import models
 from millfoam.readings.means import Mean, turns_mean
 from millfoam.readings.residence import Residence
+from report_cases import PRINTS, change_json, write_flow, write_json
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "studies" / "steady_holdup"))
 
 import steady_holdup as study  # noqa: E402, in the study's folder
 from held_flows import (Held, HoldUps, Kind, Stay, Trial, at_feed, change_of_flow, change_of_trial,  # noqa: E402
-                        expected_volume, late_turns, read_all, scatter, with_relaxation)
+                        complete_case, expected_volume, late_turns, read_all, read_held, scatter, with_relaxation)
 
 FEEDS = (33e-6, 65e-6, 131e-6)
 
@@ -241,6 +242,33 @@ class Stays(unittest.TestCase):
         *_, missing = read_all(folder)
         self.assertEqual(len(missing), 1)
         self.assertTrue(missing[0].startswith("residence/Beetstra_75_131: "), missing)
+
+
+class OtherMills(unittest.TestCase):
+    """Results in the folder of a mill that has changed since."""
+
+    def setUp(self):
+        self.folder = write_flow(Path(self.enterContext(tempfile.TemporaryDirectory())) / "coarse" / "flow")
+        write_json(self.folder / "steady.json", "steady", tuple(PRINTS), reason="steady", begin_s=0.4, end_s=0.8,
+                   found="holds")
+
+    def test_flows_of_the_mill_are_read(self):
+        self.assertEqual(read_held("coarse", self.folder).reason, "steady")
+        self.assertEqual(complete_case(self.folder).folder, self.folder)
+
+    def test_an_end_of_another_mill_is_none(self):
+        change_json(self.folder / "steady.json", "mill", "flow", to="f" * 16)
+        with self.assertRaisesRegex(RuntimeError, "the flow of mill.json has not come to its end: steady.json belongs"):
+            read_held("coarse", self.folder)
+
+    def test_a_flow_or_charge_of_another_mill_is_none(self):
+        for file, part, words in (("postProcessing/flow/0/flow.json", "flow", "run the flow again"),
+                                  ("dumps/results.json", "charge", "run millDem again")):
+            change_json(self.folder / file, "mill", part, to="f" * 16)
+            for read in (complete_case, lambda folder: read_held("coarse", folder)):
+                with self.assertRaisesRegex(RuntimeError, f"its mill has changed: .*{file} has .*{words}"):
+                    read(self.folder)
+            change_json(self.folder / file, "mill", part, to=PRINTS[part])
 
 
 class Table(unittest.TestCase):

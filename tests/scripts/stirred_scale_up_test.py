@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.files.data_files import write_json
+from millfoam.files.data_files import read_json, write_json
 from millfoam.files.mill import read_mill
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
@@ -125,6 +125,17 @@ class Numbers(unittest.TestCase):
         self.assertIn("C_1.5_dry", missing[-1])
         self.assertIn("the run ends at 1 s; expected 3.278 s", missing[-1])
         self.assertEqual(missing[0], "A_1.8_dry: not begun")
+
+    def test_a_run_of_another_mill_is_not_complete(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name, file, kind in (("C_1.5_dry", "results.json", "charge"), ("C_1.8_dry", "run.json", "dumps")):
+            path = make_run(folder, name) / "dumps" / file
+            write_json(path, read_json(path, kind) | {"mill": {"charge": "0" * 16}})
+        found, missing = read_all(folder, ["C_1.5_dry", "C_1.8_dry"])
+        self.assertEqual(found, {})
+        for words, file in zip(missing, ("results", "run")):
+            self.assertRegex(words, f": its mill has changed: dumps/{file}.json has the fingerprint charge 0{{16}}, "
+                             "mill.json has [0-9a-f]{16}: run millDem again$")
 
     def test_table_adds_up(self):
         row = study.row_of(self.one)

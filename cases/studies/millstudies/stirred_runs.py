@@ -11,9 +11,12 @@ import numpy as np
 
 from millfoam.files.data_files import read_csv, read_json
 from millfoam.files.mill import Mill, read_mill
+from millfoam.files.stirred_case import StirredCase
 from millfoam.readings.batches import batch_means, whole_turns
 from millfoam.readings.means import Mean, block_mean
 from millfoam.readings.stirred_power import mean_from, mean_speed, scaled
+
+from .own_mill import require_own_mill
 
 DRIFT = 0.02  # of a mean, by which the last turns may differ from the first ones
 ERRORS = 3  # or as many standard errors
@@ -54,8 +57,9 @@ def drifts(means: np.ndarray) -> bool:
 
 
 def read_numbers(folder: Path) -> Numbers:
-    """Numbers of a run in its folder, which has its name. RuntimeError if it is not complete."""
+    """Numbers of a run in its folder, which has its name. RuntimeError if it is not complete, or of another mill."""
     mill, results = read_mill(folder, "stirred"), read_json(folder / "dumps" / "results.json", "charge")
+    require_own_mill(StirredCase(folder))
     end = float(mill.asked("dem", "duration"))
     if results["duration_s"] < end * (1 - 1e-6):
         raise RuntimeError(f"{folder}: the run ends at {results['duration_s']:.4g} s; expected {end:.4g} s")

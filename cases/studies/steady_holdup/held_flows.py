@@ -8,12 +8,12 @@ from typing import TypeVar
 
 import numpy as np
 
-from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.batches import batch_means, error_over_turns, whole_turns
 from millfoam.readings.means import Mean, mean_variance, time_mean, turns_mean
 from millfoam.readings.residence import Residence, read_tracer, residence
+from millstudies.own_mill import require_own_mill
 
 MESHES = ("coarse", "own")
 STARTS = ("low", "high")
@@ -115,10 +115,11 @@ class Held:
 
 
 def case_with_flow(folder: Path) -> MillCase:
-    """Case of a folder. RuntimeError if it has no flow or no table of slurryBalance."""
+    """Case of a folder. RuntimeError if it has no flow or no table of slurryBalance, or results of another mill."""
     case = MillCase(folder)
     if case.flow is None or case.balance is None:
         raise RuntimeError("; ".join(["no flow or no table of slurryBalance", *case.unusable]))
+    require_own_mill(case)
     return case
 
 
@@ -149,7 +150,11 @@ def read_held(mesh: str, folder: Path) -> Held:
     """Held of a folder. RuntimeError if its flow has not come to its end."""
     if not (folder / "steady.json").is_file():
         raise RuntimeError("the flow has not come to its end")
-    ended, case = read_json(folder / "steady.json", "steady"), case_with_flow(folder)
+    case = case_with_flow(folder)
+    ended = case.own_end
+    if ended is None:
+        raise RuntimeError("; ".join(["the flow of mill.json has not come to its end: steady.json belongs to another one",
+                                      *case.unusable]))
     turns = late_turns(ended["end_s"] - ended["begin_s"], ended["end_s"], case.turn)
     begin = ended["end_s"] - turns * case.turn
 
