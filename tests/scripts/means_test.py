@@ -89,6 +89,37 @@ class MeansTest(unittest.TestCase):
         self.assertGreater(mean_from(times[1:], of_turns, 0, 1).error, 2 * plain)
 
 
+class StirredMeans(unittest.TestCase):
+    """mean_from of a power that rises by 1 W in each turn of 1 s; records are means of the 0.1 s before them."""
+    times = np.arange(1, 101) / 10
+
+    def mean(self, begin, times=times):
+        return mean_from(times, times - 0.05, begin, 1.0)
+
+    def test_the_record_at_the_begin_is_of_the_time_before(self):
+        self.assertAlmostEqual(self.mean(7.0).value, 8.5)
+        self.assertAlmostEqual(self.mean(9.0).value, 9.5)  # one turn
+        self.assertAlmostEqual(self.mean(9.02).value, 9.5)
+
+    def test_the_value_is_of_the_turns_whose_error_is_given(self):
+        found = self.mean(6.4)
+        self.assertAlmostEqual(found.value, 8.5)
+        self.assertAlmostEqual(found.error, 1 / np.sqrt(3))
+        self.assertEqual(found.freedom, 2)
+
+    def test_turns_may_begin_a_part_of_a_record_before(self):
+        self.assertEqual((self.mean(7.06).freedom, self.mean(7.11).freedom), (2, 1))
+        self.assertEqual(self.mean(6.96).freedom, 2)
+        self.assertEqual(mean_from(self.times + 0.07, self.times, 7.07 - 0.06, 1.0).freedom, 2)
+
+    def test_a_single_record_is_its_own_mean(self):
+        for begin in (9.0, 9.97, 10.0):
+            found = self.mean(begin, self.times[-1:])
+            self.assertAlmostEqual(found.value, 9.95)
+            self.assertTrue(np.isnan(found.error))
+        self.assertAlmostEqual(self.mean(9.98).value, 9.95)
+
+
 class Differences(unittest.TestCase):
     def test_reach_is_students(self):
         # Printed tables: 12.706, 4.303 and 2.776 for 1, 2 and 4 degrees of freedom

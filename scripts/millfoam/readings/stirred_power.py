@@ -16,16 +16,17 @@ DUMPS = 400  # of which the mean speed is taken, at most, at equal distances
 
 
 def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean:
-    """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on; error: that of the means of the
-    last whole turns of `turn` s, NaN if fewer than two fit. A value is that of the time since the one before."""
-    late = times >= begin - 1e-6 * turn
-    times, values = times[late], values[late]
+    """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on, over the last whole turns of `turn` s with
+    their error; if fewer than two fit, over all of that time, with the error NaN. A value is that of the time since the
+    one before: that of a record at `begin` is not read."""
     interval = np.ptp(times) / max(len(times) - 1, 1)
-    turns = whole_turns(np.ptp(times) + interval, turn)
-    if turns < 2:
-        return Mean(float(values.mean()), np.nan)
-    found = turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
-    return Mean(float(values.mean()), found.error, found.freedom)
+    # Records do not meet begin and end: the turns may begin up to a record before
+    first = times[times >= begin - 1e-6 * turn][:1]
+    turns = whole_turns(times[-1] - first[0] + interval, turn) if len(first) else 0
+    if turns > 1:
+        return turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
+    late = times > begin + interval / 2 - 1e-6 * turn
+    return Mean(float(values[late].mean() if late.any() else values[-1]), np.nan)
 
 
 def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
