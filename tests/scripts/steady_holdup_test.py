@@ -60,6 +60,15 @@ class Exponents(unittest.TestCase):
         bent = [exact[0], Mean(1.1 * exact[1].value, 1e-6), exact[2]]
         self.assertGreater(study.exponent(FEEDS, bent)[0].error, 50 * study.exponent(FEEDS, exact)[0].error)
 
+    def test_three_points_off_the_line_have_one_degree_of_freedom(self):
+        exact = [Mean(2e-3 * (feed / 65e-6)**0.4, 1e-6) for feed in FEEDS]
+        bent = [exact[0], Mean(1.1 * exact[1].value, 1e-6), exact[2]]
+        self.assertEqual(study.exponent(FEEDS, exact)[0].freedom, np.inf)
+        self.assertEqual(study.exponent(FEEDS, bent)[0].freedom, 1)
+        # Of the errors of both, each of 4
+        self.assertAlmostEqual(study.exponent(FEEDS[::2], [replace(one, error=0.01 * one.value, freedom=4)
+                                                           for one in exact[::2]])[0].freedom, 8)
+
     def test_one_feed_has_none(self):
         with self.assertRaisesRegex(ValueError, "1 feeds"):
             study.exponent(FEEDS[:1], [Mean(1e-3, 1e-6)])
@@ -280,6 +289,12 @@ class Table(unittest.TestCase):
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
         self.assertRegex(text, r"coarse/high: hold-up over the late turns \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+
+    def test_an_exponent_names_few_degrees_of_freedom_and_flows_that_were_not_steady(self):
+        flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (1 + 0.2 * (feed == 65e-6))) for feed in FEEDS]
+        flows[2] = replace(flows[2], reason="duration")
+        self.assertRegex("\n".join(study.lines_of(flows)), r"~ feed\^\S+ ± \S+ \(3 feeds; error of 1 degree of freedom: "
+                         r"95 % within ± [\d.]+; Beetstra_75_131 ended by duration\)")
 
     def test_a_changed_mill_is_compared_with_its_base_and_has_no_exponent(self):
         flows = [held("Beetstra_75_65", 65e-6, 3e-3),

@@ -90,6 +90,11 @@ class Held:
         return self.name not in STARTS and not self.kind.change
 
     @property
+    def ended_steady(self) -> bool:
+        """Whether it ended because it was steady, not at its duration or after its hours."""
+        return self.reason == "steady"
+
+    @property
     def measured(self) -> HoldUps:
         """Over the late turns."""
         return HoldUps(self.whole, self.chamber)

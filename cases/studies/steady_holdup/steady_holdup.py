@@ -22,13 +22,15 @@ from held_flows import (Held, Stay, Trial, at_feed, by_groups, expected_volume, 
                         read_trials, scatter)
 
 STEADY, STEADY_IN_FRONT = "steady, l", "steady, in front of the grates, l"
+FEW = 10  # degrees of freedom; with fewer an error is not well known
 COLOURS = {75: "#D55E00", 60: "#0072B2"}
 
 
 def exponent(feeds: Sequence[float], holdups: Sequence[Mean]) -> tuple[Mean, float]:
     """n of H = k Q^n through hold-ups (m3) at feeds (m3/s), and k's logarithm, by least squares weighted by the errors
-    of the hold-ups. The error of n is from these errors, or from the points' distances from the line where that is
-    more. Two points have no distance. ValueError for fewer than two."""
+    of the hold-ups. The error of n is from these errors, with the degrees of freedom that follow from theirs, or from the
+    points' distances from the line where that is more: then it has two degrees of freedom less than points. Two points
+    have no distance. ValueError for fewer than two."""
     if len(feeds) < 2:
         raise ValueError(f"{len(feeds)} feeds; expected two or more")
     x, y = np.log(feeds), np.log([one.value for one in holdups])
@@ -38,11 +40,24 @@ def exponent(feeds: Sequence[float], holdups: Sequence[Mean]) -> tuple[Mean, flo
     spread = np.sum(weight * (x - middle)**2)
     slope = np.sum(weight * (x - middle) * y) / spread
     offset = np.average(y, weights=weight) - slope * middle
-    error = spread**-0.5
-    if len(x) > 2:
-        misfit = np.sum(weight * (y - offset - slope * x)**2) / (len(x) - 2)
-        error *= max(1.0, np.sqrt(misfit))
-    return Mean(float(slope), float(error)), float(offset)
+    error, parts = spread**-0.5, weight * (x - middle)**2 / spread**2  # of the variance
+    inexact = np.sum(parts**2 / [one.freedom for one in holdups])
+    freedom = error**4 / inexact if inexact > 0 else np.inf
+    misfit = np.sum(weight * (y - offset - slope * x)**2) / (len(x) - 2) if len(x) > 2 else 0.0
+    if misfit > 1:
+        error, freedom = error * np.sqrt(misfit), len(x) - 2
+    return Mean(float(slope), float(error), float(freedom)), float(offset)
+
+
+def exponent_words(slope: Mean, group: Sequence[Held]) -> str:
+    """An exponent with its error, the number of feeds and, if the error is of few degrees of freedom, how far the
+    exponent may be; and which flows did not end because they are steady."""
+    words = [f"{len(group)} feeds"]
+    if slope.freedom < FEW:
+        words.append(f"error of {slope.freedom:.2g} degree{'' if slope.freedom == 1 else 's'} of freedom: 95 % within "
+                     f"± {slope.reach:.2g}")
+    words += [f"{one.name} ended by {one.reason}" for one in group if not one.ended_steady]
+    return f"{slope.text('', 1, '.3f')}({'; '.join(words)})"
 
 
 def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
@@ -98,7 +113,7 @@ def lines_of(found: Sequence[Held]) -> Iterator[str]:
             continue
         slope, _ = exponent(feeds, [one.holdups.chamber for one in group])
         words = f"{mesh}, {kind}: hold-up in front of the grates ~ feed^"
-        yield f"{words}{slope.text('', 1, '.3f')}({len(group)} feeds)"
+        yield words + exponent_words(slope, group)
         if kind.balls:
             held = [model_holdups(group[0].mill, feed) for feed in feeds]
             for name in held[0]:
@@ -186,11 +201,15 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
         held = np.array([(one.value, one.error) for one in chambers]).T
         axis.errorbar(1e6 * feeds, *(1e3 * held), fmt="o", capsize=2, label=f"{speed} % of critical, {mesh} cells",
                       **style)
+        others = [not one.ended_steady for one in group]
+        axis.plot(1e6 * feeds[others], 1e3 * held[0][others], "kx", ms=9,
+                  label="crossed: ended before they were steady" if any(others) else None)
         along = np.geomspace(30e-6, 140e-6, 50)
         if len(set(feeds)) > 1:
             slope, offset = exponent(feeds, chambers)
             axis.plot(1e6 * along, 1e3 * np.exp(offset) * along**slope.value, color=COLOURS[speed],
-                      ls="-" if mesh == "own" else "--", lw=1, label=f"~ feed^{slope.value:.2f} ± {slope.error:.2f}")
+                      ls="-" if mesh == "own" else "--", lw=1, label=f"~ feed^{slope.value:.2f} ± {slope.error:.2f}"
+                      + (f" (95 %: ± {slope.reach:.2f})" if slope.freedom < FEW else ""))
         if kind.balls and mesh == "coarse":
             for name, line in (("Moys", ":"), ("Morrell & Stephenson", "-.")):
                 axis.plot(1e6 * along, [1e3 * model_holdups(group[0].mill, feed)[name] for feed in along], line,
