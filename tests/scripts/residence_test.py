@@ -35,7 +35,8 @@ class Tables(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         fed, left = STEP * np.cumsum(into), STEP * np.cumsum(out)
         full = np.full_like(time, FEED)
-        rows = np.column_stack([time, fed - left, into, out, full, full / FEED * slurry, fed, left, 0 * time, 0 * time, 0 * time + 1])
+        rows = np.column_stack([time, fed - left, into, out, full, full / FEED * slurry, fed, left, 0 * time, 0 * time,
+                                0 * time + 1])
         head = "Time_s\ttracer_m3\tin_m3/s\tout_m3/s\tslurryIn_m3/s\tslurryOut_m3/s\tallIn_m3\tallOut_m3\tmissing_m3" \
                "\tsmallest\tlargest"
         np.savetxt(path, rows[every - 1::every], "%.15g", "\t", header=head, comments="# ")
@@ -100,8 +101,8 @@ class Moments(Tables):
 
     def test_the_card_names_what_has_not_left_and_what_depends_on_it(self):
         self.assertRegex(note(residence(self.pulse(3, BEGIN + 1.5 * MEAN))),
-                         r"^17 % of the tracer has not left .* estimates: .* the mean by \+0\.\d+ % and the variance over "
-                         r"its square by \+\d\.?\d* %")
+                         r"^17 % of the tracer has not left .* estimates: .* the mean by \+0\.\d+ % and the variance "
+                         r"over its square by \+\d\.?\d* %")
 
     def test_no_spread_is_that_of_endless_tanks(self):
         for variance in (0.0, -1e-3):

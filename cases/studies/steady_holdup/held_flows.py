@@ -158,8 +158,8 @@ def read_held(mesh: str, folder: Path) -> Held:
     case = case_with_flow(folder)
     ended = case.own_end
     if ended is None:
-        raise RuntimeError("; ".join(["the flow of mill.json has not come to its end: steady.json belongs to another one",
-                                      *case.unusable]))
+        raise RuntimeError("; ".join(["the flow of mill.json has not come to its end: steady.json belongs to "
+                                      "another one", *case.unusable]))
     turns = late_turns(ended["end_s"] - ended["begin_s"], ended["end_s"], case.turn)
     begin = ended["end_s"] - turns * case.turn
 
@@ -241,23 +241,24 @@ def relaxation(one: Held, trials: Sequence[Trial]) -> float | None:
 
 
 def with_relaxation(one: Held, trials: Sequence[Trial]) -> Held:
-    """A flow whose errors of hold-ups allow for neighbouring turns that are at least as alike as their relaxation time t
-    makes them: turns of T s have the correlation exp(-T/t) or more. Few late turns do not show it. Without it, for t of
-    16 to 30 turns, errors over 12 turns are 2 to 2.6 times too small, and over 48 up to 1.25 times. Without trials_of
-    it the flow itself."""
+    """A flow whose errors of hold-ups allow for neighbouring turns that are at least as alike as their relaxation time
+    t makes them: turns of T s have the correlation exp(-T/t) or more. Few late turns do not show it. Without it, for t
+    of 16 to 30 turns, errors over 12 turns are 2 to 2.6 times too small, and over 48 up to 1.25 times. Without
+    trials_of it the flow itself."""
     back = relaxation(one, trials)
     if back is None:
         return one
     least = float(np.exp(-one.case.turn / back))
-    return replace(one, whole=turns_mean(one.of_turns("holdUp"), least), chamber=turns_mean(one.chamber_of_turns, least))
+    return replace(one, whole=turns_mean(one.of_turns("holdUp"), least),
+                   chamber=turns_mean(one.chamber_of_turns, least))
 
 
 def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
     """Hold-ups of a flow, moved along the straight line through trials_of it to where its discharge is its feed. The
     errors are from those of hold-up, discharge and slope. They are upper limits: where a flow discharges less by
     chance, it holds more, and the line takes this back. For 12 to 48 turns and dV/dQ of 16 to 30 turns they are 1.2 to
-    1.45 times the deviations if discharges of turns are independent or alike (correlation 0.4), and 1.6 to 1.85 times if
-    they alternate (-0.3). None without these trials."""
+    1.45 times the deviations if discharges of turns are independent or alike (correlation 0.4), and 1.6 to 1.85 times
+    if they alternate (-0.3). None without these trials."""
     pair = trials_of(one, trials)
     if pair is None:
         return None

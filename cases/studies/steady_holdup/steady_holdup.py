@@ -28,9 +28,9 @@ COLOURS = {75: "#D55E00", 60: "#0072B2"}
 
 def exponent(feeds: Sequence[float], holdups: Sequence[Mean]) -> tuple[Mean, float]:
     """n of H = k Q^n through hold-ups (m3) at feeds (m3/s), and k's logarithm, by least squares weighted by the errors
-    of the hold-ups. The error of n is from these errors, with the degrees of freedom that follow from theirs, or from the
-    points' distances from the line where that is more: then it has two degrees of freedom less than points. Two points
-    have no distance. ValueError for fewer than two."""
+    of the hold-ups. The error of n is from these errors, with the degrees of freedom that follow from theirs, or from
+    the points' distances from the line where that is more: then it has two degrees of freedom less than points. Two
+    points have no distance. ValueError for fewer than two."""
     if len(feeds) < 2:
         raise ValueError(f"{len(feeds)} feeds; expected two or more")
     x, y = np.log(feeds), np.log([one.value for one in holdups])
@@ -144,8 +144,8 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
         mean, spread = (100 * abs(share) for share in found.doubt)
         yield (f"residence/{one.name}: slurry stays {found.mean:.1f} s, {100 * (found.mean / one.expected - 1):+.1f} % "
                f"from hold-up over feed, {one.expected:.1f} s; {found.tanks:.2f} stirred tanks in series, Pe "
-               f"{found.peclet:.2f}; estimates, mean and spread by {mean:.1f} and {spread:.1f} % with another fit of the "
-               f"tail; {100 * found.left:.0f} % had not left")
+               f"{found.peclet:.2f}; estimates, mean and spread by {mean:.1f} and {spread:.1f} % with another fit of "
+               f"the tail; {100 * found.left:.0f} % had not left")
 
 
 def comparisons(found: Sequence[Held]) -> Iterator[str]:

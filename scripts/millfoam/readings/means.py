@@ -71,9 +71,9 @@ def block_mean(values: ArrayLike) -> Mean:
 
 
 def deviation_freedom(correlation: float, count: int) -> float:
-    """Degrees of freedom of the variance of `count` successive values about their own mean, in an autoregressive process
-    of first order in which neighbours have this correlation, 0 to 1: twice the square of the variance's mean over its
-    variance, as for values that are independent (F. E. Satterthwaite 1946, Biometrics Bulletin 2:110)."""
+    """Degrees of freedom of the variance of `count` successive values about their own mean, in an autoregressive
+    process of first order in which neighbours have this correlation, 0 to 1: twice the square of the variance's mean
+    over its variance, as for values that are independent (F. E. Satterthwaite 1946, Biometrics Bulletin 2:110)."""
     order = np.arange(count)
     about_mean = correlation**np.abs(order[:, None] - order)
     for axis in (0, 1):

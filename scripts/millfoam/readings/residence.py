@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 
 from ..files.tables import TableError, read_table
 
-# Share of the tracer that may still be in the mill. With 20 % the mean of two to five stirred tanks is 1 % too large and
-# the variance over its square 7 to 12 %; with 28 % they are 3 and 12 to 20 %
+# Share of the tracer that may still be in the mill. With 20 % the mean of two to five stirred tanks is 1 % too large
+# and the variance over its square 7 to 12 %; with 28 % they are 3 and 12 to 20 %
 LEFT = 0.2
 LATE, WIDER = 1.5, 3.0  # times what has not left: what is still to come where the tail is fitted, and for another fit
 FEWEST = 5  # rows of a fit
@@ -182,8 +182,8 @@ def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
 
 
 def decay(time: np.ndarray, to_come: np.ndarray, most: float) -> float | None:
-    """Time (s) of the exponential by which what is still to come at times [n] (s) falls while it is less than `most`, at
-    least in the last FEWEST rows; None if it does not."""
+    """Time (s) of the exponential by which what is still to come at times [n] (s) falls while it is less than `most`,
+    at least in the last FEWEST rows; None if it does not."""
     late = (to_come < most) & (to_come > 0)
     late[-FEWEST:] = to_come[-FEWEST:] > 0
     slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0

@@ -22,8 +22,8 @@ class StirredFlowNumbers:
     of the time-step. slurry_power: of the impeller on the slurry, ball_power: on the balls, W; of balls that feel the
     slurry in the same time, else of the dry run. missing: slurry over the hold-up. centre: height of its centre, m.
     slip (m/s), froude, reynolds: medians over the cells by the volume of their balls, means over the written times;
-    their errors are standard deviations between these times. froude: slip over the root of g d (ball density over slurry's - 1), NaN for balls
-    that float."""
+    their errors are standard deviations between these times. froude: slip over the root of g d (ball density over
+    slurry's - 1), NaN for balls that float."""
     begin: float
     end: float
     turns: float

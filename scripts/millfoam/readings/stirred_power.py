@@ -16,9 +16,9 @@ DUMPS = 400  # of which the mean speed is taken, at most, at equal distances
 
 
 def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean:
-    """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on, over the last whole turns of `turn` s with
-    their error; if fewer than two fit, over all of that time, with the error NaN. A value is that of the time since the
-    one before: that of a record at `begin` is not read."""
+    """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on, over the last whole turns of `turn` s
+    with their error; if fewer than two fit, over all of that time, with the error NaN. A value is that of the time
+    since the one before: that of a record at `begin` is not read."""
     interval = np.ptp(times) / max(len(times) - 1, 1)
     # Records do not meet begin and end: the turns may begin up to a record before
     first = times[times >= begin - 1e-6 * turn][:1]

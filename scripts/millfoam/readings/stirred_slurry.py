@@ -21,8 +21,8 @@ class SlurryFlow:
     """The written times of a flow from its averages' start on, in the impeller's frame. Of each cell: centre [n, 3]
     (m), volume [n] (m3), share of slurry, solidity [n], velocity of the slurry [n, 3] along r, theta, z (m/s): means
     over the times, the velocity weighted by the slurry; slips, reynolds: of each time, the median of the slip between
-    slurry and balls (m/s) and of its Reynolds number over the cells by the volume of their balls, NaN where no balls are
-    in slurry."""
+    slurry and balls (m/s) and of its Reynolds number over the cells by the volume of their balls, NaN where no balls
+    are in slurry."""
     centre: np.ndarray
     volume: np.ndarray
     share: np.ndarray

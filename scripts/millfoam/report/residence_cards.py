@@ -38,8 +38,8 @@ def note(found: Residence) -> str:
     mean, spread = found.doubt
     return (f"{100 * found.left:.2g} % of the tracer has not left and is taken to leave as an exponential. So mean, "
             f"deviation, tanks and Péclet number are estimates: another fit of the exponential changes the mean by "
-            f"{100 * mean:+.2g} % and the variance over its square by {100 * spread:+.2g} %. They may be off by twice as "
-            "much, and by more where slurry hardly moves. Let the flow run longer to make this smaller.")
+            f"{100 * mean:+.2g} % and the variance over its square by {100 * spread:+.2g} %. They may be off by twice "
+            "as much, and by more where slurry hardly moves. Let the flow run longer to make this smaller.")
 
 
 def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str, str]]:

@@ -24,8 +24,8 @@ class Limits:
 
 
 # large: of hold-up and centre twice what does not matter, up to which a drift is doubtful. Torques scatter more; 5 % is
-# the limit of their balance, too (flow_checks). A discharge that is 5 % off changes the steady hold-up of the 30 cm mill
-# by 1 to 3 % (dV/dQ in steady_holdup)
+# the limit of their balance, too (flow_checks). A discharge that is 5 % off changes the steady hold-up of the 30 cm
+# mill by 1 to 3 % (dV/dQ in steady_holdup)
 OF_PLACE, OF_TORQUE, OF_FEED = Limits(0.01, 0.02), Limits(0.01, 0.05), Limits(0.02, 0.05)
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y", "z": "centre's height",
          "torque_impeller": "torque of the impeller"}
@@ -69,8 +69,8 @@ def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> 
     batches_of.
 
     The error comes from the batches' differences from their course (course_of), so that neither a drift nor what comes
-    back with every turn increases it: halves of whole turns have the same of the latter. If the middle is left out, both are scaled to halves of the whole time, so that a drift counts the same for any number of
-    turns."""
+    back with every turn increases it: halves of whole turns have the same of the latter. If the middle is left out,
+    both are scaled to halves of the whole time, so that a drift counts the same for any number of turns."""
     chosen = times >= begin
     times, values = times[chosen], values[chosen]
     span = times[-1] - times[0]

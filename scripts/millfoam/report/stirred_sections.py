@@ -29,7 +29,8 @@ FRAMES = 12  # of the animation, at most
 FLOW_NOTE = ("±: standard errors over whole turns; of slip and Reynolds number standard deviations between the "
              "written times. Torque that is not balanced: rate of the slurry's angular momentum, minus the torques of "
              "walls and balls; it is the error of mesh and time-step. Slip, Froude and Reynolds number: medians over "
-             "the cells with balls in slurry, weighted by the volume of their balls. Fr = slip/√(g d (ρ_b/ρ − 1)), Re = ρ (1 − φ) slip d/μ.")
+             "the cells with balls in slurry, weighted by the volume of their balls. "
+             "Fr = slip/√(g d (ρ_b/ρ − 1)), Re = ρ (1 − φ) slip d/μ.")
 
 
 def key_numbers(case: StirredCase) -> Rows:
