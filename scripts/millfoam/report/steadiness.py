@@ -25,7 +25,7 @@ class Limits:
 
 # large: of hold-up and centre twice what does not matter, up to which a drift is doubtful. Torques scatter more; 5 % is
 # the limit of their balance, too (flow_checks). A discharge that is 5 % off changes the steady hold-up of the 30 cm
-# mill by 1 to 3 % (dV/dQ in steady_holdup)
+# mill by 1 to 3 %, by dV/dQ of trials
 OF_PLACE, OF_TORQUE, OF_FEED = Limits(0.01, 0.02), Limits(0.01, 0.05), Limits(0.02, 0.05)
 WORDS = {"holdUp": "hold-up", "x": "centre's x", "y": "centre's y", "z": "centre's height",
          "torque_impeller": "torque of the impeller"}
