@@ -25,8 +25,8 @@ SPEC.loader.exec_module(study)
 
 def mill():
     """What the models read of a mill of 3 m."""
-    derived = {"resting_solidity": 0.6, "mass_kg": 5e4}
-    found = SimpleNamespace(radius=1.5, length=4.0, critical_share=0.7, load=0.35, ball_density=7800.0,
+    derived = {"resting_solidity": 0.6, "mass_kg": 0.35 * 7800 * 0.6 * np.pi * 1.5**2 * 4}
+    found = SimpleNamespace(radius=1.5, length=4.0, critical_share=0.7, ball_density=7800.0,
                             derived=lambda section, key: derived[key], slurry=lambda key: 1600.0)
     assert set(vars(found)) - {"derived", "slurry"} <= set(dir(Mill))
     return found
@@ -47,7 +47,8 @@ class Models(unittest.TestCase):
     def test_bond_does_not_know_the_filling(self):
         bond = study.models(mill())["Bond, wet"]
         self.assertEqual(bond(0.0), bond(1.5))
-        self.assertEqual(bond(1.0), power_models.bond(3.0, 0.7, 0.35, 5e4))
+        mass = 0.35 * 7800 * 0.6 * np.pi * 1.5**2 * 4
+        self.assertAlmostEqual(bond(1.0), power_models.bond(3.0, 0.7, 0.35, mass), delta=1e-9 * bond(1.0))
 
 
 class Table(unittest.TestCase):

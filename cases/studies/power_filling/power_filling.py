@@ -87,8 +87,10 @@ def read_study(folder: Path) -> Study:
 def models(mill: Mill) -> dict[str, Callable[[float], float]]:
     """Name of a model -> power (W) at a filling of the pores, NaN where it does not apply. Pores are filled up to their
     whole; with more, there is a pool, which Morrell's model of an overflow mill has."""
-    size = 2 * mill.radius, mill.length, mill.critical_share, mill.load
     solidity, slurry = mill.derived("charge", "resting_solidity"), mill.slurry("density_kg_m3")
+    mass, diameter = mill.derived("charge", "mass_kg"), 2 * mill.radius
+    filling = power_models.filling_of(mass, mill.ball_density, solidity, diameter, mill.length)
+    size = diameter, mill.length, mill.critical_share, filling
 
     def density(fill: float) -> float:
         return power_models.bulk_density(mill.ball_density, solidity, slurry, min(fill, 1.0))
@@ -99,7 +101,7 @@ def models(mill: Mill) -> dict[str, Callable[[float], float]]:
             # Its pool is that of an overflow mill, whatever is beyond the pores
             "Morrell, with its pool": lambda fill: power_models.morrell(
                 *size, density(fill), slurry, True).net if fill >= 1 else np.nan,
-            "Bond, wet": lambda fill: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg"))}
+            "Bond, wet": lambda fill: power_models.bond(diameter, *size[2:], mass)}
 
 
 def columns_of(key: str, mean: Mean) -> list[tuple[str, float]]:

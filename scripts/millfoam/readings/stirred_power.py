@@ -24,7 +24,7 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     turns = whole_turns(np.ptp(times) + interval, turn)
     if turns < 2:
         return Mean(float(values.mean()), np.nan)
-    found = turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
+    found = turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns))
     return Mean(float(values.mean()), found.error, found.freedom)
 
 
