@@ -14,8 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from mill_case import SCRIPTS, STAGES, run_mill
-from millfoam.coupling.passes import given_force
+from millfoam.coupling.passes import given
 from millfoam.files.data_files import read_csv, read_json
+from millfoam.files.dumps import numbered_dumps, read_balls
 from millfoam.files.mill_case import MillCase
 from millfoam.files.solids_file import read_windows
 from millfoam.readings.fluid_on_balls import fluid_on_balls
@@ -50,18 +51,41 @@ class Direct(unittest.TestCase):
         return case
 
     def test_the_balls_take_what_the_flow_gives(self):
-        given = given_force(MillCase(self.direct))
+        force, torque = given(MillCase(self.direct))
         rows = read_csv(self.direct / "dumps" / "fluid.csv")
         within = rows["time_s"] > 0.4 + 0.1
         taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
-        self.assertLess(np.linalg.norm(given - taken) / np.linalg.norm(given), 0.01)
+        self.assertLess(np.linalg.norm(force - taken) / np.linalg.norm(force), 0.01)
         # Of single steps
         sampled = fluid_on_balls(self.direct / "slurry.h5", 2500.0).force
-        self.assertLess(np.linalg.norm(given - sampled) / np.linalg.norm(given), 0.05)
+        self.assertLess(np.linalg.norm(force - sampled) / np.linalg.norm(force), 0.05)
         self.assertEqual(np.max(rows["balls_without_field"]), 0)
         content = read_json(self.case / "coupling.json", "coupling")
         self.assertEqual(content["folders"], [".", "direct"])
         self.assertAlmostEqual(content["force_by_balls_N"], np.linalg.norm(taken), places=6)
+        self.assertAlmostEqual(content["torque_by_flow_Nm"], torque, places=9)
+        self.assertAlmostEqual(content["torque_by_balls_Nm"], np.mean(rows["torque_Nm"][within]), places=9)
+        drive = read_csv(self.direct / "dumps" / "energy.csv")
+        self.assertAlmostEqual(content["torque_disagreement"], abs(torque - content["torque_by_balls_Nm"])
+                               / abs(np.mean(drive["torque_Nm"][drive["time_s"] > 0.4 + 0.1])), places=6)
+
+    def test_the_balls_gain_what_walls_weight_and_fluid_give_by_their_torques(self):
+        dumps = numbered_dumps(self.direct / "dumps")
+        density = read_json(self.case / "mill.json", "mill")["derived"]["materials"]["ball"]["density_kg_m3"]
+        momentum, weight = [], []
+        for _, path in dumps:
+            x, y, vx, vy, radius = read_balls(path, "x", "y", "vx", "vy", "radius").T
+            mass = density * 4 / 3 * np.pi * radius**3
+            momentum.append(np.sum(mass * (x * vy - y * vx)))
+            weight.append(-9.81 * np.sum(mass * x))
+        walls, fluid = (read_csv(self.direct / "dumps" / name) for name in ("energy.csv", "fluid.csv"))
+        interval = np.diff(walls["time_s"]).mean()
+        # energy.csv has the charge's torque on the mill. The spin of the balls is not here
+        given = interval * np.cumsum(fluid["torque_Nm"] - walls["torque_Nm"] + weight[1:])
+        felt = interval * np.cumsum(fluid["torque_Nm"])
+        self.assertEqual(len(dumps), len(given) + 1)
+        apart = given - (np.array(momentum[1:]) - momentum[0])
+        self.assertLess(np.ptp(apart), 0.1 * np.ptp(felt))
 
     def test_both_begin_with_the_last_state_of_the_dry_run_and_end_together(self):
         run = read_json(self.direct / "dumps" / "run.json", "dumps")

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.coupling.passes import direct_case, given_force
+from millfoam.coupling.passes import direct_case, given
 from millfoam.files.data_files import read_csv
 from millfoam.run import run
 from waiting import wait_for
@@ -32,11 +32,11 @@ def run_mill(folder, mill, *changes, until=None, charge=None):
 def force_difference(direct, begin):
     """Relative difference between the mean force that a flow gives to balls that move at the same time, and the one
     that they take from a DEM time on, s; direct: folder of both."""
-    given = given_force(direct_case(direct))
+    force, _ = given(direct_case(direct))
     rows = read_csv(direct / "dumps" / "fluid.csv")
     within = rows["time_s"] > begin
     taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
-    return np.linalg.norm(given - taken) / np.linalg.norm(given)
+    return np.linalg.norm(force - taken) / np.linalg.norm(force)
 
 
 def is_free(lock):

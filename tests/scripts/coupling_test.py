@@ -14,12 +14,13 @@ import h5py
 import numpy as np
 
 from millfoam.coupling import passes
-from millfoam.coupling.__main__ import judge, make_forces
+from millfoam.coupling.__main__ import judge, judge_direct, make_forces
 from millfoam.coupling.ball_forces import FIELDS, disagreement, relaxed
 from millfoam.files.slurry_file import BallForces, read_ball_forces
 from millfoam.readings.fluid_on_balls import force_density
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
+from millfoam.report.coupling_section import coupling_checks
 from report_cases import LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
@@ -218,6 +219,61 @@ class Judging(unittest.TestCase):
         page = report_case(self.case / "pass_2")
         self.assertNotIn("Balls and slurry have settled", page)
         self.assertIn("The slurry would not move the balls", page)
+
+
+class AtTheSameTime(unittest.TestCase):
+    """Balls and flow that ran at the same time."""
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.case = Path(folder.name) / "case"
+        write_flow(cls.case / "direct")
+        for keys, value in ((("coupling",), "direct"), (("averages_start_s",), 0.4)):
+            change_json(cls.case / "direct" / "mill.json", "derived", "flow", *keys, to=value)
+        place = cls.case / "direct" / "postProcessing" / "flow" / "0" / "steps.csv"
+        names, *rows = place.read_text().splitlines()
+        more = [f"given_force_{axis}_N" for axis in "xyz"] + ["given_torque_Nm"]
+        place.write_text("\n".join([",".join([names, *more]), *(row + ",3,4,0,-0.02" for row in rows)]) + "\n")
+        times = 1.0 + np.arange(1, 81) * 0.01
+        table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024))])
+        np.savetxt(cls.case / "direct" / "dumps" / "fluid.csv", table, "%.8g", ",", comments="",
+                   header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm")
+        np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", np.column_stack([times, 0 * times + 0.1]), "%.8g", ",",
+                   comments="", header="time_s,torque_Nm")
+
+    def judge(self):
+        with mock.patch("builtins.print"):
+            judge_direct(self.case)
+        return json.loads((self.case / "coupling.json").read_text())
+
+    def test_force_and_torque_by_both_are_compared(self):
+        content = self.judge()
+        self.assertAlmostEqual(content["force_by_flow_N"], 5, places=9)
+        self.assertAlmostEqual(content["force_disagreement"], 0.03 / 5, places=6)
+        self.assertAlmostEqual(content["torque_by_flow_Nm"], -0.02, places=9)
+        self.assertAlmostEqual(content["torque_by_balls_Nm"], -0.024, places=9)
+        # Over the drive's torque on the balls, not over their own, which may be 0
+        self.assertAlmostEqual(content["torque_disagreement"], 0.04, places=9)
+
+    def test_the_report_judges_both(self):
+        self.judge()
+        case = passes.MillCase(self.case / "direct")
+        checks = {check.name: check for check in (make(case) for make in coupling_checks(case))}
+        self.assertEqual(checks["The balls feel the slurry's force"].state, "holds")
+        torque = checks["The slurry's force acts where the balls are"]
+        self.assertEqual(torque.state, "look")
+        self.assertIn("differ by 4.0 % of the drive's torque", torque.found)
+        self.assertIn("averages.voxel_size", torque.advice)
+
+    def test_runs_without_torques_are_judged_by_the_force_alone(self):
+        content = self.judge()
+        self.addCleanup(self.judge)
+        for key in [key for key in content if key.startswith("torque")]:
+            del content[key]
+        (self.case / "coupling.json").write_text(json.dumps(content))
+        case = passes.MillCase(self.case / "direct")
+        self.assertEqual([make(case).name for make in coupling_checks(case)], ["The balls feel the slurry's force"])
 
 
 if __name__ == "__main__":

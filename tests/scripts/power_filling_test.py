@@ -7,6 +7,7 @@ import unittest
 from pathlib import Path
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 
 from millfoam.files.data_files import read_csv
@@ -15,6 +16,7 @@ from millfoam.readings import power_models
 from millfoam.readings.means import Mean
 from millstudies.mill_runs import resolved
 from millstudies.published_mills import MILLS, charge_setting
+from report_cases import change_json, write_dry, write_flow
 
 ROOT = Path(__file__).resolve().parents[2]
 PLACE = ROOT / "cases" / "studies" / "power_filling" / "power_filling.py"
@@ -25,8 +27,8 @@ SPEC.loader.exec_module(study)
 
 def mill():
     """What the models read of a mill of 3 m."""
-    derived = {"resting_solidity": 0.6, "mass_kg": 5e4}
-    found = SimpleNamespace(radius=1.5, length=4.0, critical_share=0.7, load=0.35, ball_density=7800.0,
+    derived = {"resting_solidity": 0.6, "mass_kg": 0.35 * 7800 * 0.6 * np.pi * 1.5**2 * 4}
+    found = SimpleNamespace(radius=1.5, length=4.0, critical_share=0.7, ball_density=7800.0,
                             derived=lambda section, key: derived[key], slurry=lambda key: 1600.0)
     assert set(vars(found)) - {"derived", "slurry"} <= set(dir(Mill))
     return found
@@ -47,14 +49,16 @@ class Models(unittest.TestCase):
     def test_bond_does_not_know_the_filling(self):
         bond = study.models(mill())["Bond, wet"]
         self.assertEqual(bond(0.0), bond(1.5))
-        self.assertEqual(bond(1.0), power_models.bond(3.0, 0.7, 0.35, 5e4))
+        mass = 0.35 * 7800 * 0.6 * np.pi * 1.5**2 * 4
+        self.assertAlmostEqual(bond(1.0), power_models.bond(3.0, 0.7, 0.35, mass), delta=1e-9 * bond(1.0))
 
 
 class Table(unittest.TestCase):
     def rows(self):
         quantities = {key: Mean(0.2, 0.001) for key in (*study.POWERS, *study.READINGS)}
         quantities["drive_power"] = Mean(np.nan, np.nan)
-        runs = [study.Run(way, fill, None, SimpleNamespace(quantities=quantities, load=0.4), None, 0.1, "holds")
+        runs = [study.Run(way, fill, None, SimpleNamespace(quantities=quantities, load=0.4), None, 0.1, "",
+                          0.04 if way == "direct" else np.nan)
                 for way in study.WAYS for fill in (0.5, 1.0)]
         return list(study.rows_of(study.Study("12cm_50", None, Mean(0.21, 0.002), runs, [])))
 
@@ -63,6 +67,7 @@ class Table(unittest.TestCase):
         self.assertEqual([line.split()[0] for line in lines if line],
                          ["12cm_50", "dry", "one", "one", "direct", "direct"])
         self.assertIn("0.2100 ± 0.0020", lines[1])
+        self.assertEqual([("4.0%" in line, line.split()[-1]) for line in lines[3:6:2]], [(False, "–"), (True, "4.0%")])
         # A drive that is not known leaves its place
         places = {line.rindex("0.2000 ± 0.0010") for line in lines[2:] if line}
         self.assertEqual(len(places), 1)
@@ -83,7 +88,7 @@ class Table(unittest.TestCase):
 
 class Relative(unittest.TestCase):
     def mill(self, name, *runs):
-        made = [study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "holds")
+        made = [study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "", np.nan)
                 for way, fill, power in runs]
         return study.Study(name, None, Mean(0.2, 0.006), made, [])
 
@@ -113,10 +118,47 @@ class Loads(unittest.TestCase):
 
 
 class Missing(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def run_of(self, name, fill=0.5):
+        """A run that is complete but for what read_pass needs."""
+        write_flow(self.folder / name)
+        change_json(self.folder / name / "mill.json", "mill", "flow", to={"start": {"fill": fill}})
+
     def test_a_mill_without_a_dry_run_is_named(self):
-        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         with self.assertRaisesRegex(RuntimeError, "dry"):
-            study.read_study(folder)
+            study.read_study(self.folder)
+
+    def test_folders_that_are_not_runs_are_not_read(self):
+        write_dry(self.folder / "dry")
+        for name in ("one_way_1_copy2", "one_way_1.5.part", "direct_", "notes"):
+            (self.folder / name).mkdir()
+        found = study.read_study(self.folder)
+        self.assertEqual((found.runs, found.missing), ([], []))
+
+    def test_a_run_with_another_filling_than_its_name_says_is_missing(self):
+        write_dry(self.folder / "dry")
+        self.run_of("one_way_1.5")
+        (missing,) = study.read_study(self.folder).missing
+        self.assertRegex(missing, "^one_way_1.5: .*flow.start.fill is 0.5; expected 1.5, as the folder is named")
+
+    def test_a_run_with_another_charge_than_the_dry_run_is_missing(self):
+        write_dry(self.folder / "dry")
+        self.run_of("one_way_0.5")
+        for file, keys in (("mill.json", ("fingerprint", "charge")), ("dumps/results.json", ("mill", "charge")),
+                           ("dumps/run.json", ("mill", "charge")), ("solids.json", ("mill", "charge"))):
+            change_json(self.folder / "dry" / file, *keys, to="f" * 16)
+        with h5py.File(self.folder / "dry" / "solids.h5", "a") as file:
+            file.attrs["mill_charge"] = "f" * 16
+        (missing,) = study.read_study(self.folder).missing
+        self.assertRegex(missing, "^one_way_0.5: .*not that of the dry run: .*0000000000000002, expected ffff")
+
+    def test_a_mixed_dry_run_is_refused(self):
+        write_dry(self.folder / "dry")
+        change_json(self.folder / "dry" / "dumps" / "results.json", "mill", "charge", to="f" * 16)
+        with self.assertRaisesRegex(RuntimeError, "results.json has the fingerprint charge ffff"):
+            study.read_study(self.folder)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ slurry). Runs that are not complete are listed."""
 import argparse
 import csv
 import itertools
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,34 +17,42 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.coupling.passes import Pass, read_pass
+from millfoam.files.data_files import read_json
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import SlurryMap
 from millfoam.plots.mill_plots import draw_outline
 from millfoam.readings import power_models
 from millfoam.readings.means import Mean
+from millfoam.readings.mill_power import given_power
 from millfoam.readings.slurry_on_maps import pool, solidity_at_pixels
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
+from millfoam.report.charge_checks import charge_steadiness
+from millfoam.report.stages import same_mill
 from millfoam.report.steadiness import flow_steadiness
 
 WAYS = {"one_way": "one way", "direct": "direct"}
-POWERS = {"drive_power": "drive", "charge_power": "charge", "slurry_power": "slurry"}
+POWERS = {"drive_power": "drive", "charge_power": "charge", "slurry_power": "slurry", "given_power": "given"}
 READINGS = ("toe", "shoulder", "slurry_x", "slurry_y")
 UNITS = {"toe": "deg", "shoulder": "deg", "slurry_x": "m", "slurry_y": "m"}  # of readings that are not powers
 HALF = 0.5  # share of the slurry's outline
+RUN = re.compile(rf"({'|'.join(WAYS)})_(\d+\.?\d*)")  # name of a run's folder
 
 
 @dataclass(frozen=True)
 class Run:
     """A complete run: way, a key of WAYS; fill: volume of slurry over that of the pores; its numbers; its map of the
-    slurry; pooled: share of the slurry that is in the pool clear of the charge; steady: verdict on the flow."""
+    slurry; pooled: share of the slurry that is in the pool clear of the charge; unsteady: what the report does not call
+    steady, in words; torque_apart: of a direct run, difference of the torques by which flow and balls see their force,
+    over the drive's on the balls, NaN if it is not known."""
     way: str
     fill: float
     case: MillCase
     numbers: Pass
     slurry: SlurryMap
     pooled: float
-    steady: str
+    unsteady: str
+    torque_apart: float
 
 
 @dataclass(frozen=True)
@@ -56,17 +65,40 @@ class Study:
     missing: list[str]
 
 
-def read_run(folder: Path) -> Run:
-    """Run of a folder WAY_FILL. RuntimeError if it is not complete."""
-    way, _, fill = folder.name.rpartition("_")
-    place = folder / "direct" if way == "direct" else folder
-    numbers, case = read_pass(2 if way == "direct" else 1, place), MillCase(place)
+def require_of(case: MillCase, charge: str, fill: float | None) -> None:
+    """RuntimeError if files of a case are of another mill than its own, if its charge does not have this fingerprint,
+    or if its slurry does not fill this share of the pores."""
+    stages = same_mill(case)
+    if stages.state == "fails":
+        raise RuntimeError(stages.found)
+    if case.mill.fingerprint.get("charge") != charge:
+        raise RuntimeError(f"{case.folder}: its charge is not that of the dry run: fingerprint "
+                           f"{case.mill.fingerprint.get('charge')}, expected {charge}")
+    filled = (case.mill.asked("flow", "start") or {}).get("fill")
+    if fill is not None and filled != fill:
+        raise RuntimeError(f"{case.folder}: flow.start.fill is {filled}; expected {fill:g}, as the folder is named")
+
+
+def read_run(folder: Path, charge: str) -> Run:
+    """Run of a folder WAY_FILL; charge: fingerprint of the dry run's. RuntimeError if it is not complete, or of another
+    mill."""
+    way, _, filling = folder.name.rpartition("_")
+    fill, direct = float(filling), way == "direct"
+    place = folder / "direct" if direct else folder
+    case = MillCase(place)
+    require_of(case, charge, fill)
+    numbers = read_pass(2 if direct else 1, place)
     if case.is_cut_short:
         raise RuntimeError(f"{place}: the flow ends at {case.last:.3g} s; expected {case.duration:.3g} s")
+    numbers.quantities["given_power"] = given_power(case)
     slurry = mean_slurry(case, list(slurry_blocks(case)))
     area = pool(slurry, solidity_at_pixels(numbers.charge, slurry)).area
-    whole = float(fill) * case.mill.derived("charge", "pore_volume_m3")
-    return Run(way, float(fill), case, numbers, slurry, area * case.length / whole, flow_steadiness(case).state)
+    whole = fill * case.mill.derived("charge", "pore_volume_m3")
+    judged = {"flow": flow_steadiness(case), **({"charge": charge_steadiness(case)} if direct else {})}
+    apart = read_json(folder / "coupling.json", "coupling").get("torque_disagreement") if direct else None
+    return Run(way, fill, case, numbers, slurry, area * case.length / whole,
+               " and ".join(name for name, check in judged.items() if check.state != "holds"),
+               np.nan if apart is None else apart)
 
 
 def read_study(folder: Path) -> Study:
@@ -74,21 +106,25 @@ def read_study(folder: Path) -> Study:
     dry = MillCase(folder / "dry")
     if dry.results is None:
         raise RuntimeError(f"{folder / 'dry'}: the dry run has no results; run Allrun")
+    charge = dry.mill.fingerprint["charge"]
+    require_of(dry, charge, None)
+    names = [match for match in map(RUN.fullmatch, (path.name for path in folder.iterdir())) if match]
     runs, missing = [], []
-    for way in WAYS:
-        for one in sorted(folder.glob(f"{way}_*[0-9]"), key=lambda path: float(path.name.rpartition("_")[2])):
-            try:
-                runs.append(read_run(one))
-            except (RuntimeError, OSError) as error:
-                missing.append(f"{one.name}: {error}")
+    for match in sorted(names, key=lambda match: (list(WAYS).index(match[1]), float(match[2]))):
+        try:
+            runs.append(read_run(folder / match[0], charge))
+        except (RuntimeError, OSError) as error:
+            missing.append(f"{match[0]}: {error}")
     return Study(folder.name, dry.mill, Mean(dry.result("power_W"), dry.result("power_error_W")), runs, missing)
 
 
 def models(mill: Mill) -> dict[str, Callable[[float], float]]:
     """Name of a model -> power (W) at a filling of the pores, NaN where it does not apply. Pores are filled up to their
     whole; with more, there is a pool, which Morrell's model of an overflow mill has."""
-    size = 2 * mill.radius, mill.length, mill.critical_share, mill.load
     solidity, slurry = mill.derived("charge", "resting_solidity"), mill.slurry("density_kg_m3")
+    mass, diameter = mill.derived("charge", "mass_kg"), 2 * mill.radius
+    filling = power_models.filling_of(mass, mill.ball_density, solidity, diameter, mill.length)
+    size = diameter, mill.length, mill.critical_share, filling
 
     def density(fill: float) -> float:
         return power_models.bulk_density(mill.ball_density, solidity, slurry, min(fill, 1.0))
@@ -99,7 +135,7 @@ def models(mill: Mill) -> dict[str, Callable[[float], float]]:
             # Its pool is that of an overflow mill, whatever is beyond the pores
             "Morrell, with its pool": lambda fill: power_models.morrell(
                 *size, density(fill), slurry, True).net if fill >= 1 else np.nan,
-            "Bond, wet": lambda fill: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg"))}
+            "Bond, wet": lambda fill: power_models.bond(diameter, *size[2:], mass)}
 
 
 def columns_of(key: str, mean: Mean) -> list[tuple[str, float]]:
@@ -116,7 +152,8 @@ def rows_of(study: Study):
         row = {"mill": study.name, "coupling": WAYS[run.way], "filling": run.fill}
         for key in (*POWERS, *READINGS):
             row |= dict(columns_of(key, run.numbers.quantities[key]))
-        yield row | {"slurry_in_pool": run.pooled, "force_over_weight": run.numbers.load, "steady": run.steady}
+        yield row | {"slurry_in_pool": run.pooled, "force_over_weight": run.numbers.load,
+                     "torque_apart": run.torque_apart, "not_steady": run.unsteady}
 
 
 def write_csv(rows, path):
@@ -131,13 +168,14 @@ def lines_of(rows):
     """The table as text, a block for each mill."""
     for mill in dict.fromkeys(row["mill"] for row in rows):
         yield (f"{mill:<16}{'filling':>8}" + "".join(f"{f'{name}, W':>20}" for name in POWERS.values())
-               + f"{'pool':>8}  flow is steady")
+               + f"{'pool':>8}{'torques apart':>15}  not steady")
         for row in (row for row in rows if row["mill"] == mill):
             powers = "".join(f"{row[f'{key}_W']:11.4f} ± {row[f'{key}_error_W']:.4f}"
                              if np.isfinite(row.get(f"{key}_W", np.nan)) else f"{'–':>20}" for key in POWERS)
-            share = row.get("slurry_in_pool")
+            share, apart = row.get("slurry_in_pool"), row.get("torque_apart", np.nan)
             yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
-                   + f"  {row.get('steady', '')}")
+                   + (f"{apart:15.1%}" if np.isfinite(apart) else "" if share is None else f"{'–':>15}")
+                   + f"  {row.get('not_steady', '')}").rstrip()
         yield ""
 
 

@@ -83,6 +83,9 @@ def judge_direct(case: Path) -> None:
     write_json(case / "coupling.json", table.direct_result(found.mill, folder.name, load, exchanged))
     print(f"mean force of the flow on the balls: {exchanged.given:.4g} N by the flow, {exchanged.taken:.4g} N by the "
           f"balls; they differ by {exchanged.disagreement:.2%}")
+    if exchanged.torque_disagreement is not None:
+        print(f"its torque: {exchanged.given_torque:.4g} N m by the flow, {exchanged.taken_torque:.4g} N m by the "
+              f"balls; they differ by {exchanged.torque_disagreement:.2%} of the drive's torque on the balls")
 
 
 def main() -> None:

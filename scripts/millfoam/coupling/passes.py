@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The numbers of one pass of balls and slurry, and of the change from one pass to the next."""
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,11 +13,12 @@ from ..files.mill_case import MillCase
 from ..files.slurry_file import read_ball_forces
 from ..files.solids_file import SolidsMap, mean_map
 from ..files.stirred_case import StirredCase
-from ..readings.batches import error_over_turns
+from ..readings.batches import mean_over_turns
 from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
-from ..readings.means import Mean, time_mean, with_error
+from ..readings.means import Mean, with_error
+from ..readings.mill_power import UNKNOWN, charge_power, drive_power, known_balance, slurry_power
 from . import ball_forces
 
 FORCES = "forces.h5"  # in a pass's folder: what its balls felt
@@ -36,7 +37,7 @@ LIMIT = 3.0
 NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
-TURNS = 3  # of the averaged flow, at least: the error of fewer turns is not known
+EXCHANGED_TORQUE = 0.02  # by which their torques may differ, over the drive's torque on the balls
 
 
 @dataclass
@@ -84,8 +85,8 @@ def read_pass(number: int, folder: Path) -> Pass:
                                            ("the flow", case.flow)) if part is None]
         raise RuntimeError(f"{folder}: pass {number} lacks {', '.join(missing)}; run it to its end")
     load = case.load
-    quantities = {**charge_quantities(case, case.charge), **slurry_quantities(case)}
-    quantities["drive_power"] = drive_power(case, quantities)
+    quantities = {**charge_quantities(case, case.charge), **slurry_quantities(case),
+                  "slurry_power": slurry_power(case), "drive_power": drive_power(case)}
     return Pass(number, folder, quantities, case.charge,
                 map_noise(case.charge_windows), load[0] if load else np.nan, forces_apart(folder))
 
@@ -97,54 +98,25 @@ def charge_quantities(case: MillCase, charge: SolidsMap) -> dict[str, Mean]:
     def read(reading: Callable[[SolidsMap], ArrayLike]) -> list[Mean]:
         try:
             values = reading(charge)
-            errors = with_error(reading, windows).error if len(windows) >= 4 else (np.nan, np.nan)
+            found = with_error(reading, windows) if len(windows) >= 4 else None
         except RuntimeError:
-            values = errors = np.nan, np.nan
-        return [Mean(float(value), float(error)) for value, error in zip(np.asarray(values), np.asarray(errors))]
+            return [UNKNOWN, UNKNOWN]
+        if found is None:
+            return [Mean(float(value), np.nan) for value in np.asarray(values)]
+        return [Mean(float(value), float(error), found.blocks - 1) for value, error in zip(
+            np.asarray(values), found.error)]
     toe, shoulder = read(lambda one: toe_and_shoulder(one, case.radius, WALL))
     centre_x, centre_y = read(lambda one: circulation_centre(one, case.radius))
     return {"toe": toe, "shoulder": shoulder, "charge_x": centre_x, "charge_y": centre_y,
-            "charge_power": Mean(case.result("power_W"), case.result("power_error_W"))}
+            "charge_power": charge_power(case)}
 
 
 def slurry_quantities(case: MillCase) -> dict[str, Mean]:
-    """Centre and power of the slurry of a MillCase, with errors over whole turns; NaN for fewer than TURNS."""
+    """Centre of the slurry of a MillCase, with errors over whole turns; NaN for fewer than TURNS."""
     columns = known_balance(case)
-    names = {"slurry_x": "x", "slurry_y": "y", "slurry_power": "power"}
-    if columns is None:
-        return {key: Mean(np.nan, np.nan) for key in names}
-    return {key: Mean(time_mean(columns["Time"], columns[name], case.begin),
-                      error_over_turns(columns["Time"], columns[name], case.begin, case.turn))
-            for key, name in names.items()}
-
-
-def feels_slurry(case: MillCase) -> bool:
-    """Whether the balls of a MillCase felt a flow, and not only a pool's buoyancy."""
-    fluid = (case.results or {}).get("fluid") or {}
-    return fluid.get("kind") in ("slurry", "flow")
-
-
-def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
-    """Columns of slurryBalance; None without it, or if fewer turns than TURNS are averaged."""
-    columns = case.balance
-    # Times are rounded
-    return columns if columns and columns["Time"][-1] - case.begin > (TURNS - 0.005) * case.turn else None
-
-
-def drive_power(case: MillCase, quantities: dict[str, Mean]) -> Mean:
-    """Power that the drive gives to balls and slurry together, W; NaN for fewer turns than TURNS.
-
-    Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
-    that of the walls on the slurry. Balls that do not feel it give it power of their own, which is added."""
-    columns = known_balance(case)
-    if columns is None:
-        return Mean(np.nan, np.nan)
-    given = columns["power"]
-    if feels_slurry(case):
-        given = np.sum([values for name, values in columns.items() if name.startswith("power_")], axis=0)
-    charge = quantities["charge_power"]
-    error = error_over_turns(columns["Time"], given, case.begin, case.turn)
-    return Mean(charge.value + time_mean(columns["Time"], given, case.begin), float(np.hypot(charge.error, error)))
+    found = {key: columns and mean_over_turns(columns["Time"], columns[name], case.begin, case.turn)
+             for key, name in (("slurry_x", "x"), ("slurry_y", "y"))}
+    return {key: mean or UNKNOWN for key, mean in found.items()}
 
 
 def map_noise(windows: Sequence[SolidsMap]) -> float:
@@ -167,22 +139,28 @@ def forces_apart(folder: Path) -> float | None:
 
 @dataclass(frozen=True)
 class Exchanged:
-    """Mean force of a flow on all balls over its averaged time, N: size by the flow (steps.csv) and by the balls
-    (fluid.csv), and size of the difference over that of the flow's."""
+    """Means over a flow's averaged time of what it gives to all balls, by the flow (steps.csv) and by the balls
+    (fluid.csv): sizes of the force, N, and of their difference over that of the flow's; torques about +z, N m, and size
+    of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None."""
     given: float
     taken: float
     disagreement: float
+    given_torque: float | None = None
+    taken_torque: float | None = None
+    torque_disagreement: float | None = None
 
 
-def given_force(case: MillCase) -> np.ndarray:
-    """Mean force [3], N, that the flow of a MillCase gave to balls that moved at the same time, over its averaged time.
-    RuntimeError without steps.csv."""
+def given(case: MillCase) -> tuple[np.ndarray, float | None]:
+    """Means over the averaged time of a MillCase of what the flow gave to balls that moved at the same time: force [3],
+    N, and torque about +z, N m, if steps.csv has it. RuntimeError without steps.csv."""
     steps = case.record.steps
     if steps is None:
         raise RuntimeError(f"{case.folder}: no postProcessing/flow/*/steps.csv, which slurryFoam writes")
     begin, end = steps["time_s"], np.append(steps["time_s"][1:], case.last)
     length = np.clip(np.minimum(end, case.last) - np.maximum(begin, case.begin), 0, None)
-    return np.array([np.average(steps[f"given_force_{axis}_N"], weights=length) for axis in "xyz"])
+    force = np.array([np.average(steps[f"given_force_{axis}_N"], weights=length) for axis in "xyz"])
+    torque = steps.get("given_torque_Nm")
+    return force, None if torque is None else float(np.average(torque, weights=length))
 
 
 def direct_case(folder: Path) -> MillCase:
@@ -194,18 +172,26 @@ def direct_case(folder: Path) -> MillCase:
 
 
 def exchanged_forces(folder: Path) -> Exchanged:
-    """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without steps.csv or fluid.csv.
+    """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without steps.csv, fluid.csv or
+    energy.csv.
 
-    Both forces are means over all time-steps: one of the flow acts on the balls until the next one."""
+    Force and torque are means over all time-steps: one of the flow acts on the balls until the next one. The force is
+    the same for both. Its torque is not: the flow sees the balls spread over voxels, and they feel it where they
+    are."""
     case = direct_case(folder)
     assert case.flow is not None
-    given = given_force(case)
-    rows = read_csv(folder / "dumps" / "fluid.csv")
+    force, torque = given(case)
+    rows, drive = (read_csv(folder / "dumps" / name) for name in ("fluid.csv", "energy.csv"))
     begin, end = (case.flow.time0 + at for at in (case.begin, case.last))
-    within = (rows["time_s"] > begin) & (rows["time_s"] <= end)
+    within, driven = ((table["time_s"] > begin) & (table["time_s"] <= end) for table in (rows, drive))
     taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
-    sizes = [float(np.linalg.norm(force)) for force in (given, taken, given - taken)]
-    return Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0])
+    sizes = [float(np.linalg.norm(one)) for one in (force, taken, force - taken)]
+    exchanged = Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0])
+    if torque is None or "torque_Nm" not in rows:
+        return exchanged
+    felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))
+    return replace(exchanged, given_torque=torque, taken_torque=felt,
+                   torque_disagreement=abs((torque - felt) / driving))
 
 
 def change(before: Pass, after: Pass) -> Change:

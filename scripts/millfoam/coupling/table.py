@@ -60,7 +60,9 @@ def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchan
     return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
             "coupling": "direct", "folders": [".", folder], "force_over_weight": known(load),
             "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
-            "force_disagreement": known(exchanged.disagreement)}
+            "force_disagreement": known(exchanged.disagreement),
+            "torque_by_flow_Nm": known(exchanged.given_torque), "torque_by_balls_Nm": known(exchanged.taken_torque),
+            "torque_disagreement": known(exchanged.torque_disagreement)}
 
 
 def cell(mean: Mean, scale: float) -> str:

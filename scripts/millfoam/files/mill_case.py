@@ -177,6 +177,11 @@ class MillCase:
         return self._columns("energy.csv")
 
     @cached_property
+    def fluid_on_balls(self) -> dict[str, np.ndarray] | None:
+        """fluid.csv of balls that felt a fluid: column -> values over their records."""
+        return self._columns("fluid.csv")
+
+    @cached_property
     def overlaps(self) -> dict[str, np.ndarray] | None:
         """overlaps.csv: overlap_m, contacts of balls and with walls."""
         return self._columns("overlaps.csv")

@@ -31,13 +31,13 @@ def batches_of(span: float, turn: float) -> tuple[float, int]:
 
 
 def batch_means(times: np.ndarray, values: np.ndarray, begin: float, length: float, count: int) -> np.ndarray:
-    """Means of values over `count` batches of a length (s) from `begin` (s) on, each weighted by the time since the one
-    before; NaN for a batch without a value."""
-    places = np.floor((times - begin) / length * (1 + 1e-9) + 1e-9).astype(int)
-    # The last time closes the last batch
-    places[np.isclose(times, begin + count * length)] = count - 1
+    """Means of values over `count` batches of a length (s) from `begin` (s) on; NaN for a batch without a value. Each
+    value is that of the time since the one before, belongs to the batch of the middle of this time, and is weighted by
+    it."""
+    steps = time_steps(times)
+    places = np.floor((times - steps / 2 - begin) / length).astype(int)
     within = (places >= 0) & (places < count)
-    weights, any_value = time_steps(times)[within], values[within][0] if within.any() else 0.0
+    weights, any_value = steps[within], values[within][0] if within.any() else 0.0
     # The differences from a value: equal values have an error of exactly 0
     with np.errstate(invalid="ignore"):
         return any_value + (np.bincount(places[within], weights * (values[within] - any_value), count)
@@ -57,11 +57,17 @@ def error_about_line(times: np.ndarray, values: np.ndarray, begin: float, turn: 
     return float(np.sqrt(np.sum(apart**2) / (turns - 2) / turns))
 
 
-def mean_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean | None:
-    """turns_mean of values from `begin` (s) on over the last whole turns of a mill whose turn takes `turn` s; None if
-    fewer than two fit."""
+def turn_means(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> np.ndarray:
+    """Means [turns] of values from `begin` (s) on over each of the last whole turns of a mill whose turn takes `turn`
+    s; empty if none fits."""
     turns = whole_turns(times[-1] - begin, turn)
-    return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns)) if turns > 1 else None
+    return batch_means(times, values, times[-1] - turns * turn, turn, turns) if turns > 0 else np.empty(0)
+
+
+def mean_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean | None:
+    """turns_mean of turn_means; None if fewer than two turns fit."""
+    means = turn_means(times, values, begin, turn)
+    return turns_mean(means) if len(means) > 1 else None
 
 
 def error_over_turns(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> float:

@@ -23,13 +23,19 @@ class Mean:
     error: float = 0.0
     freedom: float = np.inf
 
-    def __sub__(self, other: "Mean") -> "Mean":
-        """Degrees of freedom: B. L. Welch 1947, Biometrika 34:28."""
+    def __add__(self, other: "Mean") -> "Mean":
+        """Sum of two means with independent errors. Degrees of freedom: B. L. Welch 1947, Biometrika 34:28."""
         parts = [(one.error**2, one.freedom) for one in (self, other) if one.error > 0]
         variance = sum(part for part, _ in parts)
         inexact = sum(part**2 / freedom for part, freedom in parts)
-        return Mean(self.value - other.value, float(np.hypot(self.error, other.error)),
+        return Mean(self.value + other.value, float(np.hypot(self.error, other.error)),
                     variance**2 / inexact if inexact > 0 else np.inf)
+
+    def __neg__(self) -> "Mean":
+        return Mean(-self.value, self.error, self.freedom)
+
+    def __sub__(self, other: "Mean") -> "Mean":
+        return self + -other
 
     @property
     def reach(self) -> float:

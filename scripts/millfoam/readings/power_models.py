@@ -36,6 +36,12 @@ def require_share(name: str, value: float, most: float) -> None:
         raise ValueError(f"{name} is {value:g}; expected a share above 0 and at most {most:g}")
 
 
+def filling_of(mass: float, density: float, solidity: float, diameter: float, length: float) -> float:
+    """Share of a mill that the bulk of its balls fills, as the models take it: of the whole cylinder inside the liners,
+    lifters not subtracted. mass: of the balls, kg; density: of the balls, kg/m3; solidity: of the bulk; m."""
+    return mass / density / solidity / (np.pi / 4 * diameter**2 * length)
+
+
 def hogg_fuerstenau(diameter: float, length: float, speed: float, filling: float, density: float,
                     angle: float = REPOSE) -> float:
     """Net power, W, of the model of R. Hogg & D. W. Fuerstenau, Trans. SME-AIME 252 (1972) 418: the charge is a

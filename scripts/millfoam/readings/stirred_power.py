@@ -24,7 +24,7 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     first = times[times >= begin - 1e-6 * turn][:1]
     turns = whole_turns(times[-1] - first[0] + interval, turn) if len(first) else 0
     if turns > 1:
-        return turns_mean(batch_means(times - interval / 2, values, times[-1] - turns * turn, turn, turns))
+        return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns))
     late = times > begin + interval / 2 - 1e-6 * turn
     return Mean(float(values[late].mean() if late.any() else values[-1]), np.nan)
 

@@ -12,6 +12,7 @@ from ..readings import axial, charge
 from ..readings.axial import humps_at_ends
 from ..readings.batches import error_over_turns
 from ..readings.means import Reading, time_mean
+from ..readings.mill_power import charge_power, feels_slurry
 from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_blocks, slurry_way
 from .words import millilitres, uncertain
 
@@ -93,7 +94,9 @@ def key_numbers(case: MillCase, readings: Readings) -> Rows:
     """Rows (name, text) of the key numbers."""
     rows = []
     if case.results:
-        rows.append(("power of the dry charge", uncertain(case.result("power_W"), case.result("power_error_W"), "W")))
+        power = charge_power(case)
+        name = "power of the charge in the slurry" if feels_slurry(case) else "power of the dry charge"
+        rows.append((name, uncertain(power.value, power.error, "W")))
     rows += load_numbers(case.mill)
     if isinstance(readings.charge, charge.Charge):
         rows += charge_numbers(readings)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..coupling.passes import AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, forces_apart
+from ..coupling.passes import AGREE, EXCHANGED, EXCHANGED_TORQUE, LIMIT, NOISE, QUANTITIES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -24,7 +24,10 @@ def coupling_of(case: MillCase) -> dict[str, Any]:
 
 def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
     """The checks of a coupled case."""
-    return [forces_exchanged] if coupling_of(case)["coupling"] == "direct" else [has_settled, forces_agree]
+    content = coupling_of(case)
+    if content["coupling"] != "direct":
+        return [has_settled, forces_agree]
+    return [forces_exchanged, *([torques_exchanged] if content.get("torque_disagreement") is not None else [])]
 
 
 def forces_exchanged(case: MillCase) -> Check:
@@ -34,6 +37,16 @@ def forces_exchanged(case: MillCase) -> Check:
     return judged("The balls feel the slurry's force", apart, EXCHANGED, "balls and flow ran at the same time; the "
                   f"mean force on all balls by the flow and by the balls differ by {100 * apart:.2f} % (limit "
                   f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
+
+
+def torques_exchanged(case: MillCase) -> Check:
+    """Whether the force of a flow on balls that ran at the same time has the same torque for both."""
+    apart = coupling_of(case)["torque_disagreement"]
+    return judged("The slurry's force acts where the balls are", apart, EXCHANGED_TORQUE, "its torque on all balls by "
+                  f"the flow and by the balls differ by {100 * apart:.1f} % of the drive's torque on them (limit "
+                  f"{100 * EXCHANGED_TORQUE:g} %), so the drive's power has an error of this size",
+                  "Take smaller voxels (averages.voxel_size, of a stirred mill flow.exchange.voxel_size): they spread "
+                  "the balls.", doubtful=5 * EXCHANGED_TORQUE)
 
 
 def has_settled(case: MillCase) -> Check:
@@ -66,8 +79,12 @@ def exchanged_table(case: MillCase) -> str:
     content = coupling_of(case)
     rows = [["mean force of the flow on all balls, by the flow", f"{content['force_by_flow_N']:.4g} N"],
             ["the same, by the balls", f"{content['force_by_balls_N']:.4g} N"],
-            ["size of their difference", f"{content['force_disagreement']:.2%}"],
-            ["slurry's force over the balls' weight", f"{content['force_over_weight']:.3f}"]]
+            ["size of their difference", f"{content['force_disagreement']:.2%}"]]
+    if content.get("torque_disagreement") is not None:
+        rows += [["torque of this force about the axis, by the flow", f"{content['torque_by_flow_Nm']:.4g} N m"],
+                 ["the same, by the balls", f"{content['torque_by_balls_Nm']:.4g} N m"],
+                 ["their difference over the drive's torque on the balls", f"{content['torque_disagreement']:.2%}"]]
+    rows.append(["slurry's force over the balls' weight", f"{content['force_over_weight']:.3f}"])
     return page.table(["", ""], rows, title="Balls and slurry at the same time",
                       note="Means over the flow's averaged time. Balls and flow meet at every time-step of the flow.")
 

@@ -4,10 +4,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..coupling.passes import drive_power, feels_slurry, slurry_quantities
 from ..files.mill_case import MillCase
 from ..readings import power_models
 from ..readings.means import Mean, time_mean
+from ..readings.mill_power import charge_power, drive_power, feels_slurry, slurry_power
 from . import page
 from .case_readings import Readings
 from .words import uncertain
@@ -25,11 +25,10 @@ def power_section(case: MillCase, _readings: Readings) -> list[str]:
 
 def powers(case: MillCase) -> dict[str, Mean]:
     """Name -> Mean (W) of the charge's power, and with a flow of enough turns the slurry's and the drive's."""
-    charge = Mean(case.result("power_W"), case.result("power_error_W"))
-    found = {"charge": charge}
-    slurry = slurry_quantities(case)["slurry_power"]
+    found = {"charge": charge_power(case)}
+    slurry = slurry_power(case)
     if np.isfinite(slurry.value):
-        found |= {"slurry": slurry, "drive": drive_power(case, {"charge_power": charge})}
+        found |= {"slurry": slurry, "drive": drive_power(case)}
     return found
 
 
@@ -44,7 +43,7 @@ def net_note(case: MillCase) -> str:
     """What the powers are."""
     words = "Charge: what the walls give to the balls."
     if case.flow:
-        words += (" Slurry: what walls and balls give to it. Drive: "
+        words += (" Slurry: the torque of walls and balls on it, times the mill's speed. Drive: "
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
                      "both together; the balls do not feel the slurry, and keep what they give to it.")
@@ -63,7 +62,9 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
         filled = power_models.pores_filled(held, pores)
         kinds.append((f", pores filled to {100 * filled:.0f} %", found["drive"], power_models.bulk_density(
             mill.ball_density, solidity, mill.slurry("density_kg_m3"), filled)))
-    size = 2 * case.radius, case.length, mill.critical_share, mill.load
+    mass, diameter = mill.derived("charge", "mass_kg"), 2 * case.radius
+    filling = power_models.filling_of(mass, mill.ball_density, solidity, diameter, case.length)
+    size = diameter, case.length, mill.critical_share, filling
     rows = []
     for words, simulated, density in kinds:
         rows += [(f"Hogg & Fuerstenau, {power_models.REPOSE:g}°{words}",
@@ -73,13 +74,14 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
     if not kinds:
         return page.paragraph("The power is not compared with models: the balls feel the slurry, and the flow was "
                               "averaged over fewer than three turns.")
-    rows.append(("Bond", *against(lambda: power_models.bond(size[0], *size[2:], mill.derived("charge", "mass_kg")),
+    rows.append(("Bond", *against(lambda: power_models.bond(diameter, *size[2:], mass),
                                   kinds[-1][1])))
     return page.table(["", "power by the model", "simulated over it"], rows, title="Power among the models",
                       note="The models were fitted to mills of metres with steel balls and their lifters. For a "
                            "laboratory mill they give the order of size. Morrell's is without the losses that he adds "
                            "(26 %); Bond's is at the pinion of a wet mill. Filled pores: the slurry in the mill over "
-                           "the pores of the resting charge, at most 100 %.")
+                           "the pores of the resting charge (by charge.packing), at most 100 %. The filling is the "
+                           "charge's bulk over the volume of the shell, without regard to lifters.")
 
 
 def against(model: Callable[[], float], simulated: Mean) -> tuple[str, str]:

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Power of a tumbling mill: what its walls give to balls and slurry, and what the drive gives."""
+import numpy as np
+
+from ..files.mill_case import MillCase
+from .batches import mean_over_turns, turn_means, whole_turns
+from .means import Mean, turns_mean
+
+TURNS = 3  # of the averaged flow, at least: the error of fewer turns is not known
+UNKNOWN = Mean(np.nan, np.nan)
+
+
+def feels_slurry(case: MillCase) -> bool:
+    """Whether the balls of a MillCase felt a flow, and not only a pool's buoyancy."""
+    return fluid_kind(case) in ("slurry", "flow")
+
+
+def moved_with_flow(case: MillCase) -> bool:
+    """Whether the balls of a MillCase moved at the same time as its flow."""
+    return case.flow is not None and fluid_kind(case) == "flow"
+
+
+def fluid_kind(case: MillCase) -> str | None:
+    """What the balls of a MillCase felt, as in results.json: pool, slurry or flow; None of a dry run."""
+    return ((case.results or {}).get("fluid") or {}).get("kind")
+
+
+def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
+    """Columns of slurryBalance; None without it, or if fewer turns than TURNS are averaged."""
+    columns = case.balance
+    return columns if columns and whole_turns(columns["Time"][-1] - case.begin, case.turn) >= TURNS else None
+
+
+def during_flow(case: MillCase, table: dict[str, np.ndarray] | None) -> tuple[np.ndarray, np.ndarray] | None:
+    """Flow times (s) and power (W) [n] of a table of balls that moved at the same time as the flow, up to the flow's
+    end; None for other balls, or without the table."""
+    if table is None or case.flow is None or not moved_with_flow(case):
+        return None
+    times = table["time_s"] - case.flow.time0
+    within = times <= case.last * (1 + 1e-9)
+    return times[within], table["power_W"][within]
+
+
+def charge_power(case: MillCase) -> Mean:
+    """Power that the walls give to the balls, W. Of balls that moved at the same time as the flow it is that of the
+    flow's last whole averaged turns, if there are two or more; otherwise results.json's, from power_from_s on."""
+    series = during_flow(case, case.energy)
+    found = mean_over_turns(*series, case.begin, case.turn) if series else None
+    return found or Mean(case.result("power_W"), case.result("power_error_W"))
+
+
+def slurry_power(case: MillCase) -> Mean:
+    """Torque that walls and balls give to the slurry, times the mill's speed, W; NaN for fewer turns than TURNS."""
+    columns = known_balance(case)
+    found = columns and mean_over_turns(columns["Time"], columns["power"], case.begin, case.turn)
+    return found or UNKNOWN
+
+
+def given_power(case: MillCase) -> Mean:
+    """Power that walls and balls give to the slurry, W: by the walls, torque on each that turns times the mill's speed;
+    by balls that moved at the same time as the flow, their force times their velocity. NaN for other balls, and for
+    fewer turns than TURNS."""
+    columns, series = known_balance(case), during_flow(case, case.fluid_on_balls)
+    if columns is None or series is None:
+        return UNKNOWN
+    return sum_over_turns(turn_means(columns["Time"], by_walls(columns), case.begin, case.turn),
+                          -turn_means(*series, case.begin, case.turn))
+
+
+def drive_power(case: MillCase) -> Mean:
+    """Power that the drive gives to balls and slurry together, W; NaN for fewer turns than TURNS.
+
+    Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
+    that of the walls on the slurry. If they moved at the same time as the flow, both are of the same turns, and the
+    error is that of their sums. Balls that do not feel the slurry give it power of their own, which is added."""
+    columns = known_balance(case)
+    if columns is None:
+        return UNKNOWN
+    given = by_walls(columns) if feels_slurry(case) else columns["power"]
+    to_slurry = turn_means(columns["Time"], given, case.begin, case.turn)
+    series = during_flow(case, case.energy)
+    if series:
+        return sum_over_turns(to_slurry, turn_means(*series, case.begin, case.turn))
+    return charge_power(case) + turns_mean(to_slurry)
+
+
+def by_walls(columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Power (W) [n] that all walls give to the slurry, of the columns of slurryBalance."""
+    return np.sum([values for name, values in columns.items() if name.startswith("power_")], axis=0)
+
+
+def sum_over_turns(first: np.ndarray, second: np.ndarray) -> Mean:
+    """Mean of the sums of two readings (W) of successive turns [n], which end at the same time; NaN if both have fewer
+    turns than TURNS in common."""
+    count = min(len(first), len(second))
+    return turns_mean(first[-count:] + second[-count:]) if count >= TURNS else UNKNOWN

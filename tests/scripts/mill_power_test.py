@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Power of charge, slurry and drive: which time it is of, and its error, for balls that feel the slurry and that do
+not."""
+import unittest
+from types import SimpleNamespace
+
+import numpy as np
+
+from millfoam.files.mill_case import MillCase
+from millfoam.readings import mill_power
+
+TURN, BEGIN, LAST, TIME0 = 1.0, 2.0, 5.0, 3.0
+# Of the last three turns; what the walls give to the slurry is less where they give more to the balls
+BALLS, WALLS, BACK = np.array([2.0, 2.2, 2.1]), np.array([0.5, 0.31, 0.4]), np.array([0.3, 0.2, 0.4])
+
+
+def series(of_turns, before, step):
+    """Times (s) of five turns and values: `before` in the first two, then one for each turn."""
+    times = np.arange(1, round(LAST / step) + 1) * step
+    turn = np.clip(np.ceil(times - 1e-9) - 3, 0, 2).astype(int)
+    return times, np.where(times <= BEGIN + 1e-9, before, of_turns[turn])
+
+
+def case(kind):
+    """What the powers read of a case of five turns whose first two are averaged by nothing; kind: of the fluid on the
+    balls, None for dry ones."""
+    times, balls = series(BALLS, 9.0, 0.01)
+    flow_times, walls = series(WALLS, 9.0, 0.004)
+    back = series(BACK, 9.0, 0.01)[1]
+    found = SimpleNamespace(
+        results={"fluid": {"kind": kind} if kind else None}, result={"power_W": 3.0, "power_error_W": 0.04}.get,
+        flow=SimpleNamespace(time0=TIME0), begin=BEGIN, last=LAST, turn=TURN,
+        energy={"time_s": TIME0 + times, "power_W": balls},
+        fluid_on_balls={"time_s": TIME0 + times, "power_W": -back} if kind else None,
+        balance={"Time": flow_times, "power": 0 * walls + 1.5, "power_shell": 0.25 * walls,
+                 "power_lifters": 0.75 * walls})
+    assert all(hasattr(MillCase, name) for name in vars(found))
+    return found
+
+
+class Powers(unittest.TestCase):
+    def test_of_balls_that_move_with_the_flow_are_those_of_the_averaged_turns(self):
+        direct = case("flow")
+        self.assertAlmostEqual(mill_power.charge_power(direct).value, BALLS.mean(), places=9)
+        drive = mill_power.drive_power(direct)
+        self.assertAlmostEqual(drive.value, (BALLS + WALLS).mean(), places=9)
+        # Of the sums of each turn, which differ less than their parts
+        self.assertAlmostEqual(drive.error, (BALLS + WALLS).std(ddof=1) / np.sqrt(3), places=9)
+        self.assertLess(drive.error, 0.1 * mill_power.charge_power(direct).error)
+        self.assertEqual(drive.freedom, 2)
+        self.assertAlmostEqual(mill_power.given_power(direct).value, (WALLS + BACK).mean(), places=9)
+
+    def test_of_balls_that_felt_an_earlier_flow_are_of_their_own_run(self):
+        passed = case("slurry")
+        self.assertEqual(mill_power.charge_power(passed).value, 3.0)
+        drive = mill_power.drive_power(passed)
+        self.assertAlmostEqual(drive.value, 3.0 + WALLS.mean(), places=9)
+        self.assertAlmostEqual(drive.error, np.hypot(0.04, WALLS.std(ddof=1) / np.sqrt(3)), places=9)
+        self.assertTrue(np.isnan(mill_power.given_power(passed).value))
+
+    def test_of_dry_balls_are_added_to_what_they_and_the_walls_give(self):
+        dry = case(None)
+        self.assertAlmostEqual(mill_power.drive_power(dry).value, 4.5, places=9)
+        self.assertAlmostEqual(mill_power.drive_power(dry).error, 0.04, places=9)
+        self.assertAlmostEqual(mill_power.slurry_power(dry).value, 1.5, places=9)
+
+    def test_of_fewer_turns_than_three_are_not_known(self):
+        for kind in ("flow", "slurry", None):
+            short = case(kind)
+            short.begin = 2.5
+            for power in (mill_power.slurry_power, mill_power.drive_power, mill_power.given_power):
+                self.assertTrue(np.isnan(power(short).value), (kind, power))
+        self.assertAlmostEqual(mill_power.charge_power(case("flow")).value, BALLS.mean(), places=9)
+
+    def test_of_a_flow_shorter_than_two_averaged_turns_the_charges_is_that_of_the_results(self):
+        short = case("flow")
+        short.begin = 4.0
+        self.assertEqual(mill_power.charge_power(short).value, 3.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
