@@ -43,8 +43,8 @@ RUN = re.compile(rf"({'|'.join(WAYS)})_(\d+\.?\d*)")  # name of a run's folder
 class Run:
     """A complete run: way, a key of WAYS; fill: volume of slurry over that of the pores; its numbers; its map of the
     slurry; pooled: share of the slurry that is in the pool clear of the charge; unsteady: what the report does not call
-    steady, in words; torque_apart: of a direct run, difference of the torques by which flow and balls see their force,
-    over the drive's on the balls, NaN if it is not known."""
+    steady, `flow` or `charge`, and whether that is undecided; torque_apart: of a direct run, difference of the torques
+    by which flow and balls see their force, over the drive's on the balls, NaN if it is not known."""
     way: str
     fill: float
     case: MillCase
@@ -97,7 +97,8 @@ def read_run(folder: Path, charge: str) -> Run:
     judged = {"flow": flow_steadiness(case), **({"charge": charge_steadiness(case)} if direct else {})}
     apart = read_json(folder / "coupling.json", "coupling").get("torque_disagreement") if direct else None
     return Run(way, fill, case, numbers, slurry, area * case.length / whole,
-               " and ".join(name for name, check in judged.items() if check.state != "holds"),
+               ", ".join(name + (" (undecided)" if check.undecided else "") for name, check in judged.items()
+                         if check.state != "holds"),
                np.nan if apart is None else apart)
 
 
