@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 import solids
-from openfoam_case import require_environment
+from openfoam_case import require_environment, rotating_mesh
 from slurry_case import BINGHAM, SOLUTION, SlurryCase, SlurryTest
 
 BLOCK = "box (-9 -9 -9) (9 9 9); solidity 0.5; velocity (0.1 0 0); diameter 0.005;"
@@ -163,6 +163,55 @@ class Controls(RefusedTest):
             case.at_patch(here, U="type cyclicAMI;", p_rgh="type cyclicAMI;", alpha="type cyclicAMI;")
         boundary.write_text(text)
         self.assert_says(case, "patch left is a cyclicAMI", "expected cyclic patches")
+
+
+class MeshSpeed(RefusedTest):
+    """The speed of the mesh, in constant/dynamicMeshDict, and of the mill, in constant/millProperties"""
+
+    STATIC = "dynamicFvMesh staticFvMesh;"
+
+    def mill(self, motion, omega=-6.4):
+        case = self.small(motion=motion)
+        case.write("constant/millProperties", f"omega {omega};")
+        return case
+
+    def assert_speed_refused(self, case, *words):
+        result = self.assert_says(case, "millProperties", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_the_speed_of_the_mill_is_accepted(self):
+        self.assert_runs(self.mill(rotating_mesh(-6.4)), "slurryFoam")
+        self.assert_runs(self.mill(self.STATIC, 0), "slurryFoam")
+
+    def test_another_speed(self):
+        for omega in (6.4, -6.1, "constant -6.1"):
+            with self.subTest(omega=omega):
+                self.assert_speed_refused(self.mill(rotating_mesh(omega)), "omega is -6.4 rad/s", "dynamicMeshDict",
+                                          "turns the mesh with", "6.", "omega $omega;")
+
+    def test_another_axis(self):
+        case = self.mill(rotating_mesh(-6.4).replace("axis (0 0 1)", "axis (0 0 -1)"))
+        self.assert_speed_refused(case, "omega is -6.4 rad/s", "turns the mesh with 6.4 rad/s")
+
+    def test_walls_of_a_mesh_at_rest(self):
+        for motion in (self.STATIC, rotating_mesh(0), self.STATIC + rotating_mesh(-6.4).split(";", 1)[1]):
+            with self.subTest(motion=motion):
+                self.assert_speed_refused(self.mill(motion), "omega is -6.4 rad/s", "mesh does not turn", "left right",
+                                          "movingWallVelocity", "rotatingWallVelocity")
+
+    def test_a_mill_without_dynamicMeshDict(self):
+        case = self.mill(self.STATIC)
+        (case.path / "constant/dynamicMeshDict").unlink()
+        self.assert_speed_refused(case, "mesh does not turn", "movingWallVelocity")
+
+    def test_walls_with_a_velocity_of_their_own_are_accepted(self):
+        case = self.mill(self.STATIC)
+        for patch in ("left", "right", "bottom", "top", "back", "front"):
+            case.at_patch(patch, U="type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega -6.4;")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_a_speed_that_is_a_function_of_time_is_accepted(self):
+        self.assert_runs(self.mill(rotating_mesh("table ((0 0) (1 -6.4))")), "slurryFoam")
 
 
 class Record(RefusedTest):

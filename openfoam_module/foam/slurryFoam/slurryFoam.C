@@ -18,6 +18,7 @@ Description
 #include "flowControls.H"
 #include "flowRecorder.H"
 #include "functionObjectList.H"
+#include "meshSpeed.H"
 #include "readableLog.H"
 #include "slurryFlow.H"
 #include "timeStep.H"
@@ -87,6 +88,7 @@ int main(int argc, char* argv[])
     pimpleControl pimple(mesh);
     millfoam::record::StageClock clock;
     slurryFlow flow(mesh, clock);
+    checkMeshSpeed(mesh.lookupObject<volVectorField>("U"));
     timeStep step(runTime);
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
