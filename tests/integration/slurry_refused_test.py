@@ -283,6 +283,24 @@ class Record(RefusedTest):
 
 
 class Slurry(RefusedTest):
+    def with_share(self, value):
+        """A case with this share of slurry in its cell 5."""
+        case = self.small()
+        share = case.path / "0/alpha.slurry"
+        share.write_text(share.read_text().replace("(1 1 1 1 1 1 ", f"(1 1 1 1 1 {value} "))
+        self.assertIn(f" {value} ", share.read_text())
+        return case
+
+    def test_a_share_at_the_start_that_is_none(self):
+        for value in (1.5, -0.5, 1.01, -0.01):
+            with self.subTest(value=value):
+                self.assert_says(self.with_share(value), "0/alpha.slurry",
+                                 f"alpha.slurry is {value} in cell 5 at (0.015 0.015 0.005) m; expected 0 to 1")
+
+    def test_a_share_that_is_0_or_1_to_round_off_is_accepted(self):
+        for value in (1.0001, -0.0001):
+            self.assert_runs(self.with_share(value), "slurryFoam")
+
     def assert_bingham_refused(self, pattern, new, *words):
         self.assert_says(self.small(bingham=re.sub(pattern, new, BINGHAM)), "transportProperties", *words)
 
