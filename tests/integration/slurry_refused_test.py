@@ -143,6 +143,43 @@ class Controls(RefusedTest):
             with self.subTest(name=name):
                 self.assert_control_refused(name, misspelt, f"'{misspelt}'", f"'{name}'")
 
+    def test_steps_and_intervals_that_are_not_above_0(self):
+        # With adjustTimeStep, and OpenFOAM's divisions by them
+        for name in ("deltaT", "writeInterval"):
+            for value in ("0", "-1"):
+                with self.subTest(name=name, value=value):
+                    self.assert_control_refused(rf"\b{name} [^;]+;", f"{name} {value};", f"{name} is {value}",
+                                                "a number above 0")
+
+    def test_an_end_before_the_start(self):
+        self.assert_control_refused("endTime 0.002;", "endTime -1;", "endTime is -1 s", "the flow has reached 0 s")
+
+    def test_an_end_before_what_the_flow_has_reached(self):
+        case = self.small()
+        shutil.copytree(case.path / "0", case.path / "0.15")
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text().replace("startFrom startTime", "startFrom latestTime").replace(
+            "endTime 0.002", "endTime 0.1"))
+        self.assert_says(case, "controlDict", "endTime is 0.1 s", "the flow has reached 0.15 s")
+        self.assertEqual(list(case.path.glob("postProcessing/flow/[0-9]*")), [])
+
+    def test_a_file_of_the_mesh_that_is_missing(self):
+        for name in ("points", "faces", "owner", "neighbour", "boundary"):
+            with self.subTest(name=name):
+                case = self.small()
+                (case.path / "constant/polyMesh" / name).unlink()
+                self.assert_says(case, f'constant/polyMesh/{name}": no such file', "millMesh")
+
+    def test_one_rank_in_a_case_that_several_have_computed(self):
+        case = self.small()
+        for name in ("processor0/0", "processor0/0.002"):
+            shutil.copytree(case.path / "0", case.path / name)
+        result = self.assert_says(case, "on several ranks", "0.002 s", "no time later than 0 s", "-parallel",
+                                  "reconstructPar")
+        self.assertNotIn("Time = ", result.log)
+        shutil.copytree(case.path / "0", case.path / "0.002")
+        self.assert_runs(case, "slurryFoam")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")

@@ -17,6 +17,7 @@ Description
 #include "caseKeeper.H"
 #include "flowControls.H"
 #include "flowRecorder.H"
+#include "flowTimes.H"
 #include "functionObjectList.H"
 #include "meshSpeed.H"
 #include "readableLog.H"
@@ -79,9 +80,12 @@ int main(int argc, char* argv[])
 
 #include "addCheckCaseOptions.H"
 #include "setRootCaseLists.H"
+    checkIntervals(args.globalPath());
 #include "createTime.H"
     readableLog();
     const caseKeeper keeper(runTime, help.name);
+    checkFlowTimes(runTime);
+    checkMeshFiles(runTime);
 #include "createDynamicFvMesh.H"
 
     checkFlowControls(mesh);
