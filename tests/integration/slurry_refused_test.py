@@ -180,6 +180,27 @@ class Controls(RefusedTest):
         shutil.copytree(case.path / "0", case.path / "0.002")
         self.assert_runs(case, "slurryFoam")
 
+    def assert_object_refused(self, entries, *words, name="balance"):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + f'functions {{ {name} {{ libs ("libmillFoam.so"); {entries} }} }}')
+        result = self.assert_says(case, "controlDict", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_a_misspelt_type_of_a_function_object(self):
+        for entries in ("type slurryBallance; speed 1;", "type slurryBallance; speed 1; enabled yes;"):
+            self.assert_object_refused(entries, "type is slurryBallance", "function object balance")
+
+    def test_a_misspelt_library_of_a_function_object(self):
+        self.assert_object_refused('type scalarTransport; libs ("libsolverFunctionObject.so");',
+                                   "type is scalarTransport", "libs")
+
+    def test_a_function_object_that_is_not_enabled_is_accepted(self):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + "functions { balance { type slurryBallance; enabled no; } }")
+        self.assert_runs(case, "slurryFoam")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
