@@ -243,6 +243,8 @@ class FedMill(unittest.TestCase):
                 (r"begin 0.004;", "beginn 0.004;", "beginn"),
                 (r"type slurryBalance;", "type slurryBalance; phase mud;", "alpha.mud"),
                 (r"type slurryBalance;", "type slurryBalance; walls (shel);", "shel"),
+                (r"type slurryBalance;", "type slurryBalance; walls (shell lifter);", "walls has lifter"),
+                (r"start 0.008;", "start 0.02;", "start is 0.02 s"),
                 (r"shape \(30 30 13\)", "shape (20 30 13)", "another grid")):
             with self.subTest(new):
                 self.assertIn(words, self.refused(pattern, new))

@@ -201,6 +201,11 @@ class Controls(RefusedTest):
         control.write_text(control.read_text() + "functions { balance { type slurryBallance; enabled no; } }")
         self.assert_runs(case, "slurryFoam")
 
+    def test_a_misspelt_wall_of_the_balance(self):
+        for names in ("(left rihgt)", '(left "rihg.*")'):
+            self.assert_object_refused(f"type slurryBalance; speed 1; walls {names};", "walls has", "rihg",
+                                       "no patch has such a name", "right")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
