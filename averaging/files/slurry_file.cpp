@@ -228,9 +228,11 @@ class Assembly {
     if (segment.begin >= header_.start - gap * header_.window) mean_.add(segment);
   }
 
-  void finish() {
+  /// Returns whether there is a mean over the run.
+  bool finish() {
     if (filled_) close_window();
     if (mean_.samples > 0) rows_.write_mean(mean_, header_.time0);
+    return mean_.samples > 0;
   }
 
  private:
@@ -349,17 +351,18 @@ SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& gri
   });
 }
 
-void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
+bool assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
                      const std::vector<std::filesystem::path>& segments) {
   if (segments.empty()) throw SlurryFileError(path.string() + ": nothing was averaged");
   const std::filesystem::path part = path.string() + ".part";
   std::vector<double> begins;
   std::vector<XdmfField> shown;
+  bool has_mean = false;
   hdf5::naming_file<SlurryFileError>(part, [&] {
     Rows rows(part, grid, header);
     Assembly assembly(rows, grid, header);
     for (const std::filesystem::path& segment : segments) assembly.take(segment);
-    assembly.finish();
+    has_mean = assembly.finish();
     begins = rows.begins();
     for (const Field& field : rows.shown()) {
       shown.push_back({std::filesystem::path(field.name).filename(), field.name, field.vector});
@@ -372,6 +375,21 @@ void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, con
     write_xdmf(path, "slurry", grid, begins, shown);
   } catch (const SolidsFileError& error) {
     throw SlurryFileError(error.what());
+  }
+  return has_mean;
+}
+
+std::optional<double> slurry_begin(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
+  try {
+    const hdf5::Handle file = hdf5::open_file(path);
+    if (hdf5::read_int_attribute(file.get(), "complete", 1)[0] != 1) return std::nullopt;
+    const hdf5::Handle windows = hdf5::open_group(file.get(), "window");
+    const std::vector<double> begins = hdf5::read_all(windows.get(), "begin");
+    if (begins.empty()) return std::nullopt;
+    return begins.front() - hdf5::read_double_attribute(file.get(), "time0", 1)[0];
+  } catch (const hdf5::Error&) {
+    return std::nullopt;
   }
 }
 

@@ -100,8 +100,12 @@ struct SlurryHeader {
 /// from `start` on. Writes slurry.h5 and, in the same folder, slurry.xdmf; memory does not grow with the
 /// number of windows. Windows that the segments do not fill, also between their ends, are marked. Throws
 /// SlurryFileError, also when there is no segment, when one lies in two windows or begins before the one
-/// before it ends.
-void assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
+/// before it ends. Returns whether there is a mean over the run: false where no segment lies after `start`.
+bool assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
                      const std::vector<std::filesystem::path>& segments);
+
+/// Flow time at which the first window of a slurry.h5 begins, s. None where the file does not exist, is not
+/// complete, or cannot be read.
+std::optional<double> slurry_begin(const std::filesystem::path& path);
 
 }  // namespace millfoam::averaging

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -87,17 +88,26 @@ Json drag_of(const FlowSetup& setup) {
           {"reynolds_range", {number(drag.reynolds_min), number(drag.reynolds_max)}}};
 }
 
-/// Removes what runs left that began after a time: a file of theirs, and their folder where it is empty then.
-void remove_later(const fs::path& folder, double begin) {
-  if (!fs::is_directory(folder)) return;
+/// The records of a case by the time at which their runs began, s.
+std::map<double, fs::path> records_of(const fs::path& folder) {
+  std::map<double, fs::path> result;
+  if (!fs::is_directory(folder)) return result;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     char* end = nullptr;
     const double start = std::strtod(name.c_str(), &end);
-    if (end == name.c_str() || *end != '\0' || start <= begin) continue;
-    fs::remove(entry.path() / table_name);
-    fs::remove(entry.path() / summary_name);
-    if (fs::is_empty(entry.path())) fs::remove(entry.path());
+    if (end != name.c_str() && *end == '\0') result[start] = entry.path();
+  }
+  return result;
+}
+
+/// Removes what runs left that began after a time: a file of theirs, and their folder where it is empty then.
+void remove_later(const fs::path& folder, double begin) {
+  for (const auto& [start, path] : records_of(folder)) {
+    if (start <= begin) continue;
+    fs::remove(path / table_name);
+    fs::remove(path / summary_name);
+    if (fs::is_empty(path)) fs::remove(path);
   }
 }
 
@@ -109,6 +119,16 @@ fs::path prepared_folder(const fs::path& case_folder, const std::string& start, 
 }
 
 }  // namespace
+
+bool is_complete(const fs::path& case_folder, double time) {
+  const std::map<double, fs::path> found = records_of(case_folder / "postProcessing" / "flow");
+  if (found.empty()) return false;
+  std::ifstream in(found.rbegin()->second / summary_name);
+  const Json last = Json::parse(in, nullptr, false);
+  if (!last.is_object() || last.value("complete", Json()) != true || !last.value("end_s", Json()).is_number())
+    return false;
+  return std::abs(last["end_s"].get<double>() - time) <= 1e-6 * std::max(1.0, std::abs(time));
+}
 
 void FlowRecord::Course::add(const std::optional<double>& value, double duration) {
   if (!value) return;

@@ -73,6 +73,12 @@ struct FlowSetup {
   std::optional<Drag> drag;          ///< none: a flow without balls
 };
 
+/// Whether the last run that a case's record has came to its end at a flow time. False without a record, or
+/// with one that cannot be read.
+/// @param case_folder  of the OpenFOAM case
+/// @param time  s; compared to a millionth, because names of times are rounded
+bool is_complete(const std::filesystem::path& case_folder, double time);
+
 /// Keeps the record of a running flow.
 class FlowRecord {
  public:

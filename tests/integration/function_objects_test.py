@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is measured while a flow runs, on the fed mill (turning, with outlets) and in a bed: it adds up, it is the same
 after a restart and on two ranks, and what cannot be is refused."""
+import math
 import re
 import shutil
 import tempfile
@@ -243,6 +244,8 @@ class FedMill(unittest.TestCase):
                 (r"begin 0.004;", "beginn 0.004;", "beginn"),
                 (r"type slurryBalance;", "type slurryBalance; phase mud;", "alpha.mud"),
                 (r"type slurryBalance;", "type slurryBalance; walls (shel);", "shel"),
+                (r"type slurryBalance;", "type slurryBalance; walls (shell lifter);", "walls has lifter"),
+                (r"start 0.008;", "start 0.02;", "start is 0.02 s"),
                 (r"shape \(30 30 13\)", "shape (20 30 13)", "another grid")):
             with self.subTest(new):
                 self.assertIn(words, self.refused(pattern, new))
@@ -294,14 +297,75 @@ class InABox(SlurryTest):
         weight = SLURRY * columns["holdUp"] * 9.81 * columns["x"]
         self.assertGreater(np.abs(columns["torque_all"][late] / weight[late] - 1).max(), 0.01)
 
-    def voxels(self, lower, upper):
+    def voxels(self, lower, upper, entries="window 0.002;", end_time=0.004):
         """A case with voxels in a box, and its run; the pool lies below 6 cm in 14 x 10 x 2 cm."""
-        case = self.slurry_case(end_time=0.004)
+        case = self.slurry_case(end_time=end_time)
         control = case.path / "system" / "controlDict"
         control.write_text(control.read_text() + f"""
             functions {{ voxelAverages {{ type voxelAverages; libs ("libmillFoam.so"); lower ({lower}); upper ({upper});
-                shape (7 5 1); window 0.002; }} }}""")
+                shape (7 5 1); {entries} }} }}""")
         return case, case.run("slurryFoam")
+
+    def voxels_of_all(self, entries, end_time=0.04):
+        case, result = self.voxels("0 0 0", "0.14 0.1 0.02", entries, end_time)
+        self.assertEqual(result.code, 0, result.tail())
+        return case, result
+
+    def test_the_mean_over_the_run_begins_at_start_within_a_window(self):
+        means = []
+        # In one window, and with windows that end at start
+        for window in (0.04, 0.02, 0.006):
+            case, result = self.voxels_of_all(f"window {window}; start 0.012;")
+            self.assertNotIn("has no mean", result.log)
+            with h5py.File(case.path / "slurry.h5") as file:
+                self.assertAlmostEqual(file["mean"].attrs["begin"], 0.012, delta=1e-12)
+                self.assertAlmostEqual(file["mean"].attrs["end"], 0.04, delta=1e-12)
+                self.assertEqual(len(file["window/begin"]), math.ceil(0.04 / window - 1e-9))
+                np.testing.assert_allclose(file["window/begin"][:], window * np.arange(len(file["window/begin"])),
+                                           atol=1e-12)
+                means.append(file["mean/slurry"][()])
+        np.testing.assert_allclose(means[0], means[2], atol=1e-12)
+        np.testing.assert_allclose(means[1], means[2], atol=1e-12)
+        self.assertGreater(np.ptp(means[2]), 0.5)
+
+    def test_a_start_that_is_not_before_the_end_is_refused(self):
+        for start in (0.004, 1):
+            _, result = self.voxels("0 0 0", "0.14 0.1 0.02", f"window 0.002; start {start};")
+            self.assertNotEqual(result.code, 0)
+            log = " ".join(result.log.split())
+            self.assertIn(f"start is {start} s; expected a time before the flow's end, 0.004 s", log)
+            self.assertNotIn("\nTime = ", result.log)
+
+    def test_a_file_without_a_mean_is_warned_of(self):
+        # Its only segment begins before the new start
+        case, _ = self.voxels_of_all("window 0.02;", 0.01)
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text().replace("startFrom startTime", "startFrom latestTime").replace(
+            "window 0.02;", "window 0.02; start 0.006;"))
+        result = self.assert_runs(case, "slurryFoam")
+        self.assertIn('slurry.h5" has no mean over the run: no segment begins at start, 0.006 s, or later',
+                      " ".join(result.log.split()))
+        with h5py.File(case.path / "slurry.h5") as file:
+            self.assertNotIn("mean", file)
+
+    def test_averages_of_a_flow_whose_segments_are_gone_are_not_replaced_by_those_of_its_rest(self):
+        case, _ = self.voxels_of_all("window 0.002;", 0.01)
+        before = (case.path / "slurry.h5").read_bytes()
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text().replace("startFrom startTime", "startFrom latestTime").replace(
+            "endTime 0.01;", "endTime 0.02;"))
+        shutil.move(case.path / "postProcessing", case.path / "elsewhere")
+        result = case.run("slurryFoam")
+        self.assertNotEqual(result.code, 0)
+        log = " ".join(result.log.split())
+        self.assertIn('slurry.h5" begins at the flow time 0 s', log)
+        self.assertIn("begin at 0.01 s: the averages before would be lost", log)
+        self.assertEqual((case.path / "slurry.h5").read_bytes(), before)
+        shutil.rmtree(case.path / "postProcessing")
+        shutil.move(case.path / "elsewhere", case.path / "postProcessing")
+        self.assert_runs(case, "slurryFoam")
+        with h5py.File(case.path / "slurry.h5") as file:
+            self.assertEqual(len(file["window/begin"]), 10)
 
     def test_voxels_that_cover_the_mesh_are_not_warned_of(self):
         _, result = self.voxels("0 0 0", "0.14 0.1 0.02")

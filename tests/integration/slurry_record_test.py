@@ -187,6 +187,38 @@ class Summary(SlurryTest):
         self.assertLess(abs(record["volume_correction"]["largest"]), 1e-9)
 
 
+class AtItsEnd(SlurryTest):
+    """A flow that has reached endTime, and slurryFoam again."""
+
+    def ended(self):
+        case = self.slurry_case(end_time=0.01)
+        case.write("constant/millProperties", "omega 0;")
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text().replace("startFrom startTime", "startFrom latestTime") + BALANCE)
+        self.assert_runs(case, "slurryFoam")
+        return case
+
+    @staticmethod
+    def results(case):
+        return {path: path.read_bytes() for path in sorted(case.path.glob("postProcessing/**/*"))
+                if path.is_file() and path.name != ".lock"}
+
+    def test_nothing_is_added_to_a_complete_flow(self):
+        case = self.ended()
+        folders, before = sorted(case.path.glob("postProcessing/**")), self.results(case)
+        self.assertIn("nothing is left to compute", self.assert_runs(case, "slurryFoam").log)
+        self.assertEqual(sorted(case.path.glob("postProcessing/**")), folders)
+        self.assertEqual(self.results(case), before)
+
+    def test_a_flow_that_was_killed_at_its_end_becomes_complete(self):
+        case = self.ended()
+        record = case.path / "postProcessing/flow/0/flow.json"
+        record.write_text(record.read_text().replace('"complete": true', '"complete": false'))
+        self.assert_runs(case, "slurryFoam")
+        self.assertTrue(case.record("0.01")["complete"])
+        self.assertEqual(case.record("0.01")["steps"], 0)
+
+
 class OneAtATime(SlurryTest):
     """A flow that runs until it is killed."""
 

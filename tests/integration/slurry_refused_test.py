@@ -10,7 +10,7 @@ import h5py
 import numpy as np
 
 import solids
-from openfoam_case import require_environment
+from openfoam_case import require_environment, rotating_mesh
 from slurry_case import BINGHAM, SOLUTION, SlurryCase, SlurryTest
 
 BLOCK = "box (-9 -9 -9) (9 9 9); solidity 0.5; velocity (0.1 0 0); diameter 0.005;"
@@ -143,6 +143,69 @@ class Controls(RefusedTest):
             with self.subTest(name=name):
                 self.assert_control_refused(name, misspelt, f"'{misspelt}'", f"'{name}'")
 
+    def test_steps_and_intervals_that_are_not_above_0(self):
+        # With adjustTimeStep, and OpenFOAM's divisions by them
+        for name in ("deltaT", "writeInterval"):
+            for value in ("0", "-1"):
+                with self.subTest(name=name, value=value):
+                    self.assert_control_refused(rf"\b{name} [^;]+;", f"{name} {value};", f"{name} is {value}",
+                                                "a number above 0")
+
+    def test_an_end_before_the_start(self):
+        self.assert_control_refused("endTime 0.002;", "endTime -1;", "endTime is -1 s", "the flow has reached 0 s")
+
+    def test_an_end_before_what_the_flow_has_reached(self):
+        case = self.small()
+        shutil.copytree(case.path / "0", case.path / "0.15")
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text().replace("startFrom startTime", "startFrom latestTime").replace(
+            "endTime 0.002", "endTime 0.1"))
+        self.assert_says(case, "controlDict", "endTime is 0.1 s", "the flow has reached 0.15 s")
+        self.assertEqual(list(case.path.glob("postProcessing/flow/[0-9]*")), [])
+
+    def test_a_file_of_the_mesh_that_is_missing(self):
+        for name in ("points", "faces", "owner", "neighbour", "boundary"):
+            with self.subTest(name=name):
+                case = self.small()
+                (case.path / "constant/polyMesh" / name).unlink()
+                self.assert_says(case, f'constant/polyMesh/{name}": no such file', "millMesh")
+
+    def test_one_rank_in_a_case_that_several_have_computed(self):
+        case = self.small()
+        for name in ("processor0/0", "processor0/0.002"):
+            shutil.copytree(case.path / "0", case.path / name)
+        result = self.assert_says(case, "on several ranks", "0.002 s", "no time later than 0 s", "-parallel",
+                                  "reconstructPar")
+        self.assertNotIn("Time = ", result.log)
+        shutil.copytree(case.path / "0", case.path / "0.002")
+        self.assert_runs(case, "slurryFoam")
+
+    def assert_object_refused(self, entries, *words, name="balance"):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + f'functions {{ {name} {{ libs ("libmillFoam.so"); {entries} }} }}')
+        result = self.assert_says(case, "controlDict", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_a_misspelt_type_of_a_function_object(self):
+        for entries in ("type slurryBallance; speed 1;", "type slurryBallance; speed 1; enabled yes;"):
+            self.assert_object_refused(entries, "type is slurryBallance", "function object balance")
+
+    def test_a_misspelt_library_of_a_function_object(self):
+        self.assert_object_refused('type scalarTransport; libs ("libsolverFunctionObject.so");',
+                                   "type is scalarTransport", "libs")
+
+    def test_a_function_object_that_is_not_enabled_is_accepted(self):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + "functions { balance { type slurryBallance; enabled no; } }")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_a_misspelt_wall_of_the_balance(self):
+        for names in ("(left rihgt)", '(left "rihg.*")'):
+            self.assert_object_refused(f"type slurryBalance; speed 1; walls {names};", "walls has", "rihg",
+                                       "no patch has such a name", "right")
+
     def test_turbulence_between_balls(self):
         case = self.small()
         case.write("constant/turbulenceProperties", "simulationType RAS; RAS { RASModel kEpsilon; turbulence on; }")
@@ -163,6 +226,55 @@ class Controls(RefusedTest):
             case.at_patch(here, U="type cyclicAMI;", p_rgh="type cyclicAMI;", alpha="type cyclicAMI;")
         boundary.write_text(text)
         self.assert_says(case, "patch left is a cyclicAMI", "expected cyclic patches")
+
+
+class MeshSpeed(RefusedTest):
+    """The speed of the mesh, in constant/dynamicMeshDict, and of the mill, in constant/millProperties"""
+
+    STATIC = "dynamicFvMesh staticFvMesh;"
+
+    def mill(self, motion, omega=-6.4):
+        case = self.small(motion=motion)
+        case.write("constant/millProperties", f"omega {omega};")
+        return case
+
+    def assert_speed_refused(self, case, *words):
+        result = self.assert_says(case, "millProperties", *words)
+        self.assertNotIn("Time = ", result.log)
+
+    def test_the_speed_of_the_mill_is_accepted(self):
+        self.assert_runs(self.mill(rotating_mesh(-6.4)), "slurryFoam")
+        self.assert_runs(self.mill(self.STATIC, 0), "slurryFoam")
+
+    def test_another_speed(self):
+        for omega in (6.4, -6.1, "constant -6.1"):
+            with self.subTest(omega=omega):
+                self.assert_speed_refused(self.mill(rotating_mesh(omega)), "omega is -6.4 rad/s", "dynamicMeshDict",
+                                          "turns the mesh with", "6.", "omega $omega;")
+
+    def test_another_axis(self):
+        case = self.mill(rotating_mesh(-6.4).replace("axis (0 0 1)", "axis (0 0 -1)"))
+        self.assert_speed_refused(case, "omega is -6.4 rad/s", "turns the mesh with 6.4 rad/s")
+
+    def test_walls_of_a_mesh_at_rest(self):
+        for motion in (self.STATIC, rotating_mesh(0), self.STATIC + rotating_mesh(-6.4).split(";", 1)[1]):
+            with self.subTest(motion=motion):
+                self.assert_speed_refused(self.mill(motion), "omega is -6.4 rad/s", "mesh does not turn", "left right",
+                                          "movingWallVelocity", "rotatingWallVelocity")
+
+    def test_a_mill_without_dynamicMeshDict(self):
+        case = self.mill(self.STATIC)
+        (case.path / "constant/dynamicMeshDict").unlink()
+        self.assert_speed_refused(case, "mesh does not turn", "movingWallVelocity")
+
+    def test_walls_with_a_velocity_of_their_own_are_accepted(self):
+        case = self.mill(self.STATIC)
+        for patch in ("left", "right", "bottom", "top", "back", "front"):
+            case.at_patch(patch, U="type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega -6.4;")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_a_speed_that_is_a_function_of_time_is_accepted(self):
+        self.assert_runs(self.mill(rotating_mesh("table ((0 0) (1 -6.4))")), "slurryFoam")
 
 
 class Record(RefusedTest):
@@ -234,6 +346,24 @@ class Record(RefusedTest):
 
 
 class Slurry(RefusedTest):
+    def with_share(self, value):
+        """A case with this share of slurry in its cell 5."""
+        case = self.small()
+        share = case.path / "0/alpha.slurry"
+        share.write_text(share.read_text().replace("(1 1 1 1 1 1 ", f"(1 1 1 1 1 {value} "))
+        self.assertIn(f" {value} ", share.read_text())
+        return case
+
+    def test_a_share_at_the_start_that_is_none(self):
+        for value in (1.5, -0.5, 1.01, -0.01):
+            with self.subTest(value=value):
+                self.assert_says(self.with_share(value), "0/alpha.slurry",
+                                 f"alpha.slurry is {value} in cell 5 at (0.015 0.015 0.005) m; expected 0 to 1")
+
+    def test_a_share_that_is_0_or_1_to_round_off_is_accepted(self):
+        for value in (1.0001, -0.0001):
+            self.assert_runs(self.with_share(value), "slurryFoam")
+
     def assert_bingham_refused(self, pattern, new, *words):
         self.assert_says(self.small(bingham=re.sub(pattern, new, BINGHAM)), "transportProperties", *words)
 

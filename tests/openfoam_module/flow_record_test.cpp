@@ -212,6 +212,20 @@ TEST_F(Flow, ThatGoesOnKeepsWhatIsBeforeItAndRemovesWhatIsComputedAgain) {
   EXPECT_FALSE(fs::exists(records / "0.25"));
 }
 
+TEST_F(Flow, IsCompleteAtTheTimeAtWhichItsLastRunEnded) {
+  EXPECT_FALSE(is_complete(folder.path, 0.2));
+  FlowRecord first(folder.path, "0", setup);
+  first.add(row(0.2, 0.2));
+  first.write(false);
+  EXPECT_FALSE(is_complete(folder.path, 0.2));
+  first.write(true);
+  EXPECT_TRUE(is_complete(folder.path, 0.2));
+  EXPECT_FALSE(is_complete(folder.path, 0.3));
+  setup.begin = 0.2;
+  FlowRecord second(folder.path, "0.2", setup);
+  EXPECT_FALSE(is_complete(folder.path, 0.2));
+}
+
 TEST_F(Flow, NamesTheFileThatCannotBeWritten) {
   fs::create_directories(records / "0" / "steps.csv");
   try {

@@ -4,30 +4,78 @@
 \*---------------------------------------------------------------------------*/
 
 #include "meshRotation.H"
+#include "Constant.H"
 #include "Function1.H"
 #include "optionalDictionary.H"
 #include "IOdictionary.H"
 #include "vector.H"
 
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace
+{
+
+//- How a mesh turns as a rigid body
+struct rotation
+{
+    //- Component along z of the unit vector of its axis
+    scalar axis;
+
+    //- Angular speed about this axis, rad/s
+    autoPtr<Function1<scalar>> omega;
+};
+
+
+//- The rotation of a dynamicMeshDict, or none where the mesh moves in another
+//  way or rests
+std::optional<rotation> rotationOf(const dictionary& dict)
+{
+    const word solver(dict.lookupOrDefault<word>(
+        "motionSolver", dict.lookupOrDefault<word>("solver", "none")));
+    const dictionary& ofSolver = dict.optionalSubDict(solver + "Coeffs");
+    // The entries of a motion have no effect on a mesh that rests
+    if (dict.lookupOrDefault<word>("dynamicFvMesh", "none") == "staticFvMesh" ||
+        solver != "solidBody" ||
+        ofSolver.lookupOrDefault<word>("solidBodyMotionFunction", "none") !=
+            "rotatingMotion")
+    {
+        return std::nullopt;
+    }
+    const dictionary& motion = ofSolver.optionalSubDict("rotatingMotionCoeffs");
+    const vector axis(motion.get<vector>("axis"));
+    return rotation{
+        axis.z() / max(mag(axis), VSMALL),
+        Function1<scalar>::New("omega", motion)};
+}
+
+
+IOdictionary motionOf(const Time& time)
+{
+    return IOdictionary(optionalDictionary("dynamicMeshDict", time, false));
+}
+
+} // End anonymous namespace
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * Global Functions  * * * * * * * * * * * * * //
 
 Foam::scalar Foam::meshRotation(const Time& time)
 {
-    const IOdictionary dict(optionalDictionary("dynamicMeshDict", time, false));
-    const word solver(dict.lookupOrDefault<word>(
-        "motionSolver", dict.lookupOrDefault<word>("solver", "none")));
-    const dictionary& ofSolver = dict.optionalSubDict(solver + "Coeffs");
-    if (solver != "solidBody" ||
-        ofSolver.lookupOrDefault<word>("solidBodyMotionFunction", "none") !=
-            "rotatingMotion")
-    {
-        return 0;
-    }
-    const dictionary& motion = ofSolver.optionalSubDict("rotatingMotionCoeffs");
-    const vector axis(motion.get<vector>("axis"));
-    const scalar omega =
-        Function1<scalar>::New("omega", motion)->value(time.value());
-    return omega * axis.z() / max(mag(axis), VSMALL);
+    const std::optional<rotation> found(rotationOf(motionOf(time)));
+    return found ? found->axis * found->omega->value(time.value()) : 0;
+}
+
+
+std::optional<Foam::scalar> Foam::constantMeshRotation(const Time& time)
+{
+    const std::optional<rotation> found(rotationOf(motionOf(time)));
+    return found && isA<Function1Types::Constant<scalar>>(found->omega())
+               ? std::optional<scalar>(
+                     found->axis * found->omega->value(time.value()))
+               : std::nullopt;
 }
 
 

@@ -93,6 +93,13 @@ readHeader(const dictionary& dict, const Time& time, const fluidOnBalls* balls)
             << "window is " << header.window
             << " s; expected a length of time above 0" << exit(FatalIOError);
     }
+    if (header.start >= time.endTime().value())
+    {
+        FatalIOErrorInFunction(dict)
+            << "start is " << scalar(header.start) << " s; expected a time"
+            << " before the flow's end, " << time.endTime().value()
+            << " s: there would be no mean over the run" << exit(FatalIOError);
+    }
     return header;
 }
 
@@ -120,9 +127,12 @@ static void stopWith(const std::optional<std::string>& reason)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::averageSegments::windowEnd(const scalar t) const
+Foam::scalar Foam::averageSegments::segmentEnd(const scalar t) const
 {
-    return header_.window * (std::floor((t + instant_) / header_.window) + 1);
+    const scalar window =
+        header_.window * (std::floor((t + instant_) / header_.window) + 1);
+    return header_.start > t + instant_ ? min(window, scalar(header_.start))
+                                        : window;
 }
 
 
@@ -161,6 +171,25 @@ void Foam::averageSegments::check() const
                     read_segment(path, grid_, withBalls()), header_.window,
                     path.string());
             }));
+    }
+}
+
+
+void Foam::averageSegments::keepEarlier() const
+{
+    const std::vector<std::filesystem::path> kept(files());
+    const scalar begin =
+        kept.empty() ? time_.value() : timesOf(kept.front().string())[0];
+    const std::optional<double> found = slurry_begin(file_.c_str());
+    // Names of times are rounded
+    if (found && *found < begin - 1e-3 * header_.window)
+    {
+        FatalErrorInFunction
+            << file_ << " begins at the flow time " << scalar(*found)
+            << " s, and the segments in " << folder_ << " from which it is made"
+            << " anew begin at " << begin << " s: the averages before would be"
+            << " lost. Expected the segments of the whole flow there; move the"
+            << " file elsewhere to do without them" << exit(FatalError);
     }
 }
 
@@ -219,6 +248,7 @@ Foam::averageSegments::averageSegments(
         mkDir(folder_);
         dropLater();
         check();
+        keepEarlier();
     }
 }
 
@@ -232,12 +262,12 @@ void Foam::averageSegments::add(
     scalar begin = from;
     while (begin < to - instant_)
     {
-        const scalar windowEnds = windowEnd(begin);
-        const scalar end = min(to, windowEnds);
+        const scalar segmentEnds = segmentEnd(begin);
+        const scalar end = min(to, segmentEnds);
         sums_.add(sample, slurry, end - begin);
-        if (windowEnds <= to + instant_)
+        if (segmentEnds <= to + instant_)
         {
-            close(windowEnds);
+            close(segmentEnds);
         }
         begin = end;
     }
@@ -268,9 +298,20 @@ void Foam::averageSegments::assemble() const
 {
     if (Pstream::master())
     {
+        bool hasMean = false;
         stopWith(untrapped(
-            [&] { assemble_slurry(file_.c_str(), grid_, header_, files()); }));
+            [&] {
+                hasMean =
+                    assemble_slurry(file_.c_str(), grid_, header_, files());
+            }));
         Info << "Slurry on voxels: " << file_ << endl;
+        if (!hasMean)
+        {
+            WarningInFunction
+                << file_ << " has no mean over the run: no segment begins at"
+                << " start, " << scalar(header_.start) << " s, or later"
+                << endl;
+        }
     }
 }
 

@@ -23,15 +23,17 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
         return patches.findPatchIDs<wallPolyPatch>().sortedToc();
     }
     const wordRes names(dict.get<wordRes>("walls"));
-    const labelList found(patches.patchSet(names, false).sortedToc());
-    if (found.empty())
+    for (const wordRe& name : names)
     {
-        FatalIOErrorInFunction(dict)
-            << "walls is " << names
-            << ": no patch has such a name; expected some of "
-            << patches.names() << exit(FatalIOError);
+        if (patches.patchSet(List<wordRe>(1, name), false).empty())
+        {
+            FatalIOErrorInFunction(dict)
+                << "walls has " << name
+                << ", and no patch has such a name; expected some of "
+                << patches.names() << exit(FatalIOError);
+        }
     }
-    return found;
+    return patches.patchSet(names, false).sortedToc();
 }
 
 

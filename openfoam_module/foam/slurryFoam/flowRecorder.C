@@ -94,6 +94,15 @@ Foam::flowRecorder::flowRecorder(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+bool Foam::flowRecorder::isComplete(const Time& time)
+{
+    const bool result =
+        Pstream::master() && millfoam::record::is_complete(
+                                 std::string(time.globalPath()), time.value());
+    return returnReduce(result, orOp<bool>());
+}
+
+
 void Foam::flowRecorder::add(
     millfoam::record::StepRow row, const courantNumbers& courant)
 {

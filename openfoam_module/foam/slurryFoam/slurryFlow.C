@@ -31,6 +31,28 @@ static dimensionedScalar surfaceTension(const dictionary& dict)
     return sigma;
 }
 
+//- How far shares of slurry at the start may lie beyond 0 and 1: ten times as
+//  far as those of any recorded flow, 1e-4
+static constexpr scalar beyond_ = 1e-3;
+
+
+//- The share of slurry at the start, checked to be one
+static volScalarField& checkedShare(volScalarField& alpha)
+{
+    forAll(alpha, celli)
+    {
+        if (!(alpha[celli] >= -beyond_ && alpha[celli] <= 1 + beyond_))
+        {
+            FatalErrorInFunction << alpha.objectPath() << ": " << alpha.name()
+                                 << " is " << alpha[celli] << " in cell "
+                                 << celli << " at " << alpha.mesh().C()[celli]
+                                 << " m; expected 0 to 1" << exit(FatalError);
+        }
+    }
+    return alpha;
+}
+
+
 //- A field of the flow that is written for a restart
 static IOobject
 fieldIO(const word& name, const fvMesh& mesh, const IOobject::readOption read)
@@ -93,7 +115,7 @@ Foam::slurryFlow::slurryFlow(
       fieldIO("phi", mesh, IOobject::READ_IF_PRESENT),
       fvc::flux(bed_.voidage() * U_)),
   mixture_(U_, phi_),
-  alpha_(mixture_.alpha1()),
+  alpha_(checkedShare(mixture_.alpha1())),
   rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
   voidage_(
       IOobject("flowVoidage", mesh.time().timeName(), mesh), bed_.voidage()),

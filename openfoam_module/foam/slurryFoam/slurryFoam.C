@@ -16,8 +16,10 @@ Description
 #include "argList.H"
 #include "caseKeeper.H"
 #include "flowControls.H"
+#include "flowFunctions.H"
 #include "flowRecorder.H"
-#include "functionObjectList.H"
+#include "flowTimes.H"
+#include "meshSpeed.H"
 #include "readableLog.H"
 #include "slurryFlow.H"
 #include "timeStep.H"
@@ -58,16 +60,6 @@ static const millfoam::record::ToolHelp help{
      "measure"}};
 
 
-//- End the function objects of a run without time-steps: a run that was killed
-//  at its end left this undone
-static void endFunctionObjects(const Time& time)
-{
-    functionObjectList objects(time);
-    objects.start();
-    objects.end();
-}
-
-
 int main(int argc, char* argv[])
 {
     if (millfoam::record::printed_help_or_version(argc, argv, help, std::cout))
@@ -78,18 +70,29 @@ int main(int argc, char* argv[])
 
 #include "addCheckCaseOptions.H"
 #include "setRootCaseLists.H"
+    checkIntervals(args.globalPath());
 #include "createTime.H"
     readableLog();
     const caseKeeper keeper(runTime, help.name);
+    checkFlowTimes(runTime);
+    checkMeshFiles(runTime);
 #include "createDynamicFvMesh.H"
 
     checkFlowControls(mesh);
     pimpleControl pimple(mesh);
     millfoam::record::StageClock clock;
     slurryFlow flow(mesh, clock);
+    checkMeshSpeed(mesh.lookupObject<volVectorField>("U"));
     timeStep step(runTime);
     millfoam::record::FlowSetup setup;
     flow.addTo(setup);
+    if (hasEnded(runTime) && flowRecorder::isComplete(runTime))
+    {
+        endFunctionObjects(runTime);
+        Info << "The flow has reached endTime: nothing is left to compute" << nl
+             << "End" << nl << endl;
+        return 0;
+    }
     flowRecorder recorder(runTime, setup);
     courantNumbers courant(flow.bounds());
 
@@ -98,6 +101,10 @@ int main(int argc, char* argv[])
 
     while (runTime.run())
     {
+        if (runTime.timeIndex() == runTime.startTimeIndex())
+        {
+            requireFunctionObjects(runTime);
+        }
         clock.begin("output");
         step.adjust(courant);
         ++runTime;

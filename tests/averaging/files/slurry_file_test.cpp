@@ -93,6 +93,24 @@ TEST_F(SlurryFile, MeanOverTheRunBeginsWhereItIsAsked) {
   expect("mean/velocity", {4., 0., 0., 0., 0., 0.});
 }
 
+TEST_F(SlurryFile, SaysWhetherThereIsAMeanOverTheRun) {
+  const std::vector<std::filesystem::path> segments{write("a.h5", stretch(0, 0.6, 0.2, 1)),
+                                                    write("b.h5", stretch(0.6, 1, 0.6, 3))};
+  EXPECT_TRUE(assemble_slurry(whole, two_voxels, {0, 1.0, 0.6}, segments));
+  expect("mean/slurry", {0.6, 0.0});
+  EXPECT_FALSE(assemble_slurry(whole, two_voxels, {0, 1.0, 0.7}, segments));
+  EXPECT_FALSE(hdf5::has(hdf5::open_file(whole).get(), "mean"));
+}
+
+TEST_F(SlurryFile, BeginsAtTheFlowTimeOfItsFirstSegment) {
+  EXPECT_EQ(slurry_begin(whole), std::nullopt);
+  assemble_slurry(whole, two_voxels, {1.5, 1.0, 0},
+                  {write("a.h5", stretch(0.25, 1, 0.2, 1)), write("b.h5", stretch(1, 2, 0.6, 3))});
+  EXPECT_EQ(slurry_begin(whole), 0.25);
+  std::filesystem::resize_file(whole, std::filesystem::file_size(whole) / 2);
+  EXPECT_EQ(slurry_begin(whole), std::nullopt);
+}
+
 TEST_F(SlurryFile, WindowsThatAreNotFilledAreMarked) {
   assemble_slurry(whole, two_voxels, {0, 1.0, 0},
                   {write("a.h5", stretch(0.25, 1, 0.2, 1)), write("b.h5", stretch(1, 1.5, 0.6, 3))});
