@@ -227,7 +227,7 @@ TEST_F(RealRun, TheResultsAreDataWithUnits) {
   EXPECT_EQ(results["smallest_diameter_m"], 0.002);
   EXPECT_EQ(results["largest_diameter_m"], 0.003);
   EXPECT_EQ(results["power_W"], result_->power_steadiness.mean);
-  EXPECT_EQ(results["power_error_W"], result_->power_steadiness.standard_error);
+  EXPECT_TRUE(results["power_error_W"].is_null()) << "30 records are too few to know it";
   EXPECT_EQ(results["steady"], result_->steady());
   EXPECT_EQ(results["ball_overlap_99_m"], result_->ball_overlaps.percentile(0.99));
   EXPECT_NEAR(results["duration_s"], 0.3, 1e-9);
