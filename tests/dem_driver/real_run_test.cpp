@@ -260,5 +260,26 @@ TEST_F(RealRun, ProgressIsALineEveryTenPercentUpToTheEnd) {
   EXPECT_NE(progress_->find("100 %"), std::string::npos);
 }
 
+TEST(HardBalls, OfAModulusThatLiggghtsRefusesByDefaultRunToTheEnd) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  auto mill = small_mill();
+  mill.charge.classes = {mill.charge.classes.back()};
+  mill.charge.classes[0].mass /= 10;
+  mill.dem.youngs_modulus = 1.1e9;
+  mill.dem.settle_time = 0.001;
+  mill.dem.duration = 0.002;
+  mill.dem.record_interval = 0.001;
+  const DemPlan plan = plan_dem(mill);
+  tests::write_drum(folder, mill.geometry);
+  prepare_folders(folder);
+  std::ofstream deck(folder.deck());
+  write_deck(deck, mill, plan, find_walls(folder, mill), 1);
+  deck.close();
+  std::ostringstream progress;
+  const tests::Variable program("MILLFOAM_LIGGGHTS", "liggghts");
+  EXPECT_EQ(run_liggghts(folder, plan, 1, {progress, false}).balls, 15);
+}
+
 }  // namespace
 }  // namespace millfoam::dem_driver
