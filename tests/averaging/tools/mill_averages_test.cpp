@@ -100,6 +100,38 @@ TEST_F(MillAverages, WallsOfTheOptionsReplaceTheMills) {
   EXPECT_EQ(request.mill_averages, "");
 }
 
+TEST_F(MillAverages, DumpsOfAMillWithOtherWallsAreRefused) {
+  const auto run_of = [&](const std::string& walls) {
+    folder_.write("dumps/run.json",
+                  R"({"timestep_s": 1e-5, "duration_s": 0.2, "mill": {"walls": ")" + walls + R"("}})");
+  };
+  run_of("0123456789abcdef");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }),
+               {"dumps/run.json: the dumps are of another mill (walls 0123456789abcdef, this mill's are " +
+                mill_.mill.fingerprint.walls + "): run millDem again"});
+  run_of(mill_.mill.fingerprint.walls);
+  taken("");
+}
+
+TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) {
+  const auto walls_of = [&](const std::string& walls, const std::string& source) {
+    folder_.write("walls/walls.json",
+                  R"({"mill": {"walls": ")" + walls + R"("}, "source": ")" + source + R"("})");
+  };
+  walls_of("0123456789abcdef", "mill");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }),
+               {"walls/walls.json: the walls are of another mill (walls 0123456789abcdef, this mill's are " +
+                mill_.mill.fingerprint.walls + "): run millMesh again"});
+  taken("--inside " + path("other.stl"));
+  taken("--box 0 0 0 1 1 1 --shape 2 2 2");
+  walls_of(mill_.mill.fingerprint.walls, "mill");
+  taken("");
+  walls_of("0123456789abcdef", "cad");
+  taken("");
+  folder_.write("walls/walls.json", "{");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"walls.json", "run millMesh again"});
+}
+
 TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {
   expect_refused("--shape 4 5 6", "--shape is 4 5 6");
   expect_refused("--frame turning", "--frame is turning");
