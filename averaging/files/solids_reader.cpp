@@ -109,7 +109,7 @@ struct SolidsReader::Open {
   std::vector<TimeWindow> windows;
 
   explicit Open(const std::filesystem::path& path)
-      : file(hdf5::open_file(path)),
+      : file(hdf5::open_file(path, "millAverage")),
         header(read_header()),
         grid(read_grid(file.get())),
         windows(read_windows(file.get())) {
