@@ -137,6 +137,7 @@ struct SolidsReader::Open {
     found.mill_averages = read_known("mill_averages");
     found.run_id = read_known("run_id");
     found.fines_share = read_optional("fines_share");
+    found.walls_over_grid = read_optional("walls_over_grid");
     return found;
   }
 
