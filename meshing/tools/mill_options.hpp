@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,19 @@ inline CLI::Option* add_mill_options(CLI::App& app, MillOptions& options) {
          "write the mill with every default and derived number to this file (- : standard output) and stop")
       ->type_name("FILE");
   return mill;
+}
+
+/// Runs `action`. Where it cannot make one of its folders or files, throws std::runtime_error that names the
+/// option and the place.
+/// @param folder  of `--case`; empty: not given
+template <typename Action>
+void naming_case(const std::string& folder, Action&& action) {
+  try {
+    action();
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw std::runtime_error((folder.empty() ? "" : "--case " + folder + ": ") + error.path1().string() +
+                             " cannot be made or used: " + error.code().message());
+  }
 }
 
 /// Adds `--version`, "<tool> <version>".

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "meshing/files/standard_output.hpp"
 #include "millfoam_version.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/flow_curve.hpp"
@@ -147,6 +148,7 @@ int main(int argc, char** argv) {
     } else {
       print_table(options);
     }
+    millfoam::require_printed();
   } catch (const std::exception& error) {
     std::cerr << "millDrag: error: " << error.what() << '\n';
     return 1;

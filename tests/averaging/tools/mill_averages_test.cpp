@@ -162,6 +162,25 @@ TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
   expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"run.json", "timestep_s"});
 }
 
+TEST_F(MillAverages, DumpsOfAPatternWithoutQuotesAreToldShortly) {
+  for (const char* name : {"dump.1", "dump.2", "dump.3", "dump.4"}) folder_.write(name, "");
+  Options options;
+  CLI::App app;
+  declare(app, options);
+  const std::string mill = path("mill.yaml"), one = path("dump.1"), two = path("dump.2"),
+                    three = path("dump.3");
+  const std::string four = path("dump.4");
+  std::vector<const char*> words{"millAverage", mill.c_str(),  "--dumps",   one.c_str(),
+                                 two.c_str(),   three.c_str(), four.c_str()};
+  const auto parse_all = [&] { parse(app, options, static_cast<int>(words.size()), words.data()); };
+  const std::string message = message_of<std::invalid_argument>(parse_all);
+  expect_named(message,
+               {"--dumps " + one + ": 3 more files follow (" + two + ", …)", "put the pattern in quotes"});
+  EXPECT_EQ(message.find(four), std::string::npos);
+  words = {"millAverage", mill.c_str(), "--dumps", one.c_str(), "nothing"};
+  EXPECT_THROW(parse_all(), CLI::ExtrasError);
+}
+
 /// Windows of 0.01 s over 3 s, and their end, of records at every 20th time-step.
 std::pair<WindowPlan, double> windows_of(double timestep) {
   const double start = 0.5, end = 3.5;
