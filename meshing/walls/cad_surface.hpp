@@ -48,8 +48,8 @@ struct CadReport {
 /// of which the tolerance leaves no triangle.
 ///
 /// Warnings: needles (see needle_ratio), several bodies, a tolerance above 1e-3 of the bounding box's
-/// diagonal, a bounding box below 1 cm, one whose middle is off the axis x = y = 0 by more than a hundredth of
-/// its width, or that does not begin at z = 0 to a hundredth of its length.
+/// diagonal, a bounding box below 1 cm, one whose middle is off the axis x = y = 0 by more than a hundredth
+/// of its width, or that does not begin at z = 0 to a hundredth of its length.
 ///
 /// Throws PolygonError for a file that cannot be read, and std::runtime_error for a part that is unknown or
 /// given twice, an end of a periodic slice, or a scale that is not above 0.
