@@ -44,7 +44,7 @@ void replace_file(const std::filesystem::path& file, const std::function<void(st
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   std::error_code failure;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
-  if (failure) throw std::runtime_error(file.string() + ": its folder cannot be made: " + failure.message());
+  if (failure) throw FolderError(file.string() + ": its folder cannot be made: " + failure.message());
   replace_file(file, write);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
@@ -41,15 +42,20 @@ inline CLI::Option* add_mill_options(CLI::App& app, MillOptions& options) {
 }
 
 /// Runs `action`. Where it cannot make one of its folders or files, throws std::runtime_error that names the
-/// option and the place.
+/// place, and in the case's folder the option.
 /// @param folder  of `--case`; empty: not given
 template <typename Action>
 void naming_case(const std::string& folder, Action&& action) {
+  const auto named = [&](const std::string& sentence) {
+    const bool of_case = !folder.empty() && sentence.rfind(folder, 0) == 0;
+    return std::runtime_error((of_case ? "--case " + folder + ": " : "") + sentence);
+  };
   try {
     action();
+  } catch (const FolderError& error) {
+    throw named(error.what());
   } catch (const std::filesystem::filesystem_error& error) {
-    throw std::runtime_error((folder.empty() ? "" : "--case " + folder + ": ") + error.path1().string() +
-                             " cannot be made or used: " + error.code().message());
+    throw named(error.path1().string() + ": cannot be made or used: " + error.code().message());
   }
 }
 
