@@ -143,6 +143,8 @@ double neighbour_skin(const ChargePlan& charge) {
 
 void write_physics(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan,
                    const AtomTypes& types) {
+  // LIGGGHTS refuses such moduli by default, because of the short time-steps that they need
+  if (types.wall_modulus() > largest_soft_modulus) out << "hard_particles yes\n";
   out << "neighbor " << neighbour_skin(plan.charge) << " bin\nneigh_modify delay 0\n"
       << "fix youngs all property/global youngsModulus peratomtype";
   for (const double modulus : types.ball_moduli()) out << ' ' << modulus;

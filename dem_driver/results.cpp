@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -316,15 +317,18 @@ void print_results(std::ostream& out, const DemPlan& plan, const Results& result
         << overlaps.largest * 1e6 << " um, " << 100 * overlaps.largest / smallest
         << " % of the smallest diameter\n";
   };
+  std::ostringstream error;
+  if (std::isfinite(results.power_steadiness.standard_error))
+    error << std::setprecision(3) << " +- " << results.power_steadiness.standard_error;
   out << std::setprecision(4) << "done: " << results.balls << " balls, " << results.balls - results.run.balls
       << " lost, " << plan.total_steps() << " steps of " << plan.step.value * 1e6 << " us in "
       << results.run.wall_time << " s (" << particle_steps / results.run.wall_time / 1e6
       << " million particle-steps per second)\n"
       << std::setprecision(3) << "charge at DEM time " << plan.begin_time() << ": rms speed "
       << results.resting_speed << " m/s\n"
-      << "power " << results.power_steadiness.mean << " +- " << results.power_steadiness.standard_error
-      << " W, kinetic energy " << results.kinetic_steadiness.mean << " J, potential energy "
-      << results.potential_steadiness.mean << " J\n";
+      << "power " << results.power_steadiness.mean << error.str() << " W, kinetic energy "
+      << results.kinetic_steadiness.mean << " J, potential energy " << results.potential_steadiness.mean
+      << " J\n";
   if (results.steady())
     out << "steady from " << results.steady_from() << " s of DEM time on\n";
   else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace millfoam::dem_driver {
@@ -28,11 +29,12 @@ SteadyMean mean_since(const std::vector<double>& values, std::size_t begin, doub
 
 /// Whether and from where on a series of equally spaced values is steady.
 struct Steadiness {
-  bool steady = false;        ///< whether the values after the transient are
-  std::size_t begin = 0;      ///< index of the first value that counts, after the transient
-  double mean = 0;            ///< of the values from there on
-  double standard_error = 0;  ///< of that mean, from batch means about their line
-  double drift = 0;           ///< mean of the second half of these values minus that of the first half
+  bool steady = false;    ///< whether the values after the transient are
+  std::size_t begin = 0;  ///< index of the first value that counts, after the transient
+  double mean = 0;        ///< of the values from there on
+  /// Of that mean, from batch means about their line; NaN where it is not known, of too few values
+  double standard_error = std::numeric_limits<double>::quiet_NaN();
+  double drift = 0;  ///< mean of the second half of these values minus that of the first half
 };
 
 /// Share of the series' scale (mean or range after the cut, whichever is larger) that its drift may be where

@@ -11,6 +11,9 @@ namespace millfoam::dem_driver {
 /// Softest modulus that LIGGGHTS accepts in SI units, Pa.
 inline constexpr double smallest_modulus = 5e6;
 
+/// Hardest modulus that LIGGGHTS accepts in SI units without the command `hard_particles yes`, Pa.
+inline constexpr double largest_soft_modulus = 1e9;
+
 /// How soft the balls and walls of a simulation are.
 struct Stiffness {
   double modulus = 0;       ///< Pa, of the walls and of all balls that are not softened further

@@ -2,6 +2,9 @@
 #include "averaging/dumps/dump_header.hpp"
 
 #include <cmath>
+#include <vector>
+
+#include "averaging/dumps/dump_input.hpp"
 
 namespace millfoam::averaging {
 
@@ -9,6 +12,7 @@ namespace {
 
 constexpr std::string_view item = "ITEM: ";
 constexpr std::string_view atoms = "ATOMS ";
+constexpr std::string_view bounds = "BOX BOUNDS";
 
 bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -49,8 +53,14 @@ long long next_count(TextLines& lines, const char* what) {
   return *value;
 }
 
-DumpBox read_box(TextLines& lines) {
+/// @param flags  what follows the item's name: for each axis those of its two ends, behind the names of tilts
+DumpBox read_box(TextLines& lines, std::string_view flags) {
   DumpBox box;
+  std::vector<std::string_view> words;
+  for (std::string_view word = take_word(flags); !word.empty(); word = take_word(flags))
+    words.push_back(word);
+  for (std::size_t axis = 0; axis < 3 && words.size() >= 3; ++axis)
+    box.periodic[axis] = words[words.size() - 3 + axis] == "pp";
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string_view line = next_line(lines, "the bounds of the box along x, y and z");
     std::string_view rest = line;
@@ -83,9 +93,11 @@ void read_item(TextLines& lines, std::string_view title, DumpHeader& header) {
   } else if (title == "NUMBER OF ATOMS") {
     require_once(lines, header.count, "NUMBER OF ATOMS");
     header.count = next_count(lines, "the number of atoms");
-  } else if (starts_with(title, "BOX BOUNDS")) {
+  } else if (starts_with(title, bounds)) {
+    // The bounds are read into the same text
+    const std::string flags(title.substr(bounds.size()));
     require_once(lines, header.box, "BOX BOUNDS");
-    header.box = read_box(lines);
+    header.box = read_box(lines, flags);
   } else if (title == "UNITS") {
     require_si(lines);
   } else {
@@ -128,6 +140,27 @@ long long read_step(TextLines& lines) {
     read_item(lines, title, header);
   }
   return *header.step;
+}
+
+std::optional<long long> read_count(TextLines& lines) {
+  DumpHeader header;
+  try {
+    while (!header.count) {
+      const std::string_view title = next_title(lines, "'ITEM: NUMBER OF ATOMS'");
+      if (starts_with(title, atoms)) break;
+      read_item(lines, title, header);
+    }
+  } catch (const DumpError&) {
+    // Who reads the record refuses it
+    return std::nullopt;
+  }
+  return header.count;
+}
+
+DumpHeader read_dump_header(const std::filesystem::path& file) {
+  DumpInput input(file, std::size_t{1} << 12U);
+  TextLines lines = input.lines();
+  return read_header(lines);
 }
 
 }  // namespace millfoam::averaging

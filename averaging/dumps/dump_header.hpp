@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -12,9 +13,10 @@ namespace millfoam::averaging {
 
 /// The box of a dump.
 struct DumpBox {
-  std::array<double, 3> lower{},  ///< least x, y, z, m
-      upper{};                    ///< largest x, y, z, m
-  bool tilted = false;            ///< not along x, y and z
+  std::array<double, 3> lower{},   ///< least x, y, z, m
+      upper{};                     ///< largest x, y, z, m
+  bool tilted = false;             ///< not along x, y and z
+  std::array<bool, 3> periodic{};  ///< along x, y, z: flags `pp` of the item's name; false without flags
 };
 
 /// The part of a dump before its particles.
@@ -30,8 +32,14 @@ struct DumpHeader {
 /// missing time-step or number of atoms.
 DumpHeader read_header(TextLines& lines);
 
+/// Reads that part of a file, plain or gzip. Throws DumpError as above, and as `DumpInput`.
+DumpHeader read_dump_header(const std::filesystem::path& file);
+
 /// Reads as far as the time-step only. Throws DumpError as `read_header`.
 long long read_step(TextLines& lines);
+
+/// Reads on from there to the number of particles; nothing where the text does not give it.
+std::optional<long long> read_count(TextLines& lines);
 
 /// The error that the text stops before what was expected.
 DumpError truncated(TextLines& lines, const std::string& expected);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "averaging/dumps/dump_header.hpp"
+#include "averaging/dumps/dump_input.hpp"
 #include "averaging/dumps/dump_reader.hpp"
 
 namespace millfoam::averaging {
@@ -28,7 +30,12 @@ std::vector<std::filesystem::path> matches(const std::string& pattern) {
 
 std::vector<DumpFile> find_dumps(const std::string& pattern) {
   std::vector<DumpFile> dumps;
-  for (const std::filesystem::path& path : matches(pattern)) dumps.push_back({path, read_dump_step(path)});
+  for (const std::filesystem::path& path : matches(pattern)) {
+    DumpInput input(path, std::size_t{1} << 12U);
+    TextLines lines = input.lines();
+    const long long step = read_step(lines);
+    dumps.push_back({path, step, read_count(lines)});
+  }
   std::stable_sort(dumps.begin(), dumps.end(),
                    [](const DumpFile& a, const DumpFile& b) { return a.step < b.step; });
   const auto twin = std::adjacent_find(dumps.begin(), dumps.end(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace millfoam::averaging {
 struct DumpFile {
   std::filesystem::path path;  ///< as the pattern gives it
   long long step = 0;          ///< DEM time-step in its header
+  /// Number of particles in its header; nothing where that is damaged.
+  std::optional<long long> count;
 };
 
 /// The dumps that a pattern matches (glob(3): * ? [ ] and ~), in order of their time-steps, read from their

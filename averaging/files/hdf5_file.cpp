@@ -2,6 +2,7 @@
 #include "averaging/files/hdf5_file.hpp"
 
 #include <algorithm>
+#include <fstream>
 
 #include "averaging/files/hdf5_io.hpp"
 
@@ -9,14 +10,20 @@ namespace millfoam::averaging::hdf5 {
 
 namespace {
 
-void check_is_hdf5(const std::filesystem::path& path) {
+Error damaged(const std::string& maker) {
+  return Error("the file is cut short or not an HDF5 file; make it again with " + maker);
+}
+
+void check_is_hdf5(const std::filesystem::path& path, const std::string& maker) {
   if (!std::filesystem::exists(path)) {
     const std::filesystem::path part = path.string() + ".part";
     throw Error(std::filesystem::exists(part)
                     ? "there is no such file, only '" + part.string() + "', which is not complete"
                     : "there is no such file");
   }
-  if (H5Fis_hdf5(path.c_str()) <= 0) throw Error("this is not an HDF5 file, or it cannot be read");
+  if (std::filesystem::is_directory(path)) throw Error("is a folder, expected a file");
+  if (!std::ifstream(path)) throw Error("cannot be read: no permission");
+  if (H5Fis_hdf5(path.c_str()) <= 0) throw damaged(maker);
 }
 
 }  // namespace
@@ -26,13 +33,28 @@ Handle create_file(const std::filesystem::path& path) {
           "create the file (is the folder there and writable?)"};
 }
 
-Handle open_file(const std::filesystem::path& path) {
-  check_is_hdf5(path);
+Handle open_file(const std::filesystem::path& path, const std::string& maker) {
+  check_is_hdf5(path, maker);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare to open the file");
 #if H5_VERSION_GE(1, 10, 7)
   check(H5Pset_file_locking(access.get(), 0, 1), "open the file without locks");
 #endif
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose, "open the file"};
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
+  if (file < 0) throw damaged(maker);
+  return {file, H5Fclose, "open the file"};
+}
+
+void require_format_or_nothing(const std::filesystem::path& path, const std::string& format) {
+  if (!std::filesystem::exists(path)) return;
+  std::string found;
+  try {
+    found = read_text_attribute(open_file(path).get(), "format");
+  } catch (const Error&) {
+    found.clear();
+  }
+  if (found == format) return;
+  throw Error("this file exists and is not a " + format +
+              " file; it would be overwritten: give another name or remove it");
 }
 
 void check_format(hid_t file, const std::string& format, const std::vector<int>& versions,

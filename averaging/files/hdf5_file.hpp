@@ -16,8 +16,14 @@ namespace millfoam::averaging::hdf5 {
 Handle create_file(const std::filesystem::path& path);
 
 /// Opens a file to read it, without HDF5's locks, so that the ranks of a parallel flow can share it on any
-/// file system. Says so where only the unfinished file `path` + ".part" is there.
-Handle open_file(const std::filesystem::path& path);
+/// file system. Says so where only the unfinished file `path` + ".part" is there, and for a file that is cut
+/// short or no HDF5 file.
+/// @param maker  that makes such files, for the message
+Handle open_file(const std::filesystem::path& path, const std::string& maker = "the program that writes it");
+
+/// Throws where there is something at `path` that is no file of this format, whole or not and of any version:
+/// it would be overwritten.
+void require_format_or_nothing(const std::filesystem::path& path, const std::string& format);
 
 /// Throws unless the attributes `format`, `version` and `complete` of a file say that it is of this format
 /// and of one of these versions, and whole. `advice` ends the message about another version.

@@ -11,24 +11,12 @@
 #include <utility>
 
 #include "averaging/files/hdf5_file.hpp"
-#include "averaging/files/hdf5_io.hpp"
 #include "averaging/files/solids_layout.hpp"
 
 namespace millfoam::averaging {
 
 void require_solids_or_nothing(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return;
-  hdf5::naming_file<SolidsFileError>(path, [&] {
-    std::string found;
-    try {
-      found = hdf5::read_text_attribute(hdf5::open_file(path).get(), "format");
-    } catch (const hdf5::Error&) {
-      found.clear();
-    }
-    if (found == layout::format) return;
-    throw hdf5::Error(std::string("this file exists and is not a ") + layout::format +
-                      " file; it would be overwritten: give another name or remove it");
-  });
+  hdf5::naming_file<SolidsFileError>(path, [&] { hdf5::require_format_or_nothing(path, layout::format); });
 }
 
 OutputLock::OutputLock(const std::filesystem::path& output) : path_(output.string() + ".lock") {

@@ -330,9 +330,13 @@ void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const
   });
 }
 
+void require_slurry_or_nothing(const std::filesystem::path& path) {
+  hdf5::naming_file<SlurryFileError>(path, [&] { hdf5::require_format_or_nothing(path, slurry_format); });
+}
+
 SlurrySegment read_segment(const std::filesystem::path& path, const BoxGrid& grid, bool balls) {
   return hdf5::naming_file<SlurryFileError>(path, [&] {
-    const hdf5::Handle file = hdf5::open_file(path);
+    const hdf5::Handle file = hdf5::open_file(path, "the flow, from its start");
     const hid_t root = file.get();
     hdf5::check_format(
         root, segment_format, {slurry_version},

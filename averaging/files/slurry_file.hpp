@@ -66,6 +66,10 @@ struct SlurrySegment {
   void add(const SlurrySegment& other);
 };
 
+/// Throws SlurryFileError when there is something at `path` that is no slurry file, so that no other file is
+/// lost to a name typed wrong.
+void require_slurry_or_nothing(const std::filesystem::path& path);
+
 /// Writes a segment; a run that is killed leaves nothing that looks whole. Throws SlurryFileError.
 void write_segment(const std::filesystem::path& path, const BoxGrid& grid, const SlurrySegment& segment);
 

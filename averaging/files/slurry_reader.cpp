@@ -71,7 +71,7 @@ struct SlurryReader::File {
 
   explicit File(const std::filesystem::path& place)
       : path(place),
-        handle(hdf5::open_file(place)),
+        handle(hdf5::open_file(place, "slurryFoam")),
         grid(read_box(handle.get())),
         header(read_header(handle.get())) {
     if (header.windows == 0) return;

@@ -45,6 +45,8 @@ struct SolidsHeader {
   std::string mill_averages;  ///< fingerprint of the mill and its averages; empty: not known
   std::string run_id;         ///< of the dry run whose dumps were averaged, `RunMetadata`; empty: not known
   std::optional<double> fines_share;  ///< of the charge's mass: fines, which are not simulated; if known
+  /// Width of the walls across z over that of the grid; nothing without walls, or where it is not known.
+  std::optional<double> walls_over_grid = std::nullopt;
 };
 
 /// Writes a solids file window by window; memory does not grow with the number of windows. Until `finish` the

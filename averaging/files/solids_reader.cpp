@@ -109,7 +109,7 @@ struct SolidsReader::Open {
   std::vector<TimeWindow> windows;
 
   explicit Open(const std::filesystem::path& path)
-      : file(hdf5::open_file(path)),
+      : file(hdf5::open_file(path, "millAverage")),
         header(read_header()),
         grid(read_grid(file.get())),
         windows(read_windows(file.get())) {
@@ -137,6 +137,7 @@ struct SolidsReader::Open {
     found.mill_averages = read_known("mill_averages");
     found.run_id = read_known("run_id");
     found.fines_share = read_optional("fines_share");
+    found.walls_over_grid = read_optional("walls_over_grid");
     return found;
   }
 

@@ -72,6 +72,7 @@ struct SolidsWriter::Open {
       hdf5::write_attribute(root, "angular_velocity", *header.angular_velocity);
     }
     if (header.solidity_cap) hdf5::write_attribute(root, "solidity_cap", *header.solidity_cap);
+    if (header.walls_over_grid) hdf5::write_attribute(root, "walls_over_grid", *header.walls_over_grid);
     write_known(root, "program", header.program);
     write_known(root, "mill_charge", header.mill_charge);
     write_known(root, "mill_averages", header.mill_averages);

@@ -111,7 +111,7 @@ std::string escaped(const std::string& text) {
 std::pair<std::vector<hsize_t>, hsize_t> geometry_sizes(const std::filesystem::path& path, const Grid& grid) {
   if (std::holds_alternative<BoxGrid>(grid)) return {};
   return hdf5::naming_file<SolidsFileError>(path, [&]() -> std::pair<std::vector<hsize_t>, hsize_t> {
-    const hdf5::Handle file = hdf5::open_file(path);
+    const hdf5::Handle file = hdf5::open_file(path, "millAverage");
     const hdf5::Handle group = hdf5::open_group(file.get(), "grid");
     return {hdf5::dimensions(group.get(), "points"),
             std::holds_alternative<MeshCells>(grid) ? hdf5::dimensions(group.get(), "topology")[0] : 0};

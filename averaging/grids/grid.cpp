@@ -53,4 +53,14 @@ std::string cell_name(const Grid& grid, std::size_t cell) {
          std::to_string(cell / (nx * ny)) + ')';
 }
 
+std::optional<Vector3> voxel_centre(const Grid& grid, std::size_t cell) {
+  const std::vector<std::size_t> shape = field_shape(grid);
+  if (shape.size() == 1) return std::nullopt;
+  const std::size_t nx = shape[2], ny = shape[1];
+  const VoxelIndex voxel{static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny),
+                         static_cast<int>(cell / (nx * ny))};
+  if (const auto* box = std::get_if<BoxGrid>(&grid)) return box->centre(voxel);
+  return std::get<CylinderGrid>(grid).centre(voxel);
+}
+
 }  // namespace millfoam::averaging

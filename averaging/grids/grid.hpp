@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -37,5 +38,8 @@ std::vector<std::size_t> field_shape(const Grid& grid);
 
 /// Where a cell is, for messages: "voxel (1 2 3)" by x y z or r theta z, "cell 17".
 std::string cell_name(const Grid& grid, std::size_t cell);
+
+/// The middle of a voxel, m; of a cylinder that turns in its own frame. Nothing for a cell of a mesh.
+std::optional<Vector3> voxel_centre(const Grid& grid, std::size_t cell);
 
 }  // namespace millfoam::averaging

@@ -136,6 +136,10 @@ struct MeshWriter::Open {
   }
 };
 
+void require_mesh_or_nothing(const std::filesystem::path& path) {
+  hdf5::naming_file<MeshFileError>(path, [&] { hdf5::require_format_or_nothing(path, format); });
+}
+
 MeshWriter::MeshWriter(const std::filesystem::path& path, const MeshTopology& topology, double time0)
     : path_(path), part_(path.string() + ".part") {
   hdf5::naming_file<MeshFileError>(part_, [&] {
@@ -167,7 +171,7 @@ struct MeshReader::Open {
   std::vector<double> times;
   MeshTopology topology;
 
-  explicit Open(const std::filesystem::path& path) : file(hdf5::open_file(path)) {
+  explicit Open(const std::filesystem::path& path) : file(hdf5::open_file(path, "foamMeshToH5")) {
     const hid_t root = file.get();
     hdf5::check_format(root, format, {mesh_version}, "export the mesh again");
     time0 = hdf5::read_double_attribute(root, "time0", 1)[0];

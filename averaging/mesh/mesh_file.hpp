@@ -23,6 +23,10 @@ class MeshFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws MeshFileError when there is something at `path` that is no mesh file, so that no other file is lost
+/// to a name typed wrong.
+void require_mesh_or_nothing(const std::filesystem::path& path);
+
 /// Writes a mesh and its points at one or many times. Until `finish` the file is called `path` + ".part" and
 /// says that it is not complete. All members throw MeshFileError.
 class MeshWriter {

@@ -12,12 +12,14 @@
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/checkpoint.hpp"
+#include "averaging/run/dump_checks.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/record_worker.hpp"
 #include "averaging/run/run_plan.hpp"
 #include "averaging/run/run_signature.hpp"
 #include "averaging/run/solids_output.hpp"
 #include "averaging/run/window_series.hpp"
+#include "averaging/statistics/redistribution.hpp"
 
 namespace millfoam::averaging {
 
@@ -70,6 +72,12 @@ class Collector {
     progress_.records(done_, total_);
   }
 
+  /// Removes what is kept for a run that resumes.
+  void forget() const {
+    std::filesystem::remove(resume_);
+    for (const WindowSeries& series : series_) series.forget();
+  }
+
   std::vector<SolidsSummary> finish() {
     save();
     std::vector<SolidsSummary> summaries;
@@ -83,9 +91,13 @@ class Collector {
       summaries.push_back(write_solids(windows.output, setup_.grid, header, recorder.finished(),
                                        [&](std::size_t row) { return recorder.read(row); }));
     }
+    if (plan_.box) {
+      const std::string sentence =
+          missing_period(request_, setup_.grid, *plan_.box, largest_outside(summaries.front()));
+      if (!sentence.empty()) progress_.note(sentence);
+    }
     // First the note, so that a kill in between leaves none without its journals.
-    std::filesystem::remove(resume_);
-    for (const WindowSeries& series : series_) series.forget();
+    forget();
     return summaries;
   }
 
@@ -230,7 +242,13 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
   const long long first =
       communicator.broadcast(collector ? static_cast<long long>(collector->next_block()) : 0);
   BlockLoop loop(plan, setup, communicator, request.threads);
-  loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });
+  try {
+    loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });
+  } catch (const NoRoomError&) {
+    // The same run would stop there again
+    if (collector) collector->forget();
+    throw;
+  }
   return collector ? collector->finish() : std::vector<SolidsSummary>{};
 }
 

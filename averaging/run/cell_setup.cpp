@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/run/cell_setup.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,6 +20,7 @@
 #include "averaging/mesh/moving_mesh.hpp"
 #include "averaging/mesh/periodic_faces.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/surface/mill_size.hpp"
 
 namespace millfoam::averaging {
 
@@ -57,10 +60,32 @@ void turn_back(const Motion& motion, double time, Surface& surface) {
   for (Eigen::Vector3d& point : surface.points) point = back * point;
 }
 
+/// Throws for walls that cannot be of a mill in m.
+void require_metres(const Eigen::AlignedBox3d& walls) {
+  const double largest = walls.sizes().maxCoeff();
+  if (largest <= surface::largest_mill) return;
+  throw std::invalid_argument(
+      "--inside: the walls are " + shown(largest) + " m long, above " + shown(surface::largest_mill) +
+      " m; expected walls in m (millMesh surface --scale 0.001 converts millimetres)");
+}
+
+double width_of(const BoxGrid& grid) {
+  return std::max(grid.upper()[0] - grid.lower()[0], grid.upper()[1] - grid.lower()[1]);
+}
+
+double width_of(const CylinderGrid& grid) {
+  return 2 * grid.radii()[1];
+}
+
+/// Walls that move, and their width across z over the grid's.
+struct Walls {
+  std::shared_ptr<const MovingWalls> moving;
+  double over_grid = 0;
+};
+
 /// The walls that cut the voxels, turning with the mill; at rest in a grid that turns with it.
-std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid,
-                                                const AverageRequest& request, const RunSettings& settings,
-                                                const Note& note) {
+Walls moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid, const AverageRequest& request,
+                   const RunSettings& settings, const Note& note) {
   Surface surface;
   double time = 0;
   if (request.walls.size() == 1 && request.walls[0].extension() == ".h5") {
@@ -80,6 +105,9 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
     surface = read_surface(request.walls);
     if (surface.caps > 0) note("the walls are open at an end across z; a plane closes them there");
   }
+  Eigen::AlignedBox3d extent;
+  for (const Eigen::Vector3d& point : surface.points) extent.extend(point);
+  require_metres(extent);
   std::shared_ptr<const Motion> motion;
   const auto* cylinder = std::get_if<CylinderGrid>(&grid);
   if (cylinder != nullptr && cylinder->frame().angular_velocity) {
@@ -89,7 +117,17 @@ std::shared_ptr<const MovingWalls> moving_walls(const std::variant<BoxGrid, Cyli
   } else if (!settings.angular_velocity) {
     note("the walls are taken to be at rest: neither --speed nor run.json gives the mill's angular velocity");
   }
-  return std::make_shared<MovingWalls>(grid, surface, motion, time);
+  const double width = std::visit([](const auto& voxels) { return width_of(voxels); }, grid);
+  return {std::make_shared<MovingWalls>(grid, surface, motion, time),
+          extent.sizes().head<2>().maxCoeff() / width};
+}
+
+/// A cell's name and the place of its middle.
+std::string place_in_words(const std::string& name, const Vector3& centre) {
+  std::ostringstream text;
+  text.precision(4);
+  text << name << " at x " << centre[0] << ", y " << centre[1] << ", z " << centre[2] << " m";
+  return text.str();
 }
 
 /// What boxes and cylinders have in common.
@@ -98,10 +136,15 @@ CellSetup set_up_voxels(const Voxels& grid, const AverageRequest& request, const
                         const Note& note) {
   std::unique_ptr<Deposition> deposition =
       by_method<Exact, Sampling>(request.method, grid, request.template_points);
-  CellSetup setup{grid, std::move(deposition), {}, nullptr, nullptr, method_in_words(request), 0};
+  CellSetup setup{grid, std::move(deposition), {}, nullptr, nullptr, method_in_words(request), 0, {}};
   setup.limits.solidity_cap = request.solidity_cap;
+  setup.limits.place = [grid](std::size_t cell) {
+    return place_in_words(cell_name(grid, cell), *voxel_centre(grid, cell));
+  };
   if (!request.walls.empty()) {
-    setup.walls = moving_walls(grid, request, settings, note);
+    const Walls walls = moving_walls(grid, request, settings, note);
+    setup.walls = walls.moving;
+    setup.walls_over_grid = walls.over_grid;
     setup.limits.whole_volumes = voxel_volumes(setup.grid);
   }
   if (request.solidity_cap || setup.walls) setup.limits.neighbours = neighbours(grid);
@@ -209,9 +252,15 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   cells.file = request.file.filename().string();
   cells.time = time;
 
-  CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0};
+  CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0, {}};
   setup.limits.solidity_cap = whole.solidity_cap;
-  if (whole.solidity_cap) setup.limits.neighbours = neighbours(mesh->geometry(), request.period_z);
+  if (whole.solidity_cap) {
+    setup.limits.neighbours = neighbours(mesh->geometry(), request.period_z);
+    setup.limits.place = [centres = mesh->geometry().centres()](std::size_t cell) {
+      const Eigen::Vector3d& c = centres[cell];
+      return place_in_words("cell " + std::to_string(cell), {c.x(), c.y(), c.z()});
+    };
+  }
   if (request.smoothed) {
     setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
     setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);

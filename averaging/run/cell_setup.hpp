@@ -31,6 +31,7 @@ struct CellSetup {
   std::shared_ptr<const MeshDiffusion> diffusion;  ///< null unless fields on a mesh are smoothed
   std::string method;                              ///< in words, for the solids file
   double smoothing = 0;                            ///< width, m
+  std::optional<double> walls_over_grid;           ///< width of the walls across z over that of the grid
 };
 
 /// Prepares all that does not depend on the records. `note` gets sentences on what was taken for granted.

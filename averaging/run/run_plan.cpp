@@ -6,6 +6,7 @@
 
 #include "averaging/dumps/dump_reader.hpp"
 #include "averaging/overlap/superquadric.hpp"
+#include "averaging/run/dump_checks.hpp"
 #include "averaging/run/grid_check.hpp"
 
 namespace millfoam::averaging {
@@ -51,9 +52,14 @@ RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress)
         plan_windows(steps, {plan.settings.timestep, interval, windows.length, request.start, request.end}));
     for (const std::string& sentence : plan.series.back().notes) progress.note(sentence);
   }
+  plan.blocks = plan_blocks(plan.series, block_size(plan.series));
+  const std::size_t first = plan.blocks.front().first;
+  check_numbers_of_balls(plan.dumps, first, plan.blocks.back().last, progress.note);
+  const std::filesystem::path& first_dump = plan.dumps[first].path;
+  plan.box = read_dump_header(first_dump).box;
+  if (plan.box) require_period_of(request, *plan.box, first_dump.string());
   plan.settings.sauter_diameter =
       sauter_diameter(read_dump(plan.dumps[plan.series[0].windows[0].first_record].path));
-  plan.blocks = plan_blocks(plan.series, block_size(plan.series));
   return plan;
 }
 

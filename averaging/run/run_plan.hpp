@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "averaging/dumps/dump_header.hpp"
 #include "averaging/dumps/dump_series.hpp"
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/run/average_run.hpp"
@@ -20,9 +21,11 @@ struct RunPlan {
   RunSettings settings;                 ///< what request and metadata agree on
   std::vector<WindowPlan> series;       ///< windows of each length
   std::vector<RecordBlock> blocks;      ///< of all of them, in order of time
+  std::optional<DumpBox> box;           ///< of the first dump that is averaged
 };
 
-/// Finds the dumps of a request and cuts them. Throws DumpError, WindowError.
+/// Finds the dumps of a request, compares them with each other and with its period, and cuts them. Throws
+/// DumpError, WindowError, and std::invalid_argument as `require_period_of`.
 RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress);
 
 /// Throws std::invalid_argument when the grid cannot be meant for the balls. A first record that does not fit

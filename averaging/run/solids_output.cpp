@@ -47,6 +47,7 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
   header.smoothing = setup.smoothing;
   header.solidity_cap = request.solidity_cap;
   header.inside_fractions = !setup.limits.whole_volumes.empty();
+  header.walls_over_grid = setup.walls_over_grid;
   header.program = program;
   header.mill_averages = request.mill_averages;
   if (metadata) {

@@ -12,8 +12,6 @@ namespace millfoam::averaging {
 
 namespace {
 
-/// Numbers of balls per averaging volume in the simulations that the laws of drag come from.
-
 /// The densest packing of equal spheres.
 constexpr double densest = 0.74;
 
@@ -85,6 +83,24 @@ void remark_on_solidity(double largest, std::vector<Remark>& found) {
   }
 }
 
+void remark_on_outside(const SolidsSummary& summary, std::vector<Remark>& found) {
+  const double outside = largest_outside(summary);
+  if (outside < noted_outside) return;
+  found.push_back(
+      {true, formatted("%.3g %% of the balls' volume lies outside the grid: these balls are in none "
+                       "of these fields",
+                       100 * outside)});
+}
+
+void remark_on_walls(const SolidsSummary& summary, std::size_t cut_cells, std::vector<Remark>& found) {
+  const double wider = summary.header.walls_over_grid.value_or(0);
+  if (cut_cells > 0 || wider <= widest_walls) return;
+  found.push_back(
+      {true, formatted("the walls cut no cell: all lie inside, and the walls are %.3g times as wide "
+                       "as the grid; expected walls and grid in m",
+                       wider)});
+}
+
 const char* kind_of(const BoxGrid&) {
   return "box";
 }
@@ -114,6 +130,10 @@ WindowSummary summarise(const Grid& grid, const TimeWindow& time, const Ledger& 
     if (volume < pi / 6 * d * d * d) ++summary.small_cells;
     balls += fields.solidity[c] * volume / (pi / 6 * d * d * d);
   }
+  constexpr double whole = 1 - 1e-9;
+  summary.cut_cells =
+      static_cast<std::size_t>(std::count_if(fields.inside_fraction.begin(), fields.inside_fraction.end(),
+                                             [](double share) { return share < whole; }));
   if (summary.occupied_cells > 0) {
     summary.mean_solidity /= static_cast<double>(summary.occupied_cells);
     summary.ball_density = balls / summary.occupied_volume;
@@ -152,6 +172,13 @@ SolidsSummary read_ledgers(const std::filesystem::path& file) {
   return summary;
 }
 
+double largest_outside(const SolidsSummary& summary) {
+  double largest = 0;
+  for (const WindowSummary& window : summary.windows)
+    largest = std::max(largest, share(window.ledger.outside, window.ledger.volume_in));
+  return largest;
+}
+
 WindowSummary overall(const SolidsSummary& summary) {
   WindowSummary all;
   double balls = 0;
@@ -159,6 +186,7 @@ WindowSummary overall(const SolidsSummary& summary) {
     all.balls_per_cell += window.balls_per_cell / static_cast<double>(summary.windows.size());
     all.occupied_cells += window.occupied_cells;
     all.small_cells += window.small_cells;
+    all.cut_cells += window.cut_cells;
     all.occupied_volume += window.occupied_volume;
     balls += window.ball_density * window.occupied_volume;
     all.mean_solidity += window.mean_solidity * static_cast<double>(window.occupied_cells);
@@ -176,6 +204,8 @@ std::vector<Remark> remarks(const SolidsSummary& summary) {
   if (all.occupied_cells == 0) return {{true, "no cell holds a ball: does the grid cover the charge?"}};
   std::vector<Remark> found = size_advice(all, summary.header.smoothing);
   remark_on_solidity(all.largest_solidity, found);
+  remark_on_outside(summary, found);
+  remark_on_walls(summary, all.cut_cells, found);
   if (summary.header.fines_share.value_or(0) > 0) {
     found.push_back(
         {false, formatted("%.1f %% of the charge's mass are fines, which are not simulated: they are in "

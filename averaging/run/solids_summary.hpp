@@ -13,6 +13,10 @@ namespace millfoam::averaging {
 inline constexpr double fewest_balls = 8;
 /// Most balls in them.
 inline constexpr double most_balls = 64;
+/// Share of the balls' volume beyond the grid from which on a summary warns.
+inline constexpr double noted_outside = 0.01;
+/// Walls that cut no cell are in another unit of length if they are so many times as wide as the grid.
+inline constexpr double widest_walls = 1.2;
 
 /// What a user should know of a window before trusting it.
 struct WindowSummary {
@@ -25,6 +29,7 @@ struct WindowSummary {
   double ball_density = 0;         ///< balls of the Sauter diameter per volume of the occupied cells, 1/m^3
   double mean_solidity = 0;        ///< over the occupied cells
   double largest_solidity = 0;     ///< of any cell
+  std::size_t cut_cells = 0;       ///< that do not lie wholly inside the walls; 0 without walls
 };
 
 /// A solids file in numbers.
@@ -61,6 +66,9 @@ SolidsSummary summarise(const std::filesystem::path& file);
 /// The times and ledgers of a solids file's windows, without what follows from its fields. Throws
 /// SolidsFileError.
 SolidsSummary read_ledgers(const std::filesystem::path& file);
+
+/// The largest share of a window's balls that is beyond the grid, 0 to 1.
+double largest_outside(const SolidsSummary& summary);
 
 /// Of all windows together; its time and ledger are left empty.
 WindowSummary overall(const SolidsSummary& summary);

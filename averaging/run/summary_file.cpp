@@ -144,7 +144,7 @@ std::string as_json(const SolidsSummary& summary, const std::string& writer) {
             {"file", summary.file.filename().string()}};
   put_settings(json, summary);
   json["volume_in_m3"] = mean_volume_in(summary);
-  json["largest_outside"] = largest_share(summary, &Ledger::outside);
+  json["largest_outside"] = largest_outside(summary);
   json["largest_clipped"] = largest_share(summary, &Ledger::clipped);
   json["balls_of_laws"] = {fewest_balls, most_balls};
   json["balls_per_cell"] = all.balls_per_cell;

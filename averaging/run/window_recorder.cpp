@@ -2,7 +2,8 @@
 #include "averaging/run/window_recorder.hpp"
 
 #include <sstream>
-#include <stdexcept>
+
+#include "averaging/statistics/redistribution.hpp"
 
 namespace millfoam::averaging {
 
@@ -17,10 +18,10 @@ WindowAverage WindowRecorder::average_open(const TimeWindow& time) const {
     result.time = time;
     result.time.records = records;
     return result;
-  } catch (const std::runtime_error& error) {
+  } catch (const NoRoomError& error) {
     std::ostringstream message;
     message << "window from " << time.begin << " s: " << error.what();
-    throw std::runtime_error(message.str());
+    throw NoRoomError(message.str(), error.cell, error.excess);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <sstream>
-#include <stdexcept>
 
 namespace millfoam::averaging {
 
@@ -68,7 +67,7 @@ void move_from(std::size_t cell, double excess, std::size_t columns, const std::
       std::ostringstream message;
       message << left << " m3 of the solids in cell " << cell << " are above the cap of " << capacities[cell]
               << " m3 and no cell that they can reach has room for them; expected a larger cap";
-      throw std::runtime_error(message.str());
+      throw NoRoomError(message.str(), cell, volume / capacities[cell]);
     }
     double free = 0;
     for (const std::size_t c : ring) free += free_volume(c);

@@ -3,9 +3,24 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace millfoam::averaging {
+
+/// Solids above a cap for which no cell has room.
+class NoRoomError : public std::runtime_error {
+ public:
+  /// @param message  in words
+  /// @param where  number of the cell
+  /// @param over  volume of its solids over its capacity
+  NoRoomError(const std::string& message, std::size_t where, double over)
+      : std::runtime_error(message), cell(where), excess(over) {}
+
+  std::size_t cell;  ///< its number
+  double excess;     ///< volume of its solids over its capacity
+};
 
 /// Moves what exceeds the cells' capacities to their neighbours, with all that travels with it: to the
 /// nearest cells with free volume, ring by ring of faces, within a ring in proportion to the free volume.
@@ -15,7 +30,7 @@ namespace millfoam::averaging {
 /// @param neighbours  pairs of cells that share a face
 /// @return the volume moved, m^3
 ///
-/// Throws std::runtime_error, naming the cell, when there is not enough free volume.
+/// Throws NoRoomError, naming the cell, when there is not enough free volume.
 double redistribute_excess(std::vector<double>& values, std::size_t columns,
                            const std::vector<double>& capacities,
                            const std::vector<std::array<int, 2>>& neighbours);

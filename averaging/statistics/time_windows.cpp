@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace millfoam::averaging {
 
@@ -100,14 +101,21 @@ void drop_closing_record(const std::vector<long long>& steps, long long interval
   plan.windows.pop_back();
 }
 
-void note_windows_not_full(long long interval, double timestep, WindowPlan& plan) {
+/// Windows with fewer or more records than fit.
+void note_odd_numbers(long long interval, double timestep, WindowPlan& plan) {
   for (std::size_t w = 0; w < plan.windows.size(); ++w) {
     const WindowSpan& span = plan.windows[w];
-    const long long full = (span.end - span.begin) / interval;
-    if (static_cast<long long>(span.records) >= full) continue;
-    plan.notes.push_back("warning: window " + std::to_string(w) + " from " + seconds(span.begin, timestep) +
-                         " to " + seconds(span.end, timestep) + " holds " + std::to_string(span.records) +
-                         " records, " + std::to_string(full) + " would fill it");
+    const long long length = span.end - span.begin, full = length / interval;
+    const long long most = (length + interval - 1) / interval;
+    const auto records = static_cast<long long>(span.records);
+    if (records >= full && records <= most) continue;
+    std::string sentence = "warning: window " + std::to_string(w) + " from " + seconds(span.begin, timestep) +
+                           " to " + seconds(span.end, timestep) + " holds " + std::to_string(records) +
+                           " records, " + std::to_string(records < full ? full : most) + " would fill it";
+    if (records > most)
+      sentence +=
+          ": those between records of every " + seconds(interval, timestep) + " count as fully as they";
+    plan.notes.push_back(std::move(sentence));
   }
 }
 
@@ -158,7 +166,7 @@ WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest
   note_unused(steps, range, plan);
   cut(steps, range, length, request.timestep, plan);
   drop_closing_record(steps, interval, request.timestep, plan);
-  note_windows_not_full(interval, request.timestep, plan);
+  note_odd_numbers(interval, request.timestep, plan);
   mark_late_and_short(steps, interval, plan);
   end_with_the_dumps(steps, interval, plan);
   return plan;

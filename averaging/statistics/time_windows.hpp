@@ -48,16 +48,16 @@ TimeWindow time_of(const WindowSpan& span, double timestep);
 /// A run cut into windows.
 struct WindowPlan {
   std::vector<WindowSpan> windows;  ///< in order of time, at least one
-  std::vector<std::string> notes;   ///< sentences about records left out and windows not full
+  std::vector<std::string> notes;   ///< about records left out, windows not full or too full
 };
 
 /// Cuts records into the windows [start + w T, start + (w+1) T) by whole time-steps, so that no record
 /// changes window by rounding of times.
 ///
-/// A window that the records do not fill is kept, marked, with a note. Only a last one that holds nothing but
-/// the record at its very beginning is left out, with a note: that record closes the window before. The last
-/// window and a whole run end at most one record interval after their last record, since each record stands
-/// for one interval: no time is claimed that was not recorded.
+/// A window that the records do not fill is kept, marked, with a note; so is one with more records than fit.
+/// Only a last one that holds nothing but the record at its very beginning is left out, with a note: that
+/// record closes the window before. The last window and a whole run end at most one record interval after
+/// their last record, since each record stands for one interval: no time is claimed that was not recorded.
 ///
 /// @param steps  time-steps of the records, rising
 /// @param request  length, start and end

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <sstream>
 
 #include "averaging/statistics/redistribution.hpp"
 
@@ -55,7 +56,16 @@ void redistribute(const CellLimits& limits, Means& mean, Ledger& ledger) {
   std::vector<double> capacities(mean.inside_volumes.size());
   std::transform(mean.inside_volumes.begin(), mean.inside_volumes.end(), capacities.begin(),
                  [&](double volume) { return *limits.solidity_cap * volume; });
-  ledger.clipped += redistribute_excess(mean.values, Columns::columns, capacities, limits.neighbours);
+  try {
+    ledger.clipped += redistribute_excess(mean.values, Columns::columns, capacities, limits.neighbours);
+  } catch (const NoRoomError& error) {
+    if (!limits.place) throw;
+    std::ostringstream message;
+    message << "the solidity " << error.excess * *limits.solidity_cap << " of " << limits.place(error.cell)
+            << " is above the cap of " << *limits.solidity_cap
+            << ", and no cell that its solids can reach has room for them; expected a larger --cap";
+    throw NoRoomError(message.str(), error.cell, error.excess);
+  }
 }
 
 void fill_means(const Means& mean, WindowAverage& result) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "averaging/statistics/window_moments.hpp"
@@ -19,6 +21,8 @@ struct CellLimits {
   std::vector<double> whole_volumes;           ///< [n] of the cells, m^3; empty unless walls cut the cells
   std::vector<std::array<int, 2>> neighbours;  ///< pairs that share a face, see `redistribute_excess`
   std::optional<double> solidity_cap;          ///< largest solidity that may stay in a cell
+  /// Where a cell is, for messages; without it the cell's number is named.
+  std::function<std::string(std::size_t cell)> place = nullptr;
 };
 
 /// The averages over the records k = 1 ... K of a window. With phi_k and u_k the solidity and the mean
@@ -43,7 +47,7 @@ struct CellLimits {
 /// the ledger's `clipped`. Deviations are those before anything moved.
 ///
 /// The moments must hold a record. `time.records` is filled in, the window's times are the caller's.
-/// Throws as `redistribute_excess`.
+/// Throws NoRoomError that names the cell by `CellLimits::place` and its solidity.
 WindowAverage average(const WindowMoments& moments, const CellLimits& limits);
 
 }  // namespace millfoam::averaging

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <new>
@@ -14,6 +15,7 @@
 #include "averaging/tools/mill_averages.hpp"
 #include "averaging/tools/mpi_communicator.hpp"
 #include "averaging/tools/options.hpp"
+#include "meshing/files/standard_output.hpp"
 
 namespace {
 
@@ -57,11 +59,25 @@ int run(Options& options, Communicator& communicator) {
 
 int report_file(const Options& options) {
   constexpr double usual_tolerance = 0.01;
+  if (std::filesystem::is_directory(options.json))
+    throw std::invalid_argument("--json " + options.json + ": is a folder, expected the name of a file");
   if (!options.json.empty()) require_summary_or_nothing(options.json);
   const SolidsSummary summary = summarise(options.report);
   std::cout << report(summary);
   if (!options.json.empty()) write_summary(options.json, summary, program());
   return verdict(summary, tolerance(options, usual_tolerance));
+}
+
+/// What the options ask for. Returns the program's exit code.
+int act(Options& options, std::unique_ptr<Communicator>& communicator) {
+  if (!options.report.empty()) return report_file(options);
+  if (!options.mill.file.empty() && !options.mill.resolved.empty()) {
+    millfoam::meshing::write_resolved_mill(options.mill.read(), "millAverage", options.mill.resolved);
+    return 0;
+  }
+  communicator =
+      MpiCommunicator::launched() ? std::make_unique<MpiCommunicator>() : std::make_unique<Communicator>();
+  return run(options, *communicator);
 }
 
 }  // namespace
@@ -72,15 +88,10 @@ int main(int argc, char** argv) {
   declare(app, options);
   std::unique_ptr<Communicator> communicator;
   try {
-    app.parse(argc, argv);
-    if (!options.report.empty()) return report_file(options);
-    if (!options.mill.file.empty() && !options.mill.resolved.empty()) {
-      millfoam::meshing::write_resolved_mill(options.mill.read(), "millAverage", options.mill.resolved);
-      return 0;
-    }
-    communicator =
-        MpiCommunicator::launched() ? std::make_unique<MpiCommunicator>() : std::make_unique<Communicator>();
-    return run(options, *communicator);
+    parse(app, options, argc, argv);
+    const int code = act(options, communicator);
+    millfoam::require_printed();
+    return code;
   } catch (const CLI::Success& help_or_version) {
     return app.exit(help_or_version);
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <istream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -18,16 +19,40 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A JSON object out of a file, of that program.
+nlohmann::json parse_object(std::istream& in, const fs::path& file, const std::string& program) {
+  nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object())
+    throw std::invalid_argument(file.string() + ": is not a JSON object; run " + program + " again");
+  return json;
+}
+
 /// A JSON object of the dry run's folder.
 nlohmann::json read_object(const fs::path& file) {
   std::ifstream in(file);
   if (!in)
     throw std::invalid_argument(
         file.string() + ": cannot be read; expected the file that millDem writes at the end of a run");
-  nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object())
-    throw std::invalid_argument(file.string() + ": is not a JSON object; run millDem again");
-  return json;
+  return parse_object(in, file, "millDem");
+}
+
+/// Throws where the walls that a file names have another fingerprint than the mill's.
+void require_walls_of(const nlohmann::json& json, const fs::path& file, const std::string& what,
+                      const std::string& program, const std::string& fingerprint) {
+  const std::string found = json.value(nlohmann::json::json_pointer("/mill/walls"), std::string());
+  if (found.empty() || found == fingerprint) return;
+  throw std::invalid_argument(file.string() + ": " + what + " of another mill (walls " + found +
+                              ", this mill's are " + fingerprint + "): run " + program + " again");
+}
+
+/// The same for the folder of the walls. Those from CAD belong to any mill, and other files to none.
+void require_folder_of(const fs::path& walls, const std::string& fingerprint) {
+  const fs::path file = walls / "walls.json";
+  std::ifstream in(file);
+  if (!in) return;
+  const nlohmann::json json = parse_object(in, file, "millMesh");
+  if (json.value("source", nlohmann::json()) != "cad")
+    require_walls_of(json, file, "the walls are", "millMesh", fingerprint);
 }
 
 void require_charge_of(const nlohmann::json& run, const fs::path& file, const std::string& fingerprint) {
@@ -155,13 +180,17 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   if (options.dumps.empty()) {
     const nlohmann::json run = read_object(dumps / "run.json");
     require_charge_of(run, dumps / "run.json", of.charge);
+    require_walls_of(run, dumps / "run.json", "the dumps are", "millDem", of.walls);
     require_dumps(run, dumps / "run.json");
     options.dumps = (dumps / "dump.*.txt").string();
     if (!own_windows) take_windows(mill, dumps, run, options);
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }
-  if (!has_grid(options)) take_grid(mill, options);
+  if (!has_grid(options)) {
+    if (options.walls.empty()) require_folder_of(fs::path(options.case_folder) / "walls", of.walls);
+    take_grid(mill, options);
+  }
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();
   return others ? "" : of.averages;
 }

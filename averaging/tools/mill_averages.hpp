@@ -13,8 +13,8 @@ namespace millfoam::averaging {
 /// `dumps/results.json`; windows that the dumps do not fill are left out. Returns the fingerprint of the
 /// mill's averages, or an empty text where the options request others.
 ///
-/// Throws MillError, and std::invalid_argument for dumps of another mill, where no window is left, and as
-/// take_grid.
+/// Throws MillError, and std::invalid_argument for dumps or walls of another mill, where no window is left,
+/// and as take_grid.
 std::string take_from_mill(const meshing::MillDescription& description, Options& options);
 
 /// Whether options as they were typed request other averages than those of their mill.

@@ -241,6 +241,21 @@ void declare(CLI::App& app, Options& options) {
   declare_run(app, options);
 }
 
+void parse(CLI::App& app, const Options& options, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<std::string> others = app.remaining();
+    if (options.dumps.empty() || !std::filesystem::exists(options.dumps) ||
+        !std::filesystem::exists(others.front()))
+      throw;
+    throw std::invalid_argument(
+        "--dumps " + options.dumps + ": " + std::to_string(others.size()) + " more files follow (" +
+        others.front() + (others.size() > 1 ? ", …" : "") +
+        "); put the pattern in quotes, so that the shell leaves it: --dumps 'dumps/dump.*.txt'");
+  }
+}
+
 void declare_averages(CLI::App& app, Options& options) {
   declare_cells(app, options);
   declare_method(app, options);

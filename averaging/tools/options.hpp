@@ -47,6 +47,10 @@ struct Options {
 /// Declares them, with their help.
 void declare(CLI::App& app, Options& options);
 
+/// Parses a command line into declared options. Throws as CLI::App::parse, and std::invalid_argument where
+/// the shell has put the names of dumps in the place of a pattern without quotes.
+void parse(CLI::App& app, const Options& options, int argc, const char* const* argv);
+
 /// Declares those that hold for averages of a run under way, too: cells, method, windows, tolerance and file.
 void declare_averages(CLI::App& app, Options& options);
 

@@ -29,6 +29,7 @@
 #include "dem_driver/tools/averages_of_run.hpp"
 #include "dem_driver/wall_fit.hpp"
 #include "meshing/files/output_file.hpp"
+#include "meshing/files/standard_output.hpp"
 #include "meshing/mill/mill_document.hpp"
 #include "meshing/tools/mill_options.hpp"
 
@@ -198,6 +199,8 @@ void check_plan_file(const Options& options) {
   if (fs::equivalent(file, options.mill.file, none))
     throw std::runtime_error("--json " + file.string() +
                              ": is the description of the mill, expected another file");
+  if (fs::is_directory(file))
+    throw std::runtime_error("--json " + file.string() + ": is a folder, expected the name of a file");
   if (!fs::is_directory(place))
     throw std::runtime_error("--json " + file.string() + ": no such folder, expected one that exists");
 }
@@ -294,7 +297,9 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Dry run of a mill with LIGGGHTS: DIR/walls/*.stl to DIR/dumps/dump.*.txt", "millDem"};
   try {
-    act(options, parse(app, options, arguments(argc, argv)));
+    const Action action = parse(app, options, arguments(argc, argv));
+    meshing::naming_case(options.case_folder, [&] { act(options, action); });
+    require_printed();
   } catch (const CLI::ParseError& error) {
     return app.exit(error);
   } catch (const std::exception& error) {

@@ -25,6 +25,8 @@ bool write_through(const std::filesystem::path& file, const std::function<void(s
 
 void replace_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
   namespace fs = std::filesystem;
+  if (fs::is_directory(file))
+    throw std::runtime_error(file.string() + ": is a folder, expected the name of a file");
   const fs::path whole = fs::exists(file) ? fs::canonical(file) : file;
   if (fs::exists(whole) && !fs::is_regular_file(whole)) {
     if (!write_through(whole, write)) throw not_written(file);
@@ -40,7 +42,9 @@ void replace_file(const std::filesystem::path& file, const std::function<void(st
 }
 
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write) {
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+  std::error_code failure;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failure);
+  if (failure) throw FolderError(file.string() + ": its folder cannot be made: " + failure.message());
   replace_file(file, write);
 }
 

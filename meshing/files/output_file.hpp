@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <ostream>
+#include <stdexcept>
 
 namespace millfoam {
 
@@ -13,7 +14,12 @@ namespace millfoam {
 /// and of a link the file that it points to.
 void replace_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
-/// The same, and makes the file's folder.
+/// A file whose folder cannot be made; the message names both.
+class FolderError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The same, and makes the file's folder. Throws FolderError, too.
 void write_file(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write);
 
 }  // namespace millfoam

@@ -144,6 +144,24 @@ YAML::Node child(const std::string& place, YAML::Node node, const std::string& n
   return node[name];
 }
 
+/// Throws where a path names an item of a list that is not there: `child` would make a map of it.
+void require_lists(const std::string& place, const YAML::Node& root, const std::string& path) {
+  for (std::size_t at = path.find('['); at != std::string::npos; at = path.find('[', at + 1)) {
+    const std::string list = path.substr(0, at);
+    YAML::Node node;
+    node.reset(root);
+    for (const std::string& name : names_of(list)) {
+      if (node.IsSequence())
+        node.reset(node[item_number(place, node, name)]);
+      else
+        node.reset(node.IsMap() && node[name].IsDefined() ? node[name] : YAML::Node());
+    }
+    if (node.IsSequence()) continue;
+    throw MillError(place + ": the mill has no list '" + list +
+                    "': expected an item of a list that it has, or the whole list, as in " + list + "=[…]");
+  }
+}
+
 /// Gives the key at a path a value, or removes it from its map where there is none.
 void assign(const std::string& place, const YAML::Node& root, const std::vector<std::string>& names,
             const std::optional<YAML::Node>& value) {
@@ -233,6 +251,7 @@ void MillDocument::apply(const std::string& change) {
   } catch (const YAML::ParserException& error) {
     throw MillError(place + ": the value is not valid YAML: " + error.msg);
   }
+  require_lists(place, root_, change.substr(0, sign));
   const bool removed = change.substr(sign + 1) == "~";
   assign(place, root_, names, removed ? std::nullopt : std::optional<YAML::Node>(value));
   changed_[change.substr(0, sign)] = change;
@@ -256,6 +275,7 @@ void MillDocument::apply_variant(const YAML::Node& variants, const std::string& 
     if (names.empty())
       throw MillError(place + ": key '" + path + "' of the variant " + name +
                       ": expected a path, as in flow.law or charge.classes[0].mass");
+    require_lists(place, root_, path);
     assign(place, root_, names, entry.second);
     variant_lines_[path] = entry.first.Mark().line + 1;
     lines_[path] = variant_lines_[path];

@@ -10,7 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "meshing/files/standard_output.hpp"
+#include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/rules.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/mill_mesh/stirred_mesh.hpp"
@@ -36,6 +39,15 @@ struct Options {
   std::optional<double> time;  // s; else the flow's start
   bool walls_only = false;
 };
+
+/// NaN is no time, and after a time that is far too large the angle has no digit left.
+const CLI::Validator time_of_run{[](const std::string& word) {
+                                   const auto value = millfoam::to_number(word);
+                                   return value && *value >= 0 && *value <= longest_time
+                                              ? std::string()
+                                              : "'" + word + "': expected a DEM time in s, from 0 to 1e5";
+                                 },
+                                 "TIME"};
 
 /// Content of the files of a folder that are there, by name.
 std::map<fs::path, std::string> contents(const fs::path& folder) {
@@ -160,9 +172,10 @@ int main(int argc, char** argv) {
       app.add_flag("--quality", "print the mesh's quality against its limits; writes with --case only");
   app.add_flag("--walls", options.walls_only, "write walls/ and mill.json only, which the dry run needs");
   app.add_option(
-      "--at-time", options.time,
-      "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "
-      "the walls stay at 0");
+         "--at-time", options.time,
+         "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "
+         "the walls stay at 0")
+      ->check(time_of_run);
   add_polygon_commands(app);
   app.require_subcommand(0, 1);
   app.callback([&] {
@@ -174,10 +187,11 @@ int main(int argc, char** argv) {
     }
     if (options.case_folder.empty() && quality->empty())
       throw std::runtime_error("expected --case DIR, --quality or --resolved FILE");
-    run(options);
+    naming_case(options.case_folder, [&] { run(options); });
   });
   try {
     CLI11_PARSE(app, argc, argv);
+    millfoam::require_printed();
   } catch (const std::exception& error) {
     std::cerr << "millMesh: error: " << error.what() << '\n';
     return 1;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
@@ -36,6 +39,24 @@ inline CLI::Option* add_mill_options(CLI::App& app, MillOptions& options) {
          "write the mill with every default and derived number to this file (- : standard output) and stop")
       ->type_name("FILE");
   return mill;
+}
+
+/// Runs `action`. Where it cannot make one of its folders or files, throws std::runtime_error that names the
+/// place, and in the case's folder the option.
+/// @param folder  of `--case`; empty: not given
+template <typename Action>
+void naming_case(const std::string& folder, Action&& action) {
+  const auto named = [&](const std::string& sentence) {
+    const bool of_case = !folder.empty() && sentence.rfind(folder, 0) == 0;
+    return std::runtime_error((of_case ? "--case " + folder + ": " : "") + sentence);
+  };
+  try {
+    action();
+  } catch (const FolderError& error) {
+    throw named(error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw named(error.path1().string() + ": cannot be made or used: " + error.code().message());
+  }
 }
 
 /// Adds `--version`, "<tool> <version>".

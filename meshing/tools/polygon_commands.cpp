@@ -144,7 +144,8 @@ void add_polygon_commands(CLI::App& app) {
       ->add_option("--tolerance", of_assemble->tolerance,
                    "points nearer than this, m, are one; 1e-9 of the bounding box's diagonal unless given")
       ->check(above_nought);
-  assemble->callback([of_assemble] { run_assemble(*of_assemble); });
+  assemble->callback(
+      [of_assemble] { naming_case(of_assemble->case_folder, [&] { run_assemble(*of_assemble); }); });
 
   CLI::App* faces =
       app.add_subcommand("faces", "Writes a mill's mesh as polygons, for editing and 'assemble'.");
@@ -174,7 +175,8 @@ void add_polygon_commands(CLI::App& app) {
                    "'periodic': walls of a slice, which may be open at its two ends; 'plain': closed walls")
       ->check(CLI::IsMember({"plain", "periodic"}))
       ->capture_default_str();
-  surface->callback([of_surface] { run_surface(*of_surface); });
+  surface->callback(
+      [of_surface] { naming_case(of_surface->case_folder, [&] { run_surface(*of_surface); }); });
 }
 
 }  // namespace millfoam::meshing

@@ -13,6 +13,7 @@
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/polygons/polygon_check.hpp"
 #include "meshing/polygons/stl_polygons.hpp"
+#include "meshing/surface/mill_size.hpp"
 #include "meshing/surface/welding.hpp"
 #include "meshing/walls/surface_bodies.hpp"
 #include "meshing/walls/surface_check.hpp"
@@ -24,7 +25,7 @@ using Eigen::Vector3d;
 
 constexpr std::array<const char*, 4> wall_parts{"shell", "lifters", "feedEnd", "dischargeEnd"};
 constexpr double default_tolerance = 1e-6;  // of the bounding box's diagonal; STL's floats have 7 digits
-constexpr double largest_mill = 20;         // m
+constexpr double widest_tolerance = 1e-3;   // of the diagonal: corners so near may be meant to be apart
 constexpr double smallest_mill = 0.01;      // m
 constexpr double off_frame = 0.01;          // of the bounding box's width or length
 constexpr double no_area = 1e-9;            // height over longest side
@@ -67,8 +68,9 @@ void check_frame(const PolygonSet& set, CadReport& report) {
   }
   const Vector3d size = report.high - report.low, centre = (report.high + report.low) / 2;
   const double largest = size.maxCoeff();
-  if (largest > largest_mill) {
-    report.problems.push_back(sentence("the bounding box is ", largest, " m long, above ", largest_mill,
+  if (largest > surface::largest_mill) {
+    report.problems.push_back(sentence("the bounding box is ", largest, " m long, above ",
+                                       surface::largest_mill,
                                        " m: is this in millimetres? Then give --scale 0.001"));
   } else if (largest < smallest_mill) {
     report.warnings.push_back(
@@ -250,9 +252,31 @@ void orient_bodies(Welded& welded, const std::vector<Face>& covers, const surfac
     report.repairs.push_back(sentence(turned, " of ", found.bodies.size(),
                                       " bodies faced into the mill's interior and ",
                                       turned == 1 ? "was" : "were", " turned"));
-  if (found.bodies.size() == 1 || has_branching_edge(edges)) return;
+  if (found.bodies.size() <= 1 || has_branching_edge(edges)) return;
   report.warnings.push_back(
       sentence(found.bodies.size(), " bodies that are not connected: ", listed(welded, found.bodies)));
+}
+
+/// Warns of a wide tolerance, and reports parts that it removed as a whole.
+void check_tolerance(const PolygonSet& set, const Welded& welded, double nearest, CadReport& report,
+                     Problems& problems) {
+  const double diagonal = surface::extent(set.points);
+  if (nearest > widest_tolerance * diagonal)
+    report.warnings.push_back(sentence("corners nearer than ", nearest, " m were joined, which is ",
+                                       100 * nearest / diagonal,
+                                       " % of the surface's diagonal: is --tolerance in m?"));
+  const auto triangles_of = [](const PolygonSet& polygons, std::size_t group) {
+    return std::count_if(polygons.polygons.begin(), polygons.polygons.end(), [group](const auto& polygon) {
+      return static_cast<std::size_t>(polygon.group) == group;
+    });
+  };
+  for (std::size_t group = 0; group < set.groups.size(); ++group) {
+    const auto before = triangles_of(set, group);
+    if (before == 0 || triangles_of(welded.set, group) > 0) continue;
+    problems.add("part without triangles", sentence(set.groups[group], ": none of its ", before,
+                                                    " triangles is left, because corners nearer ", "than ",
+                                                    nearest, " m are one: expected a smaller --tolerance"));
+  }
 }
 
 WallSurface to_walls(const Welded& welded) {
@@ -301,6 +325,7 @@ CadReport examine(const std::vector<PartFile>& parts, double scale, double toler
   const surface::EdgeTable edges = surface::find_edges(all);
   Problems problems;
   const WeldedSet view{welded.set, welded.points, welded.faces};
+  check_tolerance(set, welded, nearest, report, problems);
   check_edges(view, edges, problems);
   check_areas(view, problems);
   orient_bodies(welded, covers, edges, problems, report);

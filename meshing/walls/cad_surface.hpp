@@ -44,11 +44,12 @@ struct CadReport {
 /// the outermost body, and into one inside another, as a lifter is.
 ///
 /// Problems: edges with one triangle (also T-junctions) or more than two, doubled triangles, triangles
-/// without area, a surface with one side only, triangles that cross (CGAL), a bounding box above 20 m.
+/// without area, a surface with one side only, triangles that cross (CGAL), a bounding box above 20 m, a part
+/// of which the tolerance leaves no triangle.
 ///
-/// Warnings: needles (see needle_ratio), several bodies, a bounding box below 1 cm, one whose middle is off
-/// the axis x = y = 0 by more than a hundredth of its width, or that does not begin at z = 0 to a hundredth
-/// of its length.
+/// Warnings: needles (see needle_ratio), several bodies, a tolerance above 1e-3 of the bounding box's
+/// diagonal, a bounding box below 1 cm, one whose middle is off the axis x = y = 0 by more than a hundredth
+/// of its width, or that does not begin at z = 0 to a hundredth of its length.
 ///
 /// Throws PolygonError for a file that cannot be read, and std::runtime_error for a part that is unknown or
 /// given twice, an end of a periodic slice, or a scale that is not above 0.

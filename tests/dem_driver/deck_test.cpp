@@ -53,6 +53,19 @@ TEST(Deck, AMillWithPlainEndsIsClosedAndItsBoxReachesBeyondTheEnds) {
   EXPECT_NE(deck.find(" -0.0008 0.0128 units box"), std::string::npos);
 }
 
+TEST(Deck, LiggghtsIsToldThatAModulusAboveItsLimitIsMeant) {
+  auto mill = small_mill();
+  mill.dem.youngs_modulus = largest_soft_modulus;
+  EXPECT_FALSE(has_line(deck_of(mill), "hard_particles yes"));
+  mill.dem.youngs_modulus = 1.1e9;
+  const std::string deck = deck_of(mill);
+  EXPECT_TRUE(has_line(deck, "hard_particles yes"));
+  EXPECT_LT(deck.find("hard_particles"), deck.find("pair_style"));
+  std::ostringstream resumed;
+  write_resume_deck(resumed, mill, plan_dem(mill), {"shell"}, 1, 400);
+  EXPECT_TRUE(has_line(resumed.str(), "hard_particles yes"));
+}
+
 /// A stirred mill of the size of the small drum.
 meshing::Mill stirred_mill() {
   auto mill = small_mill();

@@ -227,7 +227,7 @@ TEST_F(RealRun, TheResultsAreDataWithUnits) {
   EXPECT_EQ(results["smallest_diameter_m"], 0.002);
   EXPECT_EQ(results["largest_diameter_m"], 0.003);
   EXPECT_EQ(results["power_W"], result_->power_steadiness.mean);
-  EXPECT_EQ(results["power_error_W"], result_->power_steadiness.standard_error);
+  EXPECT_TRUE(results["power_error_W"].is_null()) << "30 records are too few to know it";
   EXPECT_EQ(results["steady"], result_->steady());
   EXPECT_EQ(results["ball_overlap_99_m"], result_->ball_overlaps.percentile(0.99));
   EXPECT_NEAR(results["duration_s"], 0.3, 1e-9);
@@ -258,6 +258,27 @@ TEST_F(RealRun, ARestartFileOfLiggghtsThatIsCutIsToldWhereverItIsCut) {
 TEST_F(RealRun, ProgressIsALineEveryTenPercentUpToTheEnd) {
   EXPECT_EQ(std::count(progress_->begin(), progress_->end(), '\n'), 11) << *progress_;
   EXPECT_NE(progress_->find("100 %"), std::string::npos);
+}
+
+TEST(HardBalls, OfAModulusThatLiggghtsRefusesByDefaultRunToTheEnd) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  auto mill = small_mill();
+  mill.charge.classes = {mill.charge.classes.back()};
+  mill.charge.classes[0].mass /= 10;
+  mill.dem.youngs_modulus = 1.1e9;
+  mill.dem.settle_time = 0.001;
+  mill.dem.duration = 0.002;
+  mill.dem.record_interval = 0.001;
+  const DemPlan plan = plan_dem(mill);
+  tests::write_drum(folder, mill.geometry);
+  prepare_folders(folder);
+  std::ofstream deck(folder.deck());
+  write_deck(deck, mill, plan, find_walls(folder, mill), 1);
+  deck.close();
+  std::ostringstream progress;
+  const tests::Variable program("MILLFOAM_LIGGGHTS", "liggghts");
+  EXPECT_EQ(run_liggghts(folder, plan, 1, {progress, false}).balls, 15);
 }
 
 }  // namespace

@@ -62,7 +62,10 @@ TEST(SteadyState, AConstantSeriesIsSteadyFromItsBeginning) {
 }
 
 TEST(SteadyState, TooFewValuesAreNotSteady) {
-  EXPECT_FALSE(judge_steadiness(std::vector<double>(fewest_values - 1, 2.5)).steady);
+  const auto few = judge_steadiness(std::vector<double>(fewest_values - 1, 2.5));
+  EXPECT_FALSE(few.steady);
+  EXPECT_EQ(few.mean, 2.5);
+  EXPECT_TRUE(std::isnan(few.standard_error)) << "not 0: it is not known";
   EXPECT_FALSE(judge_steadiness({}).steady);
 }
 

@@ -154,6 +154,12 @@ class MillAverage(unittest.TestCase):
         self.assertIn("outside, %", above.stdout)
         self.refused(self.command("--tolerance", str(share * 0.99), grid=grid), "outside the grid")
 
+    def test_a_report_that_cannot_be_printed_or_written_fails(self):
+        self.average()
+        self.refused(["sh", "-c", "millAverage --report solids.h5 > /dev/full"], "standard output: cannot be written")
+        self.refused(["millAverage", "--report", "solids.h5", "--json", "."],
+                     "--json .: is a folder, expected the name of a file")
+
     def test_the_summary_has_the_numbers_of_the_file_and_of_the_dry_run(self):
         version = self.run_in_folder(["millAverage", "--version"])
         self.assertEqual(version.returncode, 0, version.stderr)

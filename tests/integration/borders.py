@@ -24,6 +24,7 @@ MAY_USE = {
     # The tool reads a mill's section; the library does not depend on mills
     "averaging/tools": {"averaging", "meshing", "meshing/files", "meshing/surface"},
     "openfoam_module/drag": set(),
+    "openfoam_module/drag/tools": {"openfoam_module/drag", "meshing/files"},
     "openfoam_module": {"openfoam_module/drag", "averaging"},
     "scripts": set(),
     PACKAGE: set(),

@@ -87,6 +87,16 @@ class Content(ExportTest):
         case.write("constant/millProperties", "omega -3;")
         self.assertEqual(self.export(case, "-time0", "0.75")[1]["time0"], 0.75)
 
+    def test_a_file_of_another_kind_is_not_overwritten(self):
+        case = self.skewed()
+        case.write("notes.txt", "all that I know")
+        notes = (case.path / "notes.txt").read_text()
+        self.assert_refused_export(case, "notes.txt: this file exists and is not a millfoam-mesh file",
+                                   options=("-o", "notes.txt"))
+        self.assertEqual((case.path / "notes.txt").read_text(), notes)
+        for _ in range(2):  # its own kind is
+            self.export(case)
+
     def test_another_time0_than_that_of_millProperties_is_refused(self):
         case = self.skewed()
         case.write("constant/millProperties", "time0 1.25;")

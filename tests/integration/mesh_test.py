@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from millfoam.run import run
+from millfoam.run import RunError, run
 
 ROOT = Path(__file__).resolve().parents[2]
 MILLS = ROOT / "cases" / "mills"
@@ -58,6 +58,28 @@ class Mesh(unittest.TestCase):
         self.assertIn(f"replaced: {shell.relative_to(case)}, which held another surface", output.replace("./", ""))
         self.assertIn("removed: walls/feedEnd.stl, which is not a wall of this mill", output.replace("./", ""))
         self.assertNotIn(lifters.name, output)
+
+    def refused(self, command, words):
+        """A command in an empty folder fails with these words and leaves nothing but its log."""
+        case = Path(tempfile.mkdtemp(prefix="refused-"))
+        self.addCleanup(shutil.rmtree, case)
+        with self.assertRaisesRegex(RunError, words):
+            run(case, *command)
+        self.assertEqual([path.name for path in case.iterdir()], [f"log.{command[0]}"])
+
+    def test_a_time_that_is_none_is_refused(self):
+        for time in ("nan", "1e300", "-1"):
+            self.refused(("millMesh", SLICE, "--case", ".", f"--at-time={time}"),
+                         f"--at-time: '{time}': expected a DEM time in s, from 0 to 1e5")
+
+    def test_a_folder_that_cannot_be_made_is_named_with_its_option(self):
+        self.refused(("millMesh", SLICE, "--case", "/proc/none"),
+                     "--case /proc/none: /proc/none/walls/.*: its folder cannot be made: No such file")
+
+    def test_a_full_disk_fails(self):
+        for options in (("--quality",), ("--resolved", "-")):
+            self.refused(("sh", "-c", '"$0" "$@" > /dev/full', "millMesh", SLICE, *options),
+                         "millMesh: error: .*cannot be written")
 
     def test_periodic_slice(self):
         self.check()

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <string>
 
+#include "meshing/files/standard_output.hpp"
 #include "millfoam_version.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/flow_curve.hpp"
@@ -35,8 +36,9 @@ std::vector<drag::Law> chosen_laws(const Options& options) {
 }
 
 void print_ranges(const Options& options) {
+  const std::vector<drag::Law> laws = chosen_laws(options);
   std::puts("law,phi_min,phi_max,Re_min,Re_max,reference");
-  for (const drag::Law& law : chosen_laws(options)) {
+  for (const drag::Law& law : laws) {
     const drag::Range& range = law.range;
     std::printf("%s,%g,%g,%g,%g,\"%s\"\n", std::string(law.name).c_str(), range.phi_min, range.phi_max,
                 range.re_min, range.re_max, std::string(law.reference).c_str());
@@ -63,9 +65,10 @@ void print_gradient(const drag::Law& law, double phi, double superficial, const 
 }
 
 void print_table(const Options& options) {
+  const std::vector<drag::Law> laws = chosen_laws(options);
   const bool gradients = !options.superficial.empty();
   std::puts(gradients ? "law,phi,Re,F,beta,U,mu,dpdx" : "law,phi,Re,F,beta");
-  for (const drag::Law& law : chosen_laws(options))
+  for (const drag::Law& law : laws)
     for (double phi : options.phi) {
       for (double re : options.re) print_factor(law, phi, re, options);
       for (double superficial : options.superficial) print_gradient(law, phi, superficial, options);
@@ -83,6 +86,10 @@ CLI::Validator finite_number(const std::string& expected, bool (*holds)(double))
 }
 
 const CLI::Validator above_zero = finite_number("a number above 0", [](double value) { return value > 0; });
+const CLI::Validator solidity =
+    finite_number("a solidity from 0 to 0.999", [](double value) { return value >= 0 && value <= 0.999; });
+const CLI::Validator ratio =
+    finite_number("a number from 1 to 1e12", [](double value) { return value >= 1 && value <= 1e12; });
 const CLI::Validator not_negative =
     finite_number("a number that is 0 or more", [](double value) { return value >= 0; });
 
@@ -92,7 +99,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--ranges", options.ranges, "list the laws with their ranges and references instead");
   app.add_option("--phi", options.phi, "solidities, separated by commas or blanks")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 0.999));
+      ->check(solidity);
   auto* re = app.add_option("--re", options.re, "Reynolds numbers rho e v d/mu")
                  ->delimiter(',')
                  ->check(not_negative);
@@ -113,7 +120,7 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(superficial);
   app.add_option("--viscosity-ratio", options.viscosity_ratio, "cap of the apparent viscosity over mu")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 1e12))
+      ->check(ratio)
       ->needs(superficial);
   app.add_option("--rho", options.density, "density, kg/m^3; F and beta at given Re do not depend on it")
       ->capture_default_str()
@@ -141,6 +148,7 @@ int main(int argc, char** argv) {
     } else {
       print_table(options);
     }
+    millfoam::require_printed();
   } catch (const std::exception& error) {
     std::cerr << "millDrag: error: " << error.what() << '\n';
     return 1;

@@ -73,6 +73,16 @@ static void addOptions()
 }
 
 
+//- Stop with what a file could not do
+static void stopWith(const std::optional<std::string>& reason)
+{
+    if (reason)
+    {
+        FatalErrorInFunction << reason->c_str() << exit(FatalError);
+    }
+}
+
+
 //- The time of the case or, by its name, of a processor's part
 static autoPtr<Time> openTime(const argList& args, const word& part = "")
 {
@@ -166,14 +176,16 @@ int main(int argc, char* argv[])
     argList args(argc, argv);
     const autoPtr<Time> time(openTime(args));
     const scalar time0 = findTime0(args, *time);
+    const fileName file(
+        args.lookupOrDefault<fileName>("o", time->path() / "mesh.h5"));
+    stopWith(untrapped(
+        [&]() { millfoam::averaging::require_mesh_or_nothing(file.c_str()); }));
 
     const meshAssembly mesh(openParts(args, *time));
     const instantList times(chooseTimes(args, mesh));
-    const fileName file(
-        args.lookupOrDefault<fileName>("o", time->path() / "mesh.h5"));
 
     const auto topology = mesh.topology();
-    const auto failure = untrapped(
+    stopWith(untrapped(
         [&]()
         {
             millfoam::averaging::MeshWriter writer(
@@ -183,11 +195,7 @@ int main(int argc, char* argv[])
                 writer.append(t.value(), mesh.points(t));
             }
             writer.finish();
-        });
-    if (failure)
-    {
-        FatalErrorInFunction << *failure << exit(FatalError);
-    }
+        }));
 
     Info << file << ": " << label(topology.cells) << " cells, "
          << label(topology.faces()) << " faces, " << label(topology.points)

@@ -245,6 +245,8 @@ Foam::averageSegments::averageSegments(
     sums_.begin = covered_;
     if (Pstream::master())
     {
+        // Before the flow, not after it
+        stopWith(untrapped([&] { require_slurry_or_nothing(file_.c_str()); }));
         mkDir(folder_);
         dropLater();
         check();

@@ -26,6 +26,19 @@ TEST(DumpHeader, CountsThatCannotBeAreRefused) {
   }
 }
 
+TEST(DumpHeader, FlagsOfTheBoxSayAlongWhichAxesItRepeats) {
+  const TemporaryFolder folder;
+  std::string text = dump_text(1, random_balls(2, 1));
+  const auto periodic_of = [&](const std::string& flags) {
+    std::string other = text;
+    other.replace(other.find(" mm mm pp"), 9, flags);
+    return read_dump_header(folder.write("dump.txt", other)).box->periodic;
+  };
+  EXPECT_EQ(periodic_of(" ff mm pp"), (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(periodic_of(" xy xz yz pp ff pp"), (std::array<bool, 3>{true, false, true}));
+  EXPECT_EQ(periodic_of(""), (std::array<bool, 3>{}));
+}
+
 TEST(DumpHeader, AnItemThatIsThereTwiceIsRefused) {
   std::string text = dump_text(1, random_balls(2, 1));
   expect_named(refusal_of_dump("ITEM: TIMESTEP\n4\n" + text), {"dump7.txt:3", "'ITEM: TIMESTEP'", "twice"});

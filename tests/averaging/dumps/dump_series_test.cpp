@@ -20,6 +20,17 @@ TEST(DumpSeries, IsInOrderOfTimeAndNotOfNames) {
   EXPECT_EQ(dumps[2].path.filename(), "dump1000.txt");
 }
 
+TEST(DumpSeries, KnowsTheNumbersOfBallsWhereTheyCanBeRead) {
+  const TemporaryFolder folder;
+  folder.write("dump1.txt", dump_text(1, {{1, {0, 0, 0}, {}, 0.1}, {2, {1, 0, 0}, {}, 0.1}}));
+  folder.write("dump2.txt", "ITEM: TIMESTEP\n2\nITEM: NUMBER OF ATOMS\n");
+  folder.write("dump3.txt", "ITEM: TIMESTEP\n3\n");
+  const std::vector<DumpFile> dumps = find_dumps((folder / "dump*.txt").string());
+  ASSERT_EQ(dumps.size(), 3U);
+  EXPECT_EQ(dumps[0].count, 2);
+  EXPECT_FALSE(dumps[1].count || dumps[2].count);
+}
+
 TEST(DumpSeries, APatternThatMatchesNothingIsRefusedByItsName) {
   const TemporaryFolder folder;
   const std::string pattern = (folder / "dump*.liggghts").string();

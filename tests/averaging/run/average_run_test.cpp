@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <utility>
 
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/output_lock.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/summary_file.hpp"
+#include "averaging/statistics/redistribution.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "tests/averaging/test_support.hpp"
 
@@ -16,6 +20,27 @@ namespace millfoam::averaging {
 namespace {
 
 constexpr double inside = 4.0 / 3.0 * pi * 1e-3, outside = 4.0 / 3.0 * pi * 1.25e-4;
+
+/// A closed box as text of an STL file.
+std::string stl_box(const Vector3& lower, const Vector3& upper) {
+  const int faces[][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+  std::ostringstream text;
+  text << "solid box\n";
+  for (const auto& face : faces) {
+    for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
+      text << "facet normal 0 0 0\nouter loop\n";
+      for (const int corner : {face[0], face[b], face[c]}) {
+        text << "vertex";
+        for (int axis = 0; axis < 3; ++axis)
+          text << ' ' << ((corner >> axis) % 2 == 0 ? lower : upper)[static_cast<std::size_t>(axis)];
+        text << '\n';
+      }
+      text << "endloop\nendfacet\n";
+    }
+  }
+  text << "endsolid box\n";
+  return text.str();
+}
 
 /// Dumps every 100 steps of 1e-4 s, from 0 on: a ball of 0.1 m that moves at 1 m/s along x from (0.2, 0.5,
 /// 0.5) in the box [0, 2) x [0, 1) x [0, 1) of two voxels, and a ball far outside.
@@ -33,6 +58,12 @@ struct AverageRun : ::testing::Test {
     request.dumps = (folder / "dump*.txt").string();
     request.timestep = 1e-4;
     request.windows = {{0.05, folder / "solids.h5"}};
+  }
+
+  std::string all_notes() const {
+    std::string text;
+    for (const std::string& note : notes) text += note + '\n';
+    return text;
   }
 
   const std::filesystem::path& output() const { return request.windows[0].output; }
@@ -72,7 +103,7 @@ TEST_F(AverageRun, WritesWindowsWithTheVolumeWhereTheBallIs) {
   EXPECT_NEAR(last.solidity[1] / inside, 1, 1e-13);
   EXPECT_NEAR(last.velocity[3], 1, 1e-14);
   EXPECT_NEAR(last.diameter[1], 0.2, 1e-15);
-  ASSERT_EQ(notes.size(), 1U);
+  ASSERT_EQ(notes.size(), 2U);
   expect_named(notes[0], {"1.5 s", "not used"});
 }
 
@@ -181,19 +212,8 @@ TEST_F(TurningRun, NeedsTheMillsSpeed) {
 }
 
 TEST_F(TurningRun, WallsThatTurnWithItAreAtRest) {
-  // The half y > 0 of the cylinder, as a wedge of 3 m that is closed; at DEM time 0
-  const char* corners[] = {"-3 0 0", "3 0 0", "3 3 0", "-3 3 0", "-3 0 1", "3 0 1", "3 3 1", "-3 3 1"};
-  const int faces[][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  std::string text = "solid box\n";
-  for (const auto& face : faces) {
-    for (const auto& [b, c] : {std::pair{1, 2}, std::pair{2, 3}}) {
-      text += "facet normal 0 0 0\nouter loop\n";
-      for (const int corner : {face[0], face[b], face[c]})
-        text += std::string("vertex ") + corners[corner] + '\n';
-      text += "endloop\nendfacet\n";
-    }
-  }
-  request.walls = {folder.write("box.stl", text + "endsolid box\n")};
+  // The half y > 0 of the cylinder, at DEM time 0
+  request.walls = {folder.write("box.stl", stl_box({-3, 0, 0}, {3, 3, 1}))};
   run();
   const SolidsReader solids(output());
   const auto& grid = std::get<CylinderGrid>(solids.grid());
@@ -261,7 +281,7 @@ TEST_F(AverageRun, StoppedAnywhereIsTakenUpAndGivesTheSameFile) {
     EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5"));
     notes.clear();
     run();
-    expect_named(notes.back(), {"resuming"});
+    expect_named(all_notes(), {"resuming"});
     EXPECT_EQ(bytes(folder / "solids.h5"), windows) << dumps;
     EXPECT_EQ(bytes(folder / "whole.h5"), whole) << dumps;
     for (const char* left :
@@ -279,7 +299,7 @@ TEST_F(AverageRun, AStoppedRunOfOtherSettingsIsNotTakenUp) {
   run_and_stop(60);
   request.method = DepositionMethod::exact;
   run();
-  expect_named(notes.back(), {"other dumps or settings"});
+  expect_named(all_notes(), {"other dumps or settings"});
   EXPECT_EQ(bytes(output()), fresh);
 }
 
@@ -304,7 +324,7 @@ TEST_F(AverageRun, AStoppedRunWhoseWindowsAreGoneStartsAfresh) {
   std::filesystem::remove(folder / "solids.h5.journal");
   notes.clear();
   run();
-  expect_named(notes.back(), {"solids.h5.journal", "starting again"});
+  expect_named(all_notes(), {"solids.h5.journal", "starting again"});
   EXPECT_EQ(bytes(output()), fresh);
 }
 
@@ -377,6 +397,72 @@ TEST_F(AverageRun, AGridThatMissesTheBallsIsRefusedUnlessTheyComeToIt) {
   request.largest_outside = 0.5;
   request.grid = BoxGrid({1, 0, 0}, {2, 1, 1}, {2, 1, 1});
   EXPECT_LT(run().windows[0].ledger.deposited, 1e-10) << "the ball is not there yet";
+}
+
+TEST_F(AverageRun, AGridThatRepeatsAfterAnotherLengthThanTheDumpsIsRefused) {
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 0.5}, {2, 1, 1}, {false, false, true});
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {"--periodic z: the cells repeat after 0.5 m along z", "dump0.txt after 1 m (from 0 to 1 m)"});
+  CylinderGrid rings({0, 1}, {0, 2}, {2, 2, 2}, true);
+  request.grid = CylinderRequest(rings);
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"--periodic z", "after 2 m along z"});
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1 + 1e-6}, {2, 1, 1}, {true, false, true});
+  run();
+}
+
+TEST_F(AverageRun, BallsBeyondAGridThatDoesNotRepeatAsTheDumpsDoAreTold) {
+  run();
+  expect_named(notes.back(),
+               {"warning: 11.1111 % of the balls' volume lies outside", "expected --periodic z"});
+  notes.clear();
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {2, 1, 1}, {false, false, true});
+  run();
+  request.grid = BoxGrid({0, 0, 0.1}, {2, 1, 0.9}, {2, 1, 1});
+  run();
+  for (const std::string& note : notes) EXPECT_EQ(note.find("--periodic"), std::string::npos) << note;
+}
+
+TEST_F(AverageRun, TheFirstDumpWithAnotherNumberOfBallsIsTold) {
+  folder.write("dump9000.txt", dump_text(9000, {{1, {1.1, 0.5, 0.5}, {1, 0, 0}, 0.1}}));
+  run();
+  const auto is_told = [](const std::string& note) {
+    return note.find("dump9000.txt has 1 balls") != std::string::npos;
+  };
+  ASSERT_EQ(std::count_if(notes.begin(), notes.end(), is_told), 1);
+  expect_named(*std::find_if(notes.begin(), notes.end(), is_told), {"warning: ", "the dump before it has 2"});
+}
+
+TEST_F(AverageRun, ADumpWithoutBallsBetweenOthersIsRefused) {
+  for (const long long step : {0, 100, 15000})
+    folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, {}));
+  run();  // the balls come in later
+  folder.write("dump9000.txt", dump_text(9000, {}));
+  expect_named(message_of<DumpError>([&] { run(); }), {"dump9000.txt: the dump has no balls, expected some"});
+}
+
+TEST_F(AverageRun, ACapThatLeavesNoRoomNamesThePlaceAndLeavesNoFile) {
+  request.solidity_cap = 0.002;
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {1, 1, 1});
+  expect_named(message_of<NoRoomError>([&] { run(); }),
+               {"window from 0 s: the solidity 0.00209", "voxel (0 0 0) at x 1, y 0.5, z 0.5 m",
+                "above the cap of 0.002", "a larger --cap"});
+  for (const char* left : {"solids.h5.journal", "solids.h5.resume", "solids.h5"})
+    EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;
+}
+
+TEST_F(AverageRun, WallsInMillimetresAreRefusedOrTold) {
+  request.walls = {folder.write("box.stl", stl_box({-600, -600, 0}, {600, 600, 30}))};
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {"--inside: the walls are 1200 m long, above 20 m", "expected walls in m"});
+  request.walls = {folder.write("box.stl", stl_box({-5, -5, -5}, {5, 5, 5}))};
+  const SolidsSummary all_inside = run();
+  expect_named(report(all_inside),
+               {"warning: the walls cut no cell: all lie inside, and the walls are 5 times as wide"});
+  EXPECT_EQ(report(summarise(output())), report(all_inside));
+  for (const double wide : {1.0, 1.1}) {  // one cuts voxels, the other is hardly wider
+    request.walls = {folder.write("box.stl", stl_box({0, 0, 0}, {2 * wide, wide, 0.9 * wide}))};
+    EXPECT_EQ(report(run()).find("the walls cut no cell"), std::string::npos);
+  }
 }
 
 TEST_F(AverageRun, ABrokenDumpLeavesNoSolidsFile) {

@@ -75,7 +75,8 @@ TEST_F(Summary, HoldsWhatThatComesTo) {
   EXPECT_EQ(all["balls_per_cell"], 15);
   EXPECT_EQ(all["largest_solidity"], 0.6);
   EXPECT_EQ(all["advice"], Json::array());
-  EXPECT_EQ(all["warnings"], Json::array());
+  ASSERT_EQ(all["warnings"].size(), 1U);
+  expect_named(all["warnings"][0], {"25 % of the balls' volume lies outside the grid"});
 }
 
 TEST_F(Summary, NamesTheMillAndTheRunWhereTheyAreKnown) {
@@ -100,7 +101,15 @@ TEST_F(Summary, SaysWhenFinesAreLeftOut) {
   expect_named(report(summary), {"advice: 50.0 % of the charge's mass are fines"});
 }
 
+TEST_F(Summary, WarnsOfBallsOutsideFromOnePercentOn) {
+  for (const double part : {0.009, 0.011}) {
+    for (WindowSummary& window : summary.windows) window.ledger.outside = part * window.ledger.volume_in;
+    EXPECT_EQ(json()["warnings"].size(), part > noted_outside ? 1U : 0U);
+  }
+}
+
 TEST_F(Summary, KeepsAdviceAndWarningsApart) {
+  summary.windows[0].ledger.outside = 0;
   summary.windows[0].small_cells = 2;
   summary.windows[1].largest_solidity = 1.2;
   ASSERT_EQ(json()["advice"].size(), 1U);

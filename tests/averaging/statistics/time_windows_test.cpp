@@ -74,6 +74,17 @@ TEST(TimeWindows, AMissingDumpIsTold) {
   expect_named(plan.notes[0], {"window 1", "24 records", "25"});
 }
 
+TEST(TimeWindows, RecordsOffTheIntervalAreTold) {
+  std::vector<long long> steps = every(200, 9800);
+  steps.insert(steps.begin() + 31, 6100);
+  const WindowPlan plan = plan_windows(steps, windows_of(0.05));
+  EXPECT_EQ(plan.windows[1].records, 26U);
+  ASSERT_EQ(plan.notes.size(), 1U);
+  expect_named(plan.notes[0], {"window 1", "26 records, 25 would fill it", "every 0.002 s"});
+  // Windows that are no multiple of the interval hold one more or less
+  EXPECT_TRUE(plan_windows(every(200, 9600), windows_of(0.007)).notes.empty());
+}
+
 TEST(TimeWindows, AWindowWithoutARecordIsRefusedWithItsTime) {
   std::vector<long long> steps = every(200, 4800);
   steps.push_back(30000);

@@ -100,6 +100,38 @@ TEST_F(MillAverages, WallsOfTheOptionsReplaceTheMills) {
   EXPECT_EQ(request.mill_averages, "");
 }
 
+TEST_F(MillAverages, DumpsOfAMillWithOtherWallsAreRefused) {
+  const auto run_of = [&](const std::string& walls) {
+    folder_.write("dumps/run.json",
+                  R"({"timestep_s": 1e-5, "duration_s": 0.2, "mill": {"walls": ")" + walls + R"("}})");
+  };
+  run_of("0123456789abcdef");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }),
+               {"dumps/run.json: the dumps are of another mill (walls 0123456789abcdef, this mill's are " +
+                mill_.mill.fingerprint.walls + "): run millDem again"});
+  run_of(mill_.mill.fingerprint.walls);
+  taken("");
+}
+
+TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) {
+  const auto walls_of = [&](const std::string& walls, const std::string& source) {
+    folder_.write("walls/walls.json",
+                  R"({"mill": {"walls": ")" + walls + R"("}, "source": ")" + source + R"("})");
+  };
+  walls_of("0123456789abcdef", "mill");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }),
+               {"walls/walls.json: the walls are of another mill (walls 0123456789abcdef, this mill's are " +
+                mill_.mill.fingerprint.walls + "): run millMesh again"});
+  taken("--inside " + path("other.stl"));
+  taken("--box 0 0 0 1 1 1 --shape 2 2 2");
+  walls_of(mill_.mill.fingerprint.walls, "mill");
+  taken("");
+  walls_of("0123456789abcdef", "cad");
+  taken("");
+  folder_.write("walls/walls.json", "{");
+  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"walls.json", "run millMesh again"});
+}
+
 TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {
   expect_refused("--shape 4 5 6", "--shape is 4 5 6");
   expect_refused("--frame turning", "--frame is turning");
@@ -128,6 +160,25 @@ TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
   EXPECT_EQ(live_request(mill_, "", path(""), 0, 0.2, 1.8e-5).end, taken("").end);
   folder_.write("dumps/run.json", R"({"duration_s": 0.2})");
   expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"run.json", "timestep_s"});
+}
+
+TEST_F(MillAverages, DumpsOfAPatternWithoutQuotesAreToldShortly) {
+  for (const char* name : {"dump.1", "dump.2", "dump.3", "dump.4"}) folder_.write(name, "");
+  Options options;
+  CLI::App app;
+  declare(app, options);
+  const std::string mill = path("mill.yaml"), one = path("dump.1"), two = path("dump.2"),
+                    three = path("dump.3");
+  const std::string four = path("dump.4");
+  std::vector<const char*> words{"millAverage", mill.c_str(),  "--dumps",   one.c_str(),
+                                 two.c_str(),   three.c_str(), four.c_str()};
+  const auto parse_all = [&] { parse(app, options, static_cast<int>(words.size()), words.data()); };
+  const std::string message = message_of<std::invalid_argument>(parse_all);
+  expect_named(message,
+               {"--dumps " + one + ": 3 more files follow (" + two + ", …)", "put the pattern in quotes"});
+  EXPECT_EQ(message.find(four), std::string::npos);
+  words = {"millAverage", mill.c_str(), "--dumps", one.c_str(), "nothing"};
+  EXPECT_THROW(parse_all(), CLI::ExtrasError);
 }
 
 /// Windows of 0.01 s over 3 s, and their end, of records at every 20th time-step.

@@ -266,6 +266,16 @@ TEST(Flow, feed_needs_an_inlet) {
             std::string::npos);
 }
 
+TEST(Set, of_an_item_needs_its_list) {
+  EXPECT_EQ(
+      refusal_of(bare_mill, {"charge={fill: 0.3, diameter: 0.01}", "charge.classes[0].mass=1"}),
+      "--set charge.classes[0].mass=1: the mill has no list 'charge.classes': expected an item of a list "
+      "that it has, or the whole list, as in charge.classes=[…]");
+  EXPECT_EQ(
+      refusal_of(example_mill, {"dem.duration[0]=1"}).find("--set dem.duration[0]=1: the mill has no list"),
+      0U);
+}
+
 TEST(Set, takes_the_place_of_a_key_and_is_refused_like_one) {
   EXPECT_EQ(mill_of(example_mill, {"dem.duration=4", "charge.classes[1].mass=0.01"}).charge.classes[1].mass,
             0.01);

@@ -87,8 +87,8 @@ CadReport examine_text(const std::string& text, double scale = 1, double toleran
   return examine({{"shell", folder.write("shell.stl", text)}}, scale, tolerance);
 }
 
-CadReport examined(const CadTriangles& triangles) {
-  return examine_text(stl(triangles));
+CadReport examined(const CadTriangles& triangles, double tolerance = 0) {
+  return examine_text(stl(triangles), 1, tolerance);
 }
 
 std::string joined(const std::vector<std::string>& sentences) {
@@ -289,6 +289,17 @@ TEST(Examine, asks_for_the_unit_and_the_frame) {
   EXPECT_TRUE(off.usable());
   expect_in(off.warnings, "the bounding box's middle is x = 0.01, y = ");
   expect_in(off.warnings, "the bounding box begins at z = -0.05 m: expected the feed end at z = 0");
+}
+
+TEST(Examine, refuses_a_tolerance_that_removes_a_part_and_warns_of_a_wide_one) {
+  const CadReport removed = examined(box(0.2, 0.1), 1);
+  EXPECT_FALSE(removed.usable());
+  expect_in(removed.problems, "shell: none of its 12 triangles is left");
+  expect_in(removed.problems, "expected a smaller --tolerance");
+  const CadReport wide = examined(box(0.2, 0.1), 4e-4);
+  EXPECT_TRUE(wide.usable());
+  expect_in(wide.warnings, "corners nearer than 0.0004 m were joined");
+  EXPECT_TRUE(examined(box(0.2, 0.1), 2e-4).warnings.empty());
 }
 
 TEST(Examine, warns_of_needles_with_the_worst) {
