@@ -239,8 +239,9 @@ class AtTheSameTime(unittest.TestCase):
         table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024))])
         np.savetxt(cls.case / "direct" / "dumps" / "fluid.csv", table, "%.8g", ",", comments="",
                    header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm")
-        np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", np.column_stack([times, 0 * times + 0.1]), "%.8g", ",",
-                   comments="", header="time_s,torque_Nm")
+        drive = np.column_stack([times, *(0 * times + value for value in (0.5, 3.0))])
+        np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", drive, "%.8g", ",", comments="",
+                   header="time_s,torque_Nm,power_W")
 
     def judge(self):
         with mock.patch("builtins.print"):
@@ -254,16 +255,21 @@ class AtTheSameTime(unittest.TestCase):
         self.assertAlmostEqual(content["torque_by_flow_Nm"], -0.02, places=9)
         self.assertAlmostEqual(content["torque_by_balls_Nm"], -0.024, places=9)
         # Over the drive's torque on the balls, not over their own, which may be 0
-        self.assertAlmostEqual(content["torque_disagreement"], 0.04, places=9)
+        self.assertAlmostEqual(content["torque_disagreement"], 0.004 / 0.5, places=9)
+
+    def test_the_torque_that_balls_take_is_compared_with_the_balance_of_the_slurry(self):
+        # Of slurryBalance: 0.5 W in all, of which the walls give 0.06 and 0.42 W; the balls give 0.02 W
+        self.assertAlmostEqual(self.judge()["torque_unbalanced"], (0.02 + 0.024 * 6) / (3.0 + 0.48), places=3)
 
     def test_the_report_judges_both(self):
         self.judge()
         case = passes.MillCase(self.case / "direct")
         checks = {check.name: check for check in (make(case) for make in coupling_checks(case))}
         self.assertEqual(checks["The balls feel the slurry's force"].state, "holds")
-        torque = checks["The slurry's force acts where the balls are"]
+        torque = checks["The torque between balls and slurry balances"]
         self.assertEqual(torque.state, "look")
-        self.assertIn("differ by 4.0 % of the drive's torque", torque.found)
+        self.assertIn("it differs by 0.8 % of the drive's torque", torque.found)
+        self.assertIn("balance by +4.7 % of the drive's torque", torque.found)
         self.assertIn("averages.voxel_size", torque.advice)
 
     def test_runs_without_torques_are_judged_by_the_force_alone(self):

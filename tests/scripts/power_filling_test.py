@@ -67,7 +67,8 @@ class Table(unittest.TestCase):
         self.assertEqual([line.split()[0] for line in lines if line],
                          ["12cm_50", "dry", "one", "one", "direct", "direct"])
         self.assertIn("0.2100 ± 0.0020", lines[1])
-        self.assertEqual([("4.0%" in line, line.split()[-1]) for line in lines[3:6:2]], [(False, "–"), (True, "4.0%")])
+        unbalanced = [("+4.0%" in line, line.split()[-1]) for line in lines[3:6:2]]
+        self.assertEqual(unbalanced, [(False, "–"), (True, "+4.0%")])
         # A drive that is not known leaves its place
         places = {line.rindex("0.2000 ± 0.0010") for line in lines[2:] if line}
         self.assertEqual(len(places), 1)

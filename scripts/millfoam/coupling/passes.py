@@ -17,8 +17,8 @@ from ..readings.batches import mean_over_turns
 from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
-from ..readings.means import Mean, with_error
-from ..readings.mill_power import UNKNOWN, charge_power, drive_power, known_balance, slurry_power
+from ..readings.means import Mean, time_mean, with_error
+from ..readings.mill_power import UNKNOWN, by_walls, charge_power, drive_power, known_balance, slurry_power
 from . import ball_forces
 
 FORCES = "forces.h5"  # in a pass's folder: what its balls felt
@@ -37,7 +37,7 @@ LIMIT = 3.0
 NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
-EXCHANGED_TORQUE = 0.02  # by which their torques may differ, over the drive's torque on the balls
+TORQUES = 0.02  # by which the torque between balls and slurry may differ by both, over the drive's torque
 
 
 @dataclass
@@ -141,13 +141,18 @@ def forces_apart(folder: Path) -> float | None:
 class Exchanged:
     """Means over a flow's averaged time of what it gives to all balls, by the flow (steps.csv) and by the balls
     (fluid.csv): sizes of the force, N, and of their difference over that of the flow's; torques about +z, N m, and size
-    of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None."""
+    of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None.
+
+    unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
+    them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
+    error of the drive's power. None of a stirred mill, or without torques."""
     given: float
     taken: float
     disagreement: float
     given_torque: float | None = None
     taken_torque: float | None = None
     torque_disagreement: float | None = None
+    unbalanced: float | None = None
 
 
 def given(case: MillCase) -> tuple[np.ndarray, float | None]:
@@ -191,7 +196,18 @@ def exchanged_forces(folder: Path) -> Exchanged:
         return exchanged
     felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))
     return replace(exchanged, given_torque=torque, taken_torque=felt,
-                   torque_disagreement=abs((torque - felt) / driving))
+                   torque_disagreement=abs((torque - felt) / driving),
+                   unbalanced=unbalanced(case, felt, float(np.mean(drive["power_W"][driven]))))
+
+
+def unbalanced(case: MillCase, felt: float, charge: float) -> float | None:
+    """Exchanged.unbalanced of a case; felt: mean torque of the slurry on the balls about +z, N m; charge: mean power
+    of the drive on the balls, W, both over the averaged time."""
+    if case.machine != MillCase.machine or case.balance is None:
+        return None
+    columns = case.balance
+    whole, walls = (time_mean(columns["Time"], power, case.begin) for power in (columns["power"], by_walls(columns)))
+    return (whole - walls + felt * case.omega) / (charge + walls)
 
 
 def change(before: Pass, after: Pass) -> Change:

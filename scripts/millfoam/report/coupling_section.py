@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..coupling.passes import AGREE, EXCHANGED, EXCHANGED_TORQUE, LIMIT, NOISE, QUANTITIES, forces_apart
+from ..coupling.passes import AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, TORQUES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -27,7 +27,7 @@ def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
     content = coupling_of(case)
     if content["coupling"] != "direct":
         return [has_settled, forces_agree]
-    return [forces_exchanged, *([torques_exchanged] if content.get("torque_disagreement") is not None else [])]
+    return [forces_exchanged, *([torques_balance] if content.get("torque_disagreement") is not None else [])]
 
 
 def forces_exchanged(case: MillCase) -> Check:
@@ -39,14 +39,18 @@ def forces_exchanged(case: MillCase) -> Check:
                   f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
 
 
-def torques_exchanged(case: MillCase) -> Check:
-    """Whether the force of a flow on balls that ran at the same time has the same torque for both."""
-    apart = coupling_of(case)["torque_disagreement"]
-    return judged("The slurry's force acts where the balls are", apart, EXCHANGED_TORQUE, "its torque on all balls by "
-                  f"the flow and by the balls differ by {100 * apart:.1f} % of the drive's torque on them (limit "
-                  f"{100 * EXCHANGED_TORQUE:g} %), so the drive's power has an error of this size",
-                  "Take smaller voxels (averages.voxel_size, of a stirred mill flow.exchange.voxel_size): they spread "
-                  "the balls.", doubtful=5 * EXCHANGED_TORQUE)
+def torques_balance(case: MillCase) -> Check:
+    """Whether balls and slurry have the same torque on each other, so that the drive's power is what both take."""
+    content = coupling_of(case)
+    apart, whole = content["torque_disagreement"], content.get("torque_unbalanced")
+    found = (f"by the flow and by the balls it differs by {100 * apart:.1f} % of the drive's torque on the balls, "
+             "because voxels spread the balls")
+    if whole is not None:
+        found += f"; by the balls and by the slurry's own balance by {100 * whole:+.1f} % of the drive's torque"
+    return judged("The torque between balls and slurry balances", max(apart, abs(whole or 0)), TORQUES,
+                  f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size",
+                  "Take smaller voxels (averages.voxel_size, of a stirred mill flow.exchange.voxel_size), and smaller "
+                  "cells (resolution.cell_size).", doubtful=5 * TORQUES)
 
 
 def has_settled(case: MillCase) -> Check:
@@ -84,6 +88,9 @@ def exchanged_table(case: MillCase) -> str:
         rows += [["torque of this force about the axis, by the flow", f"{content['torque_by_flow_Nm']:.4g} N m"],
                  ["the same, by the balls", f"{content['torque_by_balls_Nm']:.4g} N m"],
                  ["their difference over the drive's torque on the balls", f"{content['torque_disagreement']:.2%}"]]
+        if content.get("torque_unbalanced") is not None:
+            rows.append(["difference to the slurry's own balance, over the drive's torque",
+                         f"{content['torque_unbalanced']:+.2%}"])
     rows.append(["slurry's force over the balls' weight", f"{content['force_over_weight']:.3f}"])
     return page.table(["", ""], rows, title="Balls and slurry at the same time",
                       note="Means over the flow's averaged time. Balls and flow meet at every time-step of the flow.")
