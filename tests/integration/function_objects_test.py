@@ -235,7 +235,7 @@ class FedMill(unittest.TestCase):
                 (r"interval 0.001;", "interval 0.01;", "from 0 to"),
                 (r"interval 0.001;", "timeStart 0.005;", "timeStart"),
                 (r"window 0.008;", "window 0.004;", "lies in two windows"),
-                (r"window 0.008;", "window 0.008; file system/controlDict;", "is not a millfoam-slurry file"),
+                (r"window 0.008;", 'window 0.008; file "system/controlDict";', "is not a millfoam-slurry file"),
                 (r"window 0.008;", "window 0;", "above 0"),
                 (r"shape \(30 30 13\)", "shape (30 0 13)", "shape"),
                 (r"slices 13;", "slices 0;", "one or more"),

@@ -92,7 +92,7 @@ class Content(ExportTest):
         case.write("notes.txt", "all that I know")
         notes = (case.path / "notes.txt").read_text()
         self.assert_refused_export(case, "notes.txt: this file exists and is not a millfoam-mesh file",
-                                   options=("-o", "notes.txt"))
+                                   options=("-o", str(case.path / "notes.txt")))
         self.assertEqual((case.path / "notes.txt").read_text(), notes)
         for _ in range(2):  # its own kind is
             self.export(case)
