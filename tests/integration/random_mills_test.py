@@ -216,8 +216,9 @@ class MillTest(unittest.TestCase):
         dumps.mkdir()
         for record in range(plan["dumps"]):
             step = record * plan["interval"]
-            lines = ["ITEM: TIMESTEP", str(step), "ITEM: NUMBER OF ATOMS", str(len(balls)), "ITEM: BOX BOUNDS ff ff pp",
-                     *["-9 9"] * 3, "ITEM: ATOMS id type x y z vx vy vz radius"]
+            flags, along = ("ff ff pp", f"0 {mill.length!r}") if mill.is_slice else ("ff ff ff", "-9 9")
+            lines = ["ITEM: TIMESTEP", str(step), "ITEM: NUMBER OF ATOMS", str(len(balls)), f"ITEM: BOX BOUNDS {flags}",
+                     "-9 9", "-9 9", along, "ITEM: ATOMS id type x y z vx vy vz radius"]
             for number, (r, rho, angle, z) in enumerate(balls, start=1):
                 now = angle + mill.omega * step * plan["timestep_s"]
                 x, y = rho * math.cos(now), rho * math.sin(now)
