@@ -115,9 +115,9 @@ class TiltedPool(unittest.TestCase):
 
     @classmethod
     def write_table(cls, path, turn):
-        """Height -15 mm, then -13 mm; x 2 mm; power 10 mW, then 20 mW."""
+        """Height -15 mm, then -13 mm; x 2 mm; power 10 mW, then 20 mW. A row is of the time before it."""
         times = turn * np.arange(1, 401) / 200
-        later = times > turn * (1 - 1e-9)
+        later = times > turn * (1 + 1e-9)
         columns = times, 1e-4 + 0 * times, 0.002 + 0 * times, -0.015 + 0.002 * later, 0.01 + 0.01 * later
         path.parent.mkdir(parents=True)
         rows = ["\t".join(f"{value:.17g}" for value in row) for row in zip(*columns)]

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..files.mill_case import MillCase
 from ..readings.batches import batch_means, batches_of, error_about_line
+from ..readings.means import time_steps
 from .verdict import Check, judged
 from .words import decimals
 
@@ -74,11 +75,13 @@ def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> 
     The error comes from the batches' differences from their course (course_of), so that neither a drift nor what comes
     back with every turn increases it: halves of whole turns have the same of the latter. If the middle is left out,
     both are scaled to halves of the whole time, so that a drift counts the same for any number of turns."""
-    chosen = times >= begin
+    chosen = times > begin + 1e-9 * turn
+    # A value is that of the time since the one before
+    start = (times - time_steps(times))[chosen][0]
     times, values = times[chosen], values[chosen]
-    span = times[-1] - times[0]
+    span = times[-1] - start
     length, half = batches_of(span, turn)
-    first, last = (batch_means(times, values, start, length, half) for start in (times[0], times[-1] - half * length))
+    first, last = (batch_means(times, values, begins, length, half) for begins in (start, times[-1] - half * length))
     batches = np.concatenate([first, last])
     if not np.isfinite(batches).all():
         return np.nan, np.nan
