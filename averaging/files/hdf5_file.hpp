@@ -18,6 +18,7 @@ Handle create_file(const std::filesystem::path& path);
 /// Opens a file to read it, without HDF5's locks, so that the ranks of a parallel flow can share it on any
 /// file system. Says so where only the unfinished file `path` + ".part" is there, and for a file that is cut
 /// short or no HDF5 file.
+/// @param path  of the file
 /// @param maker  that makes such files, for the message
 Handle open_file(const std::filesystem::path& path, const std::string& maker = "the program that writes it");
 
