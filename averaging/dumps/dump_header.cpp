@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "averaging/dumps/dump_input.hpp"
-
 namespace millfoam::averaging {
 
 namespace {
@@ -155,12 +153,6 @@ std::optional<long long> read_count(TextLines& lines) {
     return std::nullopt;
   }
   return header.count;
-}
-
-DumpHeader read_dump_header(const std::filesystem::path& file) {
-  DumpInput input(file, std::size_t{1} << 12U);
-  TextLines lines = input.lines();
-  return read_header(lines);
 }
 
 }  // namespace millfoam::averaging

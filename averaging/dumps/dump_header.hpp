@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -31,9 +30,6 @@ struct DumpHeader {
 /// for text that is not a dump, an item that appears twice, an impossible value, units other than si, or a
 /// missing time-step or number of atoms.
 DumpHeader read_header(TextLines& lines);
-
-/// Reads that part of a file, plain or gzip. Throws DumpError as above, and as `DumpInput`.
-DumpHeader read_dump_header(const std::filesystem::path& file);
 
 /// Reads as far as the time-step only. Throws DumpError as `read_header`.
 long long read_step(TextLines& lines);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "averaging/dumps/dump_header.hpp"
 #include "averaging/dumps/dump_input.hpp"
 #include "averaging/dumps/dump_reader.hpp"
 
@@ -27,6 +26,12 @@ std::vector<std::filesystem::path> matches(const std::string& pattern) {
 }
 
 }  // namespace
+
+DumpHeader read_dump_header(const std::filesystem::path& file) {
+  DumpInput input(file, std::size_t{1} << 12U);
+  TextLines lines = input.lines();
+  return read_header(lines);
+}
 
 std::vector<DumpFile> find_dumps(const std::string& pattern) {
   std::vector<DumpFile> dumps;

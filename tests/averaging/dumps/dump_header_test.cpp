@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "averaging/dumps/dump_series.hpp"
 #include "tests/averaging/dumps/dump_support.hpp"
 
 namespace millfoam::averaging {
