@@ -28,8 +28,8 @@ from millfoam.readings.mill_power import given_power
 from millfoam.readings.slurry_on_maps import pool, solidity_at_pixels
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millfoam.report.charge_checks import charge_steadiness
-from millfoam.report.stages import same_mill
 from millfoam.report.steadiness import flow_steadiness
+from millstudies.own_mill import require_own_mill
 
 WAYS = {"one_way": "one way", "direct": "direct"}
 POWERS = {"drive_power": "drive", "charge_power": "charge", "slurry_power": "slurry", "given_power": "given"}
@@ -68,9 +68,7 @@ class Study:
 def require_of(case: MillCase, charge: str, fill: float | None) -> None:
     """RuntimeError if files of a case are of another mill than its own, if its charge does not have this fingerprint,
     or if its slurry does not fill this share of the pores."""
-    stages = same_mill(case)
-    if stages.state == "fails":
-        raise RuntimeError(stages.found)
+    require_own_mill(case)
     if case.mill.fingerprint.get("charge") != charge:
         raise RuntimeError(f"{case.folder}: its charge is not that of the dry run: fingerprint "
                            f"{case.mill.fingerprint.get('charge')}, expected {charge}")

@@ -27,7 +27,7 @@ def charge_steadiness(case: MillCase) -> Check:
     """Whether the dry run is steady before its averages begin."""
     name = "The charge is steady where it is averaged"
     if not case.results.get("steady"):
-        return Check(name, "fails", "the dry run's power did not become steady",
+        return Check(name, "fails", "power or energies of the balls did not become steady",
                      "Let it run longer (dem.duration, millDem --resume).")
     since = case.result("steady_from_s")
     found = f"steady from {since:.2f} s on"
