@@ -92,14 +92,20 @@ void FlowExchange::greet(long step) {
   field_.emplace(order_.grid);
 }
 
-SolidsAt FlowExchange::average(const ParticleRecord& record) {
-  const double time = static_cast<double>(record.step) * timestep_;
+SolidsAt FlowExchange::average(long step, const std::vector<BallInFluid>& balls) {
+  const double time = static_cast<double>(step) * timestep_;
+  ParticleRecord record;
+  record.step = step;
+  record.particles.reserve(balls.size());
+  for (const BallInFluid& ball : balls)
+    record.particles.push_back(
+        {static_cast<int>(record.particles.size()), ball.position, ball.velocity, ball.diameter / 2});
   RecordSums sums;
   sum_record(*cells_.deposition, record, time, sums);
   std::vector<double> numbers = packed(sums);
   ranks_.sum(numbers);
   SolidsAt solids;
-  solids.time = flow_time(record.step);
+  solids.time = flow_time(step);
   if (!pipes_) return solids;
   unpack(std::move(numbers), sums);
   if (cells_.walls) sums.cell_volumes = cells_.walls->inside_volumes(time);
@@ -144,14 +150,14 @@ std::vector<double> FlowExchange::ask(const SolidsAt& solids, long step) {
   return std::move(answer.numbers);
 }
 
-void FlowExchange::meet(const ParticleRecord& record) {
+void FlowExchange::meet(long step, const std::vector<BallInFluid>& balls) {
   // A step of the flow may be shorter than one of the balls
-  while (due(record.step)) {
-    const SolidsAt solids = average(record);
+  while (due(step)) {
+    const SolidsAt solids = average(step, balls);
     std::vector<double> numbers;
     if (pipes_) {
       try {
-        numbers = ask(solids, record.step);
+        numbers = ask(solids, step);
       } catch (const std::exception& error) {
         pipes_->refuse(error.what());
         throw;
@@ -164,11 +170,20 @@ void FlowExchange::meet(const ParticleRecord& record) {
     }
     const ForcesUntil forces = unpack_forces({ForcesUntil::kind, {}, std::move(numbers)}, order_.grid.size());
     field_.emplace(order_.grid, forces.fields);
+    balance_ = TorqueBalance(
+        forces.torque, balls, [this](const BallInFluid& ball) { return without_balance(ball); },
+        order_.smallest_ball / 4, ranks_);
     next_ = order_.begin + std::lround(forces.time / timestep_);
   }
 }
 
 FluidForce FlowExchange::on(const BallInFluid& ball) const {
+  FluidForce force = without_balance(ball);
+  force.balance = balance_.on(ball, force);
+  return force;
+}
+
+FluidForce FlowExchange::without_balance(const BallInFluid& ball) const {
   return force_on(ball, field_->over(ball.position, ball.diameter), polydispersity_, shapes_);
 }
 

@@ -13,29 +13,14 @@
 #include "dem_driver/fluid_check.hpp"
 #include "dem_driver/fluid_forces.hpp"
 #include "dem_driver/fluid_settings.hpp"
+#include "dem_driver/rank_group.hpp"
+#include "dem_driver/torque_balance.hpp"
 
 namespace millfoam::dem_driver {
 
-/// What the ranks of a run tell each other. This class is for a run on one rank; millLiggghts has one for
-/// MPI.
-class RankGroup {
- public:
-  RankGroup() = default;
-  virtual ~RankGroup() = default;
-  RankGroup(const RankGroup&) = delete;
-  RankGroup& operator=(const RankGroup&) = delete;
-
-  /// Number of this rank, from 0.
-  virtual int rank() const { return 0; }
-  /// Adds up the numbers of all ranks, entry by entry; the sums are on rank 0.
-  virtual void sum(std::vector<double>& numbers) { static_cast<void>(numbers); }
-  /// Gives all ranks the numbers of rank 0, in any quantity.
-  virtual void broadcast(std::vector<double>& numbers) { static_cast<void>(numbers); }
-};
-
 /// The forces of a flow that runs at the same time. Flow and balls meet at the end of each time-step of the
 /// flow: the balls give their averages at the DEM step that is nearest to it, and get the forces that act
-/// until the next one. Call everything on all ranks.
+/// until the next one, with the flow's torque by a TorqueBalance. Call everything on all ranks.
 class FlowExchange final : public FluidForces {
  public:
   /// Waits for the flow, and makes its acquaintance.
@@ -51,11 +36,12 @@ class FlowExchange final : public FluidForces {
   bool due(long step) const { return step >= next_; }
 
   /// Meets the flow.
-  /// @param record  the balls of this rank, and the step
+  /// @param step   of the run
+  /// @param balls  of this rank
   /// Throws averaging::ExchangeError when the flow has ended before the run's last record, and
   /// averaging::SlurryFileError for forces that are not finite, with their voxel, or too strong for the
   /// time-step. The flow is told.
-  void meet(const averaging::ParticleRecord& record);
+  void meet(long step, const std::vector<BallInFluid>& balls);
 
   void set_time(double) override {}
   FluidForce on(const BallInFluid& ball) const override;
@@ -63,7 +49,8 @@ class FlowExchange final : public FluidForces {
  private:
   double flow_time(long step) const;
   void greet(long step);
-  averaging::SolidsAt average(const averaging::ParticleRecord& record);
+  FluidForce without_balance(const BallInFluid& ball) const;
+  averaging::SolidsAt average(long step, const std::vector<BallInFluid>& balls);
   /// The flow's next forces, packed for all ranks; empty when it has ended.
   std::vector<double> ask(const averaging::SolidsAt& solids, long step);
   void check(const averaging::BallFields& fields) const;
@@ -78,6 +65,7 @@ class FlowExchange final : public FluidForces {
   std::unique_ptr<averaging::ExchangePipes> pipes_;  ///< of the first rank
   bool polydispersity_ = false;
   std::optional<VoxelField> field_;
+  TorqueBalance balance_;
   long next_ = 0;  ///< step of the next meeting
 };
 

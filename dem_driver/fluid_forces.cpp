@@ -16,6 +16,12 @@ double BallInFluid::volume() const {
   return pi / 6 * diameter * diameter * diameter;
 }
 
+Vector FluidForce::sum() const {
+  Vector result{};
+  for (std::size_t k = 0; k < 3; ++k) result[k] = pressure[k] + drag[k] + balance[k];
+  return result;
+}
+
 double share_below(double height, double radius) {
   const double cap = std::clamp(radius - height, 0.0, 2 * radius);
   return cap * cap * (3 * radius - cap) / (4 * radius * radius * radius);

@@ -27,7 +27,9 @@ struct BallInFluid {
 struct FluidForce {
   Vector pressure = {};  ///< of the pressure, buoyancy with it, N
   Vector drag = {};      ///< N
-  bool known = true;     ///< false: there is no field where the ball is, and both forces are 0
+  Vector balance = {};   ///< of a TorqueBalance, N
+  bool known = true;     ///< false: there is no field where the ball is, and all forces are 0
+  Vector sum() const;    ///< of all, N
 };
 
 /// The force of a fluid on balls.

@@ -11,22 +11,32 @@
 
 namespace millfoam::dem_driver {
 
+namespace {
+
+/// About +z, of a force on a ball, N m.
+double torque_of(const BallInFluid& ball, const Vector& force) {
+  return ball.position[0] * force[1] - ball.position[1] * force[0];
+}
+
+}  // namespace
+
 void FluidSums::add(const BallInFluid& ball, const FluidForce& force) {
-  Vector whole{};
+  const Vector whole = force.sum();
   for (std::size_t k = 0; k < 3; ++k) {
     values[k] += force.pressure[k];
     values[3 + k] += force.drag[k];
-    whole[k] = force.pressure[k] + force.drag[k];
     values[6] += whole[k] * ball.velocity[k];
   }
-  values[7] += ball.position[0] * whole[1] - ball.position[1] * whole[0];
-  if (!force.known) values[8] += 1;
+  values[7] += torque_of(ball, whole);
+  values[8] += torque_of(ball, force.balance);
+  if (!force.known) values[9] += 1;
 }
 
 FluidLedgerFile::FluidLedgerFile(const std::filesystem::path& file) : name_(file), out_(file) {
   out_.precision(10);
   out_ << "# step, then sums over the balls, means over the record's steps: force of the pressure x y z, of "
-          "the drag x y z (N), power (W), torque about z (N m), balls without field\n"
+          "the drag x y z (N), power (W), torque about z and its part by the balance (N m), balls without "
+          "field\n"
        << std::flush;
   if (!out_) throw std::runtime_error(name_.string() + ": cannot be written");
 }
@@ -42,11 +52,11 @@ std::vector<FluidRow> read_fluid_ledger(const CaseFolder& folder) {
   std::map<long, FluidRow> rows;
   for (const auto& line : read_segments(folder, "fluid")) {
     const std::vector<double>& v = line.values;
-    if (v.size() != 10)
+    if (v.size() != 11)
       throw std::runtime_error(line.file.string() + ":" + std::to_string(line.line) + ": " +
-                               std::to_string(v.size()) + " numbers, expected 10");
+                               std::to_string(v.size()) + " numbers, expected 11");
     const long step = std::lround(v[0]);
-    rows[step] = {step, {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], v[9]};
+    rows[step] = {step, {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], v[9], v[10]};
   }
   std::vector<FluidRow> ledger;
   std::transform(rows.begin(), rows.end(), std::back_inserter(ledger),

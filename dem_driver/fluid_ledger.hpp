@@ -14,8 +14,9 @@ namespace millfoam::dem_driver {
 
 /// Sums over balls and steps of what the fluid did: numbers that add up over ranks.
 struct FluidSums {
-  /// Pressure x y z and drag x y z, N; power, W; torque about z, N m; balls without field.
-  std::array<double, 9> values = {};
+  /// Pressure x y z and drag x y z, N; power, W; torque about z, N m, and its part by TorqueBalance; balls
+  /// without field.
+  std::array<double, 10> values = {};
   /// Adds a ball of one step.
   void add(const BallInFluid& ball, const FluidForce& force);
 };
@@ -39,8 +40,9 @@ struct FluidRow {
   long step = 0;             ///< at the record's end
   Vector pressure = {};      ///< N
   Vector drag = {};          ///< N
-  double power = 0;          ///< of both on the balls, W
-  double torque = 0;         ///< of both about +z, N m
+  double power = 0;          ///< on the balls, W
+  double torque = 0;         ///< about +z, N m
+  double balance = 0;        ///< part of the torque that is by TorqueBalance, N m
   double without_field = 0;  ///< balls, mean number
 };
 

@@ -59,6 +59,7 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
     }
     mean.power += row.power;
     mean.torque += row.torque;
+    mean.balance += row.balance;
     mean.without_field += row.without_field;
     ++rows;
   }
@@ -74,6 +75,7 @@ Json fluid_of(const DemPlan& plan, const Results& results) {
   fluid["drag_force_N"] = mean.drag;
   fluid["power_W"] = mean.power / rows;
   fluid["torque_Nm"] = mean.torque / rows;
+  fluid["balance_torque_Nm"] = mean.balance / rows;
   fluid["balls_without_field"] = mean.without_field / rows;
   return fluid;
 }
@@ -155,7 +157,7 @@ ContactResults contacts_of(const CaseFolder& folder, const Results& results) {
 
 void write_fluid(std::ostream& out, const Results& results) {
   out << "time_s,force_x_N,force_y_N,force_z_N,pressure_x_N,pressure_y_N,pressure_z_N,drag_x_N,drag_y_N,drag_"
-         "z_N,power_W,torque_Nm,balls_without_field\n"
+         "z_N,power_W,torque_Nm,balance_torque_Nm,balls_without_field\n"
       << std::setprecision(8);
   for (std::size_t i = 0; i < results.fluid.size(); ++i) {
     const FluidRow& row = results.fluid[i];
@@ -163,7 +165,7 @@ void write_fluid(std::ostream& out, const Results& results) {
     for (std::size_t k = 0; k < 3; ++k) out << ',' << row.pressure[k] + row.drag[k];
     for (const Vector& part : {row.pressure, row.drag})
       for (const double component : part) out << ',' << component;
-    out << ',' << row.power << ',' << row.torque << ',' << row.without_field << '\n';
+    out << ',' << row.power << ',' << row.torque << ',' << row.balance << ',' << row.without_field << '\n';
   }
 }
 

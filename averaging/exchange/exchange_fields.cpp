@@ -119,6 +119,7 @@ ExchangeMessage pack(const ForcesUntil& forces) {
   const BallFields& fields = forces.fields;
   Packer to(message);
   to.add(forces.time);
+  to.add(forces.torque);
   for (const auto* field : {&fields.inside, &fields.pressure_force, &fields.exchange, &fields.drag_force,
                             &fields.solidity, &fields.diameter})
     to.add(*field);
@@ -129,6 +130,7 @@ ForcesUntil unpack_forces(const ExchangeMessage& message, std::size_t voxels) {
   Unpacker from(message);
   ForcesUntil forces;
   forces.time = from.number();
+  forces.torque = from.number();
   BallFields& fields = forces.fields;
   fields.inside = from.numbers(voxels);
   fields.pressure_force = from.numbers(3 * voxels);

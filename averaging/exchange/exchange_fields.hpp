@@ -42,6 +42,7 @@ struct BallsOffer {
 /// Forces, and the time for which the flow asks the balls.
 struct ForcesUntil {
   double time = 0;    ///< until which they act
+  double torque = 0;  ///< of the flow's cells on all balls about +z, N m
   BallFields fields;  ///< on the balls' grid
 
   /// Of its message.

@@ -11,6 +11,7 @@
 #include <liggghts/update.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -118,35 +119,33 @@ class FluidFix {
 
  private:
   void act(long step, int balls, double** position, double** force) {
-    const LAMMPS_NS::Atom& atom = *liggghts_.atom;
-    if (exchange_ != nullptr && exchange_->due(step)) exchange_->meet(balls_at(step, balls, position));
+    if (exchange_ != nullptr && exchange_->due(step)) exchange_->meet(step, all(balls, position));
     forces_->set_time(static_cast<double>(step) * timestep_);
     // LIGGGHTS computes the forces of a step once more where a run is divided
     const bool counts = keeps_ledger_ && step > last_;
     for (int i = 0; i < balls; ++i) {
-      const double* x = position[i];
-      const double* v = atom.v[i];
-      const BallInFluid ball{
-          {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * ball_radius(atom, i), sphericities_.of(atom, i)};
+      const BallInFluid ball = ball_at(i, position);
       const FluidForce felt = forces_->on(ball);
-      for (std::size_t k = 0; k < 3; ++k) force[i][k] = felt.pressure[k] + felt.drag[k];
+      const Vector whole = felt.sum();
+      std::copy(whole.begin(), whole.end(), force[i]);
       if (counts) sums_.add(ball, felt);
     }
     if (counts) end_step(step);
   }
 
-  /// The balls of this rank.
-  millfoam::averaging::ParticleRecord balls_at(long step, int balls, double** position) const {
+  BallInFluid ball_at(int i, double** position) {
     const LAMMPS_NS::Atom& atom = *liggghts_.atom;
-    millfoam::averaging::ParticleRecord record;
-    record.step = step;
-    record.particles.reserve(static_cast<std::size_t>(balls));
-    for (int i = 0; i < balls; ++i) {
-      const double* x = position[i];
-      const double* v = atom.v[i];
-      record.particles.push_back({atom.tag[i], {x[0], x[1], x[2]}, {v[0], v[1], v[2]}, ball_radius(atom, i)});
-    }
-    return record;
+    const double* x = position[i];
+    const double* v = atom.v[i];
+    return {{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * ball_radius(atom, i), sphericities_.of(atom, i)};
+  }
+
+  /// The balls of this rank.
+  std::vector<BallInFluid> all(int balls, double** position) {
+    std::vector<BallInFluid> result;
+    result.reserve(static_cast<std::size_t>(balls));
+    for (int i = 0; i < balls; ++i) result.push_back(ball_at(i, position));
+    return result;
   }
 
   void end_step(long step) {

@@ -98,9 +98,7 @@ class FlowExchangeTest : public testing::Test {
   }
 
   /// One ball that moves along x.
-  static averaging::ParticleRecord ball(long at) {
-    return {at, {{1, {0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter / 2}}, {}};
-  }
+  static std::vector<BallInFluid> ball() { return {{{0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter}}; }
 
   tests::TemporaryFolder folder_;
   std::future<void> flow_;
@@ -114,24 +112,24 @@ TEST_F(FlowExchangeTest, gives_the_balls_and_gets_their_forces) {
     EXPECT_EQ(first.time, 0);
     EXPECT_NEAR(first.deposited / volume, 1, 1e-12);
     EXPECT_EQ(first.fields.velocity[3 * box.offset({1, 1, 0})], 0.5);
-    pipes.send(pack(averaging::ForcesUntil{0.00203, uniform(1e4, 2e5, 0.8)}));
+    pipes.send(pack(averaging::ForcesUntil{0.00203, 0, uniform(1e4, 2e5, 0.8)}));
     const auto second = averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
     EXPECT_NEAR(second.time, 0.00203, 1e-12);
-    pipes.send(pack(averaging::ForcesUntil{0.01, uniform(2e4, 0, 0)}));
+    pipes.send(pack(averaging::ForcesUntil{0.01, 0, uniform(2e4, 0, 0)}));
     averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
     pipes.send({averaging::exchange_end, {}, {}});
   });
   FlowExchange exchange(order(), first_step, alone_);
   EXPECT_TRUE(exchange.due(first_step));
-  exchange.meet(ball(first_step));
+  exchange.meet(first_step, ball());
   EXPECT_FALSE(exchange.due(first_step + 202));
   EXPECT_TRUE(exchange.due(first_step + 203));
   const BallInFluid felt{{0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter};
   EXPECT_NEAR(exchange.on(felt).pressure[1], 1e4 * volume, 1e-12);
   EXPECT_NEAR(exchange.on(felt).drag[0], 2e5 * (0.8 - 0.5) * volume, 1e-12);
-  exchange.meet(ball(first_step + 203));
+  exchange.meet(first_step + 203, ball());
   EXPECT_NEAR(exchange.on(felt).pressure[1], 2e4 * volume, 1e-12);
-  exchange.meet(ball(first_step + 1000));
+  exchange.meet(first_step + 1000, ball());
   EXPECT_FALSE(exchange.due(first_step + 100000));
   flow_.get();
 }
@@ -151,12 +149,12 @@ TEST_F(FlowExchangeTest, gives_all_of_the_balls_where_walls_cut_the_voxels) {
   in_the_drum.exchange->begin = still.begin;
   in_the_drum.exchange->end = still.end;
   // Along the wall, one behind the other
-  averaging::ParticleRecord balls{first_step, {}, {}};
+  std::vector<BallInFluid> balls;
   double volume = 0;
   for (int i = 0; i < 30; ++i) {
     const double angle = 2 * pi * i / 30, radius = i % 3 == 0 ? 0.0015 : 0.001;
-    balls.particles.push_back(
-        {i, {0.0186 * std::cos(angle), 0.0186 * std::sin(angle), 0.0004 * i}, {0, 0, 0.1}, radius});
+    balls.push_back(
+        {{0.0186 * std::cos(angle), 0.0186 * std::sin(angle), 0.0004 * i}, {0, 0, 0.1}, 2 * radius});
     volume += 4 * pi / 3 * radius * radius * radius;
   }
   start([&](ExchangePipes& pipes) {
@@ -179,7 +177,7 @@ TEST_F(FlowExchangeTest, gives_all_of_the_balls_where_walls_cut_the_voxels) {
   });
   in_the_drum.exchange->end = first_step;
   FlowExchange exchange(in_the_drum, first_step, alone_);
-  exchange.meet(balls);
+  exchange.meet(first_step, balls);
   flow_.get();
 }
 
@@ -188,13 +186,37 @@ TEST_F(FlowExchangeTest, of_a_mixture_gives_each_size_its_own_drag) {
     pipes.send(pack(averaging::FlowOffer{true, 0, version()}));
     pipes.receive(averaging::BallsOffer::kind);
     pipes.receive(averaging::SolidsAt::kind);
-    pipes.send(pack(averaging::ForcesUntil{0.001, uniform(0, 1000, 0.8)}));
+    pipes.send(pack(averaging::ForcesUntil{0.001, 0, uniform(0, 1000, 0.8)}));
   });
   FlowExchange exchange(order(), first_step, alone_);
-  exchange.meet(ball(first_step));
+  exchange.meet(first_step, ball());
   flow_.get();
   const BallInFluid large{{0.015, 0.02, 0.01}, {0, 0, 0}, 2 * diameter};
   EXPECT_NEAR(exchange.on(large).drag[0] / (large.volume() * mixture_factor(2, 0.3) * 800), 1, 1e-12);
+}
+
+TEST_F(FlowExchangeTest, gives_the_balls_the_torque_of_the_flow) {
+  start([&](ExchangePipes& pipes) {
+    greet(pipes);
+    pipes.send(pack(averaging::ForcesUntil{0.001, 2e-6, uniform(1e4, 2e5, 0.8)}));
+  });
+  const std::vector<BallInFluid> balls{{{0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter},
+                                       {{0.025, 0.03, 0.01}, {0.1, 0.2, 0}, diameter},
+                                       {{0.031, 0.008, 0.004}, {0, 0, 0.1}, diameter}};
+  FlowExchange exchange(order(), first_step, alone_);
+  exchange.meet(first_step, balls);
+  flow_.get();
+  double torque = 0;
+  Vector added{};
+  for (const BallInFluid& one : balls) {
+    const FluidForce force = exchange.on(one);
+    torque += one.position[0] * force.sum()[1] - one.position[1] * force.sum()[0];
+    for (std::size_t k = 0; k < 3; ++k) added[k] += force.balance[k];
+  }
+  EXPECT_NEAR(torque, 2e-6, 1e-18);
+  EXPECT_NEAR(added[0], 0, 1e-16);
+  EXPECT_NEAR(added[1], 0, 1e-16);
+  EXPECT_EQ(added[2], 0);
 }
 
 TEST_F(FlowExchangeTest, lets_the_flow_end_within_the_last_record) {
@@ -205,7 +227,7 @@ TEST_F(FlowExchangeTest, lets_the_flow_end_within_the_last_record) {
     });
     const long step = first_step + 1000 - before;
     FlowExchange exchange(order(), step, alone_);
-    const std::string message = message_of([&] { exchange.meet(ball(step)); });
+    const std::string message = message_of([&] { exchange.meet(step, ball()); });
     flow_.get();
     EXPECT_EQ(message.empty(), before == 100) << message;
   }
@@ -214,12 +236,12 @@ TEST_F(FlowExchangeTest, lets_the_flow_end_within_the_last_record) {
 TEST_F(FlowExchangeTest, refuses_another_message_in_the_place_of_forces) {
   start([&](ExchangePipes& pipes) {
     greet(pipes);
-    auto message = pack(averaging::ForcesUntil{0.001, uniform(0, 0, 0)});
+    auto message = pack(averaging::ForcesUntil{0.001, 0, uniform(0, 0, 0)});
     message.kind = "other";
     pipes.send(message);
   });
   FlowExchange exchange(order(), first_step, alone_);
-  const std::string message = message_of([&] { exchange.meet(ball(first_step)); });
+  const std::string message = message_of([&] { exchange.meet(first_step, ball()); });
   EXPECT_NE(message.find("the flow sends 'other', expected 'forces'"), std::string::npos) << message;
   flow_.get();
 }
@@ -231,7 +253,7 @@ TEST_F(FlowExchangeTest, refuses_a_flow_that_ends_early) {
   });
   FlowExchange exchange(order(), first_step, alone_);
   EXPECT_NE(message_of([&] {
-              exchange.meet(ball(first_step));
+              exchange.meet(first_step, ball());
             }).find("the flow has ended at its time 0 s, expected 0.01 s"),
             std::string::npos);
   flow_.get();
@@ -273,12 +295,12 @@ TEST_F(FlowExchangeTest, refuses_forces_that_are_not_finite_or_too_strong) {
     std::string told;
     start([&, given = fields](ExchangePipes& pipes) {
       greet(pipes);
-      pipes.send(pack(averaging::ForcesUntil{0.001, given}));
+      pipes.send(pack(averaging::ForcesUntil{0.001, 0, given}));
       told = message_of([&] { pipes.receive(); });
     });
     {
       FlowExchange exchange(order(), first_step, alone_);
-      EXPECT_NE(message_of([&] { exchange.meet(ball(first_step)); }).find(words), std::string::npos);
+      EXPECT_NE(message_of([&] { exchange.meet(first_step, ball()); }).find(words), std::string::npos);
     }
     flow_.get();
     EXPECT_NE(told.find(words), std::string::npos);

@@ -149,7 +149,7 @@ TEST_F(FluidRun, TheLedgerJoinsTheSegmentsOfAResumedRun) {
   std::filesystem::create_directories(folder.dem());
   const auto sums = [](double x) {
     FluidSums all;
-    all.values = {x, 2 * x, 3 * x, 4 * x, 5 * x, 6 * x, 7 * x, 8 * x, 9 * x};
+    all.values = {x, 2 * x, 3 * x, 4 * x, 5 * x, 6 * x, 7 * x, 8 * x, 9 * x, 10 * x};
     return all;
   };
   {
@@ -167,16 +167,17 @@ TEST_F(FluidRun, TheLedgerJoinsTheSegmentsOfAResumedRun) {
   EXPECT_EQ(rows[2].drag, (Vector{12, 15, 18}));
   EXPECT_EQ(rows[2].power, 21);
   EXPECT_EQ(rows[2].torque, 24);
-  EXPECT_EQ(rows[2].without_field, 27);
+  EXPECT_EQ(rows[2].balance, 27);
+  EXPECT_EQ(rows[2].without_field, 30);
 }
 
-TEST_F(FluidRun, SumsHavePowerAndTorqueOfBothForcesAndCountBallsWithoutField) {
+TEST_F(FluidRun, SumsHavePowerAndTorqueOfAllForcesAndCountBallsWithoutField) {
   FluidSums sums;
-  sums.add({{2, 3, 7}, {1, 2, 0}, 0.003}, {{3, 1, 0}, {0, -1, 5}});
+  sums.add({{2, 3, 7}, {1, 2, 0}, 0.003}, {{3, 1, 0}, {0, -1, 5}, {1, 2, 0}});
   FluidForce none;
   none.known = false;
   sums.add({{}, {1, 1, 1}, 0.003}, none);
-  EXPECT_EQ(sums.values, (std::array<double, 9>{3, 1, 0, 0, -1, 5, 3, -9, 1}));
+  EXPECT_EQ(sums.values, (std::array<double, 10>{3, 1, 0, 0, -1, 5, 8, -8, 1, 1}));
 }
 
 TEST_F(FluidRun, APlanThatContinuesBeginsWithTheOthersLastStep) {

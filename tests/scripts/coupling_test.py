@@ -236,9 +236,9 @@ class AtTheSameTime(unittest.TestCase):
         more = [f"given_force_{axis}_N" for axis in "xyz"] + ["given_torque_Nm"]
         place.write_text("\n".join([",".join([names, *more]), *(row + ",3,4,0,-0.02" for row in rows)]) + "\n")
         times = 1.0 + np.arange(1, 81) * 0.01
-        table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024))])
+        table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024, -0.003))])
         np.savetxt(cls.case / "direct" / "dumps" / "fluid.csv", table, "%.8g", ",", comments="",
-                   header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm")
+                   header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm,balance_torque_Nm")
         drive = np.column_stack([times, *(0 * times + value for value in (0.5, 3.0))])
         np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", drive, "%.8g", ",", comments="",
                    header="time_s,torque_Nm,power_W")
@@ -254,6 +254,7 @@ class AtTheSameTime(unittest.TestCase):
         self.assertAlmostEqual(content["force_disagreement"], 0.03 / 5, places=6)
         self.assertAlmostEqual(content["torque_by_flow_Nm"], -0.02, places=9)
         self.assertAlmostEqual(content["torque_by_balls_Nm"], -0.024, places=9)
+        self.assertAlmostEqual(content["torque_added_Nm"], -0.003, places=9)
         # Over the drive's torque on the balls, not over their own, which may be 0
         self.assertAlmostEqual(content["torque_disagreement"], 0.004 / 0.5, places=9)
 

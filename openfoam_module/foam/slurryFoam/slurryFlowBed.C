@@ -154,14 +154,16 @@ void Foam::slurryFlow::tellBalls()
     {
         clock_.begin("balls");
         const ballForces feel(onBalls_->present());
+        // With the flow's own drag, that of a mixture of sizes
+        const scalarField exchange(
+            drag_->exchange(bed_, alpha_.oldTime(), U_)->field());
         const vectorField force(
-            feel.solidity * mesh_.V() *
-            (feel.pressure +
-             feel.exchange * (U_.primitiveField() - feel.velocity)));
+            mesh_.V() * (feel.solidity * feel.pressure +
+                         exchange * (U_.primitiveField() - feel.velocity)));
         givenForce_ = gSum(force);
         givenTorque_ =
             gSum((mesh_.C().primitiveField() ^ force)().component(vector::Z)());
-        bed_.tell(feel, U_.primitiveField());
+        bed_.tell(feel, U_.primitiveField(), givenTorque_);
     }
 }
 

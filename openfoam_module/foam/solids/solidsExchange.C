@@ -212,6 +212,7 @@ Foam::solidsExchange::solidsExchange(const dictionary& dict, const fvMesh& mesh)
 : dict_(dict),
   mesh_(mesh),
   folder_(dict.get<fileName>("exchange").expand()),
+  torque_(0),
   present_(0),
   motion_(mesh)
 {
@@ -253,7 +254,10 @@ bool Foam::solidsExchange::sample(
     const scalar latest = max(states_[0].time, states_[1].time);
     if (time > latest)
     {
-        onMaster([&] { pipes_->send(pack(ForcesUntil{time, forces_})); });
+        onMaster(
+            [&] {
+                pipes_->send(pack(ForcesUntil{time, torque_, forces_}));
+            });
         receive(time);
     }
     const std::size_t nearest =
@@ -277,8 +281,10 @@ bool Foam::solidsExchange::sample(
 }
 
 
-void Foam::solidsExchange::tell(const ballForces& feel, const vectorField& U)
+void Foam::solidsExchange::tell(
+    const ballForces& feel, const vectorField& U, const scalar torque)
 {
+    torque_ = torque;
     const SolidsWindow& window = states_[present_].solids.fields;
     const scalarField& sampled = states_[present_].sums.solidity();
     const scalarField& volumes = mesh_.V();

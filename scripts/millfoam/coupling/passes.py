@@ -143,6 +143,9 @@ class Exchanged:
     (fluid.csv): sizes of the force, N, and of their difference over that of the flow's; torques about +z, N m, and size
     of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None.
 
+    added_torque: part of the balls' torque, N m, that they got because voxels spread them (TorqueBalance of millDem).
+    None of a run without it: there, the torques by the flow and by the balls may differ by as much.
+
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
     error of the drive's power. None of a stirred mill, or without torques."""
@@ -151,6 +154,7 @@ class Exchanged:
     disagreement: float
     given_torque: float | None = None
     taken_torque: float | None = None
+    added_torque: float | None = None
     torque_disagreement: float | None = None
     unbalanced: float | None = None
 
@@ -180,9 +184,8 @@ def exchanged_forces(folder: Path) -> Exchanged:
     """Exchanged of a case whose balls and flow ran at the same time. RuntimeError without steps.csv, fluid.csv or
     energy.csv.
 
-    Force and torque are means over all time-steps: one of the flow acts on the balls until the next one. The force is
-    the same for both. Its torque is not: the flow sees the balls spread over voxels, and they feel it where they
-    are."""
+    Force and torque are means over all time-steps: one of the flow acts on the balls until the next one. Both are the
+    same for flow and balls when they meet; then the balls move on."""
     case = direct_case(folder)
     assert case.flow is not None
     force, torque = given(case)
@@ -195,7 +198,8 @@ def exchanged_forces(folder: Path) -> Exchanged:
     if torque is None or "torque_Nm" not in rows:
         return exchanged
     felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))
-    return replace(exchanged, given_torque=torque, taken_torque=felt,
+    added = float(np.mean(rows["balance_torque_Nm"][within])) if "balance_torque_Nm" in rows else None
+    return replace(exchanged, given_torque=torque, taken_torque=felt, added_torque=added,
                    torque_disagreement=abs((torque - felt) / driving),
                    unbalanced=unbalanced(case, felt, float(np.mean(drive["power_W"][driven]))))
 

@@ -43,8 +43,7 @@ def torques_balance(case: MillCase) -> Check:
     """Whether balls and slurry have the same torque on each other, so that the drive's power is what both take."""
     content = coupling_of(case)
     apart, whole = content["torque_disagreement"], content.get("torque_unbalanced")
-    found = (f"by the flow and by the balls it differs by {100 * apart:.1f} % of the drive's torque on the balls, "
-             "because voxels spread the balls")
+    found = f"by the flow and by the balls it differs by {100 * apart:.1f} % of the drive's torque on the balls"
     if whole is not None:
         found += f"; by the balls and by the slurry's own balance by {100 * whole:+.1f} % of the drive's torque"
     return judged("The torque between balls and slurry balances", max(apart, abs(whole or 0)), TORQUES,
@@ -88,6 +87,9 @@ def exchanged_table(case: MillCase) -> str:
         rows += [["torque of this force about the axis, by the flow", f"{content['torque_by_flow_Nm']:.4g} N m"],
                  ["the same, by the balls", f"{content['torque_by_balls_Nm']:.4g} N m"],
                  ["their difference over the drive's torque on the balls", f"{content['torque_disagreement']:.2%}"]]
+        if content.get("torque_added_Nm") is not None:
+            rows.append(["part of the balls' torque that makes up for voxels, which spread the balls",
+                         f"{content['torque_added_Nm']:.4g} N m"])
         if content.get("torque_unbalanced") is not None:
             rows.append(["difference to the slurry's own balance, over the drive's torque",
                          f"{content['torque_unbalanced']:+.2%}"])

@@ -122,7 +122,7 @@ TEST(ExchangeFields, come_back_from_their_messages) {
   EXPECT_FALSE(unpack_balls_offer(pack(BallsOffer{grid, 3, {}, "", ""})).angular_velocity);
 
   const std::size_t n = grid.size();
-  ForcesUntil forces{2.5, {}};
+  ForcesUntil forces{2.5, -0.5, {}};
   forces.fields.inside.assign(n, 1);
   forces.fields.pressure_force.assign(3 * n, 2);
   forces.fields.exchange.assign(n, 3);
@@ -131,6 +131,7 @@ TEST(ExchangeFields, come_back_from_their_messages) {
   forces.fields.diameter.assign(n, 6);
   const ForcesUntil felt = unpack_forces(pack(forces), n);
   EXPECT_EQ(felt.time, 2.5);
+  EXPECT_EQ(felt.torque, -0.5);
   EXPECT_EQ(felt.fields.inside, forces.fields.inside);
   EXPECT_EQ(felt.fields.pressure_force, forces.fields.pressure_force);
   EXPECT_EQ(felt.fields.exchange, forces.fields.exchange);
@@ -176,7 +177,7 @@ TEST(ExchangeFields, with_a_number_too_many_or_too_few_are_refused) {
   };
   const std::size_t n = grid.size();
   const ExchangeMessage flow = pack(FlowOffer{}), balls = pack(BallsOffer{grid, 0, {}, "", ""});
-  const ExchangeMessage forces{ForcesUntil::kind, "", std::vector<double>(1 + 10 * n)};
+  const ExchangeMessage forces{ForcesUntil::kind, "", std::vector<double>(2 + 10 * n)};
   const ExchangeMessage solids{SolidsAt::kind, "", std::vector<double>(2 + 7 * n)};
   EXPECT_EQ(refusal_of([&] { unpack_forces(forces, n); }), "");
   EXPECT_EQ(refusal_of([&] { unpack_solids(solids, n); }), "");
