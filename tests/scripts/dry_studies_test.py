@@ -11,6 +11,9 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
+import numpy as np
+
+from millfoam.files.solids_file import SolidsMap
 from millstudies import dry_runs
 from study_scripts import load
 
@@ -97,6 +100,22 @@ class Study(Folder):
         self.assertEqual([call[2] for call in calls], [theirs, own])
         self.assertTrue(all(call[3:] == ("-o", "report.html") for call in calls))
         self.assertEqual(list(theirs.iterdir()), [])
+
+
+class Seeds(unittest.TestCase):
+    def test_pairs_that_differ_in_the_seed_alone_show_the_difference_by_chance(self):
+        study = load("studies/softening/softening.py")
+        edges = np.linspace(-1, 1, 5)
+        maps = [SolidsMap(edges, edges, np.ones((4, 4)), np.full((4, 4), solidity), np.ones((4, 4, 3)), 0, 1)
+                for solidity in (0.5, 0.56, 0.52, 0.51, 0.5)]
+        runs = [SimpleNamespace(charge=one) for one in maps]
+        rows = list(study.chance_rows(runs, list(study.settings(quick=False))))
+        self.assertEqual([row["run"] for row in rows], ["1e7, two seeds", "1e8, two seeds"])
+        np.testing.assert_allclose([row["solidity_difference"] for row in rows], [0.06 / 0.634, 0.01 / 0.634])
+        with tempfile.TemporaryDirectory() as folder:
+            study.write_table([], rows, Path(folder) / "softening.txt")
+            self.assertIn("1e8, two seeds", (Path(folder) / "softening.txt").read_text())
+            self.assertIn("1e7, two seeds", (Path(folder) / "softening.csv").read_text())
 
 
 if __name__ == "__main__":
