@@ -121,8 +121,8 @@ def drifts(columns: dict[str, np.ndarray], begin: float, turn: float, radius: fl
     """Difference of each of the machine's QUANTITIES between the halves of the time from `begin` (s) on."""
     found = []
     for key, unit, scale in QUANTITIES[machine]:
-        found_halves = halves(columns["Time"], columns[key], begin, turn)
-        difference, error = found_halves.value, found_halves.error
+        apart = halves(columns["Time"], columns[key], begin, turn)
+        difference, error = apart.value, apart.error
         whole = radius if key in "xyz" else abs(columns[key][columns["Time"] >= begin].mean())
         of_what = f"{WORDS[key]} over the radius" if key in "xyz" else f"the {WORDS[key]}"
         text = f"{difference_with_error(scale * difference, scale * error)} {unit}"
