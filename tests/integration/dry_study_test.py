@@ -173,7 +173,8 @@ class Readings12cm(FolderTest):
 
     def test_patterns_choose_and_all_are_those_without_a_variant(self):
         parser = SimpleNamespace(error=mock.Mock(side_effect=KeyError))
-        self.assertEqual(len(self.study.chosen(["all"], self.cases, parser)), 12)
+        self.assertEqual(len(self.study.chosen(["all"], self.cases, parser, lambda case: not case.variant)), 12)
+        self.assertEqual(len(self.study.chosen(["all"], self.cases, parser)), len(self.cases))
         self.assertEqual(len(self.study.chosen(["12cm_load25_speed50*"], self.cases, parser)),
                          1 + len(self.study.VARIANTS))
         with self.assertRaises(KeyError):

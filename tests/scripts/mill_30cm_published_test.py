@@ -182,7 +182,7 @@ class Bed(unittest.TestCase):
 class Statements(unittest.TestCase):
     def flow(self, **numbers):
         series = SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)), height=np.full((60, 2), -0.05))
-        run = SimpleNamespace(series=series, speed=75, diameter=0.3, name="run", steady=None)
+        run = SimpleNamespace(series=series, speed=75, diameter=0.3, turn=1.036, name="run", steady=None)
         drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(10.0, 1.0))
         return SimpleNamespace(readings=run, run=RUNS["Beetstra_75_20"], **{"drops": drops, **numbers})
 
@@ -208,7 +208,7 @@ class Statements(unittest.TestCase):
 
     def test_balls_that_feel_the_slurry_have_verdicts_of_their_own(self):
         series = self.flow().readings.series
-        readings = RunReadings("direct_75_20/direct", 0.3, 75, "Beetstra", 20, 5.0, True, "fails",
+        readings = RunReadings("direct_75_20/direct", 0.3, 75, "Beetstra", 20, 5.0, True, 1.036, "fails",
                                Surface(Mean(40, 1, 1), Mean(0.002), 44.0), series, Mean(0.01, 1e-4, 1),
                                Mean(-0.01, 1e-4, 1), (np.array([100.0, 300.0]), np.array([1.0, 3.0])))
         found = list(own_statements.felt({"direct_75_20": SimpleNamespace(readings=readings)}))

@@ -216,9 +216,9 @@ class Flow(Verdicts):
     def test_the_error_of_noise_is_what_the_difference_deviates_by(self):
         time = np.arange(0, 12, 1e-2)
         for turn in (1.0, 4.0, 5.0, 100.0):
-            found = np.array([halves(time, np.random.default_rng(seed).normal(0, 1, time.shape), 0, turn)
-                              for seed in range(200)])
-            difference, error = np.sqrt(np.mean(found**2, axis=0))
+            found = [halves(time, np.random.default_rng(seed).normal(0, 1, time.shape), 0, turn)
+                     for seed in range(200)]
+            difference, error = np.sqrt(np.mean([(one.value**2, one.error**2) for one in found], axis=0))
             self.assertAlmostEqual(error / difference, 1, delta=0.15)
 
     def test_the_error_of_a_mean_is_of_whole_turns(self):

@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "cases" / "verification" / "repose"))
 
 import compare  # noqa: E402, in the case's folder
+from compare import FAILS, HOLDS, UNDECIDED  # noqa: E402
 from repose import DIAMETER, Ledge, Shape, place_balls, scaled_axes, slope  # noqa: E402
 
 LEDGE = Ledge(16, 5, 10)
@@ -53,17 +54,22 @@ class Balls(unittest.TestCase):
 
 
 class Verdicts(unittest.TestCase):
-    def holds(self, spheres, round_ones, blunt, error=0.2):
+    def verdicts(self, spheres, round_ones, blunt, error=0.2, freedom=np.inf):
         angles = zip(("spheres", "round", "blunt"), (spheres, round_ones, blunt))
-        return [held for held, _ in compare.verdicts({name: Mean(value, error) for name, value in angles})]
+        return [one for one, _ in compare.verdicts({name: Mean(value, error, freedom) for name, value in angles})]
 
     def test_round_bodies_are_spheres_and_blunt_ones_are_steeper(self):
-        self.assertEqual(self.holds(25, 25.8, 30), [True, True])
-        self.assertEqual(self.holds(25, 28, 26), [False, False])
+        self.assertEqual(self.verdicts(25, 25.8, 30), [HOLDS, HOLDS])
+        self.assertEqual(self.verdicts(25, 28, 26), [FAILS, FAILS])
+
+    def test_scatter_alone_decides_nothing(self):
+        # Three piles each: four degrees of freedom, 2.8 errors of 1.1 degrees
+        self.assertEqual(self.verdicts(25, 25, 29, error=0.8, freedom=2), [UNDECIDED, UNDECIDED])
+        self.assertEqual(self.verdicts(25, 31, 40, error=0.8, freedom=2), [UNDECIDED, HOLDS])
+        self.assertEqual(self.verdicts(25, 25, 20, error=0.8, freedom=2), [UNDECIDED, FAILS])
 
     def test_single_piles_have_no_error(self):
-        self.assertEqual(self.holds(25, 26.9, 27, error=np.nan), [True, True])
-        self.assertEqual(self.holds(25, 27.1, 26.9, error=np.nan), [False, False])
+        self.assertEqual(self.verdicts(25, 25, 40, error=np.nan), [UNDECIDED, UNDECIDED])
 
 
 if __name__ == "__main__":

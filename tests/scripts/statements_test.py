@@ -17,8 +17,9 @@ from millfoam.files.mill import Mill
 from millfoam.readings import slurry_over_time
 from millfoam.readings.axial import AxialSeries, gaussians
 from millfoam.readings.means import Mean, series_mean
-from millstudies import statements
-from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, turn
+from millstudies import own_mill, statements
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, unsteady
+from millstudies.mill_runs import OTHER_MESH
 from millstudies.run_readings import RunReadings, Surface, surface_line
 from slurry_on_maps_test import RADIUS, WALL, slurry_map
 
@@ -34,15 +35,21 @@ def series(profile=-0.05, pressure=0.0, noise=1e-4):
                        pressure + 1e3 * noise * random.standard_normal(shape))
 
 
+def turn(diameter, speed):
+    """Time (s) of a turn of a mill (m) at a speed (% of critical)."""
+    return 2 * np.pi / (speed / 100 * np.sqrt(9.81 / (diameter / 2)))
+
+
 def run(speed=75, law=None, solids=20, last=5.0, **read):
     """A run of the 30 cm mill, steady by default."""
-    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True,
+    return RunReadings(f"run_{speed}_{law}_{solids}", 0.3, speed, law, solids, last, True, turn(0.3, speed),
                        **{"series": series(), **read})
 
 
 def a_slice(law=None, solids=30, last=5.0, **read):
     """A run of the 12 cm mill's slice at half of the critical speed."""
-    return RunReadings(f"slice_{law}_{solids}", 0.12, 50, law, solids, last, False, **{"series": series(), **read})
+    return RunReadings(f"slice_{law}_{solids}", 0.12, 50, law, solids, last, False, turn(0.12, 50),
+                       **{"series": series(), **read})
 
 
 def verdicts_of(function, *runs, of_slice=False):
@@ -143,6 +150,11 @@ class WithBalls(unittest.TestCase):
         self.assertEqual(verdicts_of(statements.surface_follows, follows, of_slice=True), [CONFIRMED])
         self.assertEqual(verdicts_of(statements.surface_follows, follows), [NOT_TESTED])
 
+    def test_another_mill_is_not_judged(self):
+        other = a_slice("Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
+        other.diameter = 0.2
+        self.assertEqual({one.verdict for one in statements.verdicts([other])}, {NOT_TESTED})
+
     def test_a_slice_says_nothing_along_the_axis(self):
         runs = [a_slice(law, 20, series=series(pressure=-1e3 * Z)) for law in (None, "Beetstra", "ErgunWenYu")]
         for function in (statements.humps_without_balls, statements.pressure_drops, statements.circulation):
@@ -227,13 +239,25 @@ class Steady(unittest.TestCase):
 
     def test_less_than_a_turn_leaves_a_statement_undecided(self):
         one = run(law="Beetstra", surface=Surface(Mean(30, 1), Mean(0.01), 40.0))
-        self.assertAlmostEqual(turn(one), 2 * np.pi / (0.75 * np.sqrt(9.81 / 0.15)))
         late = TIMES > 4.0
         one.series = AxialSeries(Z, TIMES[late], *(values[late] for values in (
             one.series.height, one.series.holdup, one.series.pressure)))
         found = self.judged(one)
         self.assertEqual(found.verdict, UNDECIDED)
         self.assertIn("averaged over 0.9 s, less than a turn of the mill, 1 s", found.figure)
+
+    def test_a_steady_run_is_seldom_called_unsteady(self):
+        for times in (np.arange(2, 4.9, 0.05), np.arange(2, 9, 0.05)):
+            called = 0
+            for seed in range(300):
+                one = run(law="Beetstra")
+                shape = (len(times), len(Z))
+                noise = np.random.default_rng(seed).standard_normal((len(times), 1))
+                one.series = AxialSeries(Z, times, -0.05 + 1e-4 * noise + np.zeros(shape), np.full(shape, 1e-4),
+                                         np.zeros(shape))
+                called += bool(unsteady(one))
+            # 5 % are expected, 12 % of a limit of two errors with four degrees of freedom
+            self.assertLess(called / 300, 0.08)
 
     def test_each_of_two_runs_must_be_steady(self):
         runs = self.moved(lambda t: 0 * t), self.moved(lambda t: 5e-3 * t)
@@ -249,7 +273,7 @@ class Steady(unittest.TestCase):
 
     def test_a_slice_is_read_with_its_series_and_the_reports_verdict(self):
         for ends, read in ((False, True), (True, False)):
-            found = RunReadings("a", 0.12, 50, "Beetstra", 30, 5.0, ends)
+            found = RunReadings("a", 0.12, 50, "Beetstra", 30, 5.0, ends, 1.0)
             with mock.patch.object(statements, "read_run", lambda _, found=found: found), \
                     mock.patch.object(statements, "flow_steadiness", lambda _: SimpleNamespace(state="look")), \
                     mock.patch.object(statements, "read_series", lambda _: "its series"):
@@ -297,6 +321,34 @@ class Study(unittest.TestCase):
         self.study.refuse_multiplied(self.case_of(None, 0))
         with self.assertRaisesRegex(RuntimeError, r"a/mill.json: flow.multiplier 0; expected 1"):
             self.study.refuse_multiplied(self.case_of("Tang", 0))
+
+    def read(self, **parts):
+        """What read_case does with a case of these parts, a whole slice by default."""
+        case = SimpleNamespace(folder=self.folder, **{
+            "flow": True, "law": None, "mill": SimpleNamespace(flow=lambda *_: 1, fingerprint={"flow": "own"}),
+            "is_slice": True, "is_cut_short": False, "last": 3.0, "duration": 7.86, **parts})
+        with mock.patch.object(self.study, "MillCase", lambda _: case):
+            return self.study.read_case("a")
+
+    def test_a_slice_that_was_interrupted_is_refused(self):
+        with mock.patch.object(own_mill, "same_mill", lambda _: SimpleNamespace(state="holds")):
+            self.assertEqual(self.read().last, 3.0)
+            with self.assertRaisesRegex(RuntimeError, "a: the flow ends at 3 s; expected 7.86 s"):
+                self.read(is_cut_short=True)
+            self.read(is_cut_short=True, is_slice=False)
+
+    def test_a_run_of_another_mill_is_refused_but_not_one_with_the_balls_of_another_mesh(self):
+        stage = SimpleNamespace(mill={"flow": "own", "charge": "other"})
+        with mock.patch.object(own_mill, "same_mill", lambda _: SimpleNamespace(state="fails", found="file")), \
+                mock.patch.object(own_mill, "stages", lambda _: [stage]):
+            with self.assertRaisesRegex(RuntimeError, "a: its mill has changed: file"):
+                self.read()
+            (self.folder / "constant").mkdir()
+            (self.folder / "constant" / "bedProperties").write_text("fingerprint 1;\n" + OTHER_MESH)
+            self.read()
+            stage.mill["flow"] = "other"
+            with self.assertRaisesRegex(RuntimeError, "its mill has changed"):
+                self.read()
 
 
 class Reading(unittest.TestCase):

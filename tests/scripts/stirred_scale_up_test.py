@@ -116,6 +116,10 @@ class Numbers(unittest.TestCase):
         self.assertTrue(drifts(np.array([1.0, 1.0, 1.02, 1.03, 1.03])))
         self.assertFalse(drifts(np.array([1.0, 1.1, 0.9, 1.15, 1.0])))
 
+    def test_a_single_turn_counts_as_a_drift(self):
+        self.assertTrue(drifts(np.array([1.0])))
+        self.assertFalse(drifts(np.array([1.0, 1.01])))
+
     def test_a_run_that_is_shorter_is_not_complete(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         place = make_run(folder, "C_1.5_dry")
@@ -207,6 +211,8 @@ class Statements(unittest.TestCase):
         self.assertEqual(self.verdict(words, found), [CONFIRMED])
         lost = {name: replace(one, at_rest=Mean(0.96, 0.001)) for name, one in found.items()}
         self.assertEqual(self.verdict(words, lost), [CONTRADICTED])
+        moving = {name: replace(one, drifting=("power_W",)) for name, one in found.items()}
+        self.assertEqual(self.verdict(words, moving), [UNDECIDED])
 
     def test_errors_of_ratios(self):
         found = ratio(Mean(2.0, 0.06), Mean(4.0, 0.16))

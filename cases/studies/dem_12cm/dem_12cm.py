@@ -4,13 +4,12 @@
 free surface from a logistic, with their errors over time. The same mills with one change show the cause of a
 difference.
 
-Every run has a folder runs/NAME as those of dem_matrix; complete runs of dem_matrix are used. Complete runs are kept,
-interrupted ones are resumed. Dumps are removed after they are averaged."""
+Every run has a folder runs/NAME as those of dem_matrix; complete runs of dem_matrix are read, and not changed. Complete
+runs are kept, interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
 import csv
 import sys
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
@@ -24,6 +23,7 @@ from millfoam.readings.charge import Charge, charge_with_errors, read_charge
 from millfoam.readings.means import with_error
 from millfoam.run import RunError, run
 from millstudies import other_readings, published_mills
+from millstudies.dry_run_options import add_options, chosen
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import Setting, run_name
 
@@ -32,6 +32,7 @@ matplotlib.use("Agg")
 HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"
 RADIUS = 0.06  # m
+PARTS = 8  # of the averaged time, for errors
 QUICK = 0.2, 0.012, 0.1, 0.01  # duration, s; slice, m; of the averages: left out, window, s
 COLUMNS = ("run", "balls", "steady", "steady_from_s", "power_W", "power_error_W", "cubic_rmsd_m_s", "cubic_error_m_s",
            "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm",
@@ -92,14 +93,20 @@ def asked(case, options):
 
 @dataclass
 class Result:
-    """A complete run: case, folder, its results and map (DryRun), maps of its windows, its readings (Charge),
-    with errors (name -> Reading); the latter two are None where there is nothing to read."""
+    """A complete run: case, folder, time of a turn (s), its results and map (DryRun), maps of its windows, its readings
+    (Charge), with errors (name -> Reading); the latter two are None where there is nothing to read."""
     case: Case
     folder: Path
+    turn: float
     dry: object
     maps: list
     charge: Charge = None
     errors: dict = None
+
+    @property
+    def part(self):
+        """Share of a turn of the mill in each of the PARTS from which the errors are."""
+        return (self.maps[-1].end - self.maps[0].begin) / min(PARTS, len(self.maps)) / self.turn
 
 
 def make(case, options):
@@ -107,9 +114,10 @@ def make(case, options):
     folder, mill = asked(case, options)
     print(f"{folder.name} …", flush=True)
     dry = make_dry_run(folder, mill, ranks=options.ranks, keep_dumps=options.keep_dumps)
-    result = Result(case, folder, dry, read_windows(folder / "solids.h5"))
+    result = Result(case, folder, mill.turn, dry, read_windows(folder / "solids.h5"))
     try:
-        result.charge, result.errors = read_charge(dry.charge, RADIUS), charge_with_errors(result.maps, RADIUS)
+        result.charge = read_charge(dry.charge, RADIUS)
+        result.errors = charge_with_errors(result.maps, RADIUS, blocks=PARTS)
     except RuntimeError as error:
         print(f"{folder.name}: not read: {error}")
     return result
@@ -157,6 +165,13 @@ def print_table(rows):
               f"{centre:>14}{r['toe_deg']:6.0f}{r['shoulder_deg']:10.0f}{r['wall_time_s']:8.0f}")
 
 
+def warning(results):
+    """Line on the errors of the table: parts shorter than a turn make them too small."""
+    shortest = min(result.part for result in results)
+    return f"±: standard error of parts of {shortest:.2f} turns or more" + (
+        "; those of parts below a turn are lower bounds" if shortest < 1 else "")
+
+
 def readings(result):
     """Rows of the other readings of one run."""
     rows = []
@@ -164,7 +179,7 @@ def readings(result):
                                        ("logistic, mm", other_readings.SURFACE, 1e3, 1)):
         for name, reading in group.items():
             try:
-                found = with_error(lambda one, read=reading: read(one, RADIUS), result.maps)
+                found = with_error(lambda one, read=reading: read(one, RADIUS), result.maps, PARTS)
                 value, error = float(found.value), float(found.error)
             except RuntimeError:
                 value = error = np.nan
@@ -214,31 +229,17 @@ def plot(results, rows, path):
     plt.close(figure)
 
 
-def chosen(patterns, known, parser):
-    """Cases whose names the patterns match, in the list's order; `all`: those without a variant. A pattern that matches
-    nothing is an error."""
-    for pattern in patterns:
-        if pattern != "all" and not any(fnmatchcase(name, pattern) for name in known):
-            parser.error(f"no run is named '{pattern}'; --list names them")
-    return [case for name, case in known.items() if any(
-        not case.variant if pattern == "all" else fnmatchcase(name, pattern) for pattern in patterns)]
-
-
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", nargs="*", metavar="RUN",
-                        help="names, or patterns such as '12cm_load25_*'; `all`: no variants")
-    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
+    add_options(parser, "no variants", f"{published_mills.DURATION:g}")
     parser.add_argument("--quick", action="store_true",
                         help="0.2 s of two thin slices: tests the study, without meaningful results")
     parser.add_argument("--readings", action="store_true",
                         help="other ways to read both numbers, in a table of their own")
-    parser.add_argument("--duration", type=float, help=f"of the turning mill, s [{published_mills.DURATION:g}]")
-    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH",
-                        help="periodic slices of this length (m) instead")
-    parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--keep-dumps", action="store_true")
-    return parser.parse_args(), parser
+    options = parser.parse_args()
+    if options.quick and (options.duration or options.slice):
+        parser.error("--quick has a duration and a slice of its own; expected no --duration and no --slice with it")
+    return options, parser
 
 
 def report(results, options):
@@ -247,13 +248,17 @@ def report(results, options):
     rows = [row(result) for result in results]
     write_csv(HERE / f"{name}.csv", COLUMNS, rows)
     print_table(rows)
+    print(warning(results))
     plot(results, rows, HERE / f"{name}.png")
     if options.readings:
         lines = [line for result in results for line in readings(result)]
         write_csv(HERE / f"{name}_readings.csv", tuple(lines[0]), lines)
         print_readings(lines)
     for result in results:
-        run(result.folder, REPORT, ".")
+        # A run of dem_matrix has its report here
+        own = HERE / "runs" / result.folder.name if result.folder.parent.parent != HERE else result.folder
+        own.mkdir(parents=True, exist_ok=True)
+        run(own, REPORT, result.folder, "-o", "report.html")
     if len(results) > 1:
         run(HERE, REPORT, *(result.folder for result in results), "-o", f"{name}_comparison.html")
 
@@ -267,7 +272,7 @@ def main():
         return 0
     names = options.runs or ["12cm_load37.5_speed50", "12cm_load37.5_speed50_other_seed"]
     results, failures = [], []
-    for case in chosen(names, known, parser):
+    for case in chosen(names, known, parser, lambda case: not case.variant):
         try:
             results.append(make(case, options))
         except RunError as error:

@@ -8,12 +8,12 @@ kept, interrupted ones are resumed. Dumps are removed after they are averaged.""
 import argparse
 import csv
 import sys
-from fnmatch import fnmatchcase
 from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
 
+from millstudies.dry_run_options import add_options, chosen
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import matrix, mill, run_name
 
@@ -78,24 +78,8 @@ def plot(rows):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("runs", nargs="*", metavar="RUN",
-                        help="names, or patterns such as '12cm_load25_*'; `all` for all 34")
-    parser.add_argument("--list", action="store_true", help="print the names of all runs, and which are complete")
-    parser.add_argument("--duration", type=float, help="of the turning mill, s [4; of the 30 cm mill 6.25 and 5]")
-    parser.add_argument("--slice", type=float, default=0.0, metavar="LENGTH",
-                        help="periodic slices of this length (m) instead")
-    parser.add_argument("--ranks", type=int, default=2)
-    parser.add_argument("--keep-dumps", action="store_true")
+    add_options(parser, "all 34", "4; of the 30 cm mill 6.25 and 5")
     return parser.parse_args(), parser
-
-
-def chosen(patterns, settings, parser):
-    """Settings whose names the patterns match, in the matrix' order; a pattern that matches nothing is an error."""
-    patterns = ["*" if pattern == "all" else pattern for pattern in patterns]
-    for pattern in patterns:
-        if not any(fnmatchcase(name, pattern) for name in settings):
-            parser.error(f"no run is named '{pattern}'; --list names them")
-    return [setting for name, setting in settings.items() if any(fnmatchcase(name, pattern) for pattern in patterns)]
 
 
 def main():

@@ -105,17 +105,30 @@ def seen(means):
                if one is not other)
 
 
+def steady_runs(family, readings):
+    """size -> name of a family's steady flows: others have no mean."""
+    return {size: name for size, name in family.runs.items() if name in readings and not readings[name].drift}
+
+
+def not_judged(family, readings):
+    """Why a family is not judged, or an empty text."""
+    failed = [name for name in family.runs.values() if name not in readings]
+    if failed:
+        return f"a run failed: {', '.join(failed)}"
+    steady = steady_runs(family, readings)
+    if family.base not in steady:
+        return "the base is not steady"
+    return "" if len(steady) > 1 else "only the base is steady"
+
+
 def judgements(families, readings):
     """(family's name, number's name) -> (Convergence of the base's own number, whether its values differ by more than
-    chance), of families that are complete, by their steady flows: others have no mean."""
+    chance), of families that are complete, by their steady flows."""
     found = {}
     for family in families:
-        if any(name not in readings for name in family.runs.values()):
+        if not_judged(family, readings):
             continue
-        steady = {size: name for size, name in family.runs.items() if not readings[name].drift}
-        if len(steady) < 2 or family.base not in steady:
-            continue
-        sizes = measured_sizes(family, readings)
+        steady, sizes = steady_runs(family, readings), measured_sizes(family, readings)
         for number in NUMBERS:
             means = [readings[name].mean(number) for name in steady.values()]
             if np.isfinite([mean.value for mean in means]).all():
@@ -144,16 +157,18 @@ def run_lines(families, readings):
                    + f"{one.steady:>8}{one.steps:8d}{one.time:9.0f}")
 
 
-def judgement_lines(families, found):
+def judgement_lines(families, found, readings):
     yield f"{'':<13}{'number':<16}{'order':>14}{'limit':>10}{'bar':>8}  more than chance"
     for (name, number), (result, more) in found.items():
         order = "not monotone" if np.isnan(result.order) else "1 (taken)" if name == "steps" else f"{result.order:.2f}"
         limit = "" if np.isnan(result.limit) else f"{result.limit:.2f}"
         yield (f"{name:<13}{f'{number}, {NUMBERS[number].unit}':<16}{order:>14}{limit:>10}{result.bar:8.2f}  "
                f"{'yes' if more else 'no'}")
-    missing = [family.name for family in families if (family.name, "height") not in found]
-    if missing:
-        yield f"NOT JUDGED, a run failed: {', '.join(missing)}"
+    for family in families:
+        gone = [number for number in NUMBERS if (family.name, number) not in found]
+        if gone:
+            yield (f"NOT JUDGED: {family.name}: "
+                   + (not_judged(family, readings) or f"a run has no {', no '.join(gone)}"))
 
 
 def variant_lines(families, variants, readings):
@@ -182,14 +197,15 @@ def layer_lines(layers):
 
 
 def cited_rows(families, found, readings):
-    """Rows of the table to cite: the base's numbers, each with its bars and with the root of their summed squares."""
+    """Rows of the table to cite: the base's numbers, each with its bars and with the root of their summed squares; NaN
+    for a bar that is missing, and then for their sum."""
     for number in CITED:
         mean = readings[BASE].mean(number)
         bars = {family.name: found[family.name, number][0].bar if (family.name, number) in found else np.nan
                 for family in families}
         chance = [family.name for family in families
                   if (family.name, number) in found and not found[family.name, number][1]]
-        total = float(np.sqrt(np.nansum(np.square([*bars.values(), mean.error]))))
+        total = float(np.sqrt(np.sum(np.square([*bars.values(), mean.error]))))
         yield {"number": number, "unit": NUMBERS[number].unit, "value": mean.value, **bars, "time": mean.error,
                "total": total, "may be chance": " ".join(chance)}
 
@@ -198,7 +214,7 @@ def cited_lines(rows):
     bars = [key for key in rows[0] if key not in ("number", "unit", "value", "may be chance")]
     yield f"{'':<10}{'':<6}{'value':>9}" + "".join(f"{key:>10}" for key in bars)
     for row in rows:
-        texts = ("failed" if np.isnan(row[key]) else
+        texts = ("–" if np.isnan(row[key]) else
                  f"({row[key]:.2f})" if key in row["may be chance"].split() else f"{row[key]:.2f}" for key in bars)
         yield (f"{row['number']:<10}{row['unit']:<6}{row['value']:>9.2f}"
                + "".join(f"{text:>10}" for text in texts))
@@ -222,7 +238,7 @@ def write_tables(families, variants, readings, layers, found, failures, title):
     lines = [title, *run_lines([*families, *variants], readings),
              "±: standard error of the mean over time, from the means of whole turns."]
     lines += [f"NOT STEADY: {name}: {one.drift}" for name, one in readings.items() if one.drift]
-    lines += ["", *judgement_lines(families, found), "", *variant_lines(families, variants, readings)]
+    lines += ["", *judgement_lines(families, found, readings), "", *variant_lines(families, variants, readings)]
     if layers:
         lines += ["", *layer_lines(layers)]
     lines += ["", "To cite: value and error bars of each family, error over time, and all together",

@@ -11,10 +11,10 @@ import numpy as np
 
 from millfoam.readings.batches import mean_over_turns
 from millfoam.readings.means import mean_of_series
+from millfoam.report.steadiness import halves
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
 LARGE, SLICE = "30 cm mill", "12 cm slice"
-HALF_BLOCKS = 3  # of either half of the averaged time
 CONFIRMED, CONTRADICTED, UNDECIDED, NOT_TESTED = "confirmed", "contradicted", "undecided", "not tested"
 
 
@@ -102,30 +102,21 @@ def unread(run, runs, which):
     return "; ".join(run.failures) or f"{run.name}: nothing was read" if run else runs.missing(which)
 
 
-def turn(run):
-    """Time of a turn of a run's mill, s."""
-    return 2 * np.pi / (run.speed / 100 * np.sqrt(9.81 / (run.diameter / 2)))
-
-
 def unsteady(run):
     """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
-    or the height of the slurry's centre of mass differs between its halves by more than two standard errors: a limit
-    that sooner calls a steady run unsteady than the reverse.
-
-    The errors are those of HALF_BLOCKS block means within each half. Blocks over the whole time would include the
-    drift."""
+    or the height of the slurry's centre of mass differs between its halves with 95 % confidence (Mean.sign). Halves and
+    error are those of the report, without the drift up to which the report calls a flow steady: differences of runs are
+    smaller than that."""
     if not run.series:
         return f"{run.name}: its height over time is not known"
     times, heights = run.series.times, height_over_time(run)
     span = times[-1] - times[0]
-    if span < 0.999 * turn(run):  # times are rounded
-        return f"{run.name}: averaged over {span:.2g} s, less than a turn of the mill, {turn(run):.2g} s"
-    halves = [mean_of_series(half, HALF_BLOCKS) for half in np.array_split(heights, 2)]
-    drift = halves[1] - halves[0]
+    if span < 0.999 * run.turn:  # times are rounded
+        return f"{run.name}: averaged over {span:.2g} s, less than a turn of the mill, {run.turn:.2g} s"
+    drift = halves(times, heights, 2 * times[0] - times[1], run.turn)
     if not np.isfinite(drift.error):
         return f"{run.name}: {len(times)} times are too few to find a drift"
-    drifts = abs(drift.value) > 2 * drift.error
-    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if drifts else ""
+    return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if drift.sign else ""
 
 
 def judged(verdict, figure, *runs):
@@ -150,7 +141,7 @@ def height_over_time(run):
 def over_turns(run, values):
     """Mean of values at the times of a run's series, over its last whole turns if two fit, otherwise by fifths."""
     times = run.series.times
-    return mean_over_turns(times, np.asarray(values), times[0], turn(run)) or mean_of_series(values)
+    return mean_over_turns(times, np.asarray(values), times[0], run.turn) or mean_of_series(values)
 
 
 def height(run):

@@ -37,16 +37,16 @@ def make_dry_run(folder, mill, *, ranks=2, keep_dumps=False):
     """DryRun of a Mill in a folder, whose name is the run's; it is made unless it is complete.
 
     An interrupted run is resumed, also with another duration. RunError for the run of another mill, which stays as it
-    is. Dumps are large: they are removed after they are averaged, unless `keep_dumps`."""
+    is. Dumps are large: they are removed after they are averaged, unless `keep_dumps`. A complete run is only read."""
     folder = Path(folder)
     if not is_whole(folder, mill):
         refuse_another(folder, mill)
         make_charge(folder, mill, ranks)
         run(folder, "millAverage", "mill.json", "--case", ".")
-    if not keep_dumps:
-        # The restart files first: without them, no one can resume a run that lacks dumps
-        for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
-            large.unlink()
+        if not keep_dumps:
+            # The restart files first: without them, no one can resume a run that lacks dumps
+            for large in [*(folder / "dem").glob("restart.*"), *(folder / "dumps").glob("dump.*.txt")]:
+                large.unlink()
     return DryRun(folder.name, read_json(folder / "dumps" / "results.json", "charge"), read_map(folder / "solids.h5"))
 
 

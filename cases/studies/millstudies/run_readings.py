@@ -30,7 +30,8 @@ class Surface:
 class RunReadings:
     """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
-    has two ends; steady, the state of the report's check whether the flow is steady, None if it was not made.
+    has two ends; time of a turn (s); steady, the state of the report's check whether the flow is steady, None if it was
+    not made.
 
     Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
     along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
@@ -42,6 +43,7 @@ class RunReadings:
     solids: int
     last: float
     ends: bool
+    turn: float
     steady: str = None
     surface: Surface = None
     series: AxialSeries = None
@@ -109,7 +111,8 @@ def read_run(case):
     """RunReadings of a MillCase with a flow; what cannot be read is in `failures`."""
     name = f"{case.folder.resolve().parent.name}/{case.name}"
     found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
-                        CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice)
+                        CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice,
+                        case.turn)
 
     def attempt(what, read):
         try:

@@ -8,6 +8,7 @@ from scipy.signal import find_peaks
 
 from millfoam.readings.axial import fit_gaussians
 from millfoam.readings.means import Mean, series_mean
+from millfoam.readings import slurry_over_time
 from millfoam.readings.slurry_over_time import read_series
 from millfoam.report.steadiness import flow_steadiness
 
@@ -94,13 +95,13 @@ def distance_ratio(apart):
 def surface_follows(runs):
     """With solids the free surface follows the charge: its tilt is nearer to the charge's than to level."""
     statement, found = "with solids the free surface follows the charge", []
-    for run in runs.runs:
-        if run.law and run.surface and run.surface.charge_tilt is not None:
+    for run in (*runs.of(LARGE), *runs.of(SLICE)):
+        if run.surface and run.surface.charge_tilt is not None:
             tilt, charge = run.surface.tilt, run.surface.charge_tilt
             margin = Mean(abs(tilt.value) - abs(charge - tilt.value), 2 * tilt.error, tilt.freedom)
             figure = f"tilt of the slurry {tilt.text('degrees')}, of the charge {charge:.1f} (level: 0)"
             found.append(Verdict(statement, run.name, *judged(by_sign(margin), figure, run)))
-        elif run.law:
+        else:
             found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
     return found + [Verdict(statement, which.mill, NOT_TESTED, runs.missing(which)) for which in lacking(runs)]
 
@@ -245,8 +246,8 @@ def circulation(runs):
     statement, found = "slurry moves to the discharge in the toe region and back at the shoulder", []
     for run in runs.of(LARGE):
         if run.toe:
-            signs = run.toe.sign, run.shoulder.sign
-            verdict = CONFIRMED if signs == (1, -1) else CONTRADICTED if signs[0] < 0 or signs[1] > 0 else UNDECIDED
+            verdict = {"yes": CONFIRMED, "no": CONTRADICTED, "undecided": UNDECIDED}[
+                slurry_over_time.circulation(run.toe, run.shoulder)]
             figure = (f"mean {run.toe.text('mm/s', 1e3)} on the toe's half, {run.shoulder.text('mm/s', 1e3)} on the "
                       "shoulder's")
             found.append(Verdict(statement, run.name, *judged(verdict, figure, run)))

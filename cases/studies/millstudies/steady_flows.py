@@ -12,6 +12,7 @@ from scipy.stats import f as f_distribution
 
 from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import SlurryMap
+from millfoam.readings import batches
 from millfoam.readings.batches import batch_means
 from millfoam.readings.means import Mean, angle_mean, block_mean, weighted_percentile
 from millfoam.readings.shell_angles import LEVEL, toe_and_shoulder
@@ -19,8 +20,9 @@ from millfoam.readings.slurry_in_cells import BED, count_steps, ratio, read_fram
 from millfoam.readings.slurry_on_maps import pool
 from millfoam.report.steadiness import flow_steadiness
 
+from .axial_slices import jackknife
+
 PIXELS = 60  # across the mill
-ROUNDED = 0.005  # of a turn: times are rounded
 OFF = 0.01  # of a turn: how much written times may be off their interval, 1/24 of a turn
 PART = 0.01  # chance of layers that are alike to be found apart
 
@@ -74,7 +76,7 @@ class TurnReadings:
 def whole_turns(case):
     """Flow time at which a MillCase's last whole averaged turns begin (s), and their number. RuntimeError for fewer
     than two."""
-    turns = int((case.last - case.begin) / case.turn + ROUNDED)
+    turns = batches.whole_turns(case.last - case.begin, case.turn)
     if turns < 2:
         raise RuntimeError(f"{case.folder}: averages over {case.last - case.begin:.3g} s; expected two turns of "
                            f"{case.turn:.3g} s or more")
@@ -208,11 +210,8 @@ class Layers:
 def spread_of(heights):
     """Standard deviation between the layers' means over the turns (m) of heights [turns, layers] (m), with its
     jackknife error, NaN for two turns."""
-    turns = len(heights)
-    spread = heights.mean(axis=0).std(ddof=1)
-    without = np.array([np.delete(heights, turn, axis=0).mean(axis=0).std(ddof=1) for turn in range(turns)])
-    error = np.sqrt((turns - 1) / turns * np.sum((without - without.mean())**2)) if turns > 2 else np.nan
-    return Mean(float(spread), float(error))
+    spread, error = jackknife(lambda turns: heights[turns].mean(axis=0).std(ddof=1), len(heights))
+    return Mean(float(spread), float(error) if len(heights) > 2 else np.nan)
 
 
 def chance_of(heights):

@@ -49,7 +49,10 @@ class Numbers:
 
 def drifts(means: np.ndarray) -> bool:
     """Whether the means of turns drift: those of the last half of the turns and of the first one differ by more than
-    DRIFT of the mean, and by more than ERRORS standard errors. Of fewer than four turns the errors are not known."""
+    DRIFT of the mean, and by more than ERRORS standard errors. Of fewer than four turns the errors are not known. A
+    single turn cannot show that it does not drift: it counts as a drift."""
+    if len(means) < 2:
+        return True
     half = len(means) // 2
     first, last = block_mean(means[:half]), block_mean(means[len(means) - half:])
     apart = last - first

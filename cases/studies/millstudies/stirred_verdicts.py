@@ -75,6 +75,7 @@ def near(value: float, expected: float, by: float) -> str:
 
 def balanced(found: Found) -> Iterator[Verdict]:
     """Whether the walls at rest of each run take the impeller's torque within BALANCED."""
-    for name, one in found.items():
-        yield Verdict(f"the walls at rest take the impeller's torque within {100 * BALANCED:g} %", name,
-                      near(one.at_rest.value, 1, BALANCED), f"{one.at_rest.value:.4f} of it")
+    def judge(one: Numbers) -> tuple[str, str]:
+        return near(one.at_rest.value, 1, BALANCED), f"{one.at_rest.value:.4f} of it"
+    for name in found:
+        yield tested(f"the walls at rest take the impeller's torque within {100 * BALANCED:g} %", found, (name,), judge)

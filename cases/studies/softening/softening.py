@@ -5,6 +5,7 @@ power, overlap and cost. The same mill with another seed shows the difference of
 kept."""
 import argparse
 import csv
+from itertools import pairwise
 from pathlib import Path
 
 import matplotlib
@@ -58,11 +59,21 @@ def row(dry, modulus, stiffest):
                               apart.velocity_y, 1e3 * x, 1e3 * y)))
 
 
-def write_table(rows, path):
+def chance_rows(runs, chosen):
+    """Lines of the table with the differences of two runs that differ in the seed alone: DryRun in `runs`, each of the
+    setting (name, modulus, seed) in `chosen`."""
+    for (dry, (name, modulus, _)), (other, (_, its_modulus, _)) in pairwise(zip(runs, chosen)):
+        if modulus == its_modulus:
+            apart = difference(dry.charge, other.charge)
+            yield {"run": f"{name}, two seeds", "modulus_Pa": modulus, "solidity_difference": apart.solidity,
+                   "velocity_x_difference": apart.velocity_x, "velocity_y_difference": apart.velocity_y}
+
+
+def write_table(rows, chance, path):
     with open(path.with_suffix(".csv"), "w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows([*rows, *chance])
     lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}"
              f"{'vel. y':>8}{'centroid mm':>17}"]
     for r in rows:
@@ -72,8 +83,10 @@ def write_table(rows, path):
         lines.append(f"{r['run']:<16}{r['time_step_us']:9.2f}{r['wall_time_s']:8.0f}{power:>16}{overlap:>16}"
                      f"{r['solidity_difference']:10.4f}{r['velocity_x_difference']:8.4f}"
                      f"{r['velocity_y_difference']:8.4f}{centroid:>17}")
+    lines += [f"{r['run']:<65}{r['solidity_difference']:10.4f}{r['velocity_x_difference']:8.4f}"
+              f"{r['velocity_y_difference']:8.4f}" for r in chance]
     lines.append("overlap: 99 % below / largest, of the smallest diameter; solidity, velocity: mean differences to the "
-                 "last run")
+                 "last run; two seeds: of two equal mills, by chance")
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -112,7 +125,7 @@ def main():
     runs = [make(*setting, quick) for setting in chosen]
     rows = [row(dry, modulus, runs[-1]) for dry, (_, modulus, _) in zip(runs, chosen)]
     result = HERE / ("softening_quick" if quick else "softening")
-    write_table(rows, result.with_suffix(".txt"))
+    write_table(rows, list(chance_rows(runs, chosen)), result.with_suffix(".txt"))
     plot(runs, result.with_suffix(".png"))
     print(result.with_suffix(".txt").read_text())
 

@@ -1,14 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Published numbers of the three mills, and verdicts on their order by size and by speed.
-
-Source: Ssebunnya, PhD thesis, University of Cape Town, 2024. Its powers are printed 60 times too high (turns a minute
-taken as turns a second); they are divided by 60 here. They do not agree with the power that its torques give, so that
-only ratios between runs are compared. Its mean speeds are over the last five turns of runs of 5 s."""
+"""Verdicts on the order of three mills by size and by speed, and on their published numbers."""
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from millfoam.readings.means import Mean
 from millstudies.compared_runs import Verdict
+from millstudies.published_stirred import DRY, WET
 from millstudies.stirred_runs import Numbers
 from millstudies.stirred_verdicts import Found, balanced, has_ratio, has_value, higher, power, speed, tested
 
@@ -20,21 +16,7 @@ SAME = 0.05  # between a run and an independent one of the same mill
 Place = tuple[str, str]  # mill and speed, as runs name them
 
 
-@dataclass(frozen=True)
-class Published:
-    """A published run with slurry: mean speed of the balls, m/s; power that the impeller gives to the balls, and to
-    balls and slurry, W for each m3 of slurry."""
-    speed: float
-    balls: float
-    whole: float
-
-
-PUBLISHED = {("A", "1.5"): Published(0.46, 275e3 / 60, 375e3 / 60),
-             ("A", "1.8"): Published(0.60, 410e3 / 60, 558e3 / 60),
-             ("A", "2.2"): Published(0.73, 531e3 / 60, 792e3 / 60),
-             ("B", "1.8"): Published(0.59, 405e3 / 60, 524e3 / 60)}
-# Published dry runs at 1.8 m/s with balls of another shape (superquadrics, group 3): mean speed, m/s; power, W / 60
-SHAPED = {("A", "1.8"): (0.545, 673 / 60), ("B", "1.8"): (0.500, 883 / 60)}
+SHAPED = "A", "B"  # with published dry runs of balls of another shape
 # The same mill by LIGGGHTS alone, with the same modulus, from 0.6 to 1.2 s
 INDEPENDENT = ("A", "2.2"), 24.9, 0.635  # run, W, m/s
 
@@ -71,18 +53,18 @@ def order_of_mills(found: Found) -> Iterator[Verdict]:
 
 def published_speeds(found: Found) -> Iterator[Verdict]:
     """Mean speeds of dry runs are those of the published ones with slurry."""
-    for place, known in PUBLISHED.items():
+    for place, known in WET.items():
         yield tested(f"the mean speed of the balls is the published one within {100 * NEAR:g} %", found,
                      names_of(place), has_value(speed, "m/s", known.speed, NEAR))
 
 
 def shaped_ratios(found: Found) -> Iterator[Verdict]:
     """Ratios of mean speed and power of mill B to mill A are those of dry runs with balls of another shape."""
-    small, large = SHAPED
-    for k, (words, read) in enumerate((("mean speeds", speed), ("powers", power))):
-        expected = SHAPED[large][k] / SHAPED[small][k]
+    one, other = (DRY[mill, "group_3"] for mill in SHAPED)
+    for words, read, expected in (("mean speeds", speed, other.speed / one.speed),
+                                  ("powers", power, other.power / one.power)):
         yield tested(f"the ratio of {words} of B and A is that of published dry runs with balls of another shape "
-                     f"within {100 * NEAR:g} %", found, names_of(small, large),
+                     f"within {100 * NEAR:g} %", found, names_of(*((mill, "1.8") for mill in SHAPED)),
                      has_ratio(read, expected, NEAR * expected))
 
 
@@ -90,10 +72,10 @@ def published_ratios(found: Found) -> Iterator[Verdict]:
     """Ratios of mean speeds and of powers per volume of two runs are those of the published ones, by the balls."""
     base = ("A", "1.8")
     for words, read, known in (("mean speeds", speed, "speed"), ("powers per volume", density, "balls")):
-        for place in PUBLISHED:
+        for place in WET:
             if place == base:
                 continue
-            expected = getattr(PUBLISHED[place], known) / getattr(PUBLISHED[base], known)
+            expected = getattr(WET[place], known) / getattr(WET[base], known)
             yield tested(f"the ratio of {words} to that of A at 1.8 m/s is the published one within {100 * NEAR:g} %",
                          found, names_of(base, place), has_ratio(read, expected, NEAR * expected))
 

@@ -11,12 +11,13 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millstudies.published_stirred import WET
 from millstudies.stirred_runs import Numbers, read_all
 from millstudies.stirred_settings import MILLS
 from millstudies.stirred_tables import Row, drive_columns, pair, write_study
 
 from runs import RUNS, SPEEDS
-from scale_up_verdicts import PUBLISHED, density, verdicts
+from scale_up_verdicts import density, verdicts
 
 COLOURS = dict(zip(MILLS, ("#0072B2", "#009E73", "#D55E00")))
 
@@ -24,7 +25,7 @@ COLOURS = dict(zip(MILLS, ("#0072B2", "#009E73", "#D55E00")))
 def row_of(one: Numbers) -> Row:
     """A run's line of the table."""
     run = RUNS[one.name]
-    known = PUBLISHED.get((run.mill, run.speed))
+    known = WET.get((run.mill, run.speed))
     row: Row = {"run": run.name, "mill": run.mill, "tip speed, m/s": one.mill.derived("speed", "tip_speed_m_s"),
                 "slurry": run.slurry, **drive_columns(one)}
     row |= pair("power per volume of slurry", "kW/m3", density(one), 1e-3)
@@ -42,9 +43,9 @@ def placed(name: str) -> tuple[str, float]:
 def draw(found: Sequence[Numbers]) -> plt.Figure:
     """Figure: power, power per volume and mean speed of the balls against the speed of the tips, by mill."""
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.6), layout="constrained")
-    highest = {axes[2]: max(one.speed for one in PUBLISHED.values())}
+    highest = {axes[2]: max(one.speed for one in WET.values())}
     for mill, colour in COLOURS.items():
-        known = [(SPEEDS[speed], one.speed) for (name, speed), one in PUBLISHED.items() if name == mill]
+        known = [(SPEEDS[speed], one.speed) for (name, speed), one in WET.items() if name == mill]
         if known:
             axes[2].plot(*zip(*known), "s", mfc="none", color=colour, label=f"{mill}, published, with slurry")
         runs = sorted((one for one in found if RUNS[one.name].mill == mill), key=lambda one: placed(one.name))

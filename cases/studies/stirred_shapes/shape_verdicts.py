@@ -1,15 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Published numbers of mills whose balls are not spheres, and verdicts on them.
-
-Source: Ssebunnya, PhD thesis, University of Cape Town, 2024: groups of superquadrics at 1.8 m/s. Its powers are printed
-60 times too high (turns a minute taken as turns a second); they are divided by 60 here. They do not agree with the
-power that its torques give, so that only ratios between runs are compared. Its numbers are over the last five turns of
-runs of 5 s."""
+"""Verdicts on published numbers of mills whose balls are not spheres."""
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from millfoam.readings.means import Mean
 from millstudies.compared_runs import Verdict
+from millstudies.published_stirred import DRY, SOLIDITY, WET_SPEEDS
 from millstudies.stirred_runs import Numbers
 from millstudies.stirred_verdicts import (Found, balanced, has_ratio, has_value, higher, near, power, ratio, speed,
                                           tested)
@@ -18,19 +13,8 @@ NEAR = 0.15  # between a mean speed, or a ratio of two mills, and the published 
 BY_POWER = 0.2  # between the ratio of powers of groups 3 and 1 and the published one
 
 
-@dataclass(frozen=True)
-class Published:
-    """A published dry run: mean speed of the balls, m/s; power, W."""
-    speed: float
-    power: float
-
-
-PUBLISHED = {"A_group_1": Published(0.713, 498 / 60), "A_group_3": Published(0.545, 673 / 60),
-             "B_group_3": Published(0.500, 883 / 60)}
-# Published with slurry, in A: mean speed of the balls, m/s
-WITH_SLURRY = {"A_spheres": 0.60, "A_group_1": 0.668, "A_group_3": 0.573}
-# Published solidity of group 3, dry: under the lower pins, and above that
-SOLIDITY = {"below": (0.6, 0.8), "impeller": (0.3, 0.6)}
+PUBLISHED = {"_".join(mill_and_shape): known for mill_and_shape, known in DRY.items()}  # by names of runs
+WITH_SLURRY = {f"A_{shape}": known for shape, known in WET_SPEEDS.items()}  # mean speed of the balls, m/s
 
 
 def published_speeds(found: Found) -> Iterator[Verdict]:

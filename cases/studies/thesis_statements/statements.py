@@ -11,6 +11,7 @@ from pathlib import Path
 from millfoam.files.mill_case import MillCase
 from millstudies.compared_runs import Verdict
 from millstudies.mill_runs import summary_of_whole
+from millstudies.own_mill import require_own_mill
 from millstudies.statements import read, verdicts
 
 HERE = Path(__file__).parent.resolve()
@@ -49,16 +50,33 @@ def refuse_multiplied(case):
         raise RuntimeError(f"{case.mill.path}: flow.multiplier {factor:g}; expected 1, the law's own drag")
 
 
+def refuse_interrupted(case):
+    """RuntimeError if a MillCase is a slice whose flow was interrupted. A 30 cm mill counts from LATEST on."""
+    if case.is_slice and case.is_cut_short:
+        raise RuntimeError(f"the flow ends at {case.last:.3g} s; expected {case.duration:.3g} s")
+
+
+def read_case(folder):
+    """MillCase of a folder whose flow can be judged; RuntimeError for another one."""
+    case = MillCase(folder)
+    if not case.flow:
+        raise RuntimeError(f"{folder}: no flow; expected reconstructed times with alpha.slurry in it")
+    refuse_multiplied(case)
+    for refuse in (require_own_mill, refuse_interrupted):
+        try:
+            refuse(case)
+        except RuntimeError as error:
+            raise RuntimeError(f"{folder}: {error}") from error
+    return case
+
+
 def read_cases(folders):
     """RunReadings of the folders that hold a run, and a message for each of the others and for what could not be
     read."""
     runs, messages = [], []
     for folder in folders:
         try:
-            case = MillCase(folder)
-            if not case.flow:
-                raise RuntimeError(f"{folder}: no flow; expected reconstructed times with alpha.slurry in it")
-            refuse_multiplied(case)
+            case = read_case(folder)
             print(f"{folder} …", flush=True)
             runs.append(read(case))
             messages += runs[-1].failures

@@ -18,6 +18,9 @@ from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
+sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
+import published_laws  # noqa: E402, in that case's folder
+
 matplotlib.use("Agg")
 
 GRAVITY = 9.81
@@ -64,11 +67,6 @@ RUNS = [Run(True, False, turns, step) for turns, step in ((1.5, 1e-3), (-0.5, 2e
 RUNS += [Run(False, falling, turns, 1e-3) for falling in (False, True) for turns in (0, 3, -3)]
 
 
-def ball_diameter(drag):
-    """Diameter, m, of the balls whose drag per mass beta/(epsilon rho) is this, 1/s (Kozeny-Carman, 150)."""
-    return np.sqrt(150 * SLURRY["slurryKinematicViscosity"] * SOLIDITY**2 / ((1 - SOLIDITY) ** 2 * drag))
-
-
 def fall_radii():
     """Where the falling solidity steps down, m."""
     share = (np.arange(FALL_STEPS) + 0.5) / FALL_STEPS
@@ -97,7 +95,8 @@ def perform(run, case, here):
     shutil.copytree(here / "template", case)
     shutil.copytree(here / "half" if run.half else here.parent / "rest" / "pool" / "ogrid", case, dirs_exist_ok=True)
     write_parameters(
-        case, **SLURRY, **AIR, gravity=-GRAVITY, diameter=ball_diameter(setting["drag"]),
+        case, **SLURRY, **AIR, gravity=-GRAVITY,
+        diameter=published_laws.darcy_diameter(setting["drag"], SOLIDITY, SLURRY["slurryKinematicViscosity"]),
         omega=setting["omega"], meshMotion="dynamicMotionSolverFvMesh" if run.turns else "staticFvMesh",
         meshOmega=run.turns * setting["omega"], endTime=setting["end"], writeInterval=setting["end"] / RECORDS,
         largestStep=run.step, height=setting.get("height", 0), layers=setting.get("layers", 1),

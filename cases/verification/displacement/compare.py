@@ -21,6 +21,9 @@ from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
+sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
+import published_laws  # noqa: E402, in that case's folder
+
 matplotlib.use("Agg")
 
 WIDTH, HEIGHT, COLUMNS, LAYERS = 0.016, 0.4, 4, 100
@@ -36,6 +39,7 @@ END, WRITE_INTERVAL = 1.0, 0.02
 RUNS = {"closed": ("closed", 2e-3), "open": ("open", 2e-3), "open, small steps": ("open", 5e-4)}  # largest step, s
 TOLERANCE = 1e-6  # of the level, relative; of the phase fraction, absolute
 CONSERVED = 1e-8  # of the slurry's volume, relative
+SLOWEST = 1e-12  # m/s, superficial: the law is not defined at rest
 PRESSURE = 10  # of the pressure at the bottom, of the largest one, for each second of the largest step
 
 
@@ -68,16 +72,6 @@ def expected_level(kind, time):
     return np.interp(POOL, filled, LAYER * np.arange(LAYERS + 1))
 
 
-def beetstra(phi, re):
-    """F of Beetstra, van der Hoef & Kuipers 2007, with the sphere's share of the pressure gradient (divided by e)."""
-    e = 1 - phi
-    re = np.maximum(re, 1e-12)
-    viscous = 10 * phi / e**2 + e**2 * (1 + 1.5 * np.sqrt(phi))
-    inertial = 0.413 * re / (24 * e**2) * (1 / e + 3 * e * phi + 8.4 * re**-0.343) / (
-        1 + 10 ** (3 * phi) * re ** (-(1 + 4 * phi) / 2))
-    return (viscous + inertial) / e
-
-
 def bottom_pressure(times):
     """p at the bottom of the open box, Pa, at each time (s), where p_rgh is 0 in the air at the top: of a column of
     slurry that is at rest below the growing bed, rises through it with q = dphi/dt (y - bottom), and above it as a
@@ -96,7 +90,7 @@ def bottom_pressure(times):
         later_phi, later_q = bed_flow(time + step)
         inertia = (later_q / (1 - later_phi) - q / (1 - phi)) / step
         above = (later_q[-1] - q[-1]) / step
-        drag = 18 * DENSITY * VISCOSITY * phi * beetstra(phi, q * DIAMETER / VISCOSITY) * q / DIAMETER**2
+        drag = published_laws.GRADIENTS["Beetstra"](phi, np.maximum(q, SLOWEST), DIAMETER, DENSITY * VISCOSITY, DENSITY)
         level = POOL + phi * THICKNESS
         rest = level - BED_BOTTOM["open"] - THICKNESS
         result.append((DENSITY - AIR_DENSITY) * GRAVITY * level + trapezoid(drag + DENSITY * inertia, y)
@@ -167,9 +161,10 @@ class Displacement:
         return max(np.abs(1 - self.share[-1, :at]).max(), np.abs(self.share[-1, at + 1:]).max())
 
     def misses(self):
-        wrong_pressure = self.pressure_error > PRESSURE * RUNS[self.name][1]
-        largest = max(self.error.max(), self.final_error, self.beyond, self.not_settled)
-        return wrong_pressure or not (largest <= TOLERANCE and self.volume_change <= CONSERVED)
+        # Of the closed box no pressure is known. A reading that is not a number misses its limit
+        right_pressure = self.kind == "closed" or self.pressure_error <= PRESSURE * RUNS[self.name][1]
+        largest = np.max([self.error.max(), self.final_error, self.beyond, self.not_settled])
+        return not (right_pressure and largest <= TOLERANCE and self.volume_change <= CONSERVED)
 
 
 def write_pool(case):

@@ -39,6 +39,11 @@ def darcy(phi, speed, d, mu, rho):
     return ergun(phi, speed, d, mu, rho, inertial=0)
 
 
+def darcy_diameter(drag, phi, viscosity):
+    """Diameter (m) of balls whose drag beta/(epsilon rho) by `darcy` is this (1/s), at a kinematic viscosity (m2/s)."""
+    return np.sqrt(150 * viscosity / drag) * phi / (1 - phi)
+
+
 def from_force(force, drag_alone):
     """The gradient of a law of the force: that on all balls of a volume, which the voids' pressure alone carries where
     the law is of the drag alone."""

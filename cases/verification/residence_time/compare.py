@@ -73,11 +73,12 @@ class Run:
 
     @property
     def missed(self):
-        return [words for words, miss in (
-            ("mean", abs(self.mean_off) > 0.01),
-            ("spread", abs(self.found.spread - self.vessel.spread) > self.vessel.limit),
-            ("conserved", self.table.missing > CONSERVED),
-            ("bounded", self.table.lowest < -BOUNDED or self.table.highest > 1 + BOUNDED)) if miss]
+        # A number that is not one misses its limit
+        return [words for words, within in (
+            ("mean", abs(self.mean_off) <= 0.01),
+            ("spread", abs(self.found.spread - self.vessel.spread) <= self.vessel.limit),
+            ("conserved", self.table.missing <= CONSERVED),
+            ("bounded", self.table.lowest >= -BOUNDED and self.table.highest <= 1 + BOUNDED)) if not within]
 
 
 def run(work, vessel):

@@ -19,6 +19,9 @@ from millfoam.files import foam
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
 
+sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
+import published_laws  # noqa: E402, in that case's folder
+
 matplotlib.use("Agg")
 
 GRAVITY = 9.81
@@ -99,11 +102,6 @@ def stiff_mode():
     return s
 
 
-def ball_diameter(drag):
-    """Diameter, m, of the balls whose drag per mass beta/(epsilon rho) is this, 1/s (Kozeny-Carman, 150)."""
-    return np.sqrt(150 * SLURRY["slurryKinematicViscosity"] * SOLIDITY**2 / ((1 - SOLIDITY) ** 2 * drag))
-
-
 def turn_mesh(case, angle):
     """Turns the mesh of a case about z."""
     path = case / "constant" / "polyMesh" / "points"
@@ -143,8 +141,10 @@ def build(run, case, here):
         endTime=end, writeInterval=end / (run.periods * RECORDS), largestStep=step,
         correctors=3 if run.solver == "interFoam" else 1, skewCorrectors=0 if run.room == "box" else 1,
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
-        omega=OMEGA, solidity=SOLIDITY, diameter=ball_diameter(drag), width=WIDTH, height=HEIGHT, cellsX=CELLS[0],
-        cellsY=CELLS[1], slurryModel="Bingham" if run.stiff else "Newtonian", plasticViscosity=PLASTIC_VISCOSITY,
+        omega=OMEGA, solidity=SOLIDITY,
+        diameter=published_laws.darcy_diameter(drag, SOLIDITY, SLURRY["slurryKinematicViscosity"]),
+        width=WIDTH, height=HEIGHT, cellsX=CELLS[0], cellsY=CELLS[1],
+        slurryModel="Bingham" if run.stiff else "Newtonian", plasticViscosity=PLASTIC_VISCOSITY,
         viscosityRatio=VISCOSITY_RATIO, surfaceNormal=f"({-np.sin(TILT):.15g} {np.cos(TILT):.15g} 0)")
     room = here / "box" if run.room == "box" else here.parent / "rest" / "pool" / "ogrid"
     shutil.copytree(room, case, dirs_exist_ok=True)

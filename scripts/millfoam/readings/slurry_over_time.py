@@ -30,10 +30,16 @@ class Way:
 
     @property
     def circulates(self) -> str:
-        """Whether slurry flows to the discharge at the toe and back at the shoulder: `yes`, `no`, or `undecided` if
-        that is not clear with 95 % confidence (Mean.sign)."""
-        toe, shoulder = self.toe.sign, self.shoulder.sign
-        return "yes" if (toe, shoulder) == (1, -1) else "no" if toe < 0 or shoulder > 0 else "undecided"
+        """circulation of its halves."""
+        return circulation(self.toe, self.shoulder)
+
+
+def circulation(toe: Mean, shoulder: Mean) -> str:
+    """Whether slurry flows to the discharge at the toe and back at the shoulder, by the velocities of its halves along
+    the axis (m/s, to the discharge positive): `yes`, `no`, or `undecided` if that is not clear with 95 % confidence
+    (Mean.sign)."""
+    signs = toe.sign, shoulder.sign
+    return "yes" if signs == (1, -1) else "no" if signs[0] < 0 or signs[1] > 0 else "undecided"
 
 
 def ring_depth(lifter_height: float) -> float:

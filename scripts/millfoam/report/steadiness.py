@@ -7,7 +7,7 @@ import numpy as np
 
 from ..files.mill_case import MillCase
 from ..readings.batches import batch_means, batches_of, error_about_line
-from ..readings.means import time_steps
+from ..readings.means import Mean, time_steps
 from .verdict import Check, judged
 from .words import decimals
 
@@ -68,8 +68,8 @@ def course_of(middles: np.ndarray, in_turn: int, turn: float) -> np.ndarray:
     return np.column_stack([np.ones(len(middles)), middles / middles.max(), np.cos(angles), np.sin(angles)])
 
 
-def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> tuple[float, float]:
-    """Difference of the means of two halves from `begin` (s) on, and its standard error from the batches of
+def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> Mean:
+    """Difference of the means of two halves from `begin` (s) on, with its standard error from the batches of
     batches_of.
 
     The error comes from the batches' differences from their course (course_of), so that neither a drift nor what comes
@@ -84,14 +84,15 @@ def halves(times: np.ndarray, values: np.ndarray, begin: float, turn: float) -> 
     first, last = (batch_means(times, values, begins, length, half) for begins in (start, times[-1] - half * length))
     batches = np.concatenate([first, last])
     if not np.isfinite(batches).all():
-        return np.nan, np.nan
+        return Mean(np.nan, np.nan)
     apart = span - half * length  # between the halves' middles
     middles = length * (np.arange(2 * half) % half) + apart * (np.arange(2 * half) >= half)
     model = course_of(middles, int(round(turn / length)) if half * length > 0.99 * turn else 0, turn)
     apart_from = batches - model @ np.linalg.lstsq(model, batches, rcond=None)[0]
-    error = np.sqrt(np.sum(apart_from**2) / (2 * half - np.linalg.matrix_rank(model)) * 2 / half)
+    freedom = 2 * half - int(np.linalg.matrix_rank(model))
+    error = np.sqrt(np.sum(apart_from**2) / freedom * 2 / half)
     scale = span / 2 / apart
-    return scale * (last.mean() - first.mean()), scale * error
+    return Mean(float(scale * (last.mean() - first.mean())), float(scale * error), freedom)
 
 
 def difference_with_error(value: float, error: float) -> str:
@@ -120,7 +121,8 @@ def drifts(columns: dict[str, np.ndarray], begin: float, turn: float, radius: fl
     """Difference of each of the machine's QUANTITIES between the halves of the time from `begin` (s) on."""
     found = []
     for key, unit, scale in QUANTITIES[machine]:
-        difference, error = halves(columns["Time"], columns[key], begin, turn)
+        apart = halves(columns["Time"], columns[key], begin, turn)
+        difference, error = apart.value, apart.error
         whole = radius if key in "xyz" else abs(columns[key][columns["Time"] >= begin].mean())
         of_what = f"{WORDS[key]} over the radius" if key in "xyz" else f"the {WORDS[key]}"
         text = f"{difference_with_error(scale * difference, scale * error)} {unit}"
