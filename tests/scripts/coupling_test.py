@@ -20,7 +20,7 @@ from millfoam.files.slurry_file import BallForces, read_ball_forces
 from millfoam.readings.fluid_on_balls import force_density
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
-from millfoam.report.coupling_section import coupling_checks
+from millfoam.report.coupling_section import coupling_checks, voxels_are_small
 from report_cases import LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
@@ -254,7 +254,7 @@ class AtTheSameTime(unittest.TestCase):
         self.assertAlmostEqual(content["force_disagreement"], 0.03 / 5, places=6)
         self.assertAlmostEqual(content["torque_by_flow_Nm"], -0.02, places=9)
         self.assertAlmostEqual(content["torque_by_balls_Nm"], -0.024, places=9)
-        self.assertAlmostEqual(content["torque_added_Nm"], -0.003, places=9)
+        self.assertAlmostEqual(content["torque_added"], 0.003 / 0.5, places=9)
         # Over the drive's torque on the balls, not over their own, which may be 0
         self.assertAlmostEqual(content["torque_disagreement"], 0.004 / 0.5, places=9)
 
@@ -271,7 +271,19 @@ class AtTheSameTime(unittest.TestCase):
         self.assertEqual(torque.state, "look")
         self.assertIn("it differs by 0.8 % of the drive's torque", torque.found)
         self.assertIn("balance by +4.7 % of the drive's torque", torque.found)
-        self.assertIn("averages.voxel_size", torque.advice)
+        voxels = checks["The voxels are small enough for the balls' torque"]
+        self.assertEqual(voxels.state, "holds")
+        self.assertIn("0.6 % of the drive's torque", voxels.found)
+
+    def test_voxels_that_add_much_to_the_torque_are_named(self):
+        content = self.judge()
+        self.addCleanup(self.judge)
+        case = passes.MillCase(self.case / "direct")
+        for added, state in ((0.09, "holds"), (0.2, "look"), (0.4, "fails")):
+            (self.case / "coupling.json").write_text(json.dumps(content | {"torque_added": added}))
+            voxels = voxels_are_small(case)
+            self.assertEqual(voxels.state, state)
+        self.assertIn("averages.voxel_size", voxels.advice)
 
     def test_runs_without_torques_are_judged_by_the_force_alone(self):
         content = self.judge()

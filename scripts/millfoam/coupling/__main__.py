@@ -86,6 +86,8 @@ def judge_direct(case: Path) -> None:
     if exchanged.torque_disagreement is not None:
         print(f"its torque: {exchanged.given_torque:.4g} N m by the flow, {exchanged.taken_torque:.4g} N m by the "
               f"balls; they differ by {exchanged.torque_disagreement:.2%} of the drive's torque on the balls")
+    if exchanged.added is not None:
+        print(f"the balls got {exchanged.added:.2%} of the drive's torque because voxels spread them")
     if exchanged.unbalanced is not None:
         print(f"by the slurry's own balance it differs by {exchanged.unbalanced:.2%} of the drive's torque")
 

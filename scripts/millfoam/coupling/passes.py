@@ -37,6 +37,7 @@ LIMIT = 3.0
 NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
+ADDED = 0.1  # torque that makes up for voxels, over the drive's torque on the balls
 TORQUES = 0.02  # by which the torque between balls and slurry may differ by both, over the drive's torque
 
 
@@ -143,8 +144,9 @@ class Exchanged:
     (fluid.csv): sizes of the force, N, and of their difference over that of the flow's; torques about +z, N m, and size
     of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None.
 
-    added_torque: part of the balls' torque, N m, that they got because voxels spread them (TorqueBalance of millDem).
-    None of a run without it: there, the torques by the flow and by the balls may differ by as much.
+    added: size of the torque that the balls got because voxels spread them (TorqueBalance of millDem), over that of the
+    drive's on the balls. None of a run without it: there, the torques by the flow and by the balls may differ by as
+    much.
 
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
@@ -154,7 +156,7 @@ class Exchanged:
     disagreement: float
     given_torque: float | None = None
     taken_torque: float | None = None
-    added_torque: float | None = None
+    added: float | None = None
     torque_disagreement: float | None = None
     unbalanced: float | None = None
 
@@ -198,8 +200,9 @@ def exchanged_forces(folder: Path) -> Exchanged:
     if torque is None or "torque_Nm" not in rows:
         return exchanged
     felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))
-    added = float(np.mean(rows["balance_torque_Nm"][within])) if "balance_torque_Nm" in rows else None
-    return replace(exchanged, given_torque=torque, taken_torque=felt, added_torque=added,
+    balance = rows.get("balance_torque_Nm")
+    return replace(exchanged, given_torque=torque, taken_torque=felt,
+                   added=None if balance is None else abs(float(np.mean(balance[within])) / driving),
                    torque_disagreement=abs((torque - felt) / driving),
                    unbalanced=unbalanced(case, felt, float(np.mean(drive["power_W"][driven]))))
 

@@ -62,7 +62,7 @@ def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchan
             "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
             "force_disagreement": known(exchanged.disagreement),
             "torque_by_flow_Nm": known(exchanged.given_torque), "torque_by_balls_Nm": known(exchanged.taken_torque),
-            "torque_added_Nm": known(exchanged.added_torque),
+            "torque_added": known(exchanged.added),
             "torque_disagreement": known(exchanged.torque_disagreement),
             "torque_unbalanced": known(exchanged.unbalanced)}
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..coupling.passes import AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, TORQUES, forces_apart
+from ..coupling.passes import ADDED, AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, TORQUES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -27,7 +27,8 @@ def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
     content = coupling_of(case)
     if content["coupling"] != "direct":
         return [has_settled, forces_agree]
-    return [forces_exchanged, *([torques_balance] if content.get("torque_disagreement") is not None else [])]
+    return [forces_exchanged, *([torques_balance] if content.get("torque_disagreement") is not None else []),
+            *([voxels_are_small] if content.get("torque_added") is not None else [])]
 
 
 def forces_exchanged(case: MillCase) -> Check:
@@ -48,8 +49,17 @@ def torques_balance(case: MillCase) -> Check:
         found += f"; by the balls and by the slurry's own balance by {100 * whole:+.1f} % of the drive's torque"
     return judged("The torque between balls and slurry balances", max(apart, abs(whole or 0)), TORQUES,
                   f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size",
-                  "Take smaller voxels (averages.voxel_size, of a stirred mill flow.exchange.voxel_size), and smaller "
-                  "cells (resolution.cell_size).", doubtful=5 * TORQUES)
+                  "Take smaller cells (resolution.cell_size).", doubtful=5 * TORQUES)
+
+
+def voxels_are_small(case: MillCase) -> Check:
+    """Whether the torque of the slurry on the balls is that of the voxels' forces, but for a small part."""
+    added = coupling_of(case)["torque_added"]
+    return judged("The voxels are small enough for the balls' torque", added, ADDED, "voxels spread the balls; what "
+                  f"their torque lacked was added to it: {100 * added:.1f} % of the drive's torque on the balls (limit "
+                  f"{100 * ADDED:g} %)", "Take smaller voxels (averages.voxel_size, of a stirred mill "
+                  "flow.exchange.voxel_size).", doubtful=3 * ADDED,
+                  meaning="the torque as a whole is right, but not where in the charge it acts")
 
 
 def has_settled(case: MillCase) -> Check:
@@ -87,9 +97,9 @@ def exchanged_table(case: MillCase) -> str:
         rows += [["torque of this force about the axis, by the flow", f"{content['torque_by_flow_Nm']:.4g} N m"],
                  ["the same, by the balls", f"{content['torque_by_balls_Nm']:.4g} N m"],
                  ["their difference over the drive's torque on the balls", f"{content['torque_disagreement']:.2%}"]]
-        if content.get("torque_added_Nm") is not None:
-            rows.append(["part of the balls' torque that makes up for voxels, which spread the balls",
-                         f"{content['torque_added_Nm']:.4g} N m"])
+        if content.get("torque_added") is not None:
+            rows.append(["torque that was added to the balls', because voxels spread them, over the drive's",
+                         f"{content['torque_added']:.2%}"])
         if content.get("torque_unbalanced") is not None:
             rows.append(["difference to the slurry's own balance, over the drive's torque",
                          f"{content['torque_unbalanced']:+.2%}"])
