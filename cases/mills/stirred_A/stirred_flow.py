@@ -28,11 +28,11 @@ def numbers_of(found: StirredFlowNumbers) -> dict[str, float]:
         row["torque_unbalanced_Nm"], row["torque_unbalanced_error_Nm"] = found.unbalanced.value, found.unbalanced.error
     return {**row, "power_slurry_W": found.slurry_power.value, "power_slurry_error_W": found.slurry_power.error,
             "power_balls_W": found.ball_power.value, "power_balls_error_W": found.ball_power.error,
-            "slurry_share": found.slurry_share, "missing_over_hold_up": found.missing,
-            "centre_z_m": found.centre.value, "slip_m_s": found.slip.value, "slip_deviation_m_s": found.slip.error,
-            "froude": found.froude, "reynolds": found.reynolds.value, "reynolds_deviation": found.reynolds.error,
+            "slurry_share": found.slurry_share.value, "missing_over_hold_up": found.missing,
+            "centre_z_m": found.centre.value, "slip_m_s": found.slip.value, "slip_error_m_s": found.slip.error,
+            "froude": found.froude.value, "reynolds": found.reynolds.value, "reynolds_error": found.reynolds.error,
             # The published tables multiply the slip by the root that it is divided by
-            "froude_as_printed": found.slip.value**2 / found.froude,
+            "froude_as_printed": found.slip.value**2 / found.froude.value,
             "reynolds_as_printed": found.reynolds.value / PRINTED_VISCOSITY}
 
 

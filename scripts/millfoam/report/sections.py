@@ -10,6 +10,7 @@ from ..files import solids_file
 from ..files.data_files import read_text
 from ..files.mill_case import MillCase
 from ..plots import charge_plots, mill_plots
+from ..readings.mill_power import power_begin
 from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
@@ -31,9 +32,10 @@ def overview(case: MillCase, readings: Readings) -> list[str]:
 
 def spans(case: MillCase, readings: Readings) -> str:
     """In words, the times over which the key numbers are averaged."""
-    words = []
+    power = f"power from DEM time {power_begin(case):.3g} s on" if case.results else ""
     if not (case.solids or case.flow):
-        return "Power: mean of the steady dry run, with the standard error of batch means."
+        return f"Averages: {power}. ±: standard errors of batch means over time."
+    words = [power] if power else []
     if case.solids:
         words.append(f"charge averaged over DEM time {case.charge_span[0]:.3g} to {case.charge_span[1]:.3g} s")
     if case.flow:
@@ -73,16 +75,19 @@ def last_turn(seconds: float, turn: float) -> str:
 
 def charge_section(case: MillCase, readings: Readings) -> list[str]:
     """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
-    return (charge_maps(case, readings) if case.solids else []) + dry_run_cards(case, "walls")
+    begin = power_begin(case) if case.results else np.nan
+    return (charge_maps(case, readings) if case.solids else []) + ball_cards(case, "walls", begin)
 
 
-def dry_run_cards(case: MillCase, driven: str) -> list[str]:
-    """Cards of the energies and the overlaps of the dry run; driven: what the drive turns, in words."""
+def ball_cards(case: MillCase, driven: str, begin: float) -> list[str]:
+    """Cards of the energies and the overlaps of the balls; driven: what the drive turns, in words; begin: DEM time (s)
+    from which their power is averaged."""
     cards = []
     if case.energy:
-        cards.append(page.picture(figures.energy(case), f"Power from the torque on the {driven}, and the balls' "
-                                                        "energies. Dashed: begin of the steady time.",
-                                  title="Dry run"))
+        steady = " In the lower panel: begin of the steady time." if case.results.get("steady") else ""
+        cards.append(page.picture(figures.energy(case, begin), f"Power from the torque on the {driven}, and the balls' "
+                                  "energies. Dashed line in the upper panel: begin of the time over which the power is "
+                                  f"averaged.{steady}", title="Power and energies of the balls"))
     if case.overlaps is not None:
         cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts, at about every tenth "
                                                           "record. Balls are stiff enough if few contacts are far to "
@@ -210,7 +215,7 @@ def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section),
-            ("coupling", "Balls and slurry in turn", coupling_section),
+            ("coupling", "Coupling of balls and slurry", coupling_section),
             ("contacts", "Contacts", contact_section), ("slurry", "Slurry", slurry_section),
             ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
             ("power", "Power", power_section), ("models", "Models", models_section),

@@ -87,4 +87,4 @@ def programs(case: MillCase) -> list[tuple[str, str]]:
     words = [f"{key} {openfoam[key]}" for key in ("version", "patch", "build") if openfoam.get(key)]
     rows += [("OpenFOAM of the flow", ", ".join(words))] if words else []
     liggghts = (case.results or {}).get("liggghts")
-    return rows + ([("LIGGGHTS of the dry run", liggghts)] if liggghts else [])
+    return rows + ([("LIGGGHTS of the balls", liggghts)] if liggghts else [])
