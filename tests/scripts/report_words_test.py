@@ -6,7 +6,7 @@ import unittest
 
 from millfoam.report import page
 from millfoam.report.sections import last_turn
-from millfoam.report.words import decimals, millilitres, quantity, span_of_time, typeset, uncertain
+from millfoam.report.words import Name, decimals, millilitres, quantity, span_of_time, typeset, uncertain
 
 
 class Words(unittest.TestCase):
@@ -14,6 +14,14 @@ class Words(unittest.TestCase):
         self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
                          "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
         self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
+
+    def test_names_are_escaped_and_otherwise_as_they_are(self):
+        for name in ("runs/dt_1e-05", "flow.max_time_step=1e-05", "1e-05", "a^3/-5", "m^3"):
+            self.assertEqual(page.text(Name(name)), name)
+            self.assertIn(f"<td>{name}</td>", page.table(None, [(Name(name), "1e-05")]))
+            self.assertIn(f"<h3>{name}</h3>", page.table(None, [], title=Name(name)))
+        self.assertEqual(page.text(Name("<1e-05>")), "&lt;1e-05&gt;")
+        self.assertEqual(typeset("of runs/dt_1e-05, 2e-05 s, -1.5e+03"), "of runs/dt_1e-05, 2·10⁻⁵ s, −1.5·10³")
 
     def test_units_shares_volumes_and_times_are_as_one_writes_them(self):
         self.assertEqual(typeset("0.0232 m^3, 128.7 cm^2, m^35"), "0.0232 m³, 128.7 cm², m^35")

@@ -81,7 +81,8 @@ class APool(unittest.TestCase):
         inside = within.reshape(15, 50, 15, 50).mean(axis=(1, 3))
         middles = (edges[1:] + edges[:-1]) / 2
         share = np.where(inside > 0, np.meshgrid(middles, middles)[1] < -0.05, np.nan)
-        coarse = VoxelMap(edges, edges, share, np.zeros((15, 15, 3)), inside, share, share, 0.0, 1.0, source="functions")
+        coarse = VoxelMap(edges, edges, share, np.zeros((15, 15, 3)), inside, share, share, 0.0, 1.0,
+                          source="functions")
         segment = RADIUS**2 * np.arccos(0.05 / RADIUS) - 0.05 * np.sqrt(RADIUS**2 - 0.05**2)
         self.assertAlmostEqual(pool(coarse, np.zeros((15, 15))).area / segment, 1, delta=1e-3)
         self.assertGreater(np.nansum(share) * coarse.pixel() / segment, 1.1)

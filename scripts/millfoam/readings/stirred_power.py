@@ -61,9 +61,9 @@ def torque_coefficient(torque: float, density: float, omega: float, diameter: fl
 
 @dataclass(frozen=True)
 class StirredNumbers:
-    """Of the averaged time of the balls (balls_span). power: W; torques: {part: N m} about +z; balance: torque on the parts at rest
-    over that on the impeller, 1 if no angular momentum is missing; speed: of the balls, m/s, None without dumps;
-    density: bulk density of the resting balls, kg/m3; power_number, torque_coefficient: with this density;
+    """Of the averaged time of the balls (balls_span). power: W; torques: {part: N m} about +z; balance: torque on the
+    parts at rest over that on the impeller, 1 if no angular momentum is missing; speed: of the balls, m/s, None without
+    dumps; density: bulk density of the resting balls, kg/m3; power_number, torque_coefficient: with this density;
     torque_over_weight: impeller's torque over the balls' weight times the tips' radius, a coefficient of friction;
     per_mass: W/kg of balls; per_slurry: W/m3 of slurry, None without slurry."""
     power: Mean

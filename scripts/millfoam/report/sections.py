@@ -19,7 +19,7 @@ from .flow_checks import beyond_law
 from .power_section import power_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
-from .words import quantity, span_of_time
+from .words import Name, quantity, span_of_time
 
 FRAMES = 40  # of the animation, at most
 
@@ -187,10 +187,11 @@ def run_section(case: MillCase, _readings: Readings) -> list[str]:
                                 note="Wall time, the sum of all runs of a stage that ended or failed. Killed runs are "
                                      "not counted."))
     mill = case.mill
-    rows = [(f"fingerprint: {part}", found) for part, found in mill.fingerprint.items() if found]
-    rows += [("changed by --set", setting) for setting in mill.settings]
+    rows = [(f"fingerprint: {part}", Name(found)) for part, found in mill.fingerprint.items() if found]
+    rows += [("changed by --set", Name(setting)) for setting in mill.settings]
     if mill.changed_since():
-        rows.append((mill.file_name, f"{mill.file_name} was changed after this run; the report shows the run's mill"))
+        rows.append((Name(mill.file_name), f"{mill.file_name} was changed after this run; the report shows the run's "
+                                           "mill"))
     if rows:
         cards.append(page.table(None, rows, title="The mill", note="Files with another fingerprint belong to another "
                                                                    "mill."))

@@ -45,13 +45,13 @@ def key_numbers(case: StirredCase) -> Rows:
     if found.speed:
         rows += [("mean speed of the balls", uncertain(found.speed.value, found.speed.error, "m/s")),
                  ("mean speed over that of the tips", uncertain(found.speed.value / case.tip_speed,
-                                                                found.speed.error / case.tip_speed, "").strip())]
+                                                                found.speed.error / case.tip_speed, ""))]
     return rows + dimensionless(found) + specific(found)
 
 
 def dimensionless(found: StirredNumbers) -> Rows:
     """Rows of the numbers without unit, and of the density in them."""
-    rows = [(name, uncertain(mean.value, mean.error, "").strip()) for name, mean in (
+    rows = [(name, uncertain(mean.value, mean.error, "")) for name, mean in (
         ("power number", found.power_number), ("torque coefficient", found.torque_coefficient),
         ("torque over weight", found.torque_over_weight))]
     return rows + [("bulk density of the balls, in these", f"{found.density:.4g} kg/m³")]
@@ -80,7 +80,7 @@ def flow_numbers(case: StirredCase) -> Rows:
              ("slip of slurry and balls", found.slip, 1.0, "m/s"),
              ("Froude number of the slip", found.froude, 1.0, ""),
              ("Reynolds number of the slip", found.reynolds, 1.0, "")]
-    return [(name, uncertain(scale * mean.value, scale * mean.error, unit).strip())
+    return [(name, uncertain(scale * mean.value, scale * mean.error, unit))
             for name, mean, scale, unit in rows]
 
 
