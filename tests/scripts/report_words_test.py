@@ -44,6 +44,9 @@ class Words(unittest.TestCase):
         self.assertEqual(uncertain(33.193095, 0.029591, "W"), "33.193 ± 0.030 W")
         self.assertEqual(uncertain(-37.42, 1.23, "°"), "-37.4 ± 1.2°")
         self.assertEqual(uncertain(0.0087123, float("nan"), "m/s"), "0.00871 m/s")
+        self.assertEqual(uncertain(-1.2e-5, 2e-7, "N m"), "(-1.200 ± 0.020)·10⁻⁵ N m")
+        self.assertEqual(uncertain(1234.5, float("nan"), "ml", ".0f"), "1234 ml")
+        self.assertEqual(millilitres(1.2345e-3, 4, 1.2e-5), "1234 ± 12 ml")
 
     def test_what_is_written_into_a_page_is_escaped(self):
         for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),

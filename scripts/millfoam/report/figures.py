@@ -76,7 +76,7 @@ def energy(case: MillCase, begin: float) -> Figure:
     bottom.plot(time, columns["potential_J"] - columns["potential_J"][0], color=GREEN,
                 label="potential, from its first value")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
-    bottom.legend(loc="lower right")
+    bottom.legend(loc="best")
     if np.isfinite(begin):
         top.axvline(begin, color=GREY, ls="--", lw=1)
     if case.results.get("steady"):

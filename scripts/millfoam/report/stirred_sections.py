@@ -11,7 +11,7 @@ from ..plots.stirred_slurry_plots import maps_figure, vortex_figure
 from ..readings.partner_spectra import BALLS, PartnerSpectra, Peak, read_partner_spectra
 from ..readings.stirred_flow import read_stirred_flow
 from ..readings.stirred_power import StirredNumbers, balls_span, read_stirred
-from ..readings.stirred_slurry import balls_of_last_turn, read_slurry_flow
+from ..readings.stirred_slurry import dumps_of_last_turn, read_slurry_flow
 from . import figures, page, stirred_figures
 from .case_readings import Rows
 from .comparison import verdict_table
@@ -137,17 +137,17 @@ def flow_section(case: StirredCase) -> list[str]:
         return []
     flow = read_slurry_flow(case.folder, case.mill, case.begin)
     times = f"flow time {flow.times[0]:.3g} to {flow.times[-1]:.3g} s"
-    records = balls_of_last_turn(case.folder, case.mill)
+    records = dumps_of_last_turn(case.folder, case.mill)
     chosen = [records[k] for k in np.unique(np.linspace(0, len(records) - 1, FRAMES).astype(int))] if records else []
     cards = [page.table(None, flow_numbers(case), title="Numbers of the slurry",
                         note=f"Means from flow time {case.begin:.3g} s on. {FLOW_NOTE}"),
-             page.picture(vortex_figure(case.mill, flow, records[-1][1] if records else None),
+             page.picture(vortex_figure(case.mill, flow, records[-1] if records else None),
                           "Section through the first pins, with the "
                           f"slurry's speed, mean of {times}, and the balls of the last record.", title="Vortex"),
              page.picture(maps_figure(case.mill, flow), f"Means over the azimuth and {times}.",
                           title="Slurry in the r-z plane")]
     if len(chosen) > 1:
-        cards.append(page.player((vortex_figure(case.mill, flow, balls) for _, balls in chosen),
+        cards.append(page.player((vortex_figure(case.mill, flow, record) for record in chosen),
                                  f"The same section, record by record, DEM time {chosen[0][0]:.3f} to "
                                  f"{chosen[-1][0]:.3f} s: the {balls_words(case)} in the impeller's frame, in which "
                                  "the pins stand still. The slurry is the mean over time.", title="The last turn"))

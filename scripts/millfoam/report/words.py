@@ -8,6 +8,7 @@ import numpy as np
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 ROUND_OFF = 1e-12  # of a value, an error that is none
+SMALLEST = -3  # power of ten below which values with errors have it written
 
 # Ends of keys that are units, longer ones first
 UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s", "_N_m": "N m", "_m_s": "m/s",
@@ -43,6 +44,10 @@ def uncertain(value: float, error: float, unit: str, form: str = ".3g") -> str:
     gap = "" if unit in ("°", "") else " "
     if not (np.isfinite(error) and error > ROUND_OFF * abs(value)):
         return f"{value:{form}}{gap}{unit}"
+    size = int(np.floor(np.log10(max(abs(value), error))))
+    if size < SMALLEST:
+        power = str(size).translate(SUPERSCRIPT)
+        return f"({uncertain(value / 10.0**size, error / 10.0**size, '')})·10{power}{gap}{unit}"
     digits = decimals(error)
     return f"{value:.{digits}f} ± {error:.{digits}f}{gap}{unit}"
 
