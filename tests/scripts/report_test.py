@@ -19,6 +19,7 @@ import numpy as np
 from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.outline import circle, lifter_outline
+from millfoam.plots.mill_plots import plot_strip
 from millfoam.readings.axial import Humps, drop, drop_error, mean_profile
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
 from millfoam.readings.means import Mean, angle_mean, time_mean
@@ -412,6 +413,18 @@ class Curves(Case):
             lines = {(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines
                      if line.get_label()[0] != "_"}
             self.assertEqual(len(lines), 20)
+
+    def test_the_strip_of_frames_names_the_charge_where_it_is(self):
+        for write, charge in ((write_flow, True), (write_fluid_only, False)):
+            case = write(self.folder / write.__name__)
+            for path in () if charge else case.glob("*/solidity"):
+                path.unlink()
+            with mock.patch.object(plt, "close"):
+                plot_strip(MillCase(case).flow, self.folder / "strip.png", 2)
+            labels = " ".join(axis.get_ylabel() for axis in plt.gcf().axes)
+            plt.close("all")
+            self.assertIn("slurry share over the axis", labels)
+            self.assertEqual("orange: charge" in labels, charge)
 
     def test_reynolds_numbers_have_a_linear_axis_from_zero(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]

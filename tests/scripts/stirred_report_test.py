@@ -203,6 +203,8 @@ class StirredReport(unittest.TestCase):
             check = slurry_torques(case)
             self.assertEqual(check.state, state)
             self.assertRegex(check.found, words)
+            # The page puts a full stop after it
+            self.assertFalse(check.meaning.endswith("."))
 
     def test_a_run_without_contacts_or_with_a_damaged_file_has_a_report(self):
         self.assertNotIn("Spectra of energy", report_case(write_stirred(self.folder / "plain")))

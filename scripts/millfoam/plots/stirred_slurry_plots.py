@@ -87,11 +87,10 @@ def _draw_balls(axis: Axes, mill: Mill, record: tuple[float, Path], angle: float
     turned = angle + mill.derived("speed", "angular_velocity_rad_s") * time
     across, up = (np.linspace(low, high, FINE) for low, high in ((-1e3 * mill.radius, 1e3 * mill.radius), (0, top)))
     speeds = section(dump, np.array([np.cos(turned), np.sin(turned), 0.0]), across / 1e3, up / 1e3)
-    rim = np.zeros(speeds.shape, bool)  # between two balls, which have two speeds, or a ball and none
-    for first, second in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
-        apart = speeds[first] != speeds[second]
-        rim[first] |= apart
-        rim[second] |= apart
+    # Between two balls, which have two speeds, or a ball and none
+    rows, columns = speeds[1:] != speeds[:-1], speeds[:, 1:] != speeds[:, :-1]
+    rim = (np.pad(rows, ((1, 0), (0, 0))) | np.pad(rows, ((0, 1), (0, 0)))
+           | np.pad(columns, ((0, 0), (1, 0))) | np.pad(columns, ((0, 0), (0, 1))))
     colours = np.zeros((*speeds.shape, 4))
     colours[np.isfinite(speeds)] = to_rgba("0.8", 0.75)
     colours[rim & np.isfinite(speeds)] = to_rgba("0.3", 0.9)

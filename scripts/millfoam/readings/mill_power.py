@@ -63,7 +63,7 @@ def power_begin(case: MillCase) -> float:
     span, series = flow_span(case), during_flow(case, case.energy)
     if span and series and len(turn_means(*series, case.begin, case.turn)) > 1:
         return span[0]
-    return case.result("power_from_s" if "power_from_s" in case.results else "steady_from_s")
+    return case.result("power_from_s" if "power_from_s" in (case.results or {}) else "steady_from_s")
 
 
 def slurry_power(case: MillCase) -> Mean:

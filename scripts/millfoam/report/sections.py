@@ -187,7 +187,8 @@ def run_section(case: MillCase, _readings: Readings) -> list[str]:
                                 note="Wall time, the sum of all runs of a stage that ended or failed. Killed runs are "
                                      "not counted."))
     mill = case.mill
-    rows = [(f"fingerprint: {part}", Name(found)) for part, found in mill.fingerprint.items() if found]
+    rows: list[tuple[str, str]] = [(f"fingerprint: {part}", Name(found))
+                                   for part, found in mill.fingerprint.items() if found]
     rows += [("changed by --set", Name(setting)) for setting in mill.settings]
     if mill.changed_since():
         rows.append((Name(mill.file_name), f"{mill.file_name} was changed after this run; the report shows the run's "

@@ -83,7 +83,7 @@ def programs(case: MillCase) -> list[tuple[str, str]]:
     for name, program in found:
         if program:
             by_program.setdefault(program, []).append(name)
-    rows = [(Name(", ".join(names)), Name(program)) for program, names in by_program.items()]
+    rows: list[tuple[str, str]] = [(Name(", ".join(names)), Name(program)) for program, names in by_program.items()]
     openfoam = case.record.last.get("openfoam") or {}
     words = [f"{key} {openfoam[key]}" for key in ("version", "patch", "build") if openfoam.get(key)]
     rows += [("OpenFOAM of the flow", Name(", ".join(words)))] if words else []
