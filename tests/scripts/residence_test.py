@@ -123,6 +123,11 @@ class Moments(Tables):
                 self.assertAlmostEqual(found.mean, 30, delta=1e-3)
                 self.assertIn(words, note(found))
 
+    def test_round_off_is_no_tracer(self):
+        found = residence(self.pulse(8, 18.0))
+        self.assertEqual((found.left, found.doubt), (0.0, (0.0, 0.0)))
+        self.assertIn("All tracer has left.", note(found))
+
     def test_without_a_second_fit_the_doubt_is_not_known(self):
         with mock.patch("millfoam.readings.residence.decay", side_effect=[2.0, None]):
             found = residence(self.pulse(3, BEGIN + 1.5 * MEAN))

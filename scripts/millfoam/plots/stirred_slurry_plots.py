@@ -48,7 +48,7 @@ def maps_figure(mill: Mill, flow: SlurryFlow) -> plt.Figure:
     draw_arrows(axes[1], np.array([np.concatenate([-r, r]) / mill.radius, 1e3 * np.tile(z, 2)]),
                 np.array([np.concatenate([-radial, radial]), np.tile(axial, 2)]), "w")
     axes[0].set_title("orange: balls' solidity 0.1 and 0.4", fontsize=9)
-    axes[1].set_title("arrows: radial and axial velocity", fontsize=9, loc="left")
+    axes[1].set_title("radial and axial velocity:", fontsize=9, loc="left")
     return figure
 
 

@@ -14,7 +14,7 @@ LEFT = 0.2
 NEGLIGIBLE = 1e-3  # share of the tracer that may leave at the end of the record if no exponential is found for it
 LATE, WIDER = 1.5, 3.0  # times what has not left: what is still to come where the tail is fitted, and for another fit
 FEWEST = 5  # rows of a fit
-ROUND_OFF = 1e-6  # share of what is still to come, which falls by no more: it does not decay
+ROUND_OFF = 1e-6  # of the tracer, a share that has left; of what is still to come, a fall that is no decay
 SPARSE = 0.01  # of the tracer that left, by which rates times rows may differ from it
 
 
@@ -187,8 +187,8 @@ def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
     if left > LEFT:
         raise RuntimeError(f"{100 * left:.0f} % of the tracer has not left at the end; expected at most "
                            f"{100 * LEFT:.0f} %: let the flow run longer")
-    if left < 1e-6:
-        return max(left, 0.0), 0.0, 0.0
+    if left < ROUND_OFF:
+        return 0.0, 0.0, 0.0
     tail, other = (decay(time, 1 - np.cumsum(share), times * left) for times in (LATE, WIDER))
     if left <= NEGLIGIBLE and (tail is None or tail > time[-1]):
         return left, 0.0, 0.0
