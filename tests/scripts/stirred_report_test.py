@@ -17,7 +17,9 @@ from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.stirred_case import StirredCase
 from millfoam.readings.partner_spectra import read_partner_spectra
+from millfoam.readings.stirred_flow import read_stirred_flow
 from millfoam.readings.stirred_power import balls_span, mean_speed, power_number, read_stirred, torque_coefficient
+from millfoam.readings.stirred_slurry import SlurryFlow
 from millfoam.report import figures, stirred_figures, stirred_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.checks import all_checks
@@ -205,6 +207,28 @@ class StirredReport(unittest.TestCase):
             self.assertRegex(check.found, words)
             # The page puts a full stop after it
             self.assertFalse(check.meaning.endswith("."))
+
+    def test_slip_froude_and_reynolds_number_have_errors_of_blocks_of_written_times(self):
+        for keys, value in ((("slurry",), {"density_kg_m3": 1000.0}), (("charge", "sauter_diameter_m"), 0.002)):
+            change_json(self.case / "mill.json", "derived", *keys, to=value)
+        case = StirredCase(self.case, begin=1.0)
+        time = np.linspace(0, 3, 301)
+        names = [f"torque_{part}" for part in (*PARTS, "balls", "all")]
+        names += ["power", "missing", "holdUp", "z"]
+        case.__dict__["balance"] = {"Time": time} | {name: 0 * time + 1 for name in names}
+        # Of five blocks of two times; within a block times differ, but not its mean
+        blocks = np.array([0.1, 0.2, 0.3, 0.2, 0.2])
+        slips = list(np.repeat(blocks, 2) + np.tile([0.05, -0.05], 5))
+        one = np.ones(1)
+        flow = SlurryFlow(np.zeros((1, 3)), one, one, one, np.zeros((1, 3)), slips, [20 * slip for slip in slips],
+                          list(range(10)))
+        found = read_stirred_flow(case, flow)
+        error, root = blocks.std(ddof=1) / np.sqrt(5), np.sqrt(9.81 * 0.002 * 1.5)
+        for mean, scale in ((found.slip, 1), (found.froude, 1 / root), (found.reynolds, 20)):
+            np.testing.assert_allclose((mean.value, mean.error), (0.2 * scale, error * scale))
+        # Half a watt and one of 25 W
+        self.assertAlmostEqual(found.slurry_share.value, 1 / 26, places=3)
+        self.assertAlmostEqual(found.slurry_share.error, found.ball_power.error / found.ball_power.value / 26, places=4)
 
     def test_a_run_without_contacts_or_with_a_damaged_file_has_a_report(self):
         self.assertNotIn("Spectra of energy", report_case(write_stirred(self.folder / "plain")))
