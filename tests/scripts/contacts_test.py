@@ -4,12 +4,15 @@
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
 from millfoam.files.contact_dumps import read_materials
+from millfoam.files.mill_case import MillCase
 from millfoam.readings.contact_spectra import energy_edges, hertz_duration, power_to_dissipate, read_spectra, spectra
 from millfoam.readings.contacts import Contacts, read_contacts
+from millfoam.report.contact_cards import contact_span
 from report_cases import write_json
 
 RADIUS, DENSITY, OVERLAP = 0.01, 2500.0, 1e-4
@@ -202,6 +205,18 @@ class Spectra(Case):
             power_to_dissipate(self.case, 0.25)
         with self.assertRaisesRegex(RuntimeError, "1 dumps from 0.004"):
             read_spectra(self.case, 0.004)
+
+
+class Span(unittest.TestCase):
+    def test_of_a_charge_that_becomes_steady_is_since_then(self):
+        times = list(np.arange(1, 11) / 10)
+        for steady, since, begin in ((True, 0.55, 0.55), (False, 0.55, 0.1), (True, 0.05, 0.1),
+                                     # Fewer than three dumps are no span
+                                     (True, 0.85, 0.1)):
+            case = SimpleNamespace(contact_times=times, contacts=Path("case"), results={"steady": steady},
+                                   result={"steady_from_s": since}.get)
+            self.assertTrue(all(hasattr(MillCase, name) for name in vars(case)))
+            self.assertEqual(contact_span(case), (begin, 1.0))
 
 
 if __name__ == "__main__":

@@ -29,7 +29,8 @@ def case(kind):
     flow_times, walls = series(WALLS, 9.0, 0.004)
     back = series(BACK, 9.0, 0.01)[1]
     found = SimpleNamespace(
-        results={"fluid": {"kind": kind} if kind else None}, result={"power_W": 3.0, "power_error_W": 0.04}.get,
+        results={"fluid": {"kind": kind} if kind else None, "power_from_s": 0.7},
+        result={"power_W": 3.0, "power_error_W": 0.04, "power_from_s": 0.7, "steady_from_s": 0.9}.get,
         flow=SimpleNamespace(time0=TIME0), begin=BEGIN, last=LAST, turn=TURN,
         energy={"time_s": TIME0 + times, "power_W": balls},
         fluid_on_balls={"time_s": TIME0 + times, "power_W": -back} if kind else None,
@@ -50,6 +51,16 @@ class Powers(unittest.TestCase):
         self.assertLess(drive.error, 0.1 * mill_power.charge_power(direct).error)
         self.assertEqual(drive.freedom, 2)
         self.assertAlmostEqual(mill_power.given_power(direct).value, (WALLS + BACK).mean(), places=9)
+
+    def test_begin_with_the_averaged_turns_of_a_flow_that_moved_the_balls_or_as_the_results_have_it(self):
+        self.assertEqual(mill_power.power_begin(case("flow")), TIME0 + BEGIN)
+        for kind in ("slurry", None):
+            self.assertEqual(mill_power.power_begin(case(kind)), 0.7)
+        short, old = case("flow"), case(None)
+        short.begin = 4.0
+        self.assertEqual(mill_power.power_begin(short), 0.7)
+        del old.results["power_from_s"]
+        self.assertEqual(mill_power.power_begin(old), 0.9)
 
     def test_of_balls_that_felt_an_earlier_flow_are_of_their_own_run(self):
         passed = case("slurry")

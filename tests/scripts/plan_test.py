@@ -3,6 +3,7 @@
 """What a mill's case will take: arithmetic on programs that print fixed numbers, and one real small mill."""
 import json
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -12,7 +13,10 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import numpy as np
+
 from millfoam.plan import trial
+from millfoam.plan.stages import FORCES
 from millfoam.run import RunError
 
 SMALL = """
@@ -25,7 +29,8 @@ slurry: {density: 1200, plastic_viscosity: 0.005, yield_stress: 0.1, level: -0.0
 resolution: {cell_size: 0.008, layers: 2}
 flow: {duration: 0.5}
 """
-MILLS = Path(__file__).resolve().parents[2] / "cases" / "mills"
+ROOT = Path(__file__).resolve().parents[2]
+MILLS = ROOT / "cases" / "mills"
 CELLS, FACES, SECTION_CELLS, VOLUME, LENGTH, RADIUS = 1000, 3500, 250, 0.001, 0.1, 0.05
 STEP = 0.5  # s that the stub's flow takes for a step, after a first one of 40 s
 MILL_MESH = f"""mkdir -p walls constant/polyMesh
@@ -184,6 +189,20 @@ class Arithmetic(Folder):
         self.assertAlmostEqual(stages["flow"]["time_s"], 1000 * STEP * 2.0)
         self.assertEqual(content["charge_from"], "../dry")
         self.assertIn("are those of ../dry", text)
+
+    def test_steps_of_balls_that_feel_a_flow_take_longer_by_the_median_of_the_measured_table(self):
+        rows = [line.split("|")[1:-1] for line in (ROOT / "PERFORMANCE.md").read_text().splitlines()
+                if re.match(r"\| [\d ]+ \| [12] (\| \d\.\d+ ){7}(\| \d+ ){3}\|$", line)]
+        longer = [1 + float(row[7]) / float(row[3]) for row in rows]
+        self.assertEqual(len(longer), 8)
+        self.assertAlmostEqual(FORCES, np.median(longer), delta=0.005)
+        dry, flow = 600, 1000 * STEP * 2.0
+        self.write(mill(coupling="iterated", passes=3))
+        stages = self.planned()[1]
+        first = sum(stages[name]["time_s"] for name in ("walls", "charge", "average", "mesh", "start", "flow"))
+        self.assertAlmostEqual(stages["2 more passes"]["time_s"], 2 * (first + (FORCES - 1) * dry), places=3)
+        self.write(mill(coupling="direct", duration_s=2.0))
+        self.assertAlmostEqual(self.planned()[1]["balls and flow"]["time_s"], FORCES * dry / 2 + 2 * flow)
 
     def test_a_plan_until_a_stage_ends_with_it_and_makes_no_trial_of_what_follows(self):
         self.write(mill())

@@ -20,7 +20,8 @@ PRINTS = {"walls": "0" * 15 + "1", "charge": "0" * 15 + "2", "averages": "0" * 1
 MILL = """title: {title}
 geometry: {{diameter: 0.3, length: 0.06, ends: plain, lifters: {{count: 8, height: 0.01}}}}
 """
-RESULTS = {"balls": 1000, "lost_balls": 0, "steady": True, "steady_from_s": 1.0, "power_W": 3.21,
+RESULTS = {"balls": 1000, "lost_balls": 0, "steady": True, "steady_from_s": 1.0, "power_from_s": 0.4,
+           "power_W": 3.21,
            "power_error_W": 0.0123,
            "ball_overlap_largest_m": 2e-4, "ball_overlap_99_m": 5e-5, "allowed_overlap": 0.15,
            "smallest_diameter_m": 0.005, "wall_time_s": 60.0, "liggghts": "Version 3.8"}

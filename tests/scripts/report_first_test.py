@@ -155,7 +155,7 @@ class TheMill(Case):
         rows = dict(programs(MillCase(flow)))
         self.assertEqual(rows["postProcessing/flow/0/flow.json"], "flowTool 1.2.3")
         self.assertEqual(rows["OpenFOAM of the flow"], "version v1912, build abc-1")
-        self.assertEqual(rows["LIGGGHTS of the dry run"], "Version 3.8")
+        self.assertEqual(rows["LIGGGHTS of the balls"], "Version 3.8")
 
     def test_that_turns_the_other_way_has_the_numbers_of_its_mirror_image(self):
         here, there = (MillCase(make(write_flow(self.folder / name))) for name,

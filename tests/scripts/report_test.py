@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reports of small cases are complete pages that need no network, name what is missing, and refuse folders that are no
 mill's case."""
+import json
 import re
 import subprocess
 import tempfile
 import unittest
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,14 +19,20 @@ import numpy as np
 from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.outline import circle, lifter_outline
-from millfoam.readings.axial import Humps
+from millfoam.plots.mill_plots import plot_strip
+from millfoam.readings.axial import Humps, drop, drop_error, mean_profile
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
-from millfoam.readings.means import Mean, angle_mean
+from millfoam.readings.means import Mean, angle_mean, time_mean
+from millfoam.readings.mill_power import power_begin
 from millfoam.readings.power_models import hogg_fuerstenau
+from millfoam.readings.slurry_on_maps import pool
 from millfoam.readings.slurry_over_time import Way, slurry_blocks, slurry_way
 from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
-from millfoam.report.case_readings import Readings, humps_words
+from millfoam.report.case_readings import Readings, humps_words, key_numbers
+from millfoam.report.power_section import net_note
+from millfoam.report.sections import spans
+from millfoam.report.words import uncertain
 from report_cases import (OMEGA, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only, write_mill,
                           write_slurry, write_solids, write_steps)
 
@@ -99,7 +107,7 @@ class Models(Case):
     def test_moys_hold_up_stands_along_the_axis_and_adds_up_to_its_volume(self):
         slurry = {"plastic_viscosity_Pa_s": 0.01, "density_kg_m3": 1200.0}
         mill = SimpleNamespace(sauter_diameter=0.005, discharge_radius=0.05, slurry=slurry.get)
-        case = SimpleNamespace(folder=self.folder, mill=mill, radius=0.15, length=0.3, feed=5e-5, begin=0.0,
+        case = SimpleNamespace(folder=self.folder, mill=mill, radius=0.15, length=0.3, feed=5e-5, begin=0.0, turn=1.0,
                                charge=SimpleNamespace(solidity=np.full((3, 3), 0.6)),
                                balance={"Time": np.array([0.0, 1.0]), "holdUp": np.array([2e-3, 2e-3])})
         profile = SimpleNamespace(z=np.linspace(0.05, 0.25, 5), holdup=np.full(5, 4e-4))
@@ -213,7 +221,86 @@ class OneCase(Case):
         found = self.assert_whole(report_case(write_flow(self.folder / "flow")))
         words = re.sub(r"\s+", " ", found.text)
         self.assertIn("shell −0.01 0.06 lifters −0.07 0.42 all −0.08 0.5", words)
-        self.assertIn("largest slip past the balls at any time 1.25 m/s", words)
+        self.assertIn("Slip past the balls largest slip since 0.4 s 1.25 m/s", words)
+
+    def test_numbers_of_the_slurry_have_errors_over_whole_turns(self):
+        self.undrawn()
+        case = self.short_turns(write_flow(self.folder / "flow"))
+        columns, late = case.balance, case.balance["Time"] > case.begin + 1e-9
+        case.balance["feed"] = 2e-5 + 0 * columns["Time"]
+        readings = Readings(case)
+        rows = dict(key_numbers(case, readings))
+        for name, key, scale in (("hold-up of slurry", "holdUp", 1e6), ("discharge", "discharge", 1e6),
+                                 ("feed minus discharge", "discharge", -1e6)):
+            turns = columns[key][late].reshape(4, 10).mean(axis=1)
+            error = turns.std(ddof=1) / 2
+            value = scale * (time_mean(columns["Time"], columns[key], case.begin) - (2e-5 if scale < 0 else 0))
+            self.assertEqual(rows[name], uncertain(value, abs(scale) * error, "ml" if key == "holdUp" else "ml/s"))
+        self.assertEqual(rows["feed"], "20.0 ml/s")
+        words = " ".join(re.sub(r"<[^>]*>", " ", card) for card in slurry_sections.balance_section(case, readings))
+        turns = columns["power"][late].reshape(4, 10).mean(axis=1)
+        power = time_mean(columns["Time"], columns["power"], case.begin)
+        self.assertIn(uncertain(power, turns.std(ddof=1) / 2, ""), words)
+        self.assertNotIn("20 ±", rows["drop of p_rgh in the slurry along the axis (straight line)"])
+
+    def test_the_drop_of_pressure_and_the_pool_have_errors(self):
+        case = self.short_turns(write_flow(self.folder / "flow"))
+        readings = Readings(case)
+        # Of successive turns of ten rows, whose pressures fall by 40, 50, 60 and 50 Pa
+        series = readings.series
+        falls = np.repeat([40.0, 50.0, 60.0, 50.0], 10)
+        along = (series.z - series.z[0]) / np.ptp(series.z)
+        pressure = 100 - falls[:, None] * along
+        series = replace(series, times=series.times[-40:], pressure=pressure, height=series.height[-40:],
+                         holdup=series.holdup[-40:])
+        self.assertAlmostEqual(drop(mean_profile(series)), 50)
+        self.assertAlmostEqual(drop_error(series, case.begin, case.turn), np.std([40, 50, 60, 50], ddof=1) / 2)
+        blocks = [replace(readings.slurry, share=scale * readings.slurry.share) for scale in (0.8, 1.0, 0.9)]
+        areas = [pool(one, np.zeros_like(one.share)).area for one in blocks]
+        case.solids = None
+        words = dict(slurry_sections.still_rows(case, blocks[1], blocks))["pool clear of the charge"]
+        self.assertIn(uncertain(1e6 * case.length * areas[1], 1e6 * case.length * np.std(areas, ddof=1) / np.sqrt(3),
+                                "ml"), words)
+
+    def test_balls_that_move_with_the_flow_have_their_own_words(self):
+        self.undrawn()
+        flow = write_flow(self.folder / "flow")
+        dry = self.assert_whole(report_case(flow)).text
+        change_json(flow / "dumps" / "results.json", "fluid", to={"kind": "flow"})
+        direct = self.assert_whole(report_case(flow)).text
+        self.assertIn("one-way coupling does not hold", dry)
+        self.assertNotRegex(direct, "one-way coupling does not hold|dry run|in turn")
+        for words in ("the slurry carries the balls", "Power and energies of the balls", "LIGGGHTS of the balls"):
+            self.assertIn(words, direct)
+
+    def test_the_power_names_its_begin_and_the_figure_marks_it(self):
+        flow = write_flow(self.folder / "flow")
+        self.assertIn("power from DEM time 0.4 s on", spans(MillCase(flow), Readings(MillCase(flow))))
+        change_json(flow / "dumps" / "results.json", "fluid", to={"kind": "flow"})
+        case = self.short_turns(flow)
+        case.energy["time_s"] += 0.8  # to the flow's end, and beyond
+        self.assertIn(f"power from DEM time {TIME0 + case.begin:.3g} s on", spans(case, Readings(case)))
+        figure = figures.energy(case, power_begin(case))
+        marks = [[line.get_xdata()[0] for line in axis.lines if line.get_linestyle() == "--"] for axis in figure.axes]
+        plt.close(figure)
+        self.assertEqual(marks, [[TIME0 + case.begin], [1.0]])
+
+    def test_the_drives_power_names_its_turns_and_what_its_torques_miss(self):
+        case = self.short_turns(write_flow(self.folder / "flow"))
+        self.assertIn("fewer than three turns of the flow is not shown; it has 4. ±", net_note(case))
+        self.assertNotIn("does not balance", net_note(case))
+        (self.folder / "coupling.json").write_text(json.dumps({"format": "millfoam-coupling", "coupling": "direct",
+                                                               "torque_disagreement": 0.0143,
+                                                               "torque_unbalanced": -0.0252}))
+        case.coupled = self.folder
+        self.assertRegex(net_note(case), r"does not balance, by 1\.4 % of .* and 2\.5 % of the drive's torque .*; the "
+                                         "drive's power has an error of this size")
+
+    def short_turns(self, flow):
+        """MillCase of a flow whose averages are four turns of ten records."""
+        case = MillCase(flow)
+        case.turn = 0.1
+        return case
 
     def test_a_tracer_shows_the_time_in_the_mill(self):
         self.undrawn()
@@ -289,7 +376,10 @@ class SlurryWay(Case):
         self.assertIn("lower bounds of errors: the charge's of 0.1 s, the slurry's of 0.1 s",
                       Readings(case).short_blocks())
         case.turn = 0.1
-        self.assertEqual(Readings(case).short_blocks(), "")
+        readings = Readings(case)
+        self.assertEqual(readings.short_blocks(), "")
+        readings.errors["ends"] = replace(readings.errors["ends"], blocks=1, failed=3)
+        self.assertEqual(readings.short_blocks(), " 3 of 4 blocks have no reading of toe and shoulder.")
 
     def test_humps_at_the_profiles_end_are_named(self):
         z = np.linspace(0.01, 0.29, 15)
@@ -307,6 +397,10 @@ class Curves(Case):
         times, power = figures.quarter_turns(case, "power")
         self.assertGreater(times[0], case.turn / 4)
         self.assertLess(power.max(), 0.6)
+        times, power = figures.running_mean(np.arange(1, 11) / 10, np.arange(1, 11.0), 0.3)
+        np.testing.assert_allclose((times, power), (np.arange(4, 11) / 10, np.arange(3, 10)))
+        self.assertEqual(len(figures.running_mean(times, power, 3.0)[0]), 0)
+        self.assertEqual(figures.late_limits(times[:0], power[:0]), (0, 1))
         for early, limits in (((99, 50, 9), (0, 3.3)), ((2.5, 1, 1), (0, 2.75)), ((-0.5, 0, 0), (-0.55, 2.2)),
                               ((-99, 0, 0), (-1.1, 2.2))):
             found = figures.late_limits(np.arange(10.0), np.array([*early, 1, 1, 1, 2, 1, 1, 1.0]))
@@ -319,6 +413,18 @@ class Curves(Case):
             lines = {(line.get_color(), line.get_linestyle()) for line in figure.axes[0].lines
                      if line.get_label()[0] != "_"}
             self.assertEqual(len(lines), 20)
+
+    def test_the_strip_of_frames_names_the_charge_where_it_is(self):
+        for write, charge in ((write_flow, True), (write_fluid_only, False)):
+            case = write(self.folder / write.__name__)
+            for path in () if charge else case.glob("*/solidity"):
+                path.unlink()
+            with mock.patch.object(plt, "close"):
+                plot_strip(MillCase(case).flow, self.folder / "strip.png", 2)
+            labels = " ".join(axis.get_ylabel() for axis in plt.gcf().axes)
+            plt.close("all")
+            self.assertIn("slurry share over the axis", labels)
+            self.assertEqual("orange: charge" in labels, charge)
 
     def test_reynolds_numbers_have_a_linear_axis_from_zero(self):
         axis = figures.reynolds(MillCase(write_flow(self.folder / "flow"))).axes[0]

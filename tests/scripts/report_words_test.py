@@ -6,7 +6,7 @@ import unittest
 
 from millfoam.report import page
 from millfoam.report.sections import last_turn
-from millfoam.report.words import decimals, millilitres, quantity, span_of_time, typeset, uncertain
+from millfoam.report.words import Name, decimals, millilitres, quantity, span_of_time, typeset, uncertain
 
 
 class Words(unittest.TestCase):
@@ -14,6 +14,14 @@ class Words(unittest.TestCase):
         self.assertEqual(typeset("-1.5 mm (-3 to -2), 1.2e-06 of runs_9-2, 2026-01-02, --begin"),
                          "−1.5 mm (−3 to −2), 1.2·10⁻⁶ of runs_9-2, 2026-01-02, --begin")
         self.assertEqual(typeset("-0.0 ml/s, +0 mm, -0.02, +0.5, -0.0·10"), "0.0 ml/s, 0 mm, −0.02, +0.5, −0.0·10")
+
+    def test_names_are_escaped_and_otherwise_as_they_are(self):
+        for name in ("runs/dt_1e-05", "flow.max_time_step=1e-05", "1e-05", "a^3/-5", "m^3"):
+            self.assertEqual(page.text(Name(name)), name)
+            self.assertIn(f"<td>{name}</td>", page.table(None, [(Name(name), "1e-05")]))
+            self.assertIn(f"<h3>{name}</h3>", page.table(None, [], title=Name(name)))
+        self.assertEqual(page.text(Name("<1e-05>")), "&lt;1e-05&gt;")
+        self.assertEqual(typeset("of runs/dt_1e-05, 2e-05 s, -1.5e+03"), "of runs/dt_1e-05, 2·10⁻⁵ s, −1.5·10³")
 
     def test_units_shares_volumes_and_times_are_as_one_writes_them(self):
         self.assertEqual(typeset("0.0232 m^3, 128.7 cm^2, m^35"), "0.0232 m³, 128.7 cm², m^35")
@@ -36,6 +44,9 @@ class Words(unittest.TestCase):
         self.assertEqual(uncertain(33.193095, 0.029591, "W"), "33.193 ± 0.030 W")
         self.assertEqual(uncertain(-37.42, 1.23, "°"), "-37.4 ± 1.2°")
         self.assertEqual(uncertain(0.0087123, float("nan"), "m/s"), "0.00871 m/s")
+        self.assertEqual(uncertain(-1.2e-5, 2e-7, "N m"), "(-1.200 ± 0.020)·10⁻⁵ N m")
+        self.assertEqual(uncertain(1234.5, float("nan"), "ml", ".0f"), "1234 ml")
+        self.assertEqual(millilitres(1.2345e-3, 4, 1.2e-5), "1234 ± 12 ml")
 
     def test_what_is_written_into_a_page_is_escaped(self):
         for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),

@@ -6,7 +6,10 @@ import re
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
+import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.files.data_files import DataError
@@ -14,7 +17,10 @@ from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.stirred_case import StirredCase
 from millfoam.readings.partner_spectra import read_partner_spectra
-from millfoam.readings.stirred_power import mean_speed, power_number, read_stirred, torque_coefficient
+from millfoam.readings.stirred_flow import read_stirred_flow
+from millfoam.readings.stirred_power import balls_span, mean_speed, power_number, read_stirred, torque_coefficient
+from millfoam.readings.stirred_slurry import SlurryFlow
+from millfoam.report import figures, stirred_figures, stirred_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.checks import all_checks
 from millfoam.report.flow_checks import slurry_torques
@@ -39,8 +45,9 @@ def contacts():
                       for name, (normal, tangential) in powers.items()}}
 
 
-def write_stirred(folder, **changed):
-    """A dry run of two seconds, ten turns: mill.json, dumps/; changed: values of results.json."""
+def write_stirred(folder, power=25.0, **changed):
+    """A dry run of two seconds, ten turns: mill.json, dumps/; power: of the steady charge, W, more before; changed:
+    values of results.json."""
     folder.mkdir(parents=True, exist_ok=True)
     impeller = {"shaft_diameter_m": 0.025, "shaft_end_m": 0.02, "radius_m": RADIUS, "top_m": 0.0775, "gap_m": 0.0075,
                 "volume_below_top_m3": 1e-4, "pins": []}
@@ -55,18 +62,22 @@ def write_stirred(folder, **changed):
                "fingerprint": {**PRINTS, "flow": ""},
                "mill": {"title": "A stirred mill", "geometry": {}, "speed": {}, "charge": {}}, "derived": derived}
     (folder / "mill.json").write_text(json.dumps(content))
-    results = {**RESULTS, "balls": 4, "steady_from_s": STEADY, "begin_s": 0.0, "duration_s": 2.0, "power_W": 25.0,
-               "power_error_W": 0.2, "part_torques_Nm": TORQUES,
+    results = {**RESULTS, "balls": 4, "steady_from_s": STEADY, "power_from_s": 0.0, "begin_s": 0.0, "duration_s": 2.0,
+               "power_W": 28.0, "power_error_W": 0.3, "part_torques_Nm": TORQUES,
                "part_torques_error_Nm": {part: 0.004 for part in PARTS}, **changed}
     write_json(folder / "dumps" / "results.json", "charge", ("charge",), **results)
     write_json(folder / "dumps" / "run.json", "dumps", ("charge",), timestep_s=1e-3, interval=10,
                angular_velocity_rad_s=OMEGA)
     time = np.arange(1, 201) * 0.01
     ripple = 0.1 * np.sin(2 * np.pi * (time - 0.005) / TURN)
-    np.savetxt(folder / "dumps" / "energy.csv", np.column_stack([time, -0.8 + ripple, 25 - ripple, 0.1 + 0 * time,
+    # One turn is above the mean, the next below: over eight turns the error is a root of seven smaller
+    apart = np.sqrt(7) * np.where(np.ceil(time / TURN - 1e-9) % 2, -1, 1)
+    power = np.where(time > STEADY + 1e-9, power - ripple + 0.2 * apart, power + 15)
+    np.savetxt(folder / "dumps" / "energy.csv", np.column_stack([time, -power / OMEGA, power, 0.1 + 0 * time,
                                                                  0.2 + 0 * time]), "%.9g", ",", comments="",
                header="time_s,torque_Nm,power_W,kinetic_J,potential_J")
-    np.savetxt(folder / "dumps" / "torques.csv", np.column_stack([time, *(TORQUES[part] + ripple for part in PARTS)]),
+    torques = [TORQUES[part] + ripple + (0.004 * apart if part == "impeller" else 0) for part in PARTS]
+    np.savetxt(folder / "dumps" / "torques.csv", np.column_stack([time, *torques]),
                "%.9g", ",", comments="", header="time_s," + ",".join(f"{part}_Nm" for part in PARTS))
     # Speeds 3, 4, 5 and 8 m/s after the begin, other ones before, with a ripple that repeats with the turns
     for step in range(0, 2001, 10):
@@ -101,12 +112,14 @@ class StirredReport(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "no dump from 3 s on"):
             mean_speed(self.case / "dumps", 3.0, TURN)
 
-    def test_numbers_are_those_of_the_results_or_of_the_time_that_is_asked_for(self):
+    def test_power_and_torques_are_of_the_same_time_that_of_a_steady_charge_or_that_is_asked_for(self):
         found = read_stirred(StirredCase(self.case))
-        self.assertEqual((found.power.value, found.power.error), (25.0, 0.2))
+        self.assertAlmostEqual(found.power.value, 25, delta=1e-6)
+        self.assertAlmostEqual(found.power.error, 0.2, delta=1e-6)
+        self.assertAlmostEqual(found.torques["impeller"].error, 0.004, delta=1e-6)
         self.assertAlmostEqual(found.balance, 0.99)
         self.assertAlmostEqual(found.density, 1500)
-        self.assertAlmostEqual(found.power_number.value, 25 / (1500 * 125 * 0.14**5))
+        self.assertAlmostEqual(found.power_number.value, 25 / (1500 * 125 * 0.14**5), places=5)
         self.assertAlmostEqual(found.torque_over_weight.value, 0.8 / (MASS * 9.81 * RADIUS))
         self.assertAlmostEqual(found.per_mass.value, 25 / MASS)
         self.assertIsNone(found.per_slurry)
@@ -115,6 +128,30 @@ class StirredReport(unittest.TestCase):
         self.assertLess(later.torques["shell"].error, 1e-6)
         with self.assertRaisesRegex(RuntimeError, "averages from 7 s on; expected less than the end"):
             read_stirred(StirredCase(self.case, 7.0))
+
+    def test_numbers_of_balls_that_move_with_the_flow_are_of_the_flows_averages(self):
+        change_json(self.case / "dumps" / "results.json", "fluid", to={"kind": "flow"})
+        case = StirredCase(self.case)
+        # The flow's time 0 is that of the balls at 0.6 s; its averages are three turns, and the balls go on after it
+        case.__dict__ |= {"flow": SimpleNamespace(time0=0.6), "begin": 0.4, "last": 1.0}
+        self.assertEqual(balls_span(case), (1.0, 1.6))
+        found = read_stirred(case)
+        self.assertAlmostEqual(found.power.value, 25 + 0.2 * np.sqrt(7) / 3, delta=1e-6)
+        self.assertAlmostEqual(found.torques["impeller"].value, -0.8 + 0.004 * np.sqrt(7) / 3, delta=1e-6)
+        self.assertEqual(found.power.freedom, 2)
+        figure = stirred_figures.torques(case)
+        self.assertIn([1.0, 1.0], [list(line.get_xdata()) for line in figure.axes[0].lines])
+        plt.close(figure)
+
+    def test_curves_of_the_torques_begin_where_their_mean_is_over_a_turn(self):
+        figure = stirred_figures.torques(StirredCase(self.case))
+        first = {line.get_xdata()[0] for line in figure.axes[0].lines if line.get_label() in PARTS}
+        plt.close(figure)
+        np.testing.assert_allclose(list(first), 0.01 + TURN)
+        case = StirredCase(self.case)
+        with mock.patch.object(figures, "lines_against", wraps=figures.lines_against) as drawn:
+            stirred_sections.compared_torques([case], ["one"])
+        self.assertAlmostEqual(drawn.call_args.args[0][0][1][0], (0.01 + TURN) / TURN)
 
     def test_spectra_are_by_partner_and_have_their_peaks(self):
         found = read_partner_spectra(self.case / "dumps", PARTS)
@@ -168,6 +205,30 @@ class StirredReport(unittest.TestCase):
             check = slurry_torques(case)
             self.assertEqual(check.state, state)
             self.assertRegex(check.found, words)
+            # The page puts a full stop after it
+            self.assertFalse(check.meaning.endswith("."))
+
+    def test_slip_froude_and_reynolds_number_have_errors_of_blocks_of_written_times(self):
+        for keys, value in ((("slurry",), {"density_kg_m3": 1000.0}), (("charge", "sauter_diameter_m"), 0.002)):
+            change_json(self.case / "mill.json", "derived", *keys, to=value)
+        case = StirredCase(self.case, begin=1.0)
+        time = np.linspace(0, 3, 301)
+        names = [f"torque_{part}" for part in (*PARTS, "balls", "all")]
+        names += ["power", "missing", "holdUp", "z"]
+        case.__dict__["balance"] = {"Time": time} | {name: 0 * time + 1 for name in names}
+        # Of five blocks of two times; within a block times differ, but not its mean
+        blocks = np.array([0.1, 0.2, 0.3, 0.2, 0.2])
+        slips = list(np.repeat(blocks, 2) + np.tile([0.05, -0.05], 5))
+        one = np.ones(1)
+        flow = SlurryFlow(np.zeros((1, 3)), one, one, one, np.zeros((1, 3)), slips, [20 * slip for slip in slips],
+                          list(range(10)))
+        found = read_stirred_flow(case, flow)
+        error, root = blocks.std(ddof=1) / np.sqrt(5), np.sqrt(9.81 * 0.002 * 1.5)
+        for mean, scale in ((found.slip, 1), (found.froude, 1 / root), (found.reynolds, 20)):
+            np.testing.assert_allclose((mean.value, mean.error), (0.2 * scale, error * scale))
+        # Half a watt and one of 25 W
+        self.assertAlmostEqual(found.slurry_share.value, 1 / 26, places=3)
+        self.assertAlmostEqual(found.slurry_share.error, found.ball_power.error / found.ball_power.value / 26, places=4)
 
     def test_a_run_without_contacts_or_with_a_damaged_file_has_a_report(self):
         self.assertNotIn("Spectra of energy", report_case(write_stirred(self.folder / "plain")))
@@ -179,7 +240,7 @@ class StirredReport(unittest.TestCase):
         self.assertIn("25.00 ± 0.20 kW/m³", report_case(self.case))
 
     def test_stirred_mills_are_compared_with_each_other_only(self):
-        other = write_stirred(self.folder / "other", power_W=30.0)
+        other = write_stirred(self.folder / "other", power=30.0)
         text = text_of(compare_cases([self.case, other]))
         for words in ("other compared with one", "30.00 ± 0.20 W", "25.00 ± 0.20 W", "Spectra of energy"):
             self.assertIn(words, text)

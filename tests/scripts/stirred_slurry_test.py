@@ -3,11 +3,15 @@
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
+import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.quiver import Quiver, QuiverKey
 
 from millfoam.files.dumps import read_balls
-from millfoam.readings.stirred_slurry import along_cylinder, in_impeller, median
+from millfoam.plots.stirred_slurry_plots import maps_figure, vortex_figure
+from millfoam.readings.stirred_slurry import SlurryFlow, along_cylinder, in_impeller, median
 
 
 class Impeller:
@@ -40,6 +44,45 @@ class Solid(unittest.TestCase):
         outside = [[0.009, 0, 0.009], [0, 0.051, 0.03], [0, -0.03, 0.03], [0.004, 0.03, 0.034], [0.039, 0, 0.063]]
         self.assertTrue(in_impeller(Impeller(), np.array(inside)).all())
         self.assertFalse(in_impeller(Impeller(), np.array(outside)).any())
+
+
+class Section(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.addCleanup(plt.close, "all")
+        self.mill = SimpleNamespace(radius=0.05, length=0.1, impeller={**Impeller.impeller, "pins": [], "discs": []},
+                                    turn=1.0, derived=lambda *_: np.pi / 2)
+        edges = np.linspace(-0.0475, 0.0475, 20)
+        x, y, z = np.meshgrid(edges, edges, edges + 0.0475, indexing="ij")
+        self.centre = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+
+    def flow(self, velocity):
+        one = np.ones(len(self.centre))
+        return SlurryFlow(self.centre, one, one, 0 * one, np.broadcast_to(velocity, self.centre.shape), [np.nan],
+                          [np.nan], [1.0])
+
+    def test_shows_balls_with_their_own_sizes_where_they_have_turned_to(self):
+        # At 1 s the impeller has turned by 90 degrees: what was along x is along y. The last ball is off the section
+        dump = self.folder / "dump.100.txt"
+        dump.write_text("ITEM: ATOMS id x y z vx vy vz radius\n1 0 0.02 0.03 0 0 0 0.008\n2 0 -0.03 0.06 1 0 0 0.002\n"
+                        "3 0.009 -0.02 0.03 0 0 0 0.008\n4 0 0.04 0.07 0 2 0 0.004\n")
+        axis = vortex_figure(self.mill, self.flow([0.0, 1.0, 0.0]), (1.0, dump)).axes[0]
+        image = axis.images[0]
+        low, high, bottom, top = image.get_extent()
+        shown = np.asarray(image.get_array())[..., 3] > 0
+        area = shown.mean() * (high - low) * (top - bottom)
+        self.assertAlmostEqual(area / (np.pi * (8**2 + 2**2 + 4**2)), 1, delta=0.02)
+        heights, places = (np.linspace(bottom, top, len(shown)), np.linspace(low, high, shown.shape[1]))
+        self.assertTrue(shown[np.argmin(np.abs(heights - 30)), np.argmin(np.abs(places - 20))])
+        self.assertFalse(shown[np.argmin(np.abs(heights - 30)), np.argmin(np.abs(places + 20))])
+
+    def test_arrows_are_as_long_as_their_size_and_have_a_key(self):
+        for speed in (0.02, 3.0):
+            axis = maps_figure(self.mill, self.flow([0.0, 0.0, speed])).axes[1]
+            arrows = next(one for one in axis.collections if isinstance(one, Quiver))
+            np.testing.assert_allclose(arrows.scale, 12 * speed)
+            key = next(one for one in axis.artists if isinstance(one, QuiverKey))
+            self.assertEqual(key.text.get_text(), f"{speed:g} m/s")
 
 
 class Dumps(unittest.TestCase):

@@ -11,7 +11,7 @@ import matplotlib
 from millfoam.files.stirred_case import StirredCase
 from millfoam.plots.stirred_slurry_plots import maps_figure, vortex_figure
 from millfoam.readings.stirred_flow import StirredFlowNumbers, read_stirred_flow
-from millfoam.readings.stirred_slurry import balls_of_last_turn, read_slurry_flow
+from millfoam.readings.stirred_slurry import dumps_of_last_turn, read_slurry_flow
 from number_table import write_numbers
 
 CONSERVED = 1e-8  # of the hold-up
@@ -28,11 +28,11 @@ def numbers_of(found: StirredFlowNumbers) -> dict[str, float]:
         row["torque_unbalanced_Nm"], row["torque_unbalanced_error_Nm"] = found.unbalanced.value, found.unbalanced.error
     return {**row, "power_slurry_W": found.slurry_power.value, "power_slurry_error_W": found.slurry_power.error,
             "power_balls_W": found.ball_power.value, "power_balls_error_W": found.ball_power.error,
-            "slurry_share": found.slurry_share, "missing_over_hold_up": found.missing,
-            "centre_z_m": found.centre.value, "slip_m_s": found.slip.value, "slip_deviation_m_s": found.slip.error,
-            "froude": found.froude, "reynolds": found.reynolds.value, "reynolds_deviation": found.reynolds.error,
+            "slurry_share": found.slurry_share.value, "missing_over_hold_up": found.missing,
+            "centre_z_m": found.centre.value, "slip_m_s": found.slip.value, "slip_error_m_s": found.slip.error,
+            "froude": found.froude.value, "reynolds": found.reynolds.value, "reynolds_error": found.reynolds.error,
             # The published tables multiply the slip by the root that it is divided by
-            "froude_as_printed": found.slip.value**2 / found.froude,
+            "froude_as_printed": found.slip.value**2 / found.froude.value,
             "reynolds_as_printed": found.reynolds.value / PRINTED_VISCOSITY}
 
 
@@ -43,8 +43,8 @@ def show(case: Path) -> None:
     flow = read_slurry_flow(case, mill, run.begin)
     numbers = numbers_of(read_stirred_flow(run, flow))
     write_numbers(case / "flow.csv", numbers)
-    records = balls_of_last_turn(case, mill)
-    vortex = vortex_figure(mill, flow, records[-1][1] if records else None)
+    records = dumps_of_last_turn(case, mill)
+    vortex = vortex_figure(mill, flow, records[-1] if records else None)
     for name, figure in (("flow_maps", maps_figure(mill, flow)), ("vortex", vortex)):
         figure.suptitle(f"{mill.title}, {mill.derived('speed', 'tip_speed_m_s'):.2f} m/s at the tips, with slurry, "
                         f"{flow.times[0]:.2f} to {flow.times[-1]:.2f} s", fontsize=10)

@@ -38,6 +38,10 @@ class SlurryMap:
         """A pixel's area, m2."""
         return float((self.x[1] - self.x[0]) * (self.y[1] - self.y[0]))
 
+    def room(self) -> np.ndarray:
+        """Share of each pixel [ny, nx] that is within the mill: here 1, or 0 of pixels outside."""
+        return np.isfinite(self.share).astype(float)
+
 
 @dataclass
 class VoxelMap(SlurryMap):
@@ -50,6 +54,10 @@ class VoxelMap(SlurryMap):
     pressure: np.ndarray
     begin: float
     end: float
+
+    def room(self) -> np.ndarray:
+        """As SlurryMap.room; voxels that the shell cuts have a part."""
+        return self.inside
 
     def centroid(self) -> tuple[float, float]:
         """Centre (x, y) of the slurry's volume, m."""

@@ -54,14 +54,6 @@ class StirredCase(MillCase):
         return list(entry(self.results, self.dumps / "results.json", "part_torques_Nm"))
 
     @property
-    def span(self) -> tuple[float, float]:
-        """DEM times between which means are taken, s; they end with the run."""
-        # With a flow, the time that is asked for is one of the flow
-        asked = self.asked_begin if self.flow is None else None
-        begin = self.result("steady_from_s") if asked is None else asked
-        return begin, self.result("begin_s") + self.result("duration_s")
-
-    @property
     def tip_radius(self) -> float:
         """Largest radius of the impeller, m."""
         return float(self.mill.impeller["radius_m"])

@@ -18,7 +18,8 @@ AIR_COURANT, SLURRY_COURANT = 0.55, 1.05  # limit of the Courant number -> time-
 STEP_WITH_BALLS, STEP_WITHOUT = 2.0, 1.35  # mean step of a flow over a step at its start without balls
 CELL_BYTES_WITH_BALLS, CELL_BYTES_WITHOUT = 190, 110  # of a written time
 FACE_BYTES = 32
-FORCES = 1.15  # time of a step of balls that feel a flow, over that of a dry one (measured, PERFORMANCE.md)
+FORCES = 1.29  # time of a step of balls that feel a flow, over that of a dry one: (step + force) / step, the median of
+# the table of PERFORMANCE.md, "Scale"
 RECONSTRUCT_STEPS = 4.4  # time of one written time's reconstruction over a step's on one rank
 PARALLEL_GAIN = 0.65  # a step on N ranks takes N^-0.65 of one on one rank
 VOXEL_BYTES_WITH_BALLS, VOXEL_BYTES_WITHOUT = 100, 42  # of one window of slurry.h5
@@ -130,12 +131,14 @@ def flow_stage(mill: Mill, mesh: MeshTrial, trial: FlowTrial, plan: FlowPlan, ra
 
 def passes_stage(mill: Mill, stages: Sequence[Stage]) -> Stage | None:
     """Stage of all passes after the dry one, if as many are made as the mill allows; None unless they are made. Each
-    repeats the Stages of the dry one, but for the balls' fall into the mill, which is short."""
+    repeats the Stages of the dry one, but for the balls' fall into the mill, which is short. The forces make a step of
+    the balls longer by FORCES."""
     if mill.flow("coupling", "one_way") != "iterated":
         return None
     one, more = total(stages), round(flow_number(mill, "passes")) - 1
-    return Stage(f"{more} more pass{'es' if more > 1 else ''}", more * one.time, more * one.disk, one.memory,
-                 "as the first; fewer if it settles")
+    forces = (FORCES - 1) * sum(stage.time for stage in stages if stage.name == "charge")
+    return Stage(f"{more} more pass{'es' if more > 1 else ''}", more * (one.time + forces), more * one.disk, one.memory,
+                 "as the first, with forces on the balls; fewer if it settles")
 
 
 def together_stage(mill: Mill, charge: Stage, flow: Stage) -> Stage:

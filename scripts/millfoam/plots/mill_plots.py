@@ -144,7 +144,9 @@ def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
         patches = draw_frame(axis, flow, time, path, quads, columns)
     for axis in axes.flat[len(numbers):]:
         axis.set_visible(False)
-    figure.colorbar(patches, ax=axes, shrink=0.6, label="slurry share over the axis, –  (orange: charge, solidity 0.2)")
+    charge = any((path / "solidity").is_file() for _, path in (flow.frames[number] for number in numbers))
+    figure.colorbar(patches, ax=axes, shrink=0.6,
+                    label="slurry share over the axis, –" + ("  (orange: charge, solidity 0.2)" if charge else ""))
     figure.savefig(out, dpi=100)
     plt.close(figure)
 

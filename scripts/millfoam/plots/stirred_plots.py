@@ -130,7 +130,12 @@ def _meridian_arrows(axis: Axes, mill: Mill, rings: Rings, both: tuple[Means, Me
         shown &= mean.solidity > CLEAR
         places.append(np.stack([x[shown], y[shown]]))
         arrows.append(np.stack([side * mean.velocity[shown][:, 0], mean.velocity[shown][:, 2]]))
-    where, velocity = np.concatenate(places, axis=1), np.concatenate(arrows, axis=1)
+    draw_arrows(axis, np.concatenate(places, axis=1), np.concatenate(arrows, axis=1), colour)
+
+
+def draw_arrows(axis: Axes, where: np.ndarray, velocity: np.ndarray, colour: str) -> None:
+    """Arrows of velocities [2, n] (m/s) at places [2, n] of an axis, as long as their size, with a key; none if nothing
+    moves."""
     usual = float(np.percentile(np.hypot(*velocity), 95)) if velocity.size else 0.0
     if usual == 0:
         return

@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of the slurry in a stirred mill: means in the r-z plane, and a section through the pins with the balls."""
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from scipy.spatial import cKDTree
 
 from ..files.mill import Mill
 from ..readings.stirred_slurry import SlurryFlow, in_impeller, meridian_means
-from .stirred_plots import DARK, draw_impeller
+from .ball_sections import section
+from .stirred_plots import DARK, draw_arrows, draw_impeller
 
 RADIAL, AXIAL = 40, 80  # places of a map in the r-z plane
-PIXELS = 320  # along each side of a section
+PIXELS, FINE = 320, 960  # along each side of a section: of the slurry, of the balls
 SPECKS = 0.02  # share of slurry below which a cell is not counted in the height that pictures show
 
 
@@ -38,19 +42,19 @@ def maps_figure(mill: Mill, flow: SlurryFlow) -> plt.Figure:
         axis.set(xlim=(-1, 1), ylim=(0, 1e3 * top), xlabel="r / R", ylabel="z, mm", aspect=1 / (1e3 * mill.radius))
         axis.set_facecolor("0.93")
     step = (slice(1, None, 4), slice(2, None, 5))
-    at = np.meshgrid(*middle, indexing="ij")
-    arrows = [np.where(hidden, np.nan, part)[step] for part in (velocity[0], velocity[2])]
-    for side in (-1, 1):
-        axes[1].quiver(side * at[0][step] / mill.radius, 1e3 * at[1][step], side * arrows[0], arrows[1], color="w",
-                       width=0.004, scale=4)
+    known = ~hidden[step]
+    r, z, radial, axial = (part[step][known] for part in (*np.meshgrid(*middle, indexing="ij"), velocity[0],
+                                                          velocity[2]))
+    draw_arrows(axes[1], np.array([np.concatenate([-r, r]) / mill.radius, 1e3 * np.tile(z, 2)]),
+                np.array([np.concatenate([-radial, radial]), np.tile(axial, 2)]), "w")
     axes[0].set_title("orange: balls' solidity 0.1 and 0.4", fontsize=9)
-    axes[1].set_title("arrows: radial and axial velocity", fontsize=9)
+    axes[1].set_title("radial and axial velocity:", fontsize=9, loc="left")
     return figure
 
 
-def vortex_figure(mill: Mill, flow: SlurryFlow, balls: np.ndarray | None = None) -> plt.Figure:
-    """A vertical section through the first pins, in the impeller's frame: speed of the slurry, the impeller, and, of
-    balls [n, 3] (m) in this frame, those that the section cuts."""
+def vortex_figure(mill: Mill, flow: SlurryFlow, record: tuple[float, Path] | None = None) -> plt.Figure:
+    """A vertical section through the first pins, in the impeller's frame: speed of the slurry, the impeller, and the
+    balls that the section cuts, of a record: its DEM time (s), and the dump."""
     angle = np.radians(mill.impeller["pins"][0]["angle_deg"]) if mill.impeller["pins"] else 0.0
     along = np.array([np.cos(angle), np.sin(angle), 0])
     x, z = np.linspace(-mill.radius, mill.radius, PIXELS), np.linspace(0, _shown_height(mill, flow), PIXELS)
@@ -63,8 +67,8 @@ def vortex_figure(mill: Mill, flow: SlurryFlow, balls: np.ndarray | None = None)
     image = axis.pcolormesh(1e3 * x, 1e3 * z, np.where(share > 0.5, speed, np.nan), cmap="viridis", vmin=0)
     figure.colorbar(image, ax=axis, label="speed of the slurry, m/s (mean over time)")
     axis.contour(1e3 * x, 1e3 * z, share, [0.5], colors="tab:blue", linewidths=1.2)
-    if balls is not None:
-        _draw_balls(axis, mill, balls, along)
+    if record is not None:
+        _draw_balls(axis, mill, record, angle, 1e3 * z[-1])
     axis.contourf(1e3 * x, 1e3 * z, in_impeller(mill, points), [0.5, 1.5], colors=[DARK], zorder=3)
     axis.set(xlim=(-1e3 * mill.radius, 1e3 * mill.radius), ylim=(0, 1e3 * z[-1]), xlabel="along the first pins, mm",
              ylabel="z, mm", aspect="equal")
@@ -76,10 +80,18 @@ def _shown_height(mill: Mill, flow: SlurryFlow) -> float:
     return min(mill.length, 1.3 * float(flow.centre[flow.share > SPECKS, 2].max()))
 
 
-def _draw_balls(axis: Axes, mill: Mill, balls: np.ndarray, along: np.ndarray) -> None:
-    """The circles in which a vertical plane through the axis, along a unit vector [3], cuts balls [n, 3], m."""
-    half = mill.derived("charge", "largest_diameter_m") / 2
-    away = balls @ np.array([-along[1], along[0], 0])
-    for ball, distance in zip(balls[np.abs(away) < half], away[np.abs(away) < half]):
-        axis.add_patch(plt.Circle((1e3 * ball @ along, 1e3 * ball[2]), 1e3 * np.sqrt(half**2 - distance**2),
-                                  fc="0.8", ec="0.3", lw=0.4, alpha=0.75))
+def _draw_balls(axis: Axes, mill: Mill, record: tuple[float, Path], angle: float, top: float) -> None:
+    """The section of a vertical plane through the balls of a record, with their own sizes and shapes, up to `top` (mm);
+    angle: of the plane in the impeller's frame, rad."""
+    time, dump = record
+    turned = angle + mill.derived("speed", "angular_velocity_rad_s") * time
+    across, up = (np.linspace(low, high, FINE) for low, high in ((-1e3 * mill.radius, 1e3 * mill.radius), (0, top)))
+    speeds = section(dump, np.array([np.cos(turned), np.sin(turned), 0.0]), across / 1e3, up / 1e3)
+    # Between two balls, which have two speeds, or a ball and none
+    rows, columns = speeds[1:] != speeds[:-1], speeds[:, 1:] != speeds[:, :-1]
+    rim = (np.pad(rows, ((1, 0), (0, 0))) | np.pad(rows, ((0, 1), (0, 0)))
+           | np.pad(columns, ((0, 0), (1, 0))) | np.pad(columns, ((0, 0), (0, 1))))
+    colours = np.zeros((*speeds.shape, 4))
+    colours[np.isfinite(speeds)] = to_rgba("0.8", 0.75)
+    colours[rim & np.isfinite(speeds)] = to_rgba("0.3", 0.9)
+    axis.imshow(colours, origin="lower", extent=(across[0], across[-1], 0, top), interpolation="nearest", zorder=2)

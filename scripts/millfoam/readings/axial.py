@@ -10,6 +10,7 @@ from scipy.optimize import curve_fit
 
 from ..files.flow_record import read_flow_record
 from ..files.written_times import MillFlow
+from .batches import error_over_turns
 
 
 @dataclass
@@ -87,8 +88,23 @@ def axial_profile(flow: MillFlow, begin: float) -> AxialProfile:
 def drop(profile: AxialProfile) -> float:
     """Fall of p_rgh in the slurry of an AxialProfile from its first to its last slice, by a straight line through all,
     Pa."""
-    known = np.isfinite(profile.pressure)
-    return float(-(profile.z[-1] - profile.z[0]) * np.polyfit(profile.z[known], profile.pressure[known], 1)[0])
+    return line_drop(profile.z, profile.pressure)
+
+
+def line_drop(z: np.ndarray, pressure: np.ndarray) -> float:
+    """Fall (Pa) of a pressure [n] (Pa, NaN in slices without slurry) from the first to the last of slices at z [n] (m),
+    by a straight line; NaN if fewer than two are known."""
+    known = np.isfinite(pressure)
+    if known.sum() < 2:
+        return np.nan
+    return float(-(z[-1] - z[0]) * np.polyfit(z[known], pressure[known], 1)[0])
+
+
+def drop_error(series: AxialSeries, begin: float, turn: float) -> float:
+    """Standard error of the drop of an AxialSeries' mean profile, of means over whole turns of `turn` s from `begin`
+    (s) on; NaN if fewer than two fit."""
+    drops = np.array([line_drop(series.z, pressure) for pressure in series.pressure])
+    return error_over_turns(series.times, drops, begin, turn)
 
 
 def gaussians(z: ArrayLike, base: float, *humps: float) -> np.ndarray:

@@ -21,7 +21,7 @@ def moved_with_flow(case: MillCase) -> bool:
 
 
 def fluid_kind(case: MillCase) -> str | None:
-    """What the balls of a MillCase felt, as in results.json: pool, slurry or flow; None of a dry run."""
+    """What the balls of a MillCase felt, as in results.json: buoyancy, slurry or flow; None of a dry run."""
     return ((case.results or {}).get("fluid") or {}).get("kind")
 
 
@@ -41,12 +41,29 @@ def during_flow(case: MillCase, table: dict[str, np.ndarray] | None) -> tuple[np
     return times[within], table["power_W"][within]
 
 
+def flow_span(case: MillCase) -> tuple[float, float] | None:
+    """DEM times (s) between which power, torques and speed of balls that moved at the same time as the flow are
+    averaged: those of the flow's averages. None of other balls."""
+    if case.flow is None or not moved_with_flow(case):
+        return None
+    return case.flow.time0 + case.begin, case.flow.time0 + case.last
+
+
 def charge_power(case: MillCase) -> Mean:
     """Power that the walls give to the balls, W. Of balls that moved at the same time as the flow it is that of the
     flow's last whole averaged turns, if there are two or more; otherwise results.json's, from power_from_s on."""
     series = during_flow(case, case.energy)
     found = mean_over_turns(*series, case.begin, case.turn) if series else None
     return found or Mean(case.result("power_W"), case.result("power_error_W"))
+
+
+def power_begin(case: MillCase) -> float:
+    """DEM time (s) from which charge_power is averaged. Results of millFoam 0.2.0 and before have no power_from_s:
+    their power is that of the steady time."""
+    span, series = flow_span(case), during_flow(case, case.energy)
+    if span and series and len(turn_means(*series, case.begin, case.turn)) > 1:
+        return span[0]
+    return case.result("power_from_s" if "power_from_s" in (case.results or {}) else "steady_from_s")
 
 
 def slurry_power(case: MillCase) -> Mean:

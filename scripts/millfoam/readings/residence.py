@@ -11,8 +11,10 @@ from ..files.tables import TableError, read_table
 # Share of the tracer that may still be in the mill. With 20 % the mean of two to five stirred tanks is 1 % too large
 # and the variance over its square 7 to 12 %; with 28 % they are 3 and 12 to 20 %
 LEFT = 0.2
+NEGLIGIBLE = 1e-3  # share of the tracer that may leave at the end of the record if no exponential is found for it
 LATE, WIDER = 1.5, 3.0  # times what has not left: what is still to come where the tail is fitted, and for another fit
 FEWEST = 5  # rows of a fit
+ROUND_OFF = 1e-6  # of the tracer, a share that has left; of what is still to come, a fall that is no decay
 SPARSE = 0.01  # of the tracer that left, by which rates times rows may differ from it
 
 
@@ -40,12 +42,14 @@ class TracerTable:
 
 @dataclass(frozen=True)
 class Residence:
-    """Distribution of residence times: time [n] since the middle of the pulse or the begin of the step, s, and E(t)
-    [n], 1/s, of what has left; mean, s, and variance, s2, with the tail; left: share of the tracer that has not left,
-    whose times are those of an exponential tail; tail: its time, s; other_mean, other_variance: with another fit of the
-    tail, to WIDER instead of LATE, None if nothing is left. For stirred tanks the mean and variance are off by up to
-    twice the difference to these, for a zone that exchanges its slurry slowly by up to seven times."""
+    """Distribution of residence times: time [n] since the middle of the pulse or the begin of the step, s, lengths [n]
+    of the rows about these times, s, and E(t) [n], 1/s, of what has left; mean, s, and variance, s2, with the tail;
+    left: share of the tracer that has not left, whose times are those of an exponential tail; tail: its time, s, 0 if
+    what has not left is taken to leave at the end; other_mean, other_variance: with another fit of the tail, to WIDER
+    instead of LATE, NaN if there is none, None if nothing is left. For stirred tanks the mean and variance are off by
+    up to twice the difference to these, for a zone that exchanges its slurry slowly by up to seven times."""
     time: np.ndarray
+    length: np.ndarray
     density: np.ndarray
     mean: float
     variance: float
@@ -64,9 +68,18 @@ class Residence:
         """Number of stirred tanks in series with this spread; inf for no spread, or one below 0 by the wide feed."""
         return 1 / self.spread if self.spread > 0 else np.inf
 
+    def binned(self, width: float) -> tuple[np.ndarray, np.ndarray]:
+        """Middles (s) of bins of a width (s) from time 0 to the end of the record, and E(t) (1/s) over each of them:
+        E of single rows of a step is the difference of neighbouring values, which is noise."""
+        ends = self.time + self.length / 2
+        edges = width * np.arange(int(ends[-1] / width + 1e-9) + 1)
+        gone = np.interp(edges, np.concatenate([[ends[0] - self.length[0]], ends]),
+                         np.concatenate([[0.0], np.cumsum(self.density * self.length)]))
+        return (edges[1:] + edges[:-1]) / 2, np.diff(gone) / width
+
     @property
     def doubt(self) -> tuple[float, float]:
-        """How much mean and spread differ, as shares, with another fit of the tail."""
+        """How much mean and spread differ, as shares, with another fit of the tail; NaN if there is none."""
         if self.other_mean is None or self.other_variance is None:
             return 0.0, 0.0
         other = self.other_variance / self.other_mean**2
@@ -159,26 +172,30 @@ def of_shares(time: np.ndarray, share: np.ndarray, length: np.ndarray, end: floa
         mean = float((share * time).sum() + left * (end + tail))
         square = float((share * time**2).sum() + left * ((end + tail)**2 + tail**2))
         return mean, square - mean**2 - wide
-    return Residence(time, share / length, *moments(tail), left, tail, *(moments(other) if left else ()))
+    return Residence(time, length, share / length, *moments(tail), left, tail, *(moments(other) if left else ()))
 
 
 def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
     """Share that has not left, and the time (s) of its exponential tail: that with which the last of what has left came
-    out, while LATE times the rest were still to come; and the same for WIDER. RuntimeError if more than LEFT has not
-    left, if more left than was fed, or if what leaves does not decay."""
+    out, while LATE times the rest were still to come; and the same for WIDER, NaN if what left in this time does not
+    decay. If at most NEGLIGIBLE has not left, and what leaves does not decay or by a time longer than the record, this
+    leaves at the end: both times are 0. RuntimeError if more has not left then, if more than LEFT has not left, or if
+    more left than was fed."""
     left = float(1 - share.sum())
     if left < -1e-3:
         raise RuntimeError(f"{-100 * left:.3g} % more tracer left than was fed; expected at most 0.1 %")
     if left > LEFT:
         raise RuntimeError(f"{100 * left:.0f} % of the tracer has not left at the end; expected at most "
                            f"{100 * LEFT:.0f} %: let the flow run longer")
-    if left < 1e-6:
-        return max(left, 0.0), 0.0, 0.0
+    if left < ROUND_OFF:
+        return 0.0, 0.0, 0.0
     tail, other = (decay(time, 1 - np.cumsum(share), times * left) for times in (LATE, WIDER))
+    if left <= NEGLIGIBLE and (tail is None or tail > time[-1]):
+        return left, 0.0, 0.0
     if tail is None:
         raise RuntimeError(f"{100 * left:.2g} % of the tracer has not left at the end, and what leaves does not decay: "
                            "let the flow run longer")
-    return left, tail, tail if other is None else other
+    return left, tail, np.nan if other is None else other
 
 
 def decay(time: np.ndarray, to_come: np.ndarray, most: float) -> float | None:
@@ -187,4 +204,4 @@ def decay(time: np.ndarray, to_come: np.ndarray, most: float) -> float | None:
     late = (to_come < most) & (to_come > 0)
     late[-FEWEST:] = to_come[-FEWEST:] > 0
     slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0
-    return float(-1 / slope) if slope < 0 else None
+    return float(-1 / slope) if slope * np.ptp(time[late]) < -ROUND_OFF else None

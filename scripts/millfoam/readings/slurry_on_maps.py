@@ -62,14 +62,15 @@ def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
 
     It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and
     a solidity of at most 0.1: slurry clear of the charge, not in its pores. Without balls it is all slurry. Films with
-    a mean thickness below half a pixel do not appear. ValueError if the shapes differ."""
+    a mean thickness below half a pixel do not appear. Of pixels that the shell cuts, the part within it counts
+    (SlurryMap.room). ValueError if the shapes differ."""
     if solidity.shape != slurry.share.shape:
         raise ValueError(f"solidity of {solidity.shape} pixels, slurry of {slurry.share.shape}; expected the same")
     share = np.nan_to_num(slurry.share)
     regions, count = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
     if count == 0:
         return Pool(regions > 0, 0.0, np.nan, np.nan)
-    volumes = np.bincount(regions.ravel(), share.ravel())[1:]
+    volumes = np.bincount(regions.ravel(), (share * slurry.room()).ravel())[1:]
     where = regions == 1 + np.argmax(volumes)
     columns = np.flatnonzero(where.any(axis=0))
     tops = slurry.y[len(slurry.y) - 1 - np.argmax(where[::-1, columns], axis=0)]

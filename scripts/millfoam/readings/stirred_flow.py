@@ -5,10 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..files.data_files import read_csv
 from ..files.stirred_case import StirredCase
-from .means import Mean
-from .stirred_power import mean_from
+from .means import Mean, mean_of_series
+from .stirred_power import balls_power, mean_from, scaled
 from .stirred_slurry import SlurryFlow
 
 WALLS = ("impeller", "shell", "base", "lid")
@@ -22,8 +21,8 @@ class StirredFlowNumbers:
     of the time-step. slurry_power: of the impeller on the slurry, ball_power: on the balls, W; of balls that feel the
     slurry in the same time, else of the dry run. missing: slurry over the hold-up. centre: height of its centre, m.
     slip (m/s), froude, reynolds: medians over the cells by the volume of their balls, means over the written times;
-    their errors are standard deviations between these times. froude: slip over the root of g d (ball density over
-    slurry's - 1), NaN for balls that float."""
+    their errors are of blocks of these times. froude: slip over the root of g d (ball density over slurry's - 1), NaN
+    for balls that float."""
     begin: float
     end: float
     turns: float
@@ -34,29 +33,16 @@ class StirredFlowNumbers:
     missing: float
     centre: Mean
     slip: Mean
-    froude: float
+    froude: Mean
     reynolds: Mean
 
     @property
-    def slurry_share(self) -> float:
-        """Of the impeller's power, that of the slurry."""
-        return self.slurry_power.value / (self.slurry_power.value + self.ball_power.value)
-
-
-def over_times(values: list[float]) -> Mean:
-    """Mean and standard deviation, NaN of a single value."""
-    return Mean(float(np.mean(values)), float(np.std(values, ddof=1)) if len(values) > 1 else np.nan)
-
-
-def power_on_balls(case: StirredCase, begin: float, end: float) -> Mean:
-    """Mean power from the impeller to the balls, W: between two flow times (s) if the balls moved in that time, else
-    that of the dry run."""
-    if case.mill.flow("coupling") != "direct":
-        return Mean(case.result("power_W"), case.result("power_error_W"))
-    assert case.flow is not None
-    energy = read_csv(case.dumps / "energy.csv")
-    within = energy["time_s"] <= case.flow.time0 + end * (1 + 1e-9)
-    return mean_from(energy["time_s"][within], energy["power_W"][within], case.flow.time0 + begin, case.turn)
+    def slurry_share(self) -> Mean:
+        """Of the impeller's power, that of the slurry; its error takes those of both powers as independent."""
+        slurry, balls = self.slurry_power, self.ball_power
+        whole = slurry.value + balls.value
+        error = np.hypot(balls.value * slurry.error, slurry.value * balls.error) / whole**2
+        return Mean(slurry.value / whole, float(error), min(slurry.freedom, balls.freedom))
 
 
 def averaged(case: StirredCase, time: np.ndarray, values: np.ndarray) -> Mean:
@@ -90,7 +76,7 @@ def read_flow_torques(case: StirredCase) -> FlowTorques:
     torques = {part: averaged(case, time, columns[f"torque_{part}"]) for part in parts}
     given = np.sum([columns[f"torque_{part}"] for part in parts if part != "all"], axis=0)
     unbalanced = averaged(case, time, columns["torque_all"] - given) if "balls" in torques else None
-    ball_power = power_on_balls(case, case.begin, float(time[-1]))
+    ball_power = balls_power(case)
     return FlowTorques(torques, unbalanced, ball_power, ball_power.value / case.mill.omega + torques["impeller"].value)
 
 
@@ -101,9 +87,9 @@ def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers
     balls, slurry = mill.ball_density, mill.slurry("density_kg_m3")
     buoyant = mill.derived("gravity_m_s2") * mill.derived("charge", "sauter_diameter_m") * (balls / slurry - 1)
     root = float(np.sqrt(buoyant)) if buoyant > 0 else np.nan
-    slip, reynolds = over_times(flow.slips), over_times(flow.reynolds)
+    slip, reynolds = mean_of_series(flow.slips), mean_of_series(flow.reynolds)
     return StirredFlowNumbers(
         begin, float(time[-1]), (time[-1] - begin) / case.turn, found.torques, found.unbalanced,
         averaged(case, time, columns["power"]), found.ball_power,
         float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
-        averaged(case, time, columns["z"]), slip, slip.value / root, reynolds)
+        averaged(case, time, columns["z"]), slip, scaled(slip, 1 / root), reynolds)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readings of a stirred mill's dry run: torques on its parts, power, speed of the balls, dimensionless numbers."""
+"""Readings of a stirred mill's balls: torques on its parts, power, speed of the balls, dimensionless numbers."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +10,7 @@ from ..files.dumps import numbered_dumps, read_balls, read_timestep
 from ..files.stirred_case import StirredCase
 from .batches import batch_means, whole_turns
 from .means import Mean, turns_mean
+from .mill_power import flow_span
 from .power_models import bulk_density
 
 DUMPS = 400  # of which the mean speed is taken, at most, at equal distances
@@ -29,11 +30,12 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     return Mean(float(values[late].mean() if late.any() else values[-1]), np.nan)
 
 
-def mean_speed(dumps: Path | str, begin: float, turn: float) -> Mean:
+def mean_speed(dumps: Path | str, begin: float, turn: float, end: float = np.inf) -> Mean:
     """Mean speed of all balls in the dumps of a folder from a DEM time on (s), m/s, and its error over whole turns of
-    `turn` s. RuntimeError without such dumps."""
+    `turn` s; end: of the last of these dumps, s. RuntimeError without such dumps."""
     timestep = read_timestep(dumps)
-    late = [(step * timestep, path) for step, path in numbered_dumps(dumps) if step * timestep >= begin - timestep / 2]
+    late = [(step * timestep, path) for step, path in numbered_dumps(dumps)
+            if begin - timestep / 2 <= step * timestep <= end + timestep / 2]
     if not late:
         raise RuntimeError(f"{dumps}: no dump from {begin:g} s on")
     late = late[::-(-len(late) // DUMPS)]
@@ -59,9 +61,9 @@ def torque_coefficient(torque: float, density: float, omega: float, diameter: fl
 
 @dataclass(frozen=True)
 class StirredNumbers:
-    """Of the averaged time of a dry run. power: W; torques: {part: N m} about +z; balance: torque on the parts at rest
-    over that on the impeller, 1 if no angular momentum is missing; speed: of the balls, m/s, None without dumps;
-    density: bulk density of the resting balls, kg/m3; power_number, torque_coefficient: with this density;
+    """Of the averaged time of the balls (balls_span). power: W; torques: {part: N m} about +z; balance: torque on the
+    parts at rest over that on the impeller, 1 if no angular momentum is missing; speed: of the balls, m/s, None without
+    dumps; density: bulk density of the resting balls, kg/m3; power_number, torque_coefficient: with this density;
     torque_over_weight: impeller's torque over the balls' weight times the tips' radius, a coefficient of friction;
     per_mass: W/kg of balls; per_slurry: W/m3 of slurry, None without slurry."""
     power: Mean
@@ -81,31 +83,47 @@ def scaled(mean: Mean, factor: float) -> Mean:
     return Mean(mean.value * factor, mean.error * factor, mean.freedom)
 
 
-def driven(case: StirredCase) -> tuple[Mean, dict[str, Mean]]:
-    """Power (W), and torque on each part (N m): those of results.json, or from the time on at which the averages were
-    asked to begin."""
-    if case.asked_begin is None:
-        return (Mean(case.result("power_W"), case.result("power_error_W")),
-                {part: Mean(case.result("part_torques_Nm", part), case.result("part_torques_error_Nm", part))
-                 for part in case.parts})
-    energy, torques = (read_csv(case.dumps / name) for name in ("energy.csv", "torques.csv"))
-    if case.span[0] >= energy["time_s"][-1]:
-        raise RuntimeError(f"{case.folder}: averages from {case.span[0]:g} s on; expected less than the end of the dry "
-                           f"run, {energy['time_s'][-1]:g} s")
-    return (mean_from(energy["time_s"], energy["power_W"], case.span[0], case.turn),
-            {part: mean_from(torques["time_s"], torques[f"{part}_Nm"], case.span[0], case.turn) for part in case.parts})
+def balls_span(case: StirredCase) -> tuple[float, float]:
+    """DEM times (s) between which power, torques and speed of the balls are averaged: mill_power.flow_span of balls
+    that moved at the same time as the flow; of others from the time on that is asked for, or from that on at which the
+    charge is steady, to the end of the run."""
+    span = flow_span(case)
+    if span:
+        return span
+    # With a flow, the time that is asked for is one of the flow
+    asked = case.asked_begin if case.flow is None else None
+    return (case.result("steady_from_s") if asked is None else asked,
+            case.result("begin_s") + case.result("duration_s"))
+
+
+def mean_in_span(case: StirredCase, table: str, name: str) -> Mean:
+    """Mean of a column of a table of the balls over balls_span, by mean_from."""
+    columns, (begin, end) = read_csv(case.dumps / table), balls_span(case)
+    times = columns["time_s"]
+    if begin >= times[-1]:
+        raise RuntimeError(f"{case.folder}: averages from {begin:g} s on; expected less than the end of the balls' "
+                           f"run, {times[-1]:g} s")
+    within = times <= end * (1 + 1e-9)
+    return mean_from(times[within], columns[name][within], begin, case.turn)
+
+
+def balls_power(case: StirredCase) -> Mean:
+    """Power that the impeller gives to the balls over balls_span, W."""
+    return mean_in_span(case, "energy.csv", "power_W")
 
 
 def read_stirred(case: StirredCase) -> StirredNumbers:
     """StirredNumbers of a case. RuntimeError for a file that is missing or cannot be read."""
-    power, found = driven(case)
+    power = balls_power(case)
+    found = {part: mean_in_span(case, "torques.csv", f"{part}_Nm") for part in case.parts}
     impeller = found["impeller"]
     at_rest = sum(mean.value for part, mean in found.items() if part != "impeller")
     mill, mass, diameter = case.mill, case.mill.derived("charge", "mass_kg"), 2 * case.tip_radius
     density = bulk_density(mill.ball_density, mill.derived("charge", "resting_solidity"))
     gravity = mill.derived("gravity_m_s2")
     try:
-        speed = mean_speed(case.dumps, case.span[0], case.turn)
+        begin, end = balls_span(case)
+        speed = mean_speed(case.dumps, begin, case.turn, end)
     except RuntimeError:
         speed = None
     volume = case.slurry_volume

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Readings of the slurry between the balls of a stirred mill: its written fields in the impeller's frame, their means
-in the r-z plane, and the balls of the last turn."""
+in the r-z plane, and the dumps of the last turn."""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from ..files import foam
 from ..files.data_files import read_json
-from ..files.dumps import numbered_dumps, read_balls, read_timestep
+from ..files.dumps import numbered_dumps, read_timestep
 from ..files.mill import Mill
 
 DENSE = 0.05  # solidity above which slip counts
@@ -115,17 +115,10 @@ def meridian_means(mill: Mill, flow: SlurryFlow, middle: list[np.ndarray]) -> tu
     return share.sum(axis=1) / room, solidity.sum(axis=1) / room, flux / np.maximum(share.sum(axis=1), 1e-9)[..., None]
 
 
-def balls_of_last_turn(case: Path, mill: Mill) -> list[tuple[float, np.ndarray]]:
-    """(DEM time in s, positions of the balls [n, 3] in m) of each dump of the last turn, turned back into the
-    impeller's frame; empty without dumps."""
+def dumps_of_last_turn(case: Path, mill: Mill) -> list[tuple[float, Path]]:
+    """(DEM time in s, path) of each dump of the last turn; empty without dumps."""
     if not any((case / "dumps").glob("dump.*")):
         return []
-    timestep, omega = read_timestep(case / "dumps"), mill.derived("speed", "angular_velocity_rad_s")
+    timestep = read_timestep(case / "dumps")
     dumps = [(step * timestep, path) for step, path in numbered_dumps(case / "dumps")]
-    found = []
-    for time, path in dumps:
-        if time > dumps[-1][0] - (1 - 1e-6) * mill.turn:
-            cosine, sine = np.cos(omega * time), np.sin(omega * time)
-            turned = np.array([[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]])
-            found.append((time, read_balls(path, "x", "y", "z") @ turned))
-    return found
+    return [(time, path) for time, path in dumps if time > dumps[-1][0] - (1 - 1e-6) * mill.turn]

@@ -12,6 +12,8 @@ from .case_readings import Readings
 from .checks import all_checks
 from .headline import fines_words, first_lines, summary
 from .sections import SECTIONS
+from .verdict import Check
+from .words import Name, typeset
 
 FOOT = "Written by millFoam's scripts/report on {:%Y-%m-%d %H:%M}."
 
@@ -33,9 +35,24 @@ def report_case(folder: Path | str, begin: float | None = None, measured: Path |
     sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))
     sections[3:3] = against
     fines = f", {fines_words(case.mill)}" if case.mill.fines_share > 0 else ""
-    title = f"{case.title} – {case.name}" if case.title != case.name else case.title
-    return page.page(title + fines, summary(case), sections, FOOT.format(datetime.datetime.now()),
+    return page.page(Name(title_of(case) + fines), summary(case), sections, FOOT.format(datetime.datetime.now()),
                      first_lines(case, found))
+
+
+def title_of(case: MillCase) -> Name:
+    """The mill's title and the folder's name, if they differ."""
+    return Name(f"{case.title} – {case.name}" if case.title != case.name else case.title)
+
+
+def named_lines(cases: Sequence[MillCase], names: Sequence[str], found: Sequence[list[Check]]) -> list[Name]:
+    """First lines of cases with these lists of checks, with their names."""
+    return [Name(f"{name}: {typeset(line)}") for name, case, checks in zip(names, cases, found)
+            for line in first_lines(case, checks)]
+
+
+def compared_words(names: Sequence[str]) -> Name:
+    """That all but the first of these cases are compared with it."""
+    return Name(f"{', '.join(names[1:])} compared with {names[0]}")
 
 
 def report_stirred(case: StirredCase) -> str:
@@ -43,8 +60,7 @@ def report_stirred(case: StirredCase) -> str:
     found = all_checks(case)
     sections = [(name, heading, section(case)) for name, heading, section in stirred_sections.SECTIONS]
     sections.insert(1, ("checks", "Can it be believed?", [page.verdicts(found)]))
-    title = f"{case.title} – {case.name}" if case.title != case.name else case.title
-    return page.page(title, stirred_sections.summary(case), sections, FOOT.format(datetime.datetime.now()),
+    return page.page(title_of(case), stirred_sections.summary(case), sections, FOOT.format(datetime.datetime.now()),
                      first_lines(case, found))
 
 
@@ -60,18 +76,17 @@ def compare_cases(folders: Sequence[Path | str], begin: float | None = None,
         return compare_stirred([StirredCase(folder, begin) for folder in folders], names)
     cases = [MillCase(folder, begin) for folder in folders]
     readings = [Readings(case) for case in cases]
-    names = names or comparison.distinct(cases)
+    names = [Name(name) for name in names or comparison.distinct(cases)]
     found = [all_checks(case) for case in cases]
-    lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
-    subtitle = ", ".join(names[1:]) + f" compared with {names[0]}"
-    return page.page("Comparison of mills", subtitle, comparison.sections(cases, readings, names, found),
+    lines = named_lines(cases, names, found)
+    return page.page("Comparison of mills", compared_words(names), comparison.sections(cases, readings, names, found),
                      FOOT.format(datetime.datetime.now()), lines)
 
 
 def compare_stirred(cases: Sequence[StirredCase], names: Sequence[str] | None = None) -> str:
     """HTML text of a comparison of stirred mills with the first one; names: as compare_cases has them."""
-    names = names or comparison.distinct(cases)
+    names = [Name(name) for name in names or comparison.distinct(cases)]
     found = [all_checks(case) for case in cases]
-    lines = [f"{name}: {line}" for name, case, checks in zip(names, cases, found) for line in first_lines(case, checks)]
-    return page.page("Comparison of stirred mills", ", ".join(names[1:]) + f" compared with {names[0]}",
+    lines = named_lines(cases, names, found)
+    return page.page("Comparison of stirred mills", compared_words(names),
                      stirred_sections.compared(cases, names, found), FOOT.format(datetime.datetime.now()), lines)

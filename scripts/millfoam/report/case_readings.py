@@ -17,6 +17,9 @@ from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_bl
 from .words import millilitres, uncertain
 
 Rows = list[tuple[str, str]]  # of a table: name and text
+# Of charge.charge_with_errors, in words
+READINGS = {"centre": "the centre of circulation", "ends": "toe and shoulder", "surface_rmsd": "the free surface",
+            "tangential_rmsd": "the tangential velocity"}
 FRAME = ("Distances x are positive to the side where the shell falls, which is the right side of a clockwise mill, so "
          "that both senses give the same numbers. Maps show the mill as it turns, with x to the right.")
 
@@ -38,7 +41,9 @@ class Readings:
         self.slurry = self.attempt(lambda: mean_slurry(case, self.blocks)) if isinstance(self.blocks,
                                                                                          list) else self.blocks
         self.way = self.attempt(self._way) if isinstance(self.slurry, SlurryMap) else None
-        self.profile = self.attempt(self._profile) if case.flow else None
+        self.series = self.attempt(self._series) if case.flow else None
+        self.profile = self.attempt(lambda: axial.mean_profile(self.series)) if isinstance(
+            self.series, axial.AxialSeries) else self.series
         self.humps = {}
         if isinstance(self.profile, axial.AxialProfile):
             for count in (2, 3):
@@ -60,16 +65,20 @@ class Readings:
 
     def short_blocks(self, slurry: bool = True) -> str:
         """In words, that errors of the charge (and, if requested, of the slurry) are lower bounds, because their
-        blocks of time are shorter than a turn of the mill; otherwise empty."""
-        case, lengths = self.case, {}
+        blocks of time are shorter than a turn of the mill, and blocks of the charge without a reading; otherwise
+        empty."""
+        case, lengths, failed = self.case, {}, ""
         if isinstance(self.errors, dict):
-            lengths["the charge's"] = np.ptp(case.charge_span) / self.errors["centre"].blocks
+            centre = self.errors["centre"]
+            lengths["the charge's"] = np.ptp(case.charge_span) / (centre.blocks + centre.failed)
+            failed = "".join(f" {one.failed} of {one.blocks + one.failed} blocks have no reading of {READINGS[name]}."
+                             for name, one in self.errors.items() if one.failed)
         if slurry and isinstance(self.blocks, list):
             lengths["the slurry's"] = (case.last - case.begin) / len(self.blocks)
         short = [f"{name} of {length:.2g} s" for name, length in lengths.items() if length < 0.99 * case.turn]
         return (f" Blocks shorter than a turn of the mill ({case.turn:.2g} s) give lower bounds of errors: "
                 f"{', '.join(short)}."
-                if short else "")
+                if short else "") + failed
 
     def _errors(self) -> dict[str, Reading] | None:
         maps = self.case.charge_windows
@@ -82,12 +91,12 @@ class Readings:
         except RuntimeError:
             return slurry_way([self.slurry], self.case.radius, self.case.lifter_height)
 
-    def _profile(self) -> axial.AxialProfile:
-        """AxialProfile from the function object's tables, or otherwise from the written times."""
+    def _series(self) -> axial.AxialSeries:
+        """AxialSeries from the function object's tables, or otherwise from the written times."""
         series = read_series(self.case)
         if len(series.times) == 0:
             raise RuntimeError(f"axialProfiles has no time from {self.case.begin:g} s on")
-        return axial.mean_profile(series)
+        return series
 
 
 def key_numbers(case: MillCase, readings: Readings) -> Rows:
@@ -103,8 +112,9 @@ def key_numbers(case: MillCase, readings: Readings) -> Rows:
     if case.balance is not None:
         rows += balance_numbers(case)
     if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2 and not case.is_slice:
+        error = axial.drop_error(readings.series, case.begin, case.turn)
         rows.append(("drop of p_rgh in the slurry along the axis (straight line)",
-                     f"{axial.drop(readings.profile):.3g} Pa"))
+                     uncertain(axial.drop(readings.profile), error, "Pa")))
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
             rows.append((f"axial profile, {count} Gaussians", humps_words(fit, readings.profile.z)))
@@ -151,18 +161,24 @@ def balance_numbers(case: MillCase) -> Rows:
         return []
     mean = {name: time_mean(columns["Time"], values, case.begin) for name, values in columns.items()}
 
+    def error_of(values: np.ndarray) -> float:
+        return error_over_turns(columns["Time"], values, case.begin, case.turn)
+
     def error(name: str) -> float:
-        return error_over_turns(columns["Time"], columns[name], case.begin, case.turn)
-    rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4)),
+        return error_of(columns[name])
+    rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4, error("holdUp"))),
             ("centre of the slurry, x to the falling side",
              uncertain(1e3 * to_falling_side(case, mean["x"]), 1e3 * error("x"), "mm")),
             ("centre of the slurry, y", uncertain(1e3 * mean["y"], 1e3 * error("y"), "mm")),
             ("power for the slurry", uncertain(mean["power"], error("power"), "W"))]
     if case.is_open and not case.is_slice:
-        feed, out = 1e6 * mean["feed"], 1e6 * mean["discharge"]
-        rows += [("feed", f"{feed:.1f} ml/s"), ("discharge", f"{out:.1f} ml/s"),
-                 ("feed minus discharge", f"{feed - out:+.1f} ml/s")]
+        rows += [(name, uncertain(1e6 * mean[name], 1e6 * error(name), "ml/s", ".1f")) for name in ("feed",
+                                                                                                    "discharge")]
+        rows.append(("feed minus discharge",
+                     uncertain(1e6 * (mean["feed"] - mean["discharge"]),
+                               1e6 * error_of(columns["feed"] - columns["discharge"]), "ml/s", ".1f")))
     if case.met_balls:
-        rows += [("particle Reynolds number in slurry, mean", f"{mean['Re_mean']:.0f}"),
-                 ("particle Reynolds number, 95 % of the balls below", f"{mean['Re_95']:.0f}")]
+        rows += [(name, uncertain(mean[key], error(key), "", ".0f")) for name, key in (
+            ("particle Reynolds number in slurry, mean", "Re_mean"),
+            ("particle Reynolds number, 95 % of the balls below", "Re_95"))]
     return rows

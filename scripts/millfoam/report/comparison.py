@@ -14,6 +14,7 @@ from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .headline import summary
 from .verdict import Check
+from .words import Name
 
 Compared = tuple[MillCase, Readings, str]  # a case, its readings, its name
 
@@ -98,8 +99,8 @@ def charge_differences(compared: Sequence[Compared]) -> list[str]:
             continue
         apart = compare.difference_maps(case.charge, first.charge)
         figure = maps.difference_figure(case, apart.x, apart.y, apart.solidity, "difference of solidity, –", 0.05)
-        cards.append(page.picture(figure, f"Solidity of {name} minus that of {first_name}. Red: denser.",
-                                  title=f"{name} − {first_name}"))
+        cards.append(page.picture(figure, Name(f"Solidity of {name} minus that of {first_name}. Red: denser."),
+                                  title=Name(f"{name} − {first_name}")))
         found = compare.difference(case.charge, first.charge)
         try:
             ours, theirs = (free_surface(one.charge, one.radius) for one in (case, first))
@@ -114,7 +115,7 @@ def charge_differences(compared: Sequence[Compared]) -> list[str]:
                                 note="Solidity: mean |difference| over 0.634. Velocities: mean |difference|, weighted "
                                      "by the solidity, over the mean of both largest speeds. Free surface: its height "
                                      "minus that of the first.",
-                                title=f"Charge compared with {first_name}"))
+                                title=Name(f"Charge compared with {first_name}")))
     return cards
 
 
@@ -149,12 +150,13 @@ def slurry_cards(cases: Sequence[MillCase], readings: Sequence[Readings], names:
     for case, one, name in compared[1:]:
         reason = not_compared(case, first_case, one, first)
         if reason:
-            cards.append(page.paragraph(f"The slurry of {name} is not compared with that of {first_name}: {reason}."))
+            cards.append(page.paragraph(Name(f"The slurry of {name} is not compared with that of {first_name}: "
+                                             f"{reason}.")))
         else:
             figure = maps.difference_figure(case, one.x, one.y, one.share - first.share, "difference of the share, –",
                                             0.1)
-            cards.append(page.picture(figure, f"Share of slurry of {name} minus that of {first_name}. Red: more "
-                                              "slurry.", title=f"{name} − {first_name}"))
+            cards.append(page.picture(figure, Name(f"Share of slurry of {name} minus that of {first_name}. Red: more "
+                                                   "slurry."), title=Name(f"{name} − {first_name}")))
     return cards
 
 

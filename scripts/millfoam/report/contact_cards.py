@@ -46,7 +46,7 @@ def contact_span(case: MillCase) -> tuple[float, float]:
     if len(times) < 3:
         raise RuntimeError(f"{case.contacts}/contacts: {len(times)} dumps, expected 3 or more")
     first = times[-min(DUMPS, len(times))]
-    steady = float(case.results["steady_from"]) if case.results.get("steady") == "yes" else 0.0
+    steady = case.result("steady_from_s") if case.results and case.results.get("steady") else 0.0
     begin = max(steady, first)
     return (begin if begin <= times[-3] else first), times[-1]
 

@@ -116,7 +116,7 @@ def coupling_section(case: MillCase, _readings: Readings) -> list[str]:
         return [exchanged_table(case)]
     columns = read_csv(case.coupled / "coupling.csv")
     head = ["", *(f"pass {number:.0f}" for number in columns["pass"])]
-    rows = [[f"{name}, {unit}", *(uncertain(scale * value, scale * error, "").strip() for value, error in zip(
+    rows = [[f"{name}, {unit}", *(uncertain(scale * value, scale * error, "") for value, error in zip(
         columns[COLUMNS[key]], columns[error_column(COLUMNS[key])]))]
         for key, (name, unit, scale) in QUANTITIES.items()]
     for key, name, form in (("solidity_change", "change of the solidity", ".3f"),

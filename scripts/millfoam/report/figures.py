@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from ..files.mill_case import MillCase
 from ..plots import mill_plots
 from ..readings.axial import AxialProfile, slice_thickness
+from ..readings.means import time_steps
 
 Curve = tuple[str, np.ndarray, np.ndarray]  # label, x, y
 # Okabe & Ito's colours, which colour-blind readers can distinguish
@@ -30,42 +31,43 @@ def axes_of(rows: int = 1, *, width: float = 5.4, height: float = 2.5) -> tuple[
     return figure, axes[:, 0]
 
 
-def running_mean(times: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
-    """Mean over the time `width` (s) before each time; steps count by their length."""
-    steps = np.diff(times, prepend=times[0] - (times[1] - times[0]))
+def running_mean(times: np.ndarray, values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times (s) from a time `width` (s) after the first one on, and the mean over `width` before each of them; steps
+    count by their length. Both are empty in a shorter series."""
+    steps = time_steps(times)
     total = np.concatenate([[0], np.cumsum(values * steps)])
     clock = np.concatenate([[times[0] - steps[0]], times])
-    begin = np.maximum(times - width, clock[0])
-    return (total[1:] - np.interp(begin, clock, total)) / (times - begin)
+    late = times >= times[0] + width * (1 - 1e-9)  # times are rounded
+    return times[late], (total[1:][late] - np.interp(times[late] - width, clock, total)) / width
 
 
 def quarter_turns(case: MillCase, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Times (s) of slurryBalance, and a column's mean over the quarter turn before each. They begin where the mean is
-    free of the first steps; in a run shorter than that, at its half."""
-    times = case.balance["Time"]
-    mean = running_mean(times, case.balance[name], case.turn / 4)
-    clear = times[0] + 1.05 * case.turn / 4
-    whole = times >= (clear if clear < times[-1] else times[0] / 2 + times[-1] / 2)
-    return times[whole], mean[whole]
+    free of the first steps."""
+    columns, width = case.balance, case.turn / 4
+    times, mean = running_mean(columns["Time"], columns[name], width)
+    free = times >= columns["Time"][0] + 1.05 * width
+    return times[free], mean[free]
 
 
 def late_limits(times: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """Limits of an axis that shows the second half of the time and zero. On either side they reach further by half of
-    that span, as far as there are values. The start-up may lie beyond."""
+    that span, as far as there are values. The start-up may lie beyond. Without values they are 0 and 1."""
+    if len(times) == 0:
+        return 0.0, 1.0
     late = values[times >= times[0] / 2 + times[-1] / 2]
     low, high = min(0, late.min()), max(0, late.max())
     more = (high - low) / 2
     return 1.1 * min(low, max(low - more, values.min())), 1.1 * max(high, min(high + more, values.max())) or 1e-12
 
 
-def energy(case: MillCase) -> Figure:
-    """Power and energies of the dry run against time."""
+def energy(case: MillCase, begin: float) -> Figure:
+    """Power and energies of the balls against time. begin: DEM time (s) from which their power is averaged; NaN if it
+    is not known."""
     figure, (top, bottom) = axes_of(2)
     time, columns = case.energy["time_s"], case.energy
     top.plot(time, columns["power_W"], color=SKY, lw=0.5, alpha=0.7, label="record")
-    whole = time >= min(1.05 * case.turn / 4, time[-1] / 2)
-    top.plot(time[whole], running_mean(time, columns["power_W"], case.turn / 4)[whole], color=BLUE,
-             label="mean over a quarter turn")
+    top.plot(*running_mean(time, columns["power_W"], case.turn / 4), color=BLUE, label="mean over a quarter turn")
     late = columns["power_W"][len(time) // 4:]
     top.set_ylim(min(0, np.percentile(late, 0.5)), 1.3 * np.percentile(late, 99.5))
     top.set_ylabel("power, W")
@@ -74,10 +76,11 @@ def energy(case: MillCase) -> Figure:
     bottom.plot(time, columns["potential_J"] - columns["potential_J"][0], color=GREEN,
                 label="potential, from its first value")
     bottom.set(ylabel="energy, J", xlabel="time since the mill began to turn, s")
-    bottom.legend(loc="lower right")
+    bottom.legend(loc="best")
+    if np.isfinite(begin):
+        top.axvline(begin, color=GREY, ls="--", lw=1)
     if case.results.get("steady"):
-        for axis in (top, bottom):
-            axis.axvline(case.result("steady_from_s"), color=GREY, ls="--", lw=1)
+        bottom.axvline(case.result("steady_from_s"), color=GREY, ls="--", lw=1)
     return figure
 
 

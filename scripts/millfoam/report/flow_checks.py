@@ -49,7 +49,7 @@ def slurry_torques(case: MillCase) -> Check:
                   f"{'less' if found.unbalanced.value * case.mill.omega > 0 else 'more'} than the slurry takes: "
                   f"{100 * share:.2g} % of the impeller's torque on balls and slurry (limit {100 * TORQUES:.0f} %)",
                   "Take smaller cells (resolution.cell_size) and time-steps (flow.max_time_step).",
-                  meaning="Torque and power of the impeller on the slurry have at least this error.")
+                  meaning="Torque and power of the impeller on the slurry have at least this error")
 
 
 def column(case: MillCase, name: str) -> np.ndarray | None:

@@ -59,7 +59,7 @@ def card_title(title: str | None) -> str:
 
 def picture(figure: Figure, caption: str, *, title: str | None = None) -> str:
     """A card with a figure. The caption, plain text, is also its description for screen readers."""
-    alt = text(f"{title}: {caption}" if title else caption)
+    alt = f"{text(title)}: {text(caption)}" if title else text(caption)
     encoded = encode(figure)
     plt.close(figure)
     return fill("picture", title=card_title(title), words=alt, image=encoded, caption=text(caption))

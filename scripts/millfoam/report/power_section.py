@@ -6,10 +6,12 @@ import numpy as np
 
 from ..files.mill_case import MillCase
 from ..readings import power_models
+from ..readings.batches import whole_turns
 from ..readings.means import Mean, time_mean
 from ..readings.mill_power import charge_power, drive_power, feels_slurry, slurry_power
 from . import page
 from .case_readings import Readings
+from .coupling_section import coupling_of
 from .words import uncertain
 
 
@@ -43,12 +45,24 @@ def net_note(case: MillCase) -> str:
     """What the powers are."""
     words = "Charge: what the walls give to the balls."
     if case.flow:
+        turns = whole_turns(case.balance["Time"][-1] - case.begin, case.turn) if case.balance is not None else 0
         words += (" Slurry: the torque of walls and balls on it, times the mill's speed. Drive: "
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
                      "both together; the balls do not feel the slurry, and keep what they give to it.")
-                  + " A mean over fewer than three turns of the flow is not shown.")
-    return words + " ±: standard errors over time."
+                  + f" A mean over fewer than three turns of the flow is not shown; it has {turns}.")
+    return f"{words} ±: standard errors over time.{torque_words(case)}"
+
+
+def torque_words(case: MillCase) -> str:
+    """The error of the drive's power that balls and slurry's torques on each other show; empty if it is not known."""
+    content = coupling_of(case) if case.coupled is not None else {}
+    found = [f"{100 * abs(content[key]):.1f} % of {whole}" for key, whole in (
+        ("torque_disagreement", "the torque on the balls (flow and balls)"),
+        ("torque_unbalanced", "the drive's torque (balls and the slurry's own balance)"))
+        if content.get(key) is not None]
+    return (f" Not in ±: the torque between balls and slurry does not balance, by {' and '.join(found)}; the drive's "
+            "power has an error of this size." if found else "")
 
 
 def models_table(case: MillCase, found: dict[str, Mean]) -> str:

@@ -5,18 +5,21 @@ from scipy.special import gammaln
 
 from ..files.mill_case import MillCase
 from ..files.tables import TableError
+from ..readings.batches import error_over_turns
 from ..readings.means import time_mean
 from ..readings.residence import Residence, TracerTable, read_tracer, residence
 from . import figures, page
+from .words import Name, uncertain
 
 SHOWN = 4.0  # mean times in the picture
+BINS = 50  # of each mean time
 
 
 def residence_cards(case: MillCase) -> list[str]:
     """A picture and a table for each slurryTracer; none without one."""
     cards = []
     for path in sorted({table.parent.parent for table in case.folder.glob("postProcessing/*/*/slurryTracer*.dat")}):
-        title = f"Residence time: {path.name}"
+        title = Name(f"Residence time: {path.name}")
         try:
             table = read_tracer(case.folder, path.name)
             found = residence(table)
@@ -24,22 +27,34 @@ def residence_cards(case: MillCase) -> list[str]:
             cards.append(page.table(None, [("not known", str(error))], title=title))
             continue
         cards += [page.picture(distribution(found), "E(t): share of the feed that leaves so long after it entered, for "
-                               "each second. Second curve: stirred tanks in series with the same mean and variance.",
+                               "each second, over bins of a fiftieth of the mean time. Second curve: stirred tanks in "
+                               "series with the same mean and variance.",
                                title=title),
-                  page.table(None, rows(case, table, found), title=f"{title}, numbers",
+                  page.table(None, rows(case, table, found), title=Name(f"{title}, numbers"),
                              note=note(found))]
     return cards
 
 
 def note(found: Residence) -> str:
-    """What the numbers of a Residence assume of the tracer that has not left, and how much depends on it."""
-    if not found.tail:
+    """What the numbers of a Residence assume of the tracer that has not left, how much depends on it, and that they
+    have no error over time."""
+    return f"{tail_words(found)} The numbers have no error over time: each tracer is fed once."
+
+
+def tail_words(found: Residence) -> str:
+    """In words, how the tracer leaves that has not left, and how much depends on it."""
+    if not found.left:
         return "All tracer has left."
+    share = f"{100 * found.left:.2g} % of the tracer has not left and is taken to leave"
+    if not found.tail:
+        return f"{share} at the end of the record."
     mean, spread = found.doubt
-    return (f"{100 * found.left:.2g} % of the tracer has not left and is taken to leave as an exponential. So mean, "
-            f"deviation, tanks and Péclet number are estimates: another fit of the exponential changes the mean by "
-            f"{100 * mean:+.2g} % and the variance over its square by {100 * spread:+.2g} %. They may be off by twice "
-            "as much, and by more where slurry hardly moves. Let the flow run longer to make this smaller.")
+    words = (f"another fit of the exponential changes the mean by {100 * mean:+.2g} % and the variance over its square "
+             f"by {100 * spread:+.2g} %. They may be off by twice as much, and by more where slurry hardly moves."
+             if np.isfinite([mean, spread]).all() else
+             "no second fit of the exponential was found, so their error is not known.")
+    return (f"{share} as an exponential. So mean, deviation, tanks and Péclet number are estimates: {words} Let the "
+            "flow run longer to make this smaller.")
 
 
 def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str, str]]:
@@ -49,23 +64,24 @@ def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str
     if case.balance is not None:
         times = case.balance["Time"]
         held, fed = (time_mean(times, case.balance[name], table.begin) for name in ("holdUp", "feed"))
+        error = error_over_turns(times, case.balance["holdUp"], table.begin, case.turn) / fed
         numbers.append(("hold-up over feed, from the tracer's begin on",
-                        f"{held / fed:.4g} s, {100 * (found.mean / (held / fed) - 1):+.2g} %"))
+                        f"{uncertain(held / fed, error, 's', '.4g')}, {100 * (found.mean / (held / fed) - 1):+.2g} %"))
     return numbers + [("standard deviation", f"{np.sqrt(max(found.variance, 0)):.4g} s"),
                       ("stirred tanks in series", f"{found.tanks:.3g}" if np.isfinite(found.tanks) else "no spread"),
                       ("Péclet number of axial dispersion, both ends closed", peclet),
                       ("tracer that has not left", f"{100 * found.left:.3g} %"),
-                      ("time of its exponential", f"{found.tail:.3g} s" if found.left else "–"),
+                      ("time of its exponential", f"{found.tail:.3g} s" if found.tail else "–"),
                       ("missing in the tracer's balance", f"{table.missing:.1g}")]
 
 
 def distribution(found: Residence) -> figures.Figure:
-    """E(t), and that of tanks in series."""
-    shown = found.time < SHOWN * found.mean
-    time = found.time[shown]
-    curves = [("simulation", time, found.density[shown])]
+    """E(t) over BINS bins of the mean time, or as many as the rows allow, and that of tanks in series."""
+    time, density = found.binned(max(found.mean / BINS, float(np.median(found.length))))
+    shown = time < SHOWN * found.mean
+    curves = [("simulation", time[shown], density[shown])]
     if 0.1 < found.tanks < 1e3:
-        curves.append(("tanks in series", time, tanks_in_series(found, time)))
+        curves.append(("tanks in series", time[shown], tanks_in_series(found, time[shown])))
     return figures.lines_against(curves, "time in the mill, s", "E, 1/s")
 
 

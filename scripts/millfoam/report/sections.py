@@ -10,6 +10,7 @@ from ..files import solids_file
 from ..files.data_files import read_text
 from ..files.mill_case import MillCase
 from ..plots import charge_plots, mill_plots
+from ..readings.mill_power import power_begin
 from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
 from .contact_cards import contact_section
@@ -18,7 +19,7 @@ from .flow_checks import beyond_law
 from .power_section import power_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
 from .stages import programs
-from .words import quantity, span_of_time
+from .words import Name, quantity, span_of_time
 
 FRAMES = 40  # of the animation, at most
 
@@ -31,9 +32,10 @@ def overview(case: MillCase, readings: Readings) -> list[str]:
 
 def spans(case: MillCase, readings: Readings) -> str:
     """In words, the times over which the key numbers are averaged."""
-    words = []
+    power = f"power from DEM time {power_begin(case):.3g} s on" if case.results else ""
     if not (case.solids or case.flow):
-        return "Power: mean of the steady dry run, with the standard error of batch means."
+        return f"Averages: {power}. ±: standard errors of batch means over time."
+    words = [power] if power else []
     if case.solids:
         words.append(f"charge averaged over DEM time {case.charge_span[0]:.3g} to {case.charge_span[1]:.3g} s")
     if case.flow:
@@ -73,16 +75,19 @@ def last_turn(seconds: float, turn: float) -> str:
 
 def charge_section(case: MillCase, readings: Readings) -> list[str]:
     """Cards of the charge: its maps and readings, energies and overlaps of the dry run."""
-    return (charge_maps(case, readings) if case.solids else []) + dry_run_cards(case, "walls")
+    begin = power_begin(case) if case.results else np.nan
+    return (charge_maps(case, readings) if case.solids else []) + ball_cards(case, "walls", begin)
 
 
-def dry_run_cards(case: MillCase, driven: str) -> list[str]:
-    """Cards of the energies and the overlaps of the dry run; driven: what the drive turns, in words."""
+def ball_cards(case: MillCase, driven: str, begin: float) -> list[str]:
+    """Cards of the energies and the overlaps of the balls; driven: what the drive turns, in words; begin: DEM time (s)
+    from which their power is averaged."""
     cards = []
     if case.energy:
-        cards.append(page.picture(figures.energy(case), f"Power from the torque on the {driven}, and the balls' "
-                                                        "energies. Dashed: begin of the steady time.",
-                                  title="Dry run"))
+        steady = " In the lower panel: begin of the steady time." if case.results.get("steady") else ""
+        cards.append(page.picture(figures.energy(case, begin), f"Power from the torque on the {driven}, and the balls' "
+                                  "energies. Dashed line in the upper panel: begin of the time over which the power is "
+                                  f"averaged.{steady}", title="Power and energies of the balls"))
     if case.overlaps is not None:
         cards.append(page.picture(figures.overlaps(case), "Overlaps of all contacts, at about every tenth "
                                                           "record. Balls are stiff enough if few contacts are far to "
@@ -182,10 +187,12 @@ def run_section(case: MillCase, _readings: Readings) -> list[str]:
                                 note="Wall time, the sum of all runs of a stage that ended or failed. Killed runs are "
                                      "not counted."))
     mill = case.mill
-    rows = [(f"fingerprint: {part}", found) for part, found in mill.fingerprint.items() if found]
-    rows += [("changed by --set", setting) for setting in mill.settings]
+    rows: list[tuple[str, str]] = [(f"fingerprint: {part}", Name(found))
+                                   for part, found in mill.fingerprint.items() if found]
+    rows += [("changed by --set", Name(setting)) for setting in mill.settings]
     if mill.changed_since():
-        rows.append((mill.file_name, f"{mill.file_name} was changed after this run; the report shows the run's mill"))
+        rows.append((Name(mill.file_name), f"{mill.file_name} was changed after this run; the report shows the run's "
+                                           "mill"))
     if rows:
         cards.append(page.table(None, rows, title="The mill", note="Files with another fingerprint belong to another "
                                                                    "mill."))
@@ -205,12 +212,12 @@ def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
             except ValueError:
                 continue  # half a line of a killed step
     if not costs and case.results and "wall_time_s" in case.results:
-        costs["dry run"] = case.result("wall_time_s")
+        costs["balls"] = case.result("wall_time_s")
     return costs.items()
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section),
-            ("coupling", "Balls and slurry in turn", coupling_section),
+            ("coupling", "Coupling of balls and slurry", coupling_section),
             ("contacts", "Contacts", contact_section), ("slurry", "Slurry", slurry_section),
             ("axis", "Along the axis", axial_section), ("balance", "Balance", balance_section),
             ("power", "Power", power_section), ("models", "Models", models_section),

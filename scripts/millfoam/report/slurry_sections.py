@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report about the slurry: its maps, its motion along the axis, its balance, and mechanistic models
 to compare it with."""
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..files.mill_case import MillCase
+from ..files.slurry_file import SlurryMap
 from ..plots import mill_plots
 from ..readings import axial, charge, models, slurry_on_maps
 from ..readings.axial import humps_at_ends
-from ..readings.means import time_mean
+from ..readings.batches import error_over_turns
+from ..readings.means import block_mean, time_mean
+from ..readings.mill_power import feels_slurry
 from ..readings.slurry_over_time import RING, Way, ring_depth
 from . import figures, maps, page
 from .case_readings import Readings
@@ -38,9 +42,10 @@ def slurry_section(case: MillCase, readings: Readings) -> list[str]:
                                                                         "is over 0.5. Red: to the discharge.",
                                   title="Slurry along the axis"))
     if case.load:
+        meaning = "the slurry carries the balls" if feels_slurry(case) else "one-way coupling does not hold"
         cards.append(page.picture(mill_plots.load_figure(case.flow, case.begin),
                                   "Force of the fluid on the balls over their weight. Where it is close to 1 (line), "
-                                  "one-way coupling does not hold.", title="Force on the balls"))
+                                  f"{meaning}.", title="Force on the balls"))
     note = (f"Angles are counted from straight down, positive where the shell rises, on the circle {RING:g} lifter "
             f"heights ({1e3 * ring_depth(case.lifter_height):.3g} mm) from the shell. ±: standard errors of "
             f"{len(readings.blocks)} blocks of time.{readings.short_blocks()}")
@@ -58,16 +63,7 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
                 for name, angle in (("shoulder", way.shoulder_angle), ("toe", way.toe_angle))]
     else:
         rows = [(f"{name} of the slurry", "none") for name in ("shoulder", "toe")]
-    solidity = np.zeros_like(slurry.share)
-    if case.solids and case.law:
-        solidity = slurry_on_maps.solidity_at_pixels(case.charge, slurry)
-    pool = slurry_on_maps.pool(slurry, solidity)
-    rows.append(("pool clear of the charge" if case.has_balls else "pool",
-                 f"{millilitres(pool.area * case.length)}, surface at y = {1e3 * pool.level:.1f} mm" if pool.area > 0
-                 else "none"))
-    air = slurry_on_maps.entrained_air(slurry, solidity)
-    if np.isfinite(air):
-        rows.append((AIR, f"{100 * air:.0f} % of the fluid"))
+    rows += still_rows(case, slurry, readings.blocks)
     if case.is_slice:
         return rows
     if not isinstance(way, Way):
@@ -79,6 +75,29 @@ def slurry_rows(case: MillCase, readings: Readings) -> list[tuple[str, str]]:
              for name, mean, half in (("toe", way.toe, halves.toe), ("shoulder", way.shoulder, halves.shoulder))]
     words = {"undecided": "undecided: a mean may be zero (95 % confidence), or its error is not known"}
     return rows + [("to the discharge at the toe and back at the shoulder", words.get(way.circulates, way.circulates))]
+
+
+def still_rows(case: MillCase, slurry: SlurryMap, blocks: Sequence[SlurryMap]) -> list[tuple[str, str]]:
+    """Rows of the pool and of the air in the charge: of the mean map, with errors of the maps of blocks of time."""
+    def solidity(one: SlurryMap) -> np.ndarray:
+        return (slurry_on_maps.solidity_at_pixels(case.charge, one) if case.solids and case.law
+                else np.zeros_like(one.share))
+
+    def error(reading: Callable[[SlurryMap], float]) -> float:
+        return block_mean([reading(one) for one in blocks]).error
+
+    pool, words = slurry_on_maps.pool(slurry, solidity(slurry)), "none"
+    if pool.area > 0:
+        volume = error(lambda one: slurry_on_maps.pool(one, solidity(one)).area * case.length)
+        level = error(lambda one: 1e3 * slurry_on_maps.pool(one, solidity(one)).level)
+        words = (f"{millilitres(pool.area * case.length, error=volume)}, surface at y = "
+                 f"{uncertain(1e3 * pool.level, level, 'mm', '.1f')}")
+    rows = [("pool clear of the charge" if case.has_balls else "pool", words)]
+    air = slurry_on_maps.entrained_air(slurry, solidity(slurry))
+    if np.isfinite(air):
+        spread = error(lambda one: 100 * slurry_on_maps.entrained_air(one, solidity(one)))
+        rows.append((AIR, f"{uncertain(100 * air, spread, '%', '.0f')} of the fluid"))
+    return rows
 
 
 def axial_section(case: MillCase, readings: Readings) -> list[str]:
@@ -127,27 +146,37 @@ def balance_section(case: MillCase, _readings: Readings) -> list[str]:
     if rows:
         cards.append(page.table(head, rows, title="Torque and power",
                                 note=f"About +z on the slurry, means from {case.begin:.3g} s on. Walls: from pressure "
-                                     "and friction there. All: from the balance of angular momentum."))
-    return cards + residence_cards(case)
+                                     "and friction there. All: from the balance of angular momentum. ±: standard "
+                                     "errors over whole turns; a mean over fewer than two turns has none."))
+    return cards + slip_card(case) + residence_cards(case)
+
+
+def slip_card(case: MillCase) -> list[str]:
+    """Card of slurryBalance's largest slip in the averaged time; none without it."""
+    slip, late = case.balance.get("slip_max"), case.balance["Time"] >= case.begin
+    if slip is None or not case.met_balls or not late.any():
+        return []
+    return [page.table(None, [(f"largest slip since {case.begin:.3g} s", f"{slip[late].max():.3g} m/s")],
+                       title="Slip past the balls")]
 
 
 def wall_table(case: MillCase) -> tuple[list[str] | None, list[tuple]]:
-    """Head and rows of slurryBalance's torque and power by wall and its largest slip, if it has these columns."""
+    """Head and rows of slurryBalance's torque and power by wall, if it has these columns."""
     columns = case.balance
     if not (columns["Time"] >= case.begin).any():
         return None, []
     walls = list(dict.fromkeys(name.split("_", 1)[1] for name in columns
                                if name.startswith(("torque_", "power_")) and name != "torque_all"))
 
-    def cell(name: str) -> tuple[float, str] | str:
-        return (time_mean(columns["Time"], columns[name], case.begin), ".3g") if name in columns else "–"
+    def cell(name: str) -> str:
+        if name not in columns:
+            return "–"
+        error = error_over_turns(columns["Time"], columns[name], case.begin, case.turn)
+        return uncertain(time_mean(columns["Time"], columns[name], case.begin), error, "")
 
     rows: list[tuple] = [(wall, cell(f"torque_{wall}"), cell(f"power_{wall}")) for wall in walls]
     if "torque_all" in columns:
         rows.append(("all", cell("torque_all"), cell("power")))
-    if "slip_max" in columns and case.met_balls:
-        slip = columns["slip_max"][columns["Time"] >= case.begin].max()
-        rows.append(("largest slip past the balls at any time", f"{slip:.3g} m/s", ""))
     return ["", "torque, N m", "power, W"], rows
 
 
@@ -193,7 +222,8 @@ def moys(case: MillCase, profile: Any) -> list[str]:
             ("depth at the feed end by the model",
              f"{1e3 * float(models.slurry_depth(bed, 0, case.feed, lip, *fluid)):.1f} mm"),
             ("hold-up by the model", f"{1e6 * models.slurry_hold_up(bed, case.feed, lip, *fluid):.0f} ml"),
-            ("simulated hold-up, with the pulp lifters", f"{1e6 * held:.0f} ml")]
+            ("simulated hold-up, with the pulp lifters", millilitres(held, error=error_over_turns(
+                case.balance["Time"], case.balance["holdUp"], case.begin, case.turn)))]
     cards = [page.table(None, rows, title="Hold-up by Moys' model",
                         note="Darcy flow through the resting charge to the discharge's lip, without the slurry that "
                              "the mill lifts.")]

@@ -8,6 +8,7 @@ import h5py
 from ..files.mill import PARTS
 from ..files.mill_case import MillCase
 from .verdict import Check
+from .words import Name
 
 NAME = "All stages belong to this mill"
 # Of files in the folder in which the charge was made, and of those in the case's own: kind of JSON, what to run again
@@ -82,9 +83,9 @@ def programs(case: MillCase) -> list[tuple[str, str]]:
     for name, program in found:
         if program:
             by_program.setdefault(program, []).append(name)
-    rows = [(", ".join(names), program) for program, names in by_program.items()]
+    rows: list[tuple[str, str]] = [(Name(", ".join(names)), Name(program)) for program, names in by_program.items()]
     openfoam = case.record.last.get("openfoam") or {}
     words = [f"{key} {openfoam[key]}" for key in ("version", "patch", "build") if openfoam.get(key)]
-    rows += [("OpenFOAM of the flow", ", ".join(words))] if words else []
+    rows += [("OpenFOAM of the flow", Name(", ".join(words)))] if words else []
     liggghts = (case.results or {}).get("liggghts")
-    return rows + ([("LIGGGHTS of the dry run", liggghts)] if liggghts else [])
+    return rows + ([("LIGGGHTS of the balls", Name(liggghts))] if liggghts else [])

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from ..files.stirred_case import StirredCase
 from ..readings.partner_spectra import PartnerSpectra
+from ..readings.stirred_power import balls_span
 from .figures import BLUE, COLOURS, GREY, ORANGE, Curve, axes_of, lines_against, quarter_turns, running_mean
 
 
@@ -18,8 +19,8 @@ def torques(case: StirredCase) -> Figure:
     for part, colour in zip(case.parts, COLOURS):
         values = case.torques[f"{part}_Nm"]
         axis.plot(times, values, color=colour, lw=0.4, alpha=0.4)
-        axis.plot(times, running_mean(times, values, case.turn), color=colour, label=part)
-    axis.axvline(case.span[0], color=GREY, ls="--", lw=1)
+        axis.plot(*running_mean(times, values, case.turn), color=colour, label=part)
+    axis.axvline(balls_span(case)[0], color=GREY, ls="--", lw=1)
     axis.set(xlabel="time since the mill began to turn, s", ylabel="torque of the balls about +z, N m")
     axis.legend(loc="center right")
     return figure

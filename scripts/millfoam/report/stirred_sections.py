@@ -10,24 +10,23 @@ from ..plots.stirred_plots import meridian_figure, slices_figure
 from ..plots.stirred_slurry_plots import maps_figure, vortex_figure
 from ..readings.partner_spectra import BALLS, PartnerSpectra, Peak, read_partner_spectra
 from ..readings.stirred_flow import read_stirred_flow
-from ..readings.stirred_power import StirredNumbers, read_stirred
-from ..readings.stirred_slurry import balls_of_last_turn, read_slurry_flow
+from ..readings.stirred_power import StirredNumbers, balls_span, read_stirred
+from ..readings.stirred_slurry import dumps_of_last_turn, read_slurry_flow
 from . import figures, page, stirred_figures
 from .case_readings import Rows
 from .comparison import verdict_table
-from .sections import dry_run_cards, run_section
+from .sections import ball_cards, run_section
 from .verdict import Check
 from .words import uncertain
 
-NUMBERS_NOTE = ("±: standard errors over whole turns; of power and torques without a drift, and with fewer than four "
-                "turns from ten batches of equal time. Power number: P/(ρ N³ D⁵), N in turns per second, D from tip "
-                "to tip; torque coefficient: T/(ρ ω² R⁵), R = D/2. ρ is the bulk density of the resting balls. Torque "
-                "over weight: T/(m g R), m the balls' mass.")
+NUMBERS_NOTE = ("±: standard errors over whole turns; a mean over fewer than two turns has none. Power number: "
+                "P/(ρ N³ D⁵), N in turns per second, D from tip to tip; torque coefficient: T/(ρ ω² R⁵), R = D/2. ρ is "
+                "the bulk density of the resting balls. Torque over weight: T/(m g R), m the balls' mass.")
 
 
 FRAMES = 12  # of the animation, at most
-FLOW_NOTE = ("±: standard errors over whole turns; of slip and Reynolds number standard deviations between the "
-             "written times. Torque that is not balanced: rate of the slurry's angular momentum, minus the torques of "
+FLOW_NOTE = ("±: standard errors over whole turns; of slip, Froude and Reynolds number of blocks of written times. "
+             "Torque that is not balanced: rate of the slurry's angular momentum, minus the torques of "
              "walls and balls; it is the error of mesh and time-step. Slip, Froude and Reynolds number: medians over "
              "the cells with balls in slurry, weighted by the volume of their balls. "
              "Fr = slip/√(g d (ρ_b/ρ − 1)), Re = ρ (1 − φ) slip d/μ.")
@@ -46,13 +45,13 @@ def key_numbers(case: StirredCase) -> Rows:
     if found.speed:
         rows += [("mean speed of the balls", uncertain(found.speed.value, found.speed.error, "m/s")),
                  ("mean speed over that of the tips", uncertain(found.speed.value / case.tip_speed,
-                                                                found.speed.error / case.tip_speed, "").strip())]
+                                                                found.speed.error / case.tip_speed, ""))]
     return rows + dimensionless(found) + specific(found)
 
 
 def dimensionless(found: StirredNumbers) -> Rows:
     """Rows of the numbers without unit, and of the density in them."""
-    rows = [(name, uncertain(mean.value, mean.error, "").strip()) for name, mean in (
+    rows = [(name, uncertain(mean.value, mean.error, "")) for name, mean in (
         ("power number", found.power_number), ("torque coefficient", found.torque_coefficient),
         ("torque over weight", found.torque_over_weight))]
     return rows + [("bulk density of the balls, in these", f"{found.density:.4g} kg/m³")]
@@ -77,11 +76,12 @@ def flow_numbers(case: StirredCase) -> Rows:
     rows += [("power of the impeller to the slurry", found.slurry_power, 1.0, "W"),
              (f"power of the impeller to the {balls_words(case)}", found.ball_power, 1.0, "W"),
              ("height of the slurry's centre", found.centre, 1e3, "mm"),
-             ("slip of slurry and balls", found.slip, 1.0, "m/s")]
-    return [(name, uncertain(scale * mean.value, scale * mean.error, unit)) for name, mean, scale, unit in rows] + [
-        ("slurry's share of the power", f"{100 * found.slurry_share:.3g} %"),
-        ("Froude number of the slip", f"{found.froude:.3g}"),
-        ("Reynolds number of the slip", uncertain(found.reynolds.value, found.reynolds.error, "").strip())]
+             ("slurry's share of the power", found.slurry_share, 100.0, "%"),
+             ("slip of slurry and balls", found.slip, 1.0, "m/s"),
+             ("Froude number of the slip", found.froude, 1.0, ""),
+             ("Reynolds number of the slip", found.reynolds, 1.0, "")]
+    return [(name, uncertain(scale * mean.value, scale * mean.error, unit))
+            for name, mean, scale, unit in rows]
 
 
 def balls_words(case: StirredCase) -> str:
@@ -100,7 +100,7 @@ def summary(case: StirredCase) -> str:
 
 def overview(case: StirredCase) -> list[str]:
     """Card of the key numbers."""
-    begin, end = case.span
+    begin, end = balls_span(case)
     turns = (end - begin) / case.turn
     return [page.table(None, key_numbers(case), title="Key numbers",
                        note=f"Means of DEM time {begin:.3g} to {end:.3g} s, {turns:.3g} turns. {NUMBERS_NOTE}")]
@@ -113,7 +113,7 @@ def time_section(case: StirredCase) -> list[str]:
         cards.append(page.picture(stirred_figures.torques(case), "Thin: records; thick: mean over the turn before. "
                                   "The balls resist the impeller and pass its torque on to the walls at rest. Dashed: "
                                   "begin of the averages.", title="Torque on each part"))
-    return cards + dry_run_cards(case, "impeller")
+    return cards + ball_cards(case, "impeller", balls_span(case)[0])
 
 
 def charge_section(case: StirredCase) -> list[str]:
@@ -137,17 +137,17 @@ def flow_section(case: StirredCase) -> list[str]:
         return []
     flow = read_slurry_flow(case.folder, case.mill, case.begin)
     times = f"flow time {flow.times[0]:.3g} to {flow.times[-1]:.3g} s"
-    records = balls_of_last_turn(case.folder, case.mill)
+    records = dumps_of_last_turn(case.folder, case.mill)
     chosen = [records[k] for k in np.unique(np.linspace(0, len(records) - 1, FRAMES).astype(int))] if records else []
     cards = [page.table(None, flow_numbers(case), title="Numbers of the slurry",
                         note=f"Means from flow time {case.begin:.3g} s on. {FLOW_NOTE}"),
-             page.picture(vortex_figure(case.mill, flow, records[-1][1] if records else None),
+             page.picture(vortex_figure(case.mill, flow, records[-1] if records else None),
                           "Section through the first pins, with the "
                           f"slurry's speed, mean of {times}, and the balls of the last record.", title="Vortex"),
              page.picture(maps_figure(case.mill, flow), f"Means over the azimuth and {times}.",
                           title="Slurry in the r-z plane")]
     if len(chosen) > 1:
-        cards.append(page.player((vortex_figure(case.mill, flow, balls) for _, balls in chosen),
+        cards.append(page.player((vortex_figure(case.mill, flow, record) for record in chosen),
                                  f"The same section, record by record, DEM time {chosen[0][0]:.3f} to "
                                  f"{chosen[-1][0]:.3f} s: the {balls_words(case)} in the impeller's frame, in which "
                                  "the pins stand still. The slurry is the mean over time.", title="The last turn"))
@@ -230,9 +230,11 @@ def compared(cases: Sequence[StirredCase], names: Sequence[str], found: Sequence
 
 def compared_torques(cases: Sequence[StirredCase], names: Sequence[str]) -> list[str]:
     """Card of the impellers' torques against turns."""
-    curves = [(name, case.torques["time_s"] / case.turn,
-               -figures.running_mean(case.torques["time_s"], case.torques["impeller_Nm"], case.turn))
-              for case, name in zip(cases, names) if case.torques]
+    curves = []
+    for case, name in zip(cases, names):
+        if case.torques:
+            times, mean = figures.running_mean(case.torques["time_s"], case.torques["impeller_Nm"], case.turn)
+            curves.append((name, times / case.turn, -mean))
     if not curves:
         return []
     return [page.picture(figures.lines_against(curves, "turns", "torque of the impeller, N m\n(mean over a turn)"),

@@ -8,6 +8,7 @@ import numpy as np
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 ROUND_OFF = 1e-12  # of a value, an error that is none
+SMALLEST = -3  # power of ten below which values with errors have it written
 
 # Ends of keys that are units, longer ones first
 UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s", "_N_m": "N m", "_m_s": "m/s",
@@ -15,10 +16,17 @@ UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s
          "_m3": "m³", "_m2": "m²", "_kg": "kg", "_Pa": "Pa", "_m": "m", "_s": "s", "_W": "W", "_J": "J"}
 
 
+class Name(str):
+    """A name, a setting or a path, of which typeset changes nothing."""
+
+
 def typeset(words: Any) -> str:
-    """Text with minus signs before single numbers, none before zero, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³."""
-    words = re.sub(r"(?<=\d)e([+-]\d+)", lambda found: "·10" + str(int(found.group(1))).translate(SUPERSCRIPT),
-                   str(words))
+    """Text with minus signs before single numbers, none before zero, 1.2e-06 as 1.2·10⁻⁶, and m^3 as m³. Numbers within
+    a name (dt_1e-05) stay; those that are a name need Name."""
+    if isinstance(words, Name):
+        return words
+    words = re.sub(r"(?<![\w./])(\d+(?:\.\d+)?)e([+-]\d+)",
+                   lambda found: f"{found.group(1)}·10{str(int(found.group(2))).translate(SUPERSCRIPT)}", str(words))
     words = re.sub(r"(?<![\w.\-/])-(?=\d)", "−", words)
     words = re.sub(r"(?<=m)\^([23])(?!\d)", lambda found: "²³"[int(found.group(1)) - 2], words)
     return re.sub(r"[−+](0(?:\.0+)?)(?![\d.·])", r"\1", words)
@@ -30,19 +38,25 @@ def decimals(error: float) -> int:
     return max(0, -exponent + (1 if round(error / 10.0**exponent, 9) < 3 else 0))
 
 
-def uncertain(value: float, error: float, unit: str) -> str:
-    """A value with its standard error and unit; three digits if the error is unknown, zero or round-off."""
-    gap = "" if unit == "°" else " "
+def uncertain(value: float, error: float, unit: str, form: str = ".3g") -> str:
+    """A value with its standard error and unit, if it has one; the value in a format if the error is unknown, zero or
+    round-off."""
+    gap = "" if unit in ("°", "") else " "
     if not (np.isfinite(error) and error > ROUND_OFF * abs(value)):
-        return f"{value:.3g}{gap}{unit}"
+        return f"{value:{form}}{gap}{unit}"
+    size = int(np.floor(np.log10(max(abs(value), error))))
+    if size < SMALLEST:
+        power = str(size).translate(SUPERSCRIPT)
+        return f"({uncertain(value / 10.0**size, error / 10.0**size, '')})·10{power}{gap}{unit}"
     digits = decimals(error)
     return f"{value:.{digits}f} ± {error:.{digits}f}{gap}{unit}"
 
 
-def millilitres(volume: float, digits: int = 3) -> str:
-    """A volume (m3) in ml with `digits` digits, and with all digits before the point."""
+def millilitres(volume: float, digits: int = 3, error: float = np.nan) -> str:
+    """A volume (m3) in ml with its standard error (m3); if this is unknown, zero or round-off, with `digits` digits,
+    and with all digits before the point."""
     value = 1e6 * volume
-    return f"{value:.0f} ml" if abs(value) >= 10.0 ** (digits - 1) else f"{value:.{digits}g} ml"
+    return uncertain(value, 1e6 * error, "ml", ".0f" if abs(value) >= 10.0 ** (digits - 1) else f".{digits}g")
 
 
 def quantity(key: str, value: Any) -> tuple[str, str]:
