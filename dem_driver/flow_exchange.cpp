@@ -98,8 +98,7 @@ SolidsAt FlowExchange::average(long step, const std::vector<BallInFluid>& balls)
   record.step = step;
   record.particles.reserve(balls.size());
   for (const BallInFluid& ball : balls)
-    record.particles.push_back(
-        {static_cast<int>(record.particles.size()), ball.position, ball.velocity, ball.diameter / 2});
+    record.particles.push_back({ball.id, ball.position, ball.velocity, ball.diameter / 2});
   RecordSums sums;
   sum_record(*cells_.deposition, record, time, sums);
   std::vector<double> numbers = packed(sums);
@@ -117,7 +116,8 @@ SolidsAt FlowExchange::average(long step, const std::vector<BallInFluid>& balls)
   return solids;
 }
 
-void FlowExchange::check(const BallFields& fields) const {
+void FlowExchange::check(const ForcesUntil& forces) const {
+  const BallFields& fields = forces.fields;
   const std::string source = folder_ + ": the flow's forces";
   const std::array<std::pair<const std::vector<double>*, std::size_t>, 6> all{{{&fields.inside, 1},
                                                                                {&fields.pressure_force, 3},
@@ -129,6 +129,8 @@ void FlowExchange::check(const BallFields& fields) const {
     if (const auto voxel = not_finite(*values, width, fields.inside))
       throw SlurryFileError(source + " are not finite in " + voxel_in_words(order_.grid, *voxel) +
                             ": the flow has diverged");
+  if (!std::isfinite(forces.torque))
+    throw SlurryFileError(folder_ + ": the flow's torque on the balls is not finite: the flow has diverged");
   const DragLimits limits{polydispersity_, order_.smallest_ball,     order_.ball_density,
                           timestep_,       order_.rayleigh_fraction, shapes_.largest_factor()};
   require_slow_drag(fields, order_.grid, limits, source);
@@ -146,7 +148,7 @@ std::vector<double> FlowExchange::ask(const SolidsAt& solids, long step) {
   if (answer.kind != ForcesUntil::kind)
     throw ExchangeError(folder_ + ": the flow sends '" + answer.kind + "', expected '" + ForcesUntil::kind +
                         "': both programs must be of the same version");
-  check(unpack_forces(answer, order_.grid.size()).fields);
+  check(unpack_forces(answer, order_.grid.size()));
   return std::move(answer.numbers);
 }
 
@@ -172,7 +174,7 @@ void FlowExchange::meet(long step, const std::vector<BallInFluid>& balls) {
     field_.emplace(order_.grid, forces.fields);
     balance_ = TorqueBalance(
         forces.torque, balls, [this](const BallInFluid& ball) { return without_balance(ball); },
-        order_.smallest_ball / 4, ranks_);
+        order_.smallest_ball, ranks_);
     next_ = order_.begin + std::lround(forces.time / timestep_);
   }
 }

@@ -53,7 +53,7 @@ class FlowExchange final : public FluidForces {
   averaging::SolidsAt average(long step, const std::vector<BallInFluid>& balls);
   /// The flow's next forces, packed for all ranks; empty when it has ended.
   std::vector<double> ask(const averaging::SolidsAt& solids, long step);
-  void check(const averaging::BallFields& fields) const;
+  void check(const averaging::ForcesUntil& forces) const;
 
   const ExchangeOrder order_;
   const ShapeDrag shapes_;

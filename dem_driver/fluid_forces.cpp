@@ -22,6 +22,10 @@ Vector FluidForce::sum() const {
   return result;
 }
 
+double torque_about_z(const BallInFluid& ball, const Vector& force) {
+  return ball.position[0] * force[1] - ball.position[1] * force[0];
+}
+
 double share_below(double height, double radius) {
   const double cap = std::clamp(radius - height, 0.0, 2 * radius);
   return cap * cap * (3 * radius - cap) / (4 * radius * radius * radius);

@@ -20,6 +20,7 @@ struct BallInFluid {
   Vector velocity = {};   ///< m/s
   double diameter = 0;    ///< of the sphere of equal volume, m
   double sphericity = 1;  ///< also crosswise, as orientations are random
+  long long id = 0;       ///< for messages
   double volume() const;  ///< m^3
 };
 
@@ -31,6 +32,9 @@ struct FluidForce {
   bool known = true;     ///< false: there is no field where the ball is, and all forces are 0
   Vector sum() const;    ///< of all, N
 };
+
+/// Torque of a force (N) on a ball about +z, N m.
+double torque_about_z(const BallInFluid& ball, const Vector& force);
 
 /// The force of a fluid on balls.
 class FluidForces {

@@ -11,15 +11,6 @@
 
 namespace millfoam::dem_driver {
 
-namespace {
-
-/// About +z, of a force on a ball, N m.
-double torque_of(const BallInFluid& ball, const Vector& force) {
-  return ball.position[0] * force[1] - ball.position[1] * force[0];
-}
-
-}  // namespace
-
 void FluidSums::add(const BallInFluid& ball, const FluidForce& force) {
   const Vector whole = force.sum();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -27,8 +18,8 @@ void FluidSums::add(const BallInFluid& ball, const FluidForce& force) {
     values[3 + k] += force.drag[k];
     values[6] += whole[k] * ball.velocity[k];
   }
-  values[7] += torque_of(ball, whole);
-  values[8] += torque_of(ball, force.balance);
+  values[7] += torque_about_z(ball, whole);
+  values[8] += torque_about_z(ball, force.balance);
   if (!force.known) values[9] += 1;
 }
 
@@ -52,11 +43,13 @@ std::vector<FluidRow> read_fluid_ledger(const CaseFolder& folder) {
   std::map<long, FluidRow> rows;
   for (const auto& line : read_segments(folder, "fluid")) {
     const std::vector<double>& v = line.values;
-    if (v.size() != 11)
+    // Ledgers of millFoam 0.2.0 have no balance
+    if (v.size() != 11 && v.size() != 10)
       throw std::runtime_error(line.file.string() + ":" + std::to_string(line.line) + ": " +
                                std::to_string(v.size()) + " numbers, expected 11");
     const long step = std::lround(v[0]);
-    rows[step] = {step, {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], v[9], v[10]};
+    const double balance = v.size() == 11 ? v[9] : 0;
+    rows[step] = {step, {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], balance, v.back()};
   }
   std::vector<FluidRow> ledger;
   std::transform(rows.begin(), rows.end(), std::back_inserter(ledger),

@@ -169,6 +169,11 @@ TEST_F(FluidRun, TheLedgerJoinsTheSegmentsOfAResumedRun) {
   EXPECT_EQ(rows[2].torque, 24);
   EXPECT_EQ(rows[2].balance, 27);
   EXPECT_EQ(rows[2].without_field, 30);
+  std::ofstream(folder.dem() / "fluid.20.txt") << "30 3 6 9 12 15 18 21 24 27\n";
+  const FluidRow earlier = read_fluid_ledger(folder).back();
+  EXPECT_EQ(earlier.torque, 24);
+  EXPECT_EQ(earlier.balance, 0);
+  EXPECT_EQ(earlier.without_field, 27);
 }
 
 TEST_F(FluidRun, SumsHavePowerAndTorqueOfAllForcesAndCountBallsWithoutField) {

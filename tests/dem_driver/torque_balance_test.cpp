@@ -29,19 +29,15 @@ FluidForce rising(const BallInFluid& ball) {
   return force;
 }
 
-double torque_of(const BallInFluid& ball, const Vector& force) {
-  return ball.position[0] * force[1] - ball.position[1] * force[0];
-}
-
 TEST(TorqueBalance, gives_the_torque_and_no_force) {
   RankGroup alone;
   const auto balls = spiral();
-  const TorqueBalance balance(3e-4, balls, rising, diameter / 4, alone);
+  const TorqueBalance balance(3e-4, balls, rising, diameter, alone);
   double torque = 0;
   Vector sum{};
   for (const auto& ball : balls) {
     const Vector added = balance.on(ball, rising(ball));
-    torque += torque_of(ball, rising(ball).sum()) + torque_of(ball, added);
+    torque += torque_about_z(ball, rising(ball).sum()) + torque_about_z(ball, added);
     for (std::size_t k = 0; k < 3; ++k) sum[k] += added[k];
   }
   EXPECT_NEAR(torque, 3e-4, 1e-16);
@@ -52,15 +48,36 @@ TEST(TorqueBalance, turns_two_equal_balls_about_their_middle) {
   RankGroup alone;
   const std::vector<BallInFluid> pair{{{0.1, 0.02, 0}, {}, diameter}, {{0.1, 0.04, 0}, {}, diameter}};
   const auto up = [](const BallInFluid&) { return FluidForce{{0, 1, 0}}; };  // torque 0.2 N m
-  const TorqueBalance balance(0.1, pair, up, diameter / 4, alone);
-  // - 0.1 N m by a pair of forces 0.02 m apart
-  EXPECT_NEAR(balance.on(pair[0], up(pair[0]))[0], -5, 1e-12);
-  EXPECT_NEAR(balance.on(pair[1], up(pair[1]))[0], 5, 1e-12);
+  const TorqueBalance balance(0.194, pair, up, diameter, alone);
+  // - 0.006 N m by a pair of forces 0.02 m apart
+  EXPECT_NEAR(balance.on(pair[0], up(pair[0]))[0], -0.3, 1e-12);
+  EXPECT_NEAR(balance.on(pair[1], up(pair[1]))[0], 0.3, 1e-12);
+}
+
+TEST(TorqueBalance, adds_at_most_half_of_the_fluids_force) {
+  RankGroup alone;
+  const std::vector<BallInFluid> pair{{{0.1, 0.02, 0}, {}, diameter}, {{0.1, 0.04, 0}, {}, diameter}};
+  const auto up = [](const BallInFluid&) { return FluidForce{{0, 1, 0}}; };
+  for (const double torque : {-1.0, 1.0}) {
+    const TorqueBalance balance(torque, pair, up, diameter, alone);
+    EXPECT_NEAR(balance.on(pair[1], up(pair[1]))[0], torque < 0 ? 0.5 : -0.5, 1e-12);
+  }
+}
+
+TEST(TorqueBalance, needs_balls_that_are_apart) {
+  RankGroup alone;
+  const auto up = [](const BallInFluid&) { return FluidForce{{0, 1, 0}}; };
+  for (const double apart : {0.4, 0.6}) {
+    const std::vector<BallInFluid> pair{{{0.1, 0.02, 0}, {}, diameter},
+                                        {{0.1, 0.02 + apart * diameter, diameter}, {}, diameter}};
+    const TorqueBalance balance(0.2 - 1e-4, pair, up, diameter, alone);
+    EXPECT_NEAR(balance.on(pair[1], up(pair[1]))[0], apart < 0.5 ? 0 : 1e-4 / (apart * diameter), 1e-12);
+  }
 }
 
 TEST(TorqueBalance, pushes_no_ball_that_feels_no_fluid) {
   RankGroup alone;
-  const TorqueBalance balance(3e-4, spiral(), rising, diameter / 4, alone);
+  const TorqueBalance balance(3e-4, spiral(), rising, diameter, alone);
   EXPECT_EQ(balance.on({{1, 1, 0}, {}, diameter}, FluidForce{}), Vector{});
 }
 
@@ -68,7 +85,7 @@ TEST(TorqueBalance, does_nothing_for_one_ball_and_for_none) {
   RankGroup alone;
   const std::vector<BallInFluid> one{{{0.1, 0.02, 0}, {}, diameter}};
   for (const auto& balls : {one, std::vector<BallInFluid>{}})
-    EXPECT_EQ(TorqueBalance(1, balls, rising, diameter / 4, alone).on(one[0], rising(one[0])), Vector{});
+    EXPECT_EQ(TorqueBalance(1, balls, rising, diameter, alone).on(one[0], rising(one[0])), Vector{});
 }
 
 /// Two ranks that are threads of the test.
@@ -117,13 +134,13 @@ class TwoRanks {
 TEST(TorqueBalance, of_balls_on_two_ranks_is_that_of_one) {
   RankGroup alone;
   const auto balls = spiral();
-  const TorqueBalance whole(3e-4, balls, rising, diameter / 4, alone);
+  const TorqueBalance whole(3e-4, balls, rising, diameter, alone);
   TwoRanks both;
   const auto on_rank = [&](int number) {
     TwoRanks::Rank rank(both, number);
     const std::vector<BallInFluid> own(balls.begin() + (number == 0 ? 0 : 4),
                                        balls.begin() + (number == 0 ? 4 : 10));
-    return TorqueBalance(3e-4, own, rising, diameter / 4, rank);
+    return TorqueBalance(3e-4, own, rising, diameter, rank);
   };
   auto second = std::async(std::launch::async, on_rank, 1);
   const TorqueBalance first = on_rank(0);

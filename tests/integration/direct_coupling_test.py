@@ -25,13 +25,13 @@ from millfoam.run import RunError
 MILL = """
 geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, height: 0.005, width: 0.005}}
 speed: {fraction_of_critical: 0.6, sense: clockwise}
-charge: {fill: 0.3, diameter: 0.004}
+charge: {classes: [{diameter: 0.005, mass: 0.0128}, {diameter: 0.0035, mass: 0.0128}]}
 materials: {ball: glass, wall: HDPE}
 dem: {settle_time: 0.15, duration: 0.4, record_interval: 0.005, seed: 3}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
 averages: {counts: {across: 8, along: 4}, window: 0.05, start: 0.2}
 resolution: {cell_size: 0.006, layers: 2}
-flow: {duration: 0.3, coupling: direct, averages: {start: 0.1}}
+flow: {duration: 0.3, coupling: direct, polydispersity: yes, averages: {start: 0.1}}
 """
 
 

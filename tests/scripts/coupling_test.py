@@ -20,7 +20,7 @@ from millfoam.files.slurry_file import BallForces, read_ball_forces
 from millfoam.readings.fluid_on_balls import force_density
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
-from millfoam.report.coupling_section import coupling_checks, voxels_are_small
+from millfoam.report.coupling_section import coupling_checks, torques_balance, voxels_are_small
 from report_cases import LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
@@ -271,9 +271,19 @@ class AtTheSameTime(unittest.TestCase):
         self.assertEqual(torque.state, "look")
         self.assertIn("it differs by 0.8 % of the drive's torque", torque.found)
         self.assertIn("balance by +4.7 % of the drive's torque", torque.found)
+        self.assertIn("resolution.cell_size", torque.advice)
         voxels = checks["The voxels are small enough for the balls' torque"]
         self.assertEqual(voxels.state, "holds")
         self.assertIn("0.6 % of the drive's torque", voxels.found)
+
+    def test_the_advice_is_for_the_larger_of_two_differences(self):
+        content = self.judge()
+        self.addCleanup(self.judge)
+        case = passes.MillCase(self.case / "direct")
+        for added, words in ((0.01, "shorter time-steps"), (None, "Compute it again")):
+            (self.case / "coupling.json").write_text(json.dumps(
+                content | {"torque_disagreement": 0.06, "torque_added": added}))
+            self.assertIn(words, torques_balance(case).advice)
 
     def test_voxels_that_add_much_to_the_torque_are_named(self):
         content = self.judge()

@@ -154,7 +154,7 @@ void Foam::slurryFlow::tellBalls()
     {
         clock_.begin("balls");
         const ballForces feel(onBalls_->present());
-        // With the flow's own drag, that of a mixture of sizes
+        // What the flow loses: its drag has the factor of a mixture of sizes
         const scalarField exchange(
             drag_->exchange(bed_, alpha_.oldTime(), U_)->field());
         const vectorField force(

@@ -47,9 +47,13 @@ def torques_balance(case: MillCase) -> Check:
     found = f"by the flow and by the balls it differs by {100 * apart:.1f} % of the drive's torque on the balls"
     if whole is not None:
         found += f"; by the balls and by the slurry's own balance by {100 * whole:+.1f} % of the drive's torque"
+    advice = "Take smaller cells (resolution.cell_size)."
+    if apart > abs(whole or 0):
+        advice = ("Take shorter time-steps (flow.max_courant)." if content.get("torque_added") is not None else
+                  "Compute it again: balls of this version get the torque that voxels take from them.")
     return judged("The torque between balls and slurry balances", max(apart, abs(whole or 0)), TORQUES,
-                  f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size",
-                  "Take smaller cells (resolution.cell_size).", doubtful=5 * TORQUES)
+                  f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size", advice,
+                  doubtful=5 * TORQUES)
 
 
 def voxels_are_small(case: MillCase) -> Check:
