@@ -55,7 +55,8 @@ class Direct(unittest.TestCase):
         rows = read_csv(self.direct / "dumps" / "fluid.csv")
         within = rows["time_s"] > 0.4 + 0.1
         taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
-        self.assertLess(np.linalg.norm(force - taken) / np.linalg.norm(force), 0.01)
+        # Without the drag of the mixture of sizes in the flow's force, 0.01
+        self.assertLess(np.linalg.norm(force - taken) / np.linalg.norm(force), 0.005)
         # Of single steps
         sampled = fluid_on_balls(self.direct / "slurry.h5", 2500.0).force
         self.assertLess(np.linalg.norm(force - sampled) / np.linalg.norm(force), 0.05)
