@@ -22,7 +22,8 @@ LAW_LINES = {None: "-", "Beetstra": "-", "ErgunWenYu": "--"}
 
 def profiles(flows: Sequence[Flow]) -> Figure:
     """Height of the slurry's centre of mass along the axis: a panel for each speed without and with balls, and two for
-    what changes the flow with 20 % slurry at 75 %, which is black there; panels without a flow are left out."""
+    what changes the flow with 20 % slurry at 75 %, which is black there; panels without a flow, or with that one
+    alone, are left out."""
     def of(speed: int, balls: bool) -> list[Flow]:
         return [one for one in flows
                 if is_published(one.run) and one.run.speed == speed and bool(one.run.law) == balls]
@@ -34,7 +35,8 @@ def profiles(flows: Sequence[Flow]) -> Figure:
     groups.append(("75 %, 20 % slurry, with balls: other runs", [
         one for one in flows if one.run.law and (not is_published(one.run) or one.run.name == "Beetstra_75_20")],
         False))
-    groups = [one for one in groups if one[1]]
+    groups = [(title, group, published) for title, group, published in groups
+              if group and (published or any(not is_published(one.run) for one in group))]
     rows = -(-len(groups) // 2)
     figure, axes = plt.subplots(rows, 2, figsize=(12, 4 * rows), layout="constrained", squeeze=False)
     for axis in axes.flat[len(groups):]:
