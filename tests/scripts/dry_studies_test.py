@@ -15,6 +15,7 @@ import numpy as np
 
 from millfoam.files.solids_file import SolidsMap
 from millstudies import dry_runs
+from millstudies.published_mills import run_name
 from study_scripts import load
 
 MILL = SimpleNamespace(fingerprint={"averages": "a" * 16, "charge": "c" * 16})
@@ -67,9 +68,26 @@ class Study(Folder):
             for text in ("0", "-1", "nan", "long"):
                 self.assertIn(f"'{text}'; expected a time above 0 s", self.refused(study, "--duration", text, "all"))
 
+    def test_a_slice_has_a_length_and_a_run_has_ranks(self):
+        for study in (self.study, self.matrix):
+            for text in ("0", "-1", "nan", "inf", "thin"):
+                self.assertIn(f"'{text}'; expected a length above 0 m", self.refused(study, "--slice", text, "all"))
+            for text in ("0", "-2", "1.5", "nan", "two"):
+                self.assertIn(f"'{text}'; expected a whole number, 1 or more",
+                              self.refused(study, "--ranks", text, "all"))
+
+    def test_a_call_without_a_slice_is_of_whole_mills(self):
+        for words, found in (((), (None, 2)), (("--slice", "0.024", "--ranks", "3"), (0.024, 3))):
+            with mock.patch.object(sys, "argv", ["study", *words]):
+                options, _ = self.matrix.parse()
+            self.assertEqual((options.slice, options.ranks), found)
+        name = "12cm_load25_speed50"
+        self.assertEqual((run_name(name, None), run_name(name, 0.024)), (name, f"{name}_slice24mm"))
+
     def test_a_quick_call_takes_no_extent(self):
         for words in (("--slice", "0.024"), ("--duration", "8")):
             self.assertIn("--quick has a duration and a slice of its own", self.refused(self.study, "--quick", *words))
+        self.assertIn("expected a length above 0 m", self.refused(self.study, "--quick", "--slice", "0"))
 
     def result(self, name, folder, begin=1.0, end=4.0):
         maps = [SimpleNamespace(begin=begin + (end - begin) * k / 30, end=begin + (end - begin) * (k + 1) / 30)

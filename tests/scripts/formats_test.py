@@ -3,11 +3,16 @@
 """FORMATS.md lists what the tools write: every key of theirs is on the page, and every key of the page is theirs."""
 import json
 import re
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
+from millfoam.readings.means import Mean
+from millfoam.readings.stirred_flow import StirredFlowNumbers
 from millfoam.run import run
+from study_scripts import load
 
 ROOT = Path(__file__).resolve().parents[2]
 MILLS = [ROOT / "cases" / "mills" / name / "mill.yaml" for name in ("mill_12cm", "mill_30cm", "stirred_A")]
@@ -95,6 +100,20 @@ class Formats(unittest.TestCase):
         run(self.folder, "millAverage", "--dumps", "dump.*.txt", "--dt", 1e-4, "--box", 0, 0, 0, 1, 1, 1, "--shape", 2,
             2, 2, "--window", 0.02, "-o", "solids.h5")
         self.same("solids.json", without(keys(self.written("solids.json")), *HEAD))
+
+    def test_the_numbers_of_a_stirred_flow(self):
+        with mock.patch.object(sys, "path", [str(ROOT / "cases" / "mills" / "stirred_A"), *sys.path]):
+            study = load("mills/stirred_A/stirred_flow.py")
+        one = Mean(1.0, 0.1)
+        row = study.numbers_of(StirredFlowNumbers(0.0, 1.0, 2.0, {"impeller": one}, *[one] * 3, 0.0, *[one] * 4))
+        names = listed("stirred.csv, flow.csv")
+        for key in row:
+            plain = key.replace("impeller", "PART").replace("_unbalanced_error", "_unbalanced")
+            # The page says once what _error is
+            self.assertTrue({plain, plain.replace("_error", "")} & set(names), key)
+        of_slip = ("slip", "froude", "reynolds")
+        self.assertEqual({name for name in names if name.startswith(of_slip)},
+                         {key for key in row if key.startswith(of_slip)})
 
     def test_the_table_of_steps(self):
         source = (ROOT / "openfoam_module" / "record" / "step_table.cpp").read_text()

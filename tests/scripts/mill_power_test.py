@@ -62,6 +62,12 @@ class Powers(unittest.TestCase):
         del old.results["power_from_s"]
         self.assertEqual(mill_power.power_begin(old), 0.9)
 
+    def test_begin_with_the_last_whole_turns_where_the_averages_are_of_no_whole_turns(self):
+        longer = case("flow")
+        longer.begin = LAST - 2.6 * TURN
+        self.assertAlmostEqual(mill_power.charge_power(longer).value, BALLS[1:].mean(), places=9)
+        self.assertAlmostEqual(mill_power.power_begin(longer), TIME0 + LAST - 2 * TURN, places=9)
+
     def test_of_balls_that_felt_an_earlier_flow_are_of_their_own_run(self):
         passed = case("slurry")
         self.assertEqual(mill_power.charge_power(passed).value, 3.0)

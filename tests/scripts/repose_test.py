@@ -65,8 +65,14 @@ class Verdicts(unittest.TestCase):
     def test_scatter_alone_decides_nothing(self):
         # Three piles each: four degrees of freedom, 2.8 errors of 1.1 degrees
         self.assertEqual(self.verdicts(25, 25, 29, error=0.8, freedom=2), [UNDECIDED, UNDECIDED])
-        self.assertEqual(self.verdicts(25, 31, 40, error=0.8, freedom=2), [UNDECIDED, HOLDS])
+        self.assertEqual(self.verdicts(25, 29, 40, error=0.8, freedom=2), [UNDECIDED, HOLDS])
         self.assertEqual(self.verdicts(25, 25, 20, error=0.8, freedom=2), [UNDECIDED, FAILS])
+
+    def test_a_difference_that_is_too_large_with_all_its_reach_fails(self):
+        # A reach of 3.1 degrees does not reach from 6 or 15 to 2
+        for round_ones in (31, 40, 10):
+            self.assertEqual(self.verdicts(25, round_ones, 40, error=0.8, freedom=2), [FAILS, HOLDS])
+        self.assertEqual(self.verdicts(25, 30, 40, error=0.8, freedom=2), [UNDECIDED, HOLDS])
 
     def test_single_piles_have_no_error(self):
         self.assertEqual(self.verdicts(25, 25, 40, error=np.nan), [UNDECIDED, UNDECIDED])

@@ -18,7 +18,8 @@ from millfoam.files.mill_case import MillCase
 from millfoam.files.stirred_case import StirredCase
 from millfoam.readings.partner_spectra import read_partner_spectra
 from millfoam.readings.stirred_flow import read_stirred_flow
-from millfoam.readings.stirred_power import balls_span, mean_speed, power_number, read_stirred, torque_coefficient
+from millfoam.readings.stirred_power import (averaged_span, balls_span, mean_speed, power_number, read_stirred,
+                                             torque_coefficient)
 from millfoam.readings.stirred_slurry import SlurryFlow
 from millfoam.report import figures, stirred_figures, stirred_sections
 from millfoam.report.build import compare_cases, report_case
@@ -142,6 +143,18 @@ class StirredReport(unittest.TestCase):
         figure = stirred_figures.torques(case)
         self.assertIn([1.0, 1.0], [list(line.get_xdata()) for line in figure.axes[0].lines])
         plt.close(figure)
+
+    def test_means_over_no_whole_turns_are_of_the_last_whole_ones_and_named_so(self):
+        case = StirredCase(self.case, 1.08)  # to 2 s: 4.6 turns
+        np.testing.assert_allclose(averaged_span(case), (1.2, 2.0))
+        self.assertIn("Means of DEM time 1.2 to 2 s, 4 turns.", text_of("".join(stirred_sections.overview(case))))
+        figure = stirred_figures.torques(case)
+        marks = [line.get_xdata()[0] for line in figure.axes[0].lines if line.get_linestyle() == "--"]
+        plt.close(figure)
+        np.testing.assert_allclose(marks, [1.2])
+        # Of four turns, in which the power is above and below by turns
+        self.assertAlmostEqual(read_stirred(case).power.value, 25, delta=1e-6)
+        np.testing.assert_allclose(averaged_span(StirredCase(self.case, 1.7)), (1.7, 2.0))
 
     def test_curves_of_the_torques_begin_where_their_mean_is_over_a_turn(self):
         figure = stirred_figures.torques(StirredCase(self.case))

@@ -106,7 +106,8 @@ def unsteady(run):
     """Why a run is not steady over the averaged time, or an empty text: that time is shorter than a turn of the mill,
     or the height of the slurry's centre of mass differs between its halves with 95 % confidence (Mean.sign). Halves and
     error are those of the report, without the drift up to which the report calls a flow steady: differences of runs are
-    smaller than that."""
+    smaller than that. One of 20 steady runs is called unsteady by chance if the batches of `halves` are independent,
+    otherwise more: a third for a correlation time of half a turn and 2.8 turns."""
     if not run.series:
         return f"{run.name}: its height over time is not known"
     times, heights = run.series.times, height_over_time(run)

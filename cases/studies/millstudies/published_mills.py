@@ -66,7 +66,7 @@ def averages(voxels, start, window):
 
 def mill(setting, duration, slice_length, left_out=LEFT_OUT, window=WINDOW, changes=()):
     """The Mill of a run: the case's own, with this charge, speed and duration (s), and averaged on the published voxels
-    over its length; a periodic slice of that length (m) unless it is 0; with further settings `path=value`."""
+    over its length; a periodic slice of that length (m) unless it is 0 or None; with further settings `path=value`."""
     name = setting.mill.replace("cm", " cm")
     own = [f"title={name} mill, {setting.load} % load, {setting.speed} % of critical speed",
            f"speed.fraction_of_critical={setting.speed / 100:g}", f"dem.duration={duration:g}",

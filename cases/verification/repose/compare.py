@@ -21,7 +21,7 @@ SPHERES, ROUND, BLUNT = SHAPES = (Shape("spheres"), Shape("round", (1.0, 1.0, 1.
 LEDGE, QUICK_LEDGE = Ledge(14, 5, 34), Ledge(10, 4, 26)
 PILES, QUICK_PILES = 3, 2  # of each shape
 HOLDS, FAILS, UNDECIDED = "holds", "FAILS", "UNDECIDED"
-SAME = 2.0  # degrees between spheres and round superquadrics; a difference that is less well known decides nothing
+SAME = 2.0  # degrees between spheres and round superquadrics, and its reach, at most
 STEEPER = 2.0  # degrees that blunt bodies pile up steeper at least
 
 
@@ -50,12 +50,15 @@ def draw(piles: dict[str, np.ndarray], angles: dict[str, Mean], ledge: Ledge) ->
 
 
 def verdicts(angles: dict[str, Mean]) -> list[tuple[str, str]]:
-    """(verdict, sentence) of what is compared. A difference is known to its `reach`; that of single piles is not."""
+    """(verdict, sentence) of what is compared. A difference has a `reach`, with 95 % confidence; that of single piles
+    is not known."""
     apart, steeper = (angles[shape.name] - angles[SPHERES.name] for shape in (ROUND, BLUNT))
-    same = UNDECIDED if not apart.reach <= SAME else HOLDS if abs(apart.value) <= SAME else FAILS
+    same = (FAILS if abs(apart.value) - apart.reach > SAME else
+            HOLDS if abs(apart.value) <= SAME and apart.reach <= SAME else UNDECIDED)
     more = steeper.value - STEEPER
     blunt = UNDECIDED if not abs(more) >= steeper.reach else HOLDS if more >= 0 else FAILS
-    return [(same, f"round superquadrics less spheres: {text(apart)}, expected 0 within {SAME:g}, known to {SAME:g}"),
+    return [(same, f"round superquadrics less spheres: {text(apart)}, expected {SAME:g} or less, and a reach of "
+             f"{SAME:g} or less"),
             (blunt, f"blunt bodies less spheres: {text(steeper)}, expected {STEEPER:g} or more")]
 
 

@@ -58,11 +58,15 @@ def charge_power(case: MillCase) -> Mean:
 
 
 def power_begin(case: MillCase) -> float:
-    """DEM time (s) from which charge_power is averaged. Results of millFoam 0.2.0 and before have no power_from_s:
-    their power is that of the steady time."""
-    span, series = flow_span(case), during_flow(case, case.energy)
-    if span and series and len(turn_means(*series, case.begin, case.turn)) > 1:
-        return span[0]
+    """DEM time (s) from which charge_power is averaged: the begin of the flow's last whole averaged turns, or
+    power_from_s of results.json. Results of millFoam 0.2.0 and before have no power_from_s: their power is that of the
+    steady time."""
+    series = during_flow(case, case.energy)
+    if case.flow and series:
+        end = float(series[0][-1])
+        turns = whole_turns(end - case.begin, case.turn)
+        if turns > 1:
+            return case.flow.time0 + end - turns * case.turn
     return case.result("power_from_s" if "power_from_s" in (case.results or {}) else "steady_from_s")
 
 

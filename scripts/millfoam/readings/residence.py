@@ -14,6 +14,7 @@ LEFT = 0.2
 NEGLIGIBLE = 1e-3  # share of the tracer that may leave at the end of the record if no exponential is found for it
 LATE, WIDER = 1.5, 3.0  # times what has not left: what is still to come where the tail is fitted, and for another fit
 FEWEST = 5  # rows of a fit
+CLEAR = 0.5  # of fitted_share, of a decay that is none of noise: exponentials have 0.99, noise of a step up to 0.05
 ROUND_OFF = 1e-6  # of the tracer, a share that has left; of what is still to come, a fall that is no decay
 SPARSE = 0.01  # of the tracer that left, by which rates times rows may differ from it
 
@@ -178,9 +179,10 @@ def of_shares(time: np.ndarray, share: np.ndarray, length: np.ndarray, end: floa
 def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
     """Share that has not left, and the time (s) of its exponential tail: that with which the last of what has left came
     out, while LATE times the rest were still to come; and the same for WIDER, NaN if what left in this time does not
-    decay. If at most NEGLIGIBLE has not left, and what leaves does not decay or by a time longer than the record, this
-    leaves at the end: both times are 0. RuntimeError if more has not left then, if more than LEFT has not left, or if
-    more left than was fed."""
+    decay. If at most NEGLIGIBLE has not left and what leaves does not decay, this leaves at the end: both times are 0.
+    So does at most NEGLIGIBLE whose time is longer than the record and is mostly noise, by fitted_share; then the other
+    time is NaN. RuntimeError if more has not left and does not decay, if more than LEFT has not left, or if more left
+    than was fed."""
     left = float(1 - share.sum())
     if left < -1e-3:
         raise RuntimeError(f"{-100 * left:.3g} % more tracer left than was fed; expected at most 0.1 %")
@@ -189,9 +191,13 @@ def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
                            f"{100 * LEFT:.0f} %: let the flow run longer")
     if left < ROUND_OFF:
         return 0.0, 0.0, 0.0
-    tail, other = (decay(time, 1 - np.cumsum(share), times * left) for times in (LATE, WIDER))
-    if left <= NEGLIGIBLE and (tail is None or tail > time[-1]):
-        return left, 0.0, 0.0
+    to_come = 1 - np.cumsum(share)
+    tail, other = (decay(time, to_come, times * left) for times in (LATE, WIDER))
+    if left <= NEGLIGIBLE:
+        if tail is None:
+            return left, 0.0, 0.0
+        if tail > time[-1] and fitted_share(time, to_come, LATE * left) < CLEAR:
+            return left, 0.0, np.nan
     if tail is None:
         raise RuntimeError(f"{100 * left:.2g} % of the tracer has not left at the end, and what leaves does not decay: "
                            "let the flow run longer")
@@ -201,7 +207,20 @@ def end_of(time: np.ndarray, share: np.ndarray) -> tuple[float, float, float]:
 def decay(time: np.ndarray, to_come: np.ndarray, most: float) -> float | None:
     """Time (s) of the exponential by which what is still to come at times [n] (s) falls while it is less than `most`,
     at least in the last FEWEST rows; None if it does not."""
-    late = (to_come < most) & (to_come > 0)
-    late[-FEWEST:] = to_come[-FEWEST:] > 0
+    late = late_rows(to_come, most)
     slope = np.polyfit(time[late], np.log(to_come[late]), 1)[0] if late.sum() > 2 else 0.0
     return float(-1 / slope) if slope * np.ptp(time[late]) < -ROUND_OFF else None
+
+
+def fitted_share(time: np.ndarray, to_come: np.ndarray, most: float) -> float:
+    """Share of the variance of decay's logarithms that its straight line has: 1 for an exponential, little for noise,
+    as of a step's outflow."""
+    late = late_rows(to_come, most)
+    return float(np.corrcoef(time[late], np.log(to_come[late]))[0, 1]**2)
+
+
+def late_rows(to_come: np.ndarray, most: float) -> np.ndarray:
+    """Which rows [n] decay fits."""
+    late = (to_come < most) & (to_come > 0)
+    late[-FEWEST:] = to_come[-FEWEST:] > 0
+    return late

@@ -20,14 +20,23 @@ def mean_from(times: np.ndarray, values: np.ndarray, begin: float, turn: float) 
     """Mean of values [n] at equally spaced times [n] (s) from `begin` (s) on, over the last whole turns of `turn` s
     with their error; if fewer than two fit, over all of that time, with the error NaN. A value is that of the time
     since the one before: that of a record at `begin` is not read."""
-    interval = np.ptp(times) / max(len(times) - 1, 1)
-    # Records do not meet begin and end: the turns may begin up to a record before
-    first = times[times >= begin - 1e-6 * turn][:1]
-    turns = whole_turns(times[-1] - first[0] + interval, turn) if len(first) else 0
+    turns = turns_of_records(times, begin, turn)
     if turns > 1:
         return turns_mean(batch_means(times, values, times[-1] - turns * turn, turn, turns))
-    late = times > begin + interval / 2 - 1e-6 * turn
+    late = times > begin + interval_of(times) / 2 - 1e-6 * turn
     return Mean(float(values[late].mean() if late.any() else values[-1]), np.nan)
+
+
+def turns_of_records(times: np.ndarray, begin: float, turn: float) -> int:
+    """Whole turns of `turn` s in equally spaced times [n] (s) from `begin` (s) on. Records do not meet begin and end:
+    the turns may begin up to a record before."""
+    first = times[times >= begin - 1e-6 * turn][:1]
+    return whole_turns(times[-1] - first[0] + interval_of(times), turn) if len(first) else 0
+
+
+def interval_of(times: np.ndarray) -> float:
+    """Between equally spaced times [n], s."""
+    return float(np.ptp(times) / max(len(times) - 1, 1))
 
 
 def mean_speed(dumps: Path | str, begin: float, turn: float, end: float = np.inf) -> Mean:
@@ -86,7 +95,8 @@ def scaled(mean: Mean, factor: float) -> Mean:
 def balls_span(case: StirredCase) -> tuple[float, float]:
     """DEM times (s) between which power, torques and speed of the balls are averaged: mill_power.flow_span of balls
     that moved at the same time as the flow; of others from the time on that is asked for, or from that on at which the
-    charge is steady, to the end of the run."""
+    charge is steady, to the end of the run. Where two turns fit, their means are of the last whole ones
+    (averaged_span)."""
     span = flow_span(case)
     if span:
         return span
@@ -94,6 +104,18 @@ def balls_span(case: StirredCase) -> tuple[float, float]:
     asked = case.asked_begin if case.flow is None else None
     return (case.result("steady_from_s") if asked is None else asked,
             case.result("begin_s") + case.result("duration_s"))
+
+
+def averaged_span(case: StirredCase) -> tuple[float, float]:
+    """DEM times (s) that balls_power is a mean of: the last whole turns of balls_span if two fit, otherwise all of
+    it."""
+    begin, end = balls_span(case)
+    if not case.energy:
+        return begin, end
+    times = case.energy["time_s"]
+    times = times[times <= end * (1 + 1e-9)]
+    turns = turns_of_records(times, begin, case.turn) if len(times) else 0
+    return (float(times[-1]) - turns * case.turn, float(times[-1])) if turns > 1 else (begin, end)
 
 
 def mean_in_span(case: StirredCase, table: str, name: str) -> Mean:

@@ -55,7 +55,8 @@ def net_note(case: MillCase) -> str:
 
 
 def torque_words(case: MillCase) -> str:
-    """The error of the drive's power that balls and slurry's torques on each other show; empty if it is not known."""
+    """The error of the drive's power, in words, from the torques of balls and slurry on each other, which should
+    balance; empty if these are not known."""
     content = coupling_of(case) if case.coupled is not None else {}
     found = [f"{100 * abs(content[key]):.1f} % of {whole}" for key, whole in (
         ("torque_disagreement", "the torque on the balls (flow and balls)"),

@@ -46,9 +46,11 @@ def tail_words(found: Residence) -> str:
     if not found.left:
         return "All tracer has left."
     share = f"{100 * found.left:.2g} % of the tracer has not left and is taken to leave"
-    if not found.tail:
-        return f"{share} at the end of the record."
     mean, spread = found.doubt
+    if not found.tail:
+        return f"{share} at the end of the record." + (
+            " How slowly it leaves is lost in noise, so the error of the numbers is not known." if np.isnan(mean)
+            else "")
     words = (f"another fit of the exponential changes the mean by {100 * mean:+.2g} % and the variance over its square "
              f"by {100 * spread:+.2g} %. They may be off by twice as much, and by more where slurry hardly moves."
              if np.isfinite([mean, spread]).all() else

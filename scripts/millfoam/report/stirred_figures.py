@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from ..files.stirred_case import StirredCase
 from ..readings.partner_spectra import PartnerSpectra
-from ..readings.stirred_power import balls_span
+from ..readings.stirred_power import averaged_span
 from .figures import BLUE, COLOURS, GREY, ORANGE, Curve, axes_of, lines_against, quarter_turns, running_mean
 
 
@@ -20,7 +20,7 @@ def torques(case: StirredCase) -> Figure:
         values = case.torques[f"{part}_Nm"]
         axis.plot(times, values, color=colour, lw=0.4, alpha=0.4)
         axis.plot(*running_mean(times, values, case.turn), color=colour, label=part)
-    axis.axvline(balls_span(case)[0], color=GREY, ls="--", lw=1)
+    axis.axvline(averaged_span(case)[0], color=GREY, ls="--", lw=1)
     axis.set(xlabel="time since the mill began to turn, s", ylabel="torque of the balls about +z, N m")
     axis.legend(loc="center right")
     return figure

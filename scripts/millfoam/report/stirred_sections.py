@@ -10,7 +10,7 @@ from ..plots.stirred_plots import meridian_figure, slices_figure
 from ..plots.stirred_slurry_plots import maps_figure, vortex_figure
 from ..readings.partner_spectra import BALLS, PartnerSpectra, Peak, read_partner_spectra
 from ..readings.stirred_flow import read_stirred_flow
-from ..readings.stirred_power import StirredNumbers, balls_span, read_stirred
+from ..readings.stirred_power import StirredNumbers, averaged_span, read_stirred
 from ..readings.stirred_slurry import dumps_of_last_turn, read_slurry_flow
 from . import figures, page, stirred_figures
 from .case_readings import Rows
@@ -100,7 +100,7 @@ def summary(case: StirredCase) -> str:
 
 def overview(case: StirredCase) -> list[str]:
     """Card of the key numbers."""
-    begin, end = balls_span(case)
+    begin, end = averaged_span(case)
     turns = (end - begin) / case.turn
     return [page.table(None, key_numbers(case), title="Key numbers",
                        note=f"Means of DEM time {begin:.3g} to {end:.3g} s, {turns:.3g} turns. {NUMBERS_NOTE}")]
@@ -113,7 +113,7 @@ def time_section(case: StirredCase) -> list[str]:
         cards.append(page.picture(stirred_figures.torques(case), "Thin: records; thick: mean over the turn before. "
                                   "The balls resist the impeller and pass its torque on to the walls at rest. Dashed: "
                                   "begin of the averages.", title="Torque on each part"))
-    return cards + ball_cards(case, "impeller", balls_span(case)[0])
+    return cards + ball_cards(case, "impeller", averaged_span(case)[0])
 
 
 def charge_section(case: StirredCase) -> list[str]:
