@@ -38,7 +38,7 @@ NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
 # Torque that makes up for voxels, over the drive's torque on the balls. In the 12 cm mill with 100 % of slurry, 5 % were
-# added with voxels of 11 mm, and the drive's power was within 1 % of that with 6 mm; more was not measured
+# added with voxels of 11 mm, and the drive's power was within 1 % of that with 6 mm. More was not measured
 ADDED = 0.1
 TORQUES = 0.02  # by which the torque between balls and slurry may differ by both, over the drive's torque
 
@@ -147,8 +147,8 @@ class Exchanged:
     of their difference over that of the drive's torque on the balls. Runs of version 0.2.0 have no torques: None.
 
     added: mean over the records of the size of the torque that the balls got because voxels spread them (TorqueBalance
-    of millDem), over that of the drive's on the balls. None of a run without it: there, the torques by the flow and by the balls may differ by as
-    much.
+    of millDem), over that of the drive's on the balls. None of a run without it: there, the torques by the flow and by
+    the balls may differ by as much.
 
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
