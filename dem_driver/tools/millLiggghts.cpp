@@ -137,7 +137,10 @@ class FluidFix {
     const LAMMPS_NS::Atom& atom = *liggghts_.atom;
     const double* x = position[i];
     const double* v = atom.v[i];
-    return {{x[0], x[1], x[2]}, {v[0], v[1], v[2]}, 2 * ball_radius(atom, i), sphericities_.of(atom, i),
+    return {{x[0], x[1], x[2]},
+            {v[0], v[1], v[2]},
+            2 * ball_radius(atom, i),
+            sphericities_.of(atom, i),
             atom.tag[i]};
   }
 
