@@ -38,7 +38,7 @@ NOISE = 1.5
 AGREE = 0.1  # by which forces that moved the balls and forces of the flow may differ, over the latter
 EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may differ, over the flow's
 # Torque that makes up for voxels, over the drive's torque on the balls. In the 12 cm mill with 100 % of slurry, 5 %
-# were added with voxels of 11 mm, and the drive's power was 2 % above that with 6 mm. More was not measured
+# were added with voxels of 11 mm, and the drive's power was 1.9 ± 0.9 % above that with 6 mm. More was not measured
 ADDED = 0.1
 TORQUES = 0.02  # by which the torque between balls and slurry may differ by both, over the drive's torque
 
