@@ -103,6 +103,16 @@ class APool(unittest.TestCase):
         self.assertAlmostEqual(found.level, 0, delta=2e-3)
         self.assertAlmostEqual(found.deviation, 0.5 * 0.12 / np.sqrt(12), delta=1e-3)
 
+    def test_is_none_of_a_splash(self):
+        # Slurry of 2580 pixels is in the charge; the drops are above the axis
+        for drops, there in ((2, False), (3, True)):
+            slurry = slurry_map(lambda x, y: np.where(y < -0.05, 1.0, 0.0))
+            solidity = np.full((PIXELS, PIXELS), 0.5)
+            row = 3 * PIXELS // 4
+            slurry.share[row, 40:40 + drops] = 1.0
+            solidity[row] = 0.0
+            self.assertEqual(pool(slurry, solidity).area > 0, there)
+
     def test_there_is_none_where_balls_are_everywhere(self):
         found = pool(slurry_map(tilted(0)), np.full((PIXELS, PIXELS), 0.5))
         self.assertEqual(found.area, 0)

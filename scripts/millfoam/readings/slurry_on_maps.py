@@ -16,6 +16,7 @@ from .means import weighted_percentile
 from .shell_angles import LEVEL, bin_centres, shell_angle, toe_and_shoulder
 from .slurry_in_cells import BED as PACKED
 
+SPLASH = 1e-3  # share of the slurry below which a region clear of the charge is no pool
 BED = 0.1  # solidity above which a pixel belongs to the charge
 RANGE = (5, 95)  # per cent of the slurry that bound an axial velocity's range
 
@@ -63,14 +64,15 @@ def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
     It is the largest (by volume) of the regions of pixels, joined by their sides, with a share of slurry above 0.5 and
     a solidity of at most 0.1: slurry clear of the charge, not in its pores. Without balls it is all slurry. Films with
     a mean thickness below half a pixel do not appear. Of pixels that the shell cuts, the part within it counts
-    (SlurryMap.room). ValueError if the shapes differ."""
+    (SlurryMap.room). A region with less than SPLASH of the slurry is no pool. ValueError if the shapes differ."""
     if solidity.shape != slurry.share.shape:
         raise ValueError(f"solidity of {solidity.shape} pixels, slurry of {slurry.share.shape}; expected the same")
     share = np.nan_to_num(slurry.share)
-    regions, count = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
-    if count == 0:
-        return Pool(regions > 0, 0.0, np.nan, np.nan)
+    regions, _ = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
     volumes = np.bincount(regions.ravel(), (share * slurry.room()).ravel())[1:]
+    least = SPLASH * (share * slurry.room() * (1 - np.nan_to_num(solidity))).sum()
+    if volumes.max(initial=0.0) <= least:
+        return Pool(np.zeros_like(share, bool), 0.0, np.nan, np.nan)
     where = regions == 1 + np.argmax(volumes)
     columns = np.flatnonzero(where.any(axis=0))
     tops = slurry.y[len(slurry.y) - 1 - np.argmax(where[::-1, columns], axis=0)]
