@@ -23,6 +23,16 @@ def slurry_map(share, along=lambda x, y: 0 * x):
     return SlurryMap(edges, edges, shares, np.where((shares > 0.02)[..., None], velocity, np.nan), source="functions")
 
 
+def cut_voxels():
+    """VoxelMap of 2 x 2 voxels: the shell leaves a tenth of the lower left one; share 0.6 there and 0.9 elsewhere,
+    velocity along the axis 0.05 there and 0.01 m/s elsewhere."""
+    edges, share = np.array([-0.1, 0.0, 0.1]), np.array([[0.6, 0.9], [0.9, 0.9]])
+    velocity = np.zeros((2, 2, 3))
+    velocity[..., 2] = np.where(share < 0.9, 0.05, 0.01)
+    inside = np.where(share < 0.9, 0.1, 1.0)
+    return VoxelMap(edges, edges, share, velocity, inside, share, share, 0.0, 1.0, source="functions")
+
+
 def tilted(degrees):
     """Share of slurry at rest below a level 0.05 m under the axis, turned clockwise."""
     sine, cosine = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
@@ -36,6 +46,10 @@ class EntrainedAir(unittest.TestCase):
         x, y = np.meshgrid(*slurry.centres())
         solidity = np.where(x > 0, 0.25, 0.5)
         self.assertAlmostEqual(entrained_air(slurry, solidity), (0.1 * 0.5 + 0.4 * 0.75) / (0.5 + 0.75), places=12)
+
+    def test_has_of_voxels_that_the_shell_cuts_only_their_part(self):
+        found = entrained_air(cut_voxels(), np.full((2, 2), 0.5))
+        self.assertAlmostEqual(found, (0.1 * 0.4 + 3 * 0.1) / 3.1, places=12)
 
     def test_slurry_clear_of_the_charge_has_none(self):
         slurry = slurry_map(lambda x, y: 0 * x + 0.9)
@@ -146,6 +160,13 @@ class AlongTheAxis(unittest.TestCase):
         self.assertAlmostEqual(found.toe.lowest, 0.005, delta=2e-3)
         self.assertAlmostEqual(found.toe.highest, 0.095, delta=2e-3)
         self.assertAlmostEqual(found.shoulder.highest, -0.05)
+
+    def test_voxels_that_the_shell_cuts_have_only_their_part(self):
+        # The line straight down from the axis parts left and right
+        found = axial_flow(cut_voxels(), -90, 90)
+        halves = sorted((found.toe.mean, found.shoulder.mean))
+        self.assertAlmostEqual(halves[0], 0.01, places=12)
+        self.assertAlmostEqual(halves[1], (0.06 * 0.05 + 0.9 * 0.01) / 0.96, places=12)
 
     def test_mean_is_that_of_the_slurry(self):
         slurry = slurry_map(lambda x, y: np.where(y < -0.05, 0.9, 0.6), lambda x, y: np.where(y < -0.05, 0.01, 0.0))

@@ -62,6 +62,9 @@ class TimeMean(unittest.TestCase):
         self.assertAlmostEqual(time_mean([0.1, 0.2, 0.5], [9, 1, 4], 0.15), (0.1 + 1.2) / 0.4)
         self.assertTrue(np.isnan(time_mean([0.1, 0.2], [1, 1], 0.5)))
 
+    def test_a_value_at_the_begin_is_that_of_the_time_before(self):
+        self.assertAlmostEqual(time_mean([1.0, 2.0, 3.0], [9, 1, 4], 1.0), 2.5)
+
 
 if __name__ == "__main__":
     unittest.main()

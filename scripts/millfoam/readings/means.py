@@ -168,11 +168,12 @@ def time_steps(times: np.ndarray) -> np.ndarray:
 
 
 def time_mean(times: ArrayLike, values: ArrayLike, begin: float) -> float:
-    """Mean of values [times] from `begin` (s) on, each weighted by the time since the one before; NaN if there are
-    none."""
+    """Mean of values [times] from `begin` (s) on, each that of the time since the one before, whose middle counts, and
+    weighted by it; NaN if there are none."""
     times = np.asarray(times)
-    late = times >= begin
-    return float(np.average(np.asarray(values)[late], weights=time_steps(times)[late])) if late.any() else np.nan
+    steps = time_steps(times)
+    late = times - steps / 2 >= begin
+    return float(np.average(np.asarray(values)[late], weights=steps[late])) if late.any() else np.nan
 
 
 def weighted_percentile(values: np.ndarray, weights: np.ndarray, percents: ArrayLike) -> np.ndarray:

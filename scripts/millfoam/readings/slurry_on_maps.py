@@ -81,16 +81,18 @@ def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
 
 def entrained_air(slurry: SlurryMap, solidity: np.ndarray) -> float:
     """Share of air in the fluid of the wet charge: of the pixels of a SlurryMap with a share of slurry above 0.5 and a
-    `solidity` [ny, nx] above 0.2. NaN if there are none. Pockets of all sizes count; a part of them is the mesh's."""
+    `solidity` [ny, nx] above 0.2. Of pixels that the shell cuts, the part within it counts. NaN if there are none.
+    Pockets of all sizes count; a part of them is the mesh's."""
     share = np.nan_to_num(slurry.share)
     wet = (share > LEVEL) & (np.nan_to_num(solidity) > PACKED)
-    return float(1 - np.average(share[wet], weights=1 - solidity[wet])) if wet.any() else np.nan
+    pores = (1 - solidity[wet]) * slurry.room()[wet]
+    return float(1 - np.average(share[wet], weights=pores)) if wet.any() else np.nan
 
 
 @dataclass
 class HalfFlow:
     """Velocity along the axis (m/s, towards the discharge positive) of half of the slurry: mean, and lowest and highest
-    of 90 % of it, weighted by the share."""
+    of 90 % of it, weighted by the share and by the part of a pixel within the shell."""
     mean: float
     lowest: float
     highest: float
@@ -129,7 +131,7 @@ def axial_flow(slurry: SlurryMap, toe: float, shoulder: float) -> AxialFlow:
         if not chosen.any():
             raise RuntimeError(f"no slurry on the half of the {name}: it reaches from {toe:.0f} to {shoulder:.0f} "
                                "degrees")
-        values, weights = velocity[chosen], slurry.share[chosen]
+        values, weights = velocity[chosen], (slurry.share * slurry.room())[chosen]
         lowest, highest = map(float, weighted_percentile(values, weights, RANGE))
         halves.append(HalfFlow(float(np.average(values, weights=weights)), lowest, highest))
     return AxialFlow(velocity, float((middle + 180) % 360 - 180), *halves)
