@@ -15,6 +15,7 @@ from millfoam.readings.means import Mean, block_mean, turns_mean
 from millfoam.readings.slurry_on_maps import axial_velocity
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millstudies.axial_slices import PRESSURES, Profile, Slices, pressure_drop, read_profile, read_slices
+from millstudies.compared_runs import height
 from millstudies.run_readings import RunReadings
 from millstudies.statements import read
 
@@ -30,12 +31,13 @@ class NotFinished(RuntimeError):
 
 @dataclass(frozen=True)
 class Flow:
-    """A flow: its Run, case and number of averaged turns; height of the slurry's centre, of all and of that in front of
-    the grates (m); discharge (m3/s, by the outlet's own flux) and net rate of volume (m3/s); largest error of the
-    volume over the hold-up, and of the fed volume over what was asked for; its Slices; Profile of the published slices,
-    which reach over the pulp lifters, and of those in front of the grates; drops of the pressure by PRESSURES (Pa);
-    what is read for published statements; map of the slurry; velocity along the axis at the top of the shoulder (m/s);
-    slurry's share of the fluid at the charge's centre of circulation (NaN without balls)."""
+    """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m), of all by slurryBalance
+    and of that in front of the grates by axialProfiles (NaN without it); discharge (m3/s, by the outlet's own flux) and
+    net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed volume over what was asked
+    for; its Slices; Profile of the published slices, which reach over the pulp lifters, and of those in front of the
+    grates; drops of the pressure by PRESSURES (Pa); what is read for published statements; map of the slurry; velocity
+    along the axis at the top of the shoulder (m/s); slurry's share of the fluid at the charge's centre of circulation
+    (NaN without balls)."""
     run: Run
     case: MillCase
     turns: int
@@ -74,13 +76,6 @@ def net_rate(case: MillCase, turns: int) -> Mean:
     return block_mean(np.diff(np.interp(ends, columns["Time"], columns["holdUp"])) / case.turn)
 
 
-def height_of(slices: Slices, length: float = np.inf) -> Mean:
-    """Height of the centre of the slurry in the Slices that end before z = length (m), m."""
-    inside = slice(0, slices.count_before(length))
-    holdup, height = slices.holdup[:, inside], slices.height[:, inside]
-    return block_mean(np.nansum(holdup * height, axis=1) / holdup.sum(axis=1))
-
-
 def top_velocity(slurry: SlurryMap) -> float:
     """Mean velocity along the axis (m/s) of the highest TOP of a SlurryMap's slurry on the rising side, where its share
     is above a half; NaN without slurry."""
@@ -115,12 +110,13 @@ def read_flow(run: Run, folder: Path) -> Flow:
         raise NotFinished("; ".join(["no averages of its balls; expected solids.h5", *case.unusable]))
     slices, blocks = read_slices(case), list(slurry_blocks(case))
     humps = 3 if run.law else 2
-    turns, slurry, columns = len(slices.holdup), mean_slurry(case, blocks), case.balance
-    return Flow(run, case, turns, height_of(slices), height_of(slices, case.length),
+    turns, slurry, columns, readings = len(slices.holdup), mean_slurry(case, blocks), case.balance, read(case)
+    return Flow(run, case, turns, over_turns(case, "y", turns),
+                height(readings) if readings.series else Mean(np.nan, np.nan),
                 over_turns(case, "discharge", turns), net_rate(case, turns),
                 float(np.abs(columns["missing"]).max() / columns["holdUp"].max()),
                 float(abs(columns["fed"][-1] / (case.feed * columns["Time"][-1]) - 1)) if case.feed else np.nan,
                 slices, read_profile(slices, humps), read_profile(slices, humps, case.length),
-                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, read(case), slurry,
+                {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, readings, slurry,
                 block_mean([top_velocity(one) for one in blocks]),
                 share_at_centre(case.charge, case.radius, blocks) if run.law else Mean(np.nan, np.nan))

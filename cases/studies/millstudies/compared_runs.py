@@ -133,7 +133,8 @@ def judged(verdict, figure, *runs):
 
 
 def height_over_time(run):
-    """Height of the slurry's centre of mass above the axis at the times of a run's series (m)."""
+    """Height of the centre of mass of the slurry between the mill's ends (so in front of the grates) above the axis, at
+    the times of a run's series (m)."""
     series = run.series
     known = np.where(series.holdup > 0, series.height, 0.0)
     return (known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1)
@@ -146,5 +147,5 @@ def over_turns(run, values):
 
 
 def height(run):
-    """Mean height of the slurry's centre of mass above the axis (m)."""
+    """Mean of height_over_time (m)."""
     return over_turns(run, height_over_time(run))
