@@ -54,6 +54,8 @@ int ExactMeshDeposition::meet_cell(int cell, const Vector3d& centre, double radi
 void ExactMeshDeposition::add_candidates(const Vector3d& centre, double radius) {
   const Vector3d reach = Vector3d::Constant(radius);
   mesh().search().candidates({centre - reach, centre + reach}, candidates_);
+  // The tree's order depends on the times that it has followed, and with it the sums' round-off
+  std::sort(candidates_.begin(), candidates_.end());
   for (const int cell : candidates_) {
     if (mesh().geometry().boxes()[as_index(cell)].squaredExteriorDistance(centre) < radius * radius) {
       meet_cell(cell, centre, radius);

@@ -26,10 +26,4 @@ ParticleRecord read_dump(const std::filesystem::path& file) {
   return read_record(lines, unknown ? 0 : static_cast<std::size_t>(bytes));
 }
 
-long long read_dump_step(const std::filesystem::path& file) {
-  DumpInput input(file, std::size_t{1} << 12U);
-  TextLines lines = input.lines();
-  return read_step(lines);
-}
-
 }  // namespace millfoam::averaging

@@ -44,7 +44,4 @@ ParticleRecord parse_dump(std::string_view text, const std::string& name);
 /// read to its end, and for a line of more than 1 MiB.
 ParticleRecord read_dump(const std::filesystem::path& file);
 
-/// Reads the time-step out of a dump's header only. Throws DumpError.
-long long read_dump_step(const std::filesystem::path& file);
-
 }  // namespace millfoam::averaging

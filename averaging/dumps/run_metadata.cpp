@@ -3,30 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "averaging/dumps/dump_reader.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
-
-/// FNV-1a of 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
-std::string fnv1a(const std::string& bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : bytes) {
-    hash ^= static_cast<unsigned char>(byte);
-    hash *= 0x100000001b3U;
-  }
-  char digits[17];
-  std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash));
-  return digits;
-}
 
 /// The keys of an object in a file, which messages name.
 class MetadataValues {
@@ -54,12 +41,12 @@ class MetadataValues {
     return value->get<double>();
   }
 
-  std::optional<long long> positive_count(const char* key) const {
+  /// A whole number of at least `least`; nothing when the key is not there.
+  std::optional<long long> count(const char* key, long long least) const {
     const nlohmann::json* value = find(object_, key);
     if (value == nullptr) return std::nullopt;
-    if (!value->is_number_integer() || value->get<long long>() <= 0) {
-      fail(key, *value, "a positive whole number");
-    }
+    if (!value->is_number_integer() || value->get<long long>() < least)
+      fail(key, *value, least > 0 ? "a positive whole number" : "a whole number of 0 or more");
     return value->get<long long>();
   }
 
@@ -105,18 +92,30 @@ std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder
   std::ifstream input(metadata.file, std::ios::binary);
   if (!input) return std::nullopt;
   const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-  metadata.run_id = fnv1a(text);
+  metadata.run_id = fingerprint(text);
   const MetadataValues values(text, metadata.file.string());
   const std::string format = values.text("format");
   if (!format.empty() && format != "millfoam-dumps") values.fail("format", format, "\"millfoam-dumps\"");
   metadata.timestep =
       values.number("timestep_s", "a positive number", [](double dt) { return dt > 0 && std::isfinite(dt); });
-  metadata.interval = values.positive_count("interval");
+  metadata.interval = values.count("interval", 1);
   metadata.angular_velocity = values.number("angular_velocity_rad_s", "a finite number",
                                             [](double omega) { return std::isfinite(omega); });
+  metadata.begin =
+      values.number("begin_s", "a finite time in s", [](double time) { return std::isfinite(time); });
+  metadata.duration = values.number("duration_s", "a time in s above 0",
+                                    [](double time) { return time > 0 && std::isfinite(time); });
+  metadata.dumps = values.count("dumps", 0);
+  metadata.mill_walls = values.text("walls", "mill");
   metadata.mill_charge = values.text("charge", "mill");
   metadata.fines_share = fines_share(values);
   return metadata;
+}
+
+void require_dumps(const RunMetadata& metadata) {
+  if (metadata.dumps.value_or(1) > 0) return;
+  throw DumpError(metadata.file.string() +
+                  ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
 }
 
 double agreed_timestep(std::optional<double> given, const std::optional<RunMetadata>& metadata) {

@@ -15,6 +15,10 @@ struct RunMetadata {
   std::optional<double> timestep;          ///< key `timestep_s`, s
   std::optional<long long> interval;       ///< key `interval`, time-steps between dumps
   std::optional<double> angular_velocity;  ///< key `angular_velocity_rad_s`, of the mill about z, rad/s
+  std::optional<double> begin;             ///< key `begin_s`, DEM time, s
+  std::optional<double> duration;          ///< key `duration_s`, s
+  std::optional<long long> dumps;          ///< key `dumps`, their number; 0: none were written
+  std::string mill_walls;                  ///< key `walls` of `mill`: fingerprint; empty: not known
   std::string mill_charge;                 ///< key `charge` of `mill`: fingerprint; empty: not known
   /// Mass of the fines, which are not simulated, over that of the whole charge: fines_mass_kg /
   /// (fines_mass_kg + charge_mass_kg), where both keys are there.
@@ -23,10 +27,13 @@ struct RunMetadata {
 
 /// Reads `run.json` in a folder; nothing when there is none.
 /// Throws DumpError, naming the file and its line, for text that is not JSON; naming the file and the key,
-/// for a `format` other than millfoam-dumps, a `timestep_s` that is not a positive number, an `interval` that
-/// is not a positive whole number, and other values of another kind than above. A key that is null counts as
-/// not there.
+/// for a `format` other than millfoam-dumps, a `timestep_s` or `duration_s` that is not a positive number, an
+/// `interval` that is not a positive whole number, and other values of another kind than above. A key that is
+/// null counts as not there.
 std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder);
+
+/// Throws DumpError, naming the file, for a run that wrote no dumps.
+void require_dumps(const RunMetadata& metadata);
 
 /// The DEM time-step, s: `given`, or else the metadata's.
 /// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when

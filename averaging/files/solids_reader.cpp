@@ -24,7 +24,7 @@ Grid read_grid(hid_t root) {
   return hdf5::read_grid(hdf5::open_group(root, "grid").get());
 }
 
-/// Throws unless each window ends after it begins and no window begins before the last one ends.
+/// Throws unless each window ends after it begins and windows begin one after the other.
 void check_order(const std::vector<TimeWindow>& windows) {
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const bool finite = std::isfinite(windows[w].begin) && std::isfinite(windows[w].end);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/files/xdmf.hpp"
 
+#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
@@ -24,6 +25,8 @@ std::string joined(const Values& values) {
   for (const auto& value : values) text << (text.tellp() > 0 ? " " : "") << value;
   return text.str();
 }
+
+const std::string begin_of_file = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n";
 
 /// An array in the text itself or, named FILE:/NAME, in an HDF5 file.
 std::string data_item(const std::string& sizes, bool whole_numbers, bool in_file,
@@ -130,6 +133,18 @@ std::filesystem::path xdmf_path(const std::filesystem::path& solids_file) {
   return path;
 }
 
+void require_xdmf_or_nothing(const std::filesystem::path& path) {
+  std::ifstream input(path, std::ios::binary);
+  if (!input) return;
+  std::string found(begin_of_file.size(), '\0');
+  input.read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (found != begin_of_file)
+    throw SolidsFileError(
+        path.string() +
+        ": this is no file for ParaView as millAverage writes it; it would be overwritten: give "
+        "another name or remove it");
+}
+
 std::filesystem::path write_xdmf(const std::filesystem::path& fields_file, const std::string& title,
                                  const Grid& grid, const std::vector<double>& times,
                                  const std::vector<XdmfField>& fields) {
@@ -139,7 +154,7 @@ std::filesystem::path write_xdmf(const std::filesystem::path& fields_file, const
   try {
     replace_file(path, [&](std::ostream& out) {
       out.precision(17);
-      out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
+      out << begin_of_file << "  <Domain>\n"
           << "    <Grid Name=\"" << title << "\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
       for (std::size_t w = 0; w < times.size(); ++w) {
         out << "      <Grid Name=\"window " << w << "\" GridType=\"Uniform\">\n"

@@ -13,6 +13,9 @@ namespace millfoam::averaging {
 /// Throws SolidsFileError when the solids file itself has this name.
 std::filesystem::path xdmf_path(const std::filesystem::path& solids_file);
 
+/// Throws SolidsFileError when there is something at `path` that is no file for ParaView as written here.
+void require_xdmf_or_nothing(const std::filesystem::path& path);
+
 /// A data set [window][cells], or of vectors [window][cells][3], as ParaView is to show it.
 struct XdmfField {
   std::string name;      ///< that ParaView shows

@@ -68,7 +68,7 @@ class CellContainment {
   /// @param half    half its edges, m
   Answer test_box(int cell, const LocalPoint& middle, const Eigen::Vector3f& half) const;
 
-  /// The lowest of the cells, given in rising order, that holds the point, or -1, by solid angles.
+  /// The lowest of the cells, given in rising order, that holds the point, or -1.
   int first_holding(const MeshGeometry& geometry, const Eigen::Vector3d& point,
                     const std::vector<int>& cells) const;
 

@@ -16,9 +16,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Number of the interval [i, i+1] of a table that holds the time.
+/// Relative round-off of times, which are a step times the time-step.
+constexpr double time_slack = 1e-12;
+
+/// Number of the interval [i, i+1] of a table that holds the time; the first and the last also hold times
+/// that are beyond by round-off.
 std::size_t interval(const TimeTable& table, double time) {
-  if (!(time >= table.times.front() && time <= table.times.back())) {
+  const double slack = time_slack * std::max(std::abs(table.times.front()), std::abs(table.times.back()));
+  if (!(time >= table.times.front() - slack && time <= table.times.back() + slack)) {
     std::ostringstream message;
     message << "time " << time << " s is outside the table of the motion, which goes from "
             << table.times.front() << " to " << table.times.back() << " s";
@@ -26,7 +31,7 @@ std::size_t interval(const TimeTable& table, double time) {
   }
   const auto above = std::upper_bound(table.times.begin(), table.times.end(), time);
   const auto next = static_cast<std::size_t>(above - table.times.begin());
-  return std::min(next, table.times.size() - 1) - 1;
+  return std::clamp<std::size_t>(next, 1, table.times.size() - 1) - 1;
 }
 
 class Rotation : public Motion {

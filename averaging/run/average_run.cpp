@@ -72,6 +72,9 @@ class Collector {
     progress_.records(done_, total_);
   }
 
+  /// Whether the same run would go on from what is kept for it.
+  bool resumes() const { return std::filesystem::exists(resume_); }
+
   /// Removes what is kept for a run that resumes.
   void forget() const {
     std::filesystem::remove(resume_);
@@ -92,8 +95,8 @@ class Collector {
                                        [&](std::size_t row) { return recorder.read(row); }));
     }
     if (plan_.box) {
-      const std::string sentence =
-          missing_period(request_, setup_.grid, *plan_.box, largest_outside(summaries.front()));
+      const std::string sentence = missing_period(request_, setup_.grid, *plan_.box,
+                                                  largest_share(summaries.front(), &Ledger::outside));
       if (!sentence.empty()) progress_.note(sentence);
     }
     // First the note, so that a kill in between leaves none without its journals.
@@ -247,6 +250,9 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
   } catch (const NoRoomError&) {
     // The same run would stop there again
     if (collector) collector->forget();
+    throw;
+  } catch (...) {
+    if (collector && !collector->resumes()) collector->forget();
     throw;
   }
   return collector ? collector->finish() : std::vector<SolidsSummary>{};

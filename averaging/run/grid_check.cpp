@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "averaging/statistics/record_sums.hpp"
+#include "averaging/statistics/window_average.hpp"
 
 namespace millfoam::averaging {
 
@@ -79,8 +79,8 @@ std::string misfit_in_words(const CellSetup& setup, const Ledger& ledger, const 
   text.precision(3);
   text << name << ": ";
   if (ledger.outside > largest_outside * ledger.volume_in) {
-    text << 100 * ledger.outside / ledger.volume_in
-         << " % of the balls' volume lies outside the grid: " << extents(setup.grid, balls)
+    text << 100 * ledger.outside / ledger.volume_in << " % of the balls' volume lies outside the grid"
+         << (setup.limits.whole_volumes.empty() ? ": " : " or the walls: ") << extents(setup.grid, balls)
          << ". To average only a part of the balls, give --tolerance SHARE";
     return text.str();
   }
@@ -91,18 +91,25 @@ std::string misfit_in_words(const CellSetup& setup, const Ledger& ledger, const 
   return text.str();
 }
 
+/// Ledger of a record where balls beyond the walls are outside, too.
+Ledger within_walls(const CellSetup& setup, const RecordSums& sums) {
+  WindowMoments moments(cell_count(setup.grid));
+  moments.add(sums);
+  return average(moments, setup.limits).ledger;
+}
+
 }  // namespace
 
 std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
                    double largest_outside) {
   RecordSums sums;
   sum_record(*setup.deposition->clone(), record, time, sums);
-  return misfit_in_words(setup, sums.ledger, extents(record), name, largest_outside);
+  return misfit_in_words(setup, within_walls(setup, sums), extents(record), name, largest_outside);
 }
 
-std::string misfit(const CellSetup& setup, const Ledger& ledger, const std::string& name,
+std::string misfit(const CellSetup& setup, const RecordSums& sums, const std::string& name,
                    double largest_outside) {
-  return misfit_in_words(setup, ledger, "", name, largest_outside);
+  return misfit_in_words(setup, within_walls(setup, sums), "", name, largest_outside);
 }
 
 }  // namespace millfoam::averaging

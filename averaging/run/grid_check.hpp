@@ -4,6 +4,7 @@
 #include <string>
 
 #include "averaging/run/cell_setup.hpp"
+#include "averaging/statistics/record_sums.hpp"
 
 namespace millfoam::averaging {
 
@@ -11,8 +12,8 @@ namespace millfoam::averaging {
 inline constexpr double smallest_fill = 1e-6;
 
 /// Why a grid cannot be meant for the balls of a record: more than `largest_outside` of their volume lies
-/// outside, or they fill less than `smallest_fill` of it. Empty when neither, and for a record without balls.
-/// The sentence has the extents of both.
+/// outside of it or of its walls, or they fill less than `smallest_fill` of it. Empty when neither, and for a
+/// record without balls. The sentence has the extents of both.
 /// @param setup  the grid or mesh
 /// @param record  the balls
 /// @param time  of the record, s
@@ -23,10 +24,10 @@ std::string misfit(const CellSetup& setup, const ParticleRecord& record, double 
 
 /// The same where only the sums over the balls are known: the sentence has the grid's extents alone.
 /// @param setup  of the grid
-/// @param ledger  of the record, m^3
+/// @param sums  of the record
 /// @param name  of the record, for the sentence
 /// @param largest_outside  share of the balls' volume, 0 to 1
-std::string misfit(const CellSetup& setup, const Ledger& ledger, const std::string& name,
+std::string misfit(const CellSetup& setup, const RecordSums& sums, const std::string& name,
                    double largest_outside);
 
 }  // namespace millfoam::averaging

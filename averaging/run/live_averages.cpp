@@ -112,7 +112,7 @@ LiveAverages::~LiveAverages() = default;
 void LiveAverages::require_balls(double found, long long step) const {
   if (found == static_cast<double>(run_.balls)) return;
   std::ostringstream message;
-  message << found << " balls at step " << step << ", expected " << run_.balls;
+  message << static_cast<long long>(found) << " balls at step " << step << ", expected " << run_.balls;
   throw std::runtime_error(message.str());
 }
 
@@ -138,8 +138,7 @@ void LiveAverages::add(const ParticleRecord& own) {
   sum_over_ranks(own, time);
   if (communicator_.rank() != 0) return;
   if (own.step == run_.begin) {
-    const std::string found =
-        misfit(setup_, sums_.ledger, "the averages of the run", request_.largest_outside);
+    const std::string found = misfit(setup_, sums_, "the averages of the run", request_.largest_outside);
     if (!found.empty()) throw std::invalid_argument(found);
   }
   if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);

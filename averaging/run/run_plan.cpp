@@ -42,6 +42,7 @@ RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress)
   RunPlan plan;
   plan.dumps = find_dumps(request.dumps);
   plan.metadata = read_run_metadata(plan.dumps.front().path.parent_path());
+  if (plan.metadata) require_dumps(*plan.metadata);
   plan.settings.timestep = agreed_timestep(request.timestep, plan.metadata);
   plan.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, plan.metadata);
   const std::optional<long long> interval = plan.metadata ? plan.metadata->interval : std::nullopt;

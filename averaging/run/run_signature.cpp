@@ -3,6 +3,8 @@
 
 #include <sstream>
 
+#include "averaging/run/program.hpp"
+
 namespace millfoam::averaging {
 
 namespace {
@@ -56,7 +58,7 @@ std::string signature(const AverageRequest& request, const RunSettings& settings
                       const std::vector<WindowPlan>& plans, const std::vector<DumpFile>& dumps) {
   std::ostringstream out;
   out.precision(17);
-  out << "millfoam " << solids_version << '\n'
+  out << program() << ' ' << solids_version << '\n'
       << settings.timestep << ' ' << settings.angular_velocity << ' ' << static_cast<int>(request.method)
       << ' ' << request.template_points << ' ' << request.solidity_cap << ' ' << request.start << ' '
       << request.end << '\n';

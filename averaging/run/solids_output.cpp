@@ -29,6 +29,7 @@ std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
   for (const WindowsRequest& windows : request.windows) {
     require_solids_or_nothing(windows.output);
     require_summary_or_nothing(summary_path(windows.output));
+    require_xdmf_or_nothing(xdmf_path(windows.output));
     locks.emplace_back(windows.output);
   }
   return locks;

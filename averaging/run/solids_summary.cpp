@@ -84,12 +84,22 @@ void remark_on_solidity(double largest, std::vector<Remark>& found) {
 }
 
 void remark_on_outside(const SolidsSummary& summary, std::vector<Remark>& found) {
-  const double outside = largest_outside(summary);
+  const double outside = largest_share(summary, &Ledger::outside);
   if (outside < noted_outside) return;
   found.push_back(
       {true, formatted("%.3g %% of the balls' volume lies outside the grid: these balls are in none "
                        "of these fields",
                        100 * outside)});
+}
+
+/// Walls between balls and grid cut cells that hold balls: what is in no cell then moves to others.
+void remark_on_clipped(const SolidsSummary& summary, std::vector<Remark>& found) {
+  const double clipped = largest_share(summary, &Ledger::clipped);
+  if (summary.header.solidity_cap || clipped < noted_clipped) return;
+  found.push_back(
+      {true, formatted("%.3g %% of the balls' volume was moved out of cells outside of the walls: "
+                       "expected walls that enclose the balls on the whole grid",
+                       100 * clipped)});
 }
 
 void remark_on_walls(const SolidsSummary& summary, std::size_t cut_cells, std::vector<Remark>& found) {
@@ -172,10 +182,10 @@ SolidsSummary read_ledgers(const std::filesystem::path& file) {
   return summary;
 }
 
-double largest_outside(const SolidsSummary& summary) {
+double largest_share(const SolidsSummary& summary, double Ledger::*part) {
   double largest = 0;
   for (const WindowSummary& window : summary.windows)
-    largest = std::max(largest, share(window.ledger.outside, window.ledger.volume_in));
+    largest = std::max(largest, share(window.ledger.*part, window.ledger.volume_in));
   return largest;
 }
 
@@ -205,6 +215,7 @@ std::vector<Remark> remarks(const SolidsSummary& summary) {
   std::vector<Remark> found = size_advice(all, summary.header.smoothing);
   remark_on_solidity(all.largest_solidity, found);
   remark_on_outside(summary, found);
+  remark_on_clipped(summary, found);
   remark_on_walls(summary, all.cut_cells, found);
   if (summary.header.fines_share.value_or(0) > 0) {
     found.push_back(

@@ -15,6 +15,8 @@ inline constexpr double fewest_balls = 8;
 inline constexpr double most_balls = 64;
 /// Share of the balls' volume beyond the grid from which on a summary warns.
 inline constexpr double noted_outside = 0.01;
+/// Share of the balls' volume in cells outside of the walls from which a warning is given.
+inline constexpr double noted_clipped = 0.01;
 /// Walls that cut no cell are in another unit of length if they are so many times as wide as the grid.
 inline constexpr double widest_walls = 1.2;
 
@@ -67,8 +69,8 @@ SolidsSummary summarise(const std::filesystem::path& file);
 /// SolidsFileError.
 SolidsSummary read_ledgers(const std::filesystem::path& file);
 
-/// The largest share of a window's balls that is beyond the grid, 0 to 1.
-double largest_outside(const SolidsSummary& summary);
+/// The largest share of a window's volume_in that is a part of its ledger, 0 to 1.
+double largest_share(const SolidsSummary& summary, double Ledger::*part);
 
 /// Of all windows together; its time and ledger are left empty.
 WindowSummary overall(const SolidsSummary& summary);

@@ -56,16 +56,6 @@ Json columns(const SolidsSummary& summary) {
           {"largest_solidity", column(summary, [](const WindowSummary& w) { return w.largest_solidity; })}};
 }
 
-/// The largest share of a window's volume_in.
-double largest_share(const SolidsSummary& summary, double Ledger::*part) {
-  double largest = 0;
-  for (const WindowSummary& window : summary.windows) {
-    const Ledger& ledger = window.ledger;
-    if (ledger.volume_in > 0) largest = std::max(largest, ledger.*part / ledger.volume_in);
-  }
-  return largest;
-}
-
 /// Mean over the records.
 double mean_volume_in(const SolidsSummary& summary) {
   double volume = 0, records = 0;
@@ -144,7 +134,7 @@ std::string as_json(const SolidsSummary& summary, const std::string& writer) {
             {"file", summary.file.filename().string()}};
   put_settings(json, summary);
   json["volume_in_m3"] = mean_volume_in(summary);
-  json["largest_outside"] = largest_outside(summary);
+  json["largest_outside"] = largest_share(summary, &Ledger::outside);
   json["largest_clipped"] = largest_share(summary, &Ledger::clipped);
   json["balls_of_laws"] = {fewest_balls, most_balls};
   json["balls_per_cell"] = all.balls_per_cell;

@@ -4,84 +4,45 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <istream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "averaging/dumps/run_metadata.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/resolved_mill.hpp"
+#include "meshing/walls/wall_files.hpp"
 
 namespace millfoam::averaging {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A JSON object out of a file, of that program.
-nlohmann::json parse_object(std::istream& in, const fs::path& file, const std::string& program) {
-  nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object())
-    throw std::invalid_argument(file.string() + ": is not a JSON object; run " + program + " again");
-  return json;
+/// The notes of the dry run in a folder of dumps.
+RunMetadata metadata_of(const fs::path& dumps) {
+  if (auto metadata = read_run_metadata(dumps)) return *metadata;
+  throw std::invalid_argument((dumps / "run.json").string() +
+                              ": cannot be read; expected the file that millDem writes at the end of a run");
 }
 
-/// A JSON object of the dry run's folder.
-nlohmann::json read_object(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw std::invalid_argument(
-        file.string() + ": cannot be read; expected the file that millDem writes at the end of a run");
-  return parse_object(in, file, "millDem");
-}
-
-/// Throws where the walls that a file names have another fingerprint than the mill's.
-void require_walls_of(const nlohmann::json& json, const fs::path& file, const std::string& what,
-                      const std::string& program, const std::string& fingerprint) {
-  const std::string found = json.value(nlohmann::json::json_pointer("/mill/walls"), std::string());
+/// Throws where the dumps' part of the mill has another fingerprint than this one's.
+void require_dumps_of(const RunMetadata& run, const std::string& part, const std::string& found,
+                      const std::string& fingerprint) {
   if (found.empty() || found == fingerprint) return;
-  throw std::invalid_argument(file.string() + ": " + what + " of another mill (walls " + found +
-                              ", this mill's are " + fingerprint + "): run " + program + " again");
-}
-
-/// The same for the folder of the walls. Those from CAD belong to any mill, and other files to none.
-void require_folder_of(const fs::path& walls, const std::string& fingerprint) {
-  const fs::path file = walls / "walls.json";
-  std::ifstream in(file);
-  if (!in) return;
-  const nlohmann::json json = parse_object(in, file, "millMesh");
-  if (json.value("source", nlohmann::json()) != "cad")
-    require_walls_of(json, file, "the walls are", "millMesh", fingerprint);
-}
-
-void require_charge_of(const nlohmann::json& run, const fs::path& file, const std::string& fingerprint) {
-  const std::string found = run.value(nlohmann::json::json_pointer("/mill/charge"), std::string());
-  if (found.empty() || found == fingerprint) return;
-  throw std::invalid_argument(file.string() + ": the dumps are of another mill (charge " + found +
-                              ", this mill's is " + fingerprint + "): run millDem again");
-}
-
-double time_step(const nlohmann::json& run, const fs::path& file, const Options& options) {
-  const double found = options.timestep.value_or(run.value("timestep_s", 0.0));
-  if (!(found > 0))
-    throw std::invalid_argument(file.string() + ": no number timestep_s above 0; run millDem again");
-  return found;
+  throw std::invalid_argument(run.file.string() + ": the dumps are of another mill (" + part + " " + found +
+                              ", this mill's are " + fingerprint + "): run millDem again");
 }
 
 double steady_start(const fs::path& file) {
-  const nlohmann::json results = read_object(file);
-  if (!results.contains("steady_from_s") || !results["steady_from_s"].is_number())
+  std::ifstream in(file);
+  const nlohmann::json results = nlohmann::json::parse(in, nullptr, false);
+  if (!results.is_object() || !results.contains("steady_from_s") || !results["steady_from_s"].is_number())
     throw std::invalid_argument(file.string() +
                                 ": no number steady_from_s, which 'averages.start: steady' needs; "
                                 "give averages.start a time, or run millDem again");
   return results["steady_from_s"].get<double>();
-}
-
-void require_dumps(const nlohmann::json& run, const fs::path& file) {
-  if (run.value("dumps", 1) > 0) return;
-  throw std::invalid_argument(
-      file.string() + ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
 }
 
 /// The values of an option in words.
@@ -157,15 +118,15 @@ namespace {
 
 /// Start, window and end: whole windows up to the end of the dry run, or one with all records. A run that
 /// continues another begins at its end, and averages.start counts from there.
-void take_windows(const meshing::Mill& mill, const fs::path& dumps, const nlohmann::json& run,
+void take_windows(const meshing::Mill& mill, const fs::path& dumps, const RunMetadata& run,
                   Options& options) {
   const double window = mill.averages.window;
-  const double begin = run.value("begin_s", 0.0), duration = run.value("duration_s", mill.dem.duration);
+  const double begin = run.begin.value_or(0), duration = run.duration.value_or(mill.dem.duration);
   const double start =
       mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
   if (!mill.averages.whole_run)
-    options.end = last_whole_window(start, begin + duration, duration, window,
-                                    time_step(run, dumps / "run.json", options));
+    options.end =
+        last_whole_window(start, begin + duration, duration, window, agreed_timestep(options.timestep, run));
   options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
   options.start = start;
 }
@@ -178,17 +139,17 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   const fs::path dumps = fs::path(options.case_folder) / "dumps";
   const bool others = request_others(options), own_windows = has_windows(options);
   if (options.dumps.empty()) {
-    const nlohmann::json run = read_object(dumps / "run.json");
-    require_charge_of(run, dumps / "run.json", of.charge);
-    require_walls_of(run, dumps / "run.json", "the dumps are", "millDem", of.walls);
-    require_dumps(run, dumps / "run.json");
+    const RunMetadata run = metadata_of(dumps);
+    require_dumps_of(run, "charge", run.mill_charge, of.charge);
+    require_dumps_of(run, "walls", run.mill_walls, of.walls);
+    require_dumps(run);
     options.dumps = (dumps / "dump.*.txt").string();
     if (!own_windows) take_windows(mill, dumps, run, options);
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }
   if (!has_grid(options)) {
-    if (options.walls.empty()) require_folder_of(fs::path(options.case_folder) / "walls", of.walls);
+    if (options.walls.empty()) meshing::require_walls_of(fs::path(options.case_folder) / "walls", mill);
     take_grid(mill, options);
   }
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();

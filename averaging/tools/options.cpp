@@ -35,6 +35,9 @@ std::vector<WindowsRequest> windows(const Options& options) {
   for (const std::string& text : options.windows) {
     std::filesystem::path output = options.output;
     if (options.windows.size() > 1) {
+      if (output.extension() != ".h5")
+        throw std::invalid_argument("-o: '" + output.string() +
+                                    "': with several windows expected a name that ends in .h5");
       output.replace_filename(output.stem().string() + '_' + text + output.extension().string());
     }
     if (std::filesystem::is_directory(output)) {

@@ -21,7 +21,8 @@ inline constexpr double least_solidity = 1e-6;
 
 /// What a flow needs of one window: fields over a grid of n cells, in the grid's C order. Empty cells hold 0.
 struct SolidsWindow {
-  std::vector<double> solidity;    ///< [n] particle volume over cell volume, in [0, 1)
+  std::vector<double>
+      solidity;  ///< [n] particle volume over cell volume; above 1 only in cells smaller than balls
   std::vector<double> velocity;    ///< [n][3] volume-weighted velocity of the particles in the lab frame, m/s
   std::vector<double> diameter;    ///< [n] Sauter mean d32 = sum V / sum(V/d), m
   std::vector<double> diameter43;  ///< [n] d43 = sum(V d) / sum V, m
@@ -39,7 +40,7 @@ struct WindowAverage {
   std::vector<double> solidity_deviation;    ///< [n] standard deviation over the window's records
   std::vector<double> velocity_deviation;    ///< [n][3] the same, weighted by each record's solidity, m/s
   std::vector<double> granular_temperature;  ///< [n] third of the mean square velocity fluctuation, m^2/s^2
-  /// Mean over the records of balls deposited / cells of `least_solidity` or more.
+  /// Balls deposited / cells of `least_solidity` or more, both summed over the records.
   double balls_per_cell = 0;
 };
 

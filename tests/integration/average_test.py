@@ -191,6 +191,10 @@ class MillAverage(unittest.TestCase):
         for sentence in summary["advice"]:
             self.assertIn(f"advice: {sentence}\n", reported.stdout)
 
+    def test_several_windows_need_the_extension_that_their_summaries_replace(self):
+        self.refused(self.command(output="solids", window=("0.1", "0.05")), "-o: 'solids': with several windows",
+                     "ends in .h5")
+
     def test_only_solids_files_are_overwritten(self):
         mill = "geometry: {diameter: 2}\n"
         (self.folder / "mill.yaml").write_text(mill)

@@ -51,7 +51,7 @@ TEST(DumpInput, FilesThatAreNoDumpsAreRefused) {
                                   std::string(3000000, 'x'), "ITEM: " + std::string(3000000, 'x') + "\n"}) {
     const auto file = folder.write("dump.txt", text);
     EXPECT_THROW(read_dump(file), DumpError);
-    EXPECT_THROW(read_dump_step(file), DumpError);
+    EXPECT_THROW(read_dump_header(file), DumpError);
   }
   EXPECT_THROW(read_dump(folder / ""), DumpError);
 }

@@ -68,8 +68,8 @@ TEST(DumpReader, GzipGivesTheSameAsPlainText) {
   write_gzip(folder / "dump.txt.gz", text);
   expect_two_balls(read_dump(folder / "dump.txt.gz"));
   expect_two_balls(read_dump(folder.write("dump.txt", text)));
-  EXPECT_EQ(read_dump_step(folder / "dump.txt.gz"), 1200);
-  EXPECT_EQ(read_dump_step(folder / "dump.txt"), 1200);
+  EXPECT_EQ(read_dump_header(folder / "dump.txt.gz").step, 1200);
+  EXPECT_EQ(read_dump_header(folder / "dump.txt").step, 1200);
 }
 
 TEST(DumpReader, ADumpCutAtAnyByteIsRefused) {
@@ -149,7 +149,7 @@ TEST(DumpReader, MoreThanOneRecordOrTooManyRowsAreRefused) {
 TEST(DumpReader, AFileThatIsNoDumpIsRefused) {
   const TemporaryFolder folder;
   const auto notes = folder.write("notes.txt", "timestep 1e-5\n");
-  expect_named(message_of<DumpError>([&] { read_dump_step(notes); }),
+  expect_named(message_of<DumpError>([&] { read_dump_header(notes); }),
                {"notes.txt:1", "timestep 1e-5", "ITEM"});
   expect_named(message_of<DumpError>([&] { read_dump(folder / "gone.txt"); }), {"gone.txt", "open"});
 }

@@ -62,7 +62,7 @@ TEST(LammpsDump, HeaderBeginsWithUnitsAndTimeAndHasABoxWithPeriodicEnds) {
   EXPECT_EQ(header.box->lower, (std::array<double, 3>{-0.05, -0.05, 0}));
   EXPECT_EQ(header.box->upper, (std::array<double, 3>{0.05, 0.05, length}));
   EXPECT_FALSE(header.box->tilted);
-  EXPECT_EQ(read_dump_step(lammps_file("drum.20000.txt")), 20000);
+  EXPECT_EQ(read_dump_header(lammps_file("drum.20000.txt")).step, 20000);
 }
 
 TEST(LammpsDump, HasTheMassAndTheEnergyThatLammpsPrints) {

@@ -68,6 +68,9 @@ TEST(Motion, OutsideATableIsRefusedWithTheTime) {
   const TemporaryFolder folder;
   const auto motion = parse_motion({"rotation table " + folder.write("speed.txt", "0 1\n2 1\n").string()});
   EXPECT_NO_THROW(motion->place(2));
+  // Steps times the time-step
+  EXPECT_NO_THROW(motion->place(2 * (1 + 1e-15)));
+  EXPECT_NO_THROW(motion->place(-1e-15));
   for (const double time : {-0.1, 2.5, std::nan("")}) {
     expect_named(message_of<std::out_of_range>([&] { motion->place(time); }), {"outside", "from 0 to 2 s"});
   }

@@ -465,10 +465,34 @@ TEST_F(AverageRun, WallsInMillimetresAreRefusedOrTold) {
   }
 }
 
+TEST_F(AverageRun, WarnsOfWallsThatLeaveCellsOfBallsOutside) {
+  // The ball moves from the first voxel to the second, of which nothing is inside
+  request.walls = {folder.write("box.stl", stl_box({0, 0, 0}, {1, 1, 1}))};
+  expect_named(report(run()),
+               {"warning: 100 % of the balls' volume was moved out of cells outside of the walls"});
+  request.walls = {folder.write("box.stl", stl_box({0, 0, 0}, {2, 1, 1}))};
+  EXPECT_EQ(report(run()).find("outside of the walls"), std::string::npos);
+}
+
+TEST_F(AverageRun, RefusesWallsInAnotherUnit) {
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {40, 20, 20});
+  request.walls = {folder.write("box.stl", stl_box({0, 0, 0}, {0.02, 0.01, 0.01}))};
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"lies outside the grid or the walls"});
+}
+
 TEST_F(AverageRun, ABrokenDumpLeavesNoSolidsFile) {
   folder.write("dump9000.txt", dump_text(9000, {{1, {0, 0, 0}, {0, 0, 0}, 0.1}}).substr(0, 150));
   expect_named(message_of<DumpError>([&] { run(); }), {"dump9000.txt:10", "truncated"});
   EXPECT_FALSE(std::filesystem::exists(output()));
+  EXPECT_FALSE(std::filesystem::exists(output().string() + ".journal")) << "nothing would resume from it";
+}
+
+TEST_F(AverageRun, DoesNotOverwriteAFileThatIsNotItsOwnForParaView) {
+  folder.write("solids.xdmf", "precious");
+  expect_named(message_of<SolidsFileError>([&] { run(); }), {"solids.xdmf", "would be overwritten"});
+  std::filesystem::remove(folder / "solids.xdmf");
+  run();
+  run();
 }
 
 TEST_F(AverageRun, RefusesTheNameThatTheFileForParaViewNeeds) {

@@ -119,7 +119,7 @@ TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) 
                   R"({"mill": {"walls": ")" + walls + R"("}, "source": ")" + source + R"("})");
   };
   walls_of("0123456789abcdef", "mill");
-  expect_named(message_of<std::invalid_argument>([&] { taken(""); }),
+  expect_named(message_of<std::runtime_error>([&] { taken(""); }),
                {"walls/walls.json: the walls are of another mill (walls 0123456789abcdef, this mill's are " +
                 mill_.mill.fingerprint.walls + "): run millMesh again"});
   taken("--inside " + path("other.stl"));
@@ -129,7 +129,7 @@ TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) 
   walls_of("0123456789abcdef", "cad");
   taken("");
   folder_.write("walls/walls.json", "{");
-  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"walls.json", "run millMesh again"});
+  expect_named(message_of<std::runtime_error>([&] { taken(""); }), {"walls.json", "run millMesh again"});
 }
 
 TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {
