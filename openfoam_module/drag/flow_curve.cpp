@@ -35,6 +35,12 @@ double capped(double stress, double rate, double largest) {
   return stress >= largest * rate ? largest : stress / rate;
 }
 
+/// k rate^(n - 1), at most `largest`; at rest its limit.
+double power_of(double consistency, double exponent, double rate, double largest) {
+  if (rate == 0 && exponent >= 1) return exponent > 1 ? 0 : std::min(consistency, largest);
+  return capped(consistency * std::pow(rate, exponent), rate, largest);
+}
+
 }  // namespace
 
 FlowCurve::FlowCurve(std::string model, std::function<double(double)> curve, std::optional<double> plastic)
@@ -73,7 +79,8 @@ FlowCurve FlowCurve::herschel_bulkley(double yield_stress, double consistency, d
   require_above_zero("the exponent n", exponent);
   require_above_zero("the largest viscosity", largest);
   const auto curve = [=](double rate) {
-    return capped(yield_stress + consistency * std::pow(rate, exponent), rate, largest);
+    return yield_stress > 0 ? capped(yield_stress + consistency * std::pow(rate, exponent), rate, largest)
+                            : power_of(consistency, exponent, rate, largest);
   };
   return {"HerschelBulkley", curve, std::nullopt};
 }
@@ -84,7 +91,8 @@ FlowCurve FlowCurve::casson(double yield_stress, double plastic, double smallest
   require_not_below_zero("the smallest viscosity", smallest);
   require_order(std::max(smallest, plastic), largest);
   const auto curve = [=](double rate) {
-    const double root = std::sqrt(capped(yield_stress, rate, largest)) + std::sqrt(plastic);
+    const double of_yield = yield_stress > 0 ? capped(yield_stress, rate, largest) : 0;
+    const double root = std::sqrt(of_yield) + std::sqrt(plastic);
     return std::clamp(root * root, smallest, largest);
   };
   return {"Casson", curve, plastic};
@@ -107,7 +115,7 @@ FlowCurve FlowCurve::power_law(double consistency, double exponent, double small
   require_not_below_zero("the smallest viscosity", smallest);
   require_order(smallest, largest);
   const auto curve = [=](double rate) {
-    return std::max(smallest, capped(consistency * std::pow(rate, exponent), rate, largest));
+    return std::max(smallest, power_of(consistency, exponent, rate, largest));
   };
   return {"powerLaw", curve, std::nullopt};
 }

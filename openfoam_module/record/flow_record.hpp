@@ -25,7 +25,7 @@ struct Solids {
   long long windows = 0;                   ///< number of windows
   bool whole_run = false;                  ///< one window, which holds all the time
   std::string out_of_range;                ///< error, hold or repeat
-  std::string in_time;                     ///< window or linear
+  std::string in_time;                     ///< window or smooth
   std::optional<double> angular_velocity;  ///< of the mill in the dry run, rad/s
   std::string program;                     ///< that wrote the file; empty: not known
   std::string mill_charge;                 ///< fingerprint of the charge of the file's mill; empty: not known

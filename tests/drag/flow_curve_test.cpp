@@ -57,6 +57,20 @@ TEST(PoreShearRate, OfTubesIsThatOfTheirDarcyCoefficient) {
   EXPECT_NEAR(drag::tube_shear_rate(32 / (diameter * diameter), 0.3), 8 * 0.3 / diameter, 1e-9);
 }
 
+TEST(FlowCurve, AtRestIsTheLimitOfSmallRates) {
+  std::vector<FlowCurve> models = all_models();
+  for (const double exponent : {0.6, 1.0, 1.5}) {
+    models.push_back(FlowCurve::herschel_bulkley(yield_stress, 0.01, exponent, cap));
+    models.push_back(FlowCurve::herschel_bulkley(0, 0.01, exponent, cap));
+    models.push_back(FlowCurve::power_law(0.01, exponent, 1e-4, cap));
+  }
+  models.push_back(FlowCurve::bingham(0, plastic, cap));
+  models.push_back(FlowCurve::casson(0, plastic, 1e-4, cap));
+  for (std::size_t i = 0; i < models.size(); ++i)
+    EXPECT_NEAR(models[i].apparent_viscosity(0), models[i].apparent_viscosity(1e-20), 1e-4 * cap)
+        << models[i].model() << ", number " << i;
+}
+
 TEST(FlowCurve, OfA30PerCentSlurryInABedAtATenthOfAMetrePerSecond) {
   const double rate = drag::pore_shear_rate(0.55, 0.1, 5e-3);
   EXPECT_NEAR(slurry().apparent_viscosity(rate) / plastic, 1.4, 0.02);

@@ -31,7 +31,7 @@ struct Flow : ::testing::Test {
     solids.begin = 1;
     solids.end = 1.2;
     solids.windows = 4;
-    solids.in_time = "linear";
+    solids.in_time = "smooth";
     solids.out_of_range = "repeat";
     solids.mill_averages = "fedcba9876543210";
     setup.solids = solids;

@@ -126,7 +126,11 @@ void Foam::solidsConservation::correct(
     solids_ = volume;
     // Of a bed that begins to grow both are round-off
     if (max(found, volume) <= precision * sums.y())
+    {
+        present_ = 0;
+        moved_ = 0;
         return;
+    }
     checkSize(found, volume, advice);
 
     const scalar factor = factorFor(solidity, V, found, volume);

@@ -63,10 +63,11 @@ fieldIO(const word& name, const fvMesh& mesh, const IOobject::readOption read)
 
 
 //- Whether a restart has this field
+template <class FieldType = volVectorField>
 static bool isThere(const word& name, const fvMesh& mesh)
 {
     return fieldIO(name, mesh, IOobject::READ_IF_PRESENT)
-        .typeHeaderOk<volVectorField>(true);
+        .typeHeaderOk<FieldType>(true);
 }
 
 
@@ -157,8 +158,13 @@ Foam::slurryFlow::slurryFlow(
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
   misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
-  givenForce_(Zero),
-  givenTorque_(0)
+  toldPressure_(),
+  toldExchange_(),
+  tellsAgain_(
+      bed_.feelsFlow() && isThere("toldPressure", mesh) &&
+      isThere<volScalarField>("toldExchange", mesh)),
+  givenForce_(state_.lookupOrDefault<vector>("givenForce", Zero)),
+  givenTorque_(state_.lookupOrDefault<scalar>("givenTorque", 0))
 {
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
@@ -169,6 +175,13 @@ Foam::slurryFlow::slurryFlow(
     pressure_.update(p_rgh_, rho_);
     p_ = pressure_.staticPressure();
 
+    if (bed_.feelsFlow())
+    {
+        toldPressure_.reset(new volVectorField(continued<volVectorField>(
+            "toldPressure", mesh, dimForce / dimVolume)));
+        toldExchange_.reset(new volScalarField(continued<volScalarField>(
+            "toldExchange", mesh, dimDensity / dimTime)));
+    }
     readBed();
 }
 
@@ -182,7 +195,6 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
-    scalar smallest = GREAT;
     courantNumbers result;
     forAll(passed, celli)
     {
@@ -191,19 +203,34 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result.surface = max(result.surface, passed[celli]);
-            smallest = min(smallest, mesh_.V()[celli]);
         }
     }
     reduce(result.flow, maxOp<scalar>());
     reduce(result.surface, maxOp<scalar>());
     reduce(result.air, maxOp<scalar>());
-    reduce(smallest, minOp<scalar>());
     result.voidageChange = voidageChange_;
     const scalar capillary = 4 * constant::mathematical::pi *
                              pressure_.surfaceTension().value() /
                              (mixture_.rho1() + mixture_.rho2()).value();
-    result.capillary = deltaT * sqrt(capillary / smallest);
+    result.capillary = deltaT * sqrt(capillary * pow3(finestAtSurface()));
     return result;
+}
+
+
+Foam::scalar Foam::slurryFlow::finestAtSurface() const
+{
+    const scalarField& perLength = mesh_.nonOrthDeltaCoeffs().primitiveField();
+    const auto cut = [&](const label celli)
+    { return alpha_[celli] > 0.01 && alpha_[celli] < 0.99; };
+    scalar finest = 0;
+    forAll(perLength, facei)
+    {
+        if (cut(mesh_.owner()[facei]) || cut(mesh_.neighbour()[facei]))
+        {
+            finest = max(finest, perLength[facei]);
+        }
+    }
+    return returnReduce(finest, maxOp<scalar>());
 }
 
 

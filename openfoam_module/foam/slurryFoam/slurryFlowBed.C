@@ -153,7 +153,18 @@ void Foam::slurryFlow::tellBalls()
     if (bed_.feelsFlow())
     {
         clock_.begin("balls");
-        const ballForces feel(onBalls_->present());
+        ballForces feel(onBalls_->present());
+        if (tellsAgain_)
+        {
+            // The present ones need more of the last step than was written
+            feel.pressure = toldPressure_->primitiveField();
+            feel.exchange = toldExchange_->primitiveField();
+            tellsAgain_ = false;
+            bed_.tell(feel, U_.primitiveField(), givenTorque_);
+            return;
+        }
+        toldPressure_->primitiveFieldRef() = feel.pressure;
+        toldExchange_->primitiveFieldRef() = feel.exchange;
         // What the flow loses: its drag has the factor of a mixture of sizes
         const scalarField exchange(
             drag_->exchange(bed_, alpha_.oldTime(), U_)->field());
@@ -163,6 +174,8 @@ void Foam::slurryFlow::tellBalls()
         givenForce_ = gSum(force);
         givenTorque_ =
             gSum((mesh_.C().primitiveField() ^ force)().component(vector::Z)());
+        state_.set("givenForce", givenForce_);
+        state_.set("givenTorque", givenTorque_);
         bed_.tell(feel, U_.primitiveField(), givenTorque_);
     }
 }

@@ -12,6 +12,17 @@
 #include "subCycle.H"
 #include "zeroField.H"
 
+// * * * * * * * * * * * * * * Local Definitions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Of a step in which slurry is carried
+static constexpr label mostParts_ = 20;
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::label Foam::slurryFlow::surfaceSteps(const scalarField& smaller) const
@@ -21,8 +32,14 @@ Foam::label Foam::slurryFlow::surfaceSteps(const scalarField& smaller) const
         0.5 * fvc::surfaceIntegrate(phi_)().primitiveField() * mesh_.V());
     const scalar largest =
         gMax((given / smaller)()) * mesh_.time().deltaTValue();
-    // A flow that diverges is stopped by its time-step
-    return largest < 20 ? max(label(1), label(std::ceil(largest))) : 1;
+    if (largest > mostParts_)
+    {
+        WarningInFunction
+            << "a cell gives away " << largest << " times its fluid in a step;"
+            << " slurry is carried in " << mostParts_ << " parts, which may"
+            << " leave shares beyond 0 to 1: expected shorter steps" << endl;
+    }
+    return max(label(1), min(mostParts_, label(std::ceil(largest))));
 }
 
 

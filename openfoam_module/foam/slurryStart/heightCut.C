@@ -80,7 +80,7 @@ Foam::scalar Foam::heightCut::topOfBed(
             top = max(top, highest_[celli]);
         }
     }
-    return max(returnReduce(top, maxOp<scalar>()), bottom());
+    return returnReduce(top, maxOp<scalar>());
 }
 
 

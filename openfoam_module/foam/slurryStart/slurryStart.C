@@ -80,9 +80,18 @@ Pair<scalar> levels(
     }
     if (kind == start::above)
     {
-        const scalar from = cut.topOfBed(
-            solidity, dict.lookupOrDefault<scalar>("bedShare", 0.05));
-        return {from, cut.levelOf(dict.get<scalar>("volume"), from, dict)};
+        const scalar volume = dict.get<scalar>("volume");
+        const scalar bedShare = dict.lookupOrDefault<scalar>("bedShare", 0.05);
+        const scalar densest = gMax(solidity);
+        if (!(bedShare >= 0 && bedShare < densest))
+        {
+            FatalIOErrorInFunction(dict)
+                << "bedShare is " << bedShare << "; expected a solidity from 0"
+                << " to below the largest, " << densest << ", because the"
+                << " layer lies on top of balls" << exit(FatalIOError);
+        }
+        const scalar from = cut.topOfBed(solidity, bedShare);
+        return {from, cut.levelOf(volume, from, dict)};
     }
     if (dict.found("level") == dict.found("volume"))
     {

@@ -28,7 +28,13 @@ void Foam::solidsBlock::readMotion(const dictionary& dict)
     if (omega != 0)
     {
         const vector axis(dict.get<vector>("axis"));
-        omega_ = omega * axis / max(mag(axis), VSMALL);
+        if (!(mag(axis) > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << "axis is " << axis << "; expected a direction to turn about"
+                << " with omega " << omega << exit(FatalIOError);
+        }
+        omega_ = omega * axis / mag(axis);
         origin_ = dict.get<vector>("origin");
     }
     if (moves_ && (omega != 0 || !shape_->exact()))
@@ -73,6 +79,12 @@ void Foam::solidsBlock::check(const dictionary& dict) const
         FatalIOErrorInFunction(dict)
             << "diameter is " << diameter_ << "; expected a length above 0 m"
             << exit(FatalIOError);
+    }
+    if (dict.found("volume") && !(volume_ > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "volume is " << volume_ << "; expected that of the whole block's"
+            << " balls, above 0 m3" << exit(FatalIOError);
     }
 }
 

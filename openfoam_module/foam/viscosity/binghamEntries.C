@@ -79,6 +79,13 @@ Foam::binghamEntries::binghamEntries(const dictionary& phase)
     if (form == regularisation::biviscosity)
     {
         viscosityRatio = readBounded(coeffs, "viscosityRatio");
+        if (viscosityRatio < 1)
+        {
+            FatalIOErrorInFunction(coeffs)
+                << "viscosityRatio is " << viscosityRatio
+                << "; expected 1 or more: the largest viscosity over the"
+                << " plastic one" << exit(FatalIOError);
+        }
     }
     else
     {

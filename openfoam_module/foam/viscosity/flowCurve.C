@@ -28,7 +28,14 @@ class curveEntries
 
     scalar value(const word& key, const dimensionSet& dimensions) const
     {
-        return dimensionedScalar(key, dimensions, dict_).value();
+        const scalar found = dimensionedScalar(key, dimensions, dict_).value();
+        if (!(found >= 0))
+        {
+            FatalIOErrorInFunction(dict_)
+                << key << " is " << found << "; expected a value not below zero"
+                << exit(FatalIOError);
+        }
+        return found;
     }
 
 
