@@ -10,7 +10,7 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/json_file.hpp"
-#include "meshing/mill/mill_fingerprints.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -142,7 +142,7 @@ AveragesOrder order_of(const Json& json, const fs::path& folder) {
 }  // namespace
 
 std::string averages_id(const AverageRequest& request) {
-  return meshing::fingerprint(request_json(request, file_hash).dump());
+  return fingerprint(request_json(request, file_fingerprint).dump());
 }
 
 averaging::LiveFiles averages_files(const fs::path& dem, std::size_t number) {

@@ -6,9 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdint>
 #include <fstream>
-#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -18,6 +16,7 @@
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_check.hpp"
 #include "dem_driver/wall_fit.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -26,19 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int longest_wait = 100;  // tenths of a second
-
-/// FNV-1a of 64 bits.
-std::uint64_t hash_bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::uint64_t sum = 14695981039346656037U;
-  std::vector<char> bytes(1 << 16);
-  do {
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    for (std::streamsize i = 0; i < in.gcount(); ++i)
-      sum = (sum ^ static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)])) * 1099511628211U;
-  } while (in);
-  return sum;
-}
 
 double number(const Json& run, const char* key, const fs::path& file) {
   if (!run.contains(key) || !run[key].is_number())
@@ -134,16 +120,10 @@ std::size_t prepare_folders(const CaseFolder& folder) {
   return old.size();
 }
 
-std::string file_hash(const fs::path& file) {
-  std::ostringstream digits;
-  digits << std::hex << std::setw(16) << std::setfill('0') << hash_bytes(file);
-  return digits.str();
-}
-
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts) {
   std::ostringstream lines;
   for (const auto& part : parts)
-    lines << "# wall " << part << ".stl " << std::hex << hash_bytes(folder.walls() / (part + ".stl")) << '\n';
+    lines << "# wall " << part << ".stl " << file_fingerprint(folder.walls() / (part + ".stl")) << '\n';
   return lines.str();
 }
 

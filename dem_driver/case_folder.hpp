@@ -97,9 +97,6 @@ void remove_results(const CaseFolder& folder);
 /// dumps removed.
 std::size_t prepare_folders(const CaseFolder& folder);
 
-/// FNV-1a hash (64 bits) of a file's bytes, 16 hexadecimal digits.
-std::string file_hash(const std::filesystem::path& file);
-
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
 /// these walls only.
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);

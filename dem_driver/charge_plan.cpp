@@ -9,9 +9,9 @@
 #include <ostream>
 #include <string>
 
-#include "dem_driver/mill_key.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_charge.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
 #include "meshing/surface/pi.hpp"
 
@@ -40,12 +40,12 @@ std::string key_of_class(const meshing::Mill& mill, std::size_t number) {
 [[noreturn]] void refuse_empty_class(const meshing::Mill& mill, std::size_t number) {
   const auto& size = mill.charge.classes[number];
   const bool is_whole_charge = mill.charge.classes.size() == 1;
-  throw KeyError(key_of_class(mill, number),
-                 shown(size.mass) + " kg of balls of " + shown(size.diameter) +
-                     " m in this mill, which rounds to 0 balls",
-                 "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) +
-                     " kg: raise the mass" +
-                     (is_whole_charge ? "" : ", or leave the class out (small ones by charge.fines_below)"));
+  throw meshing::KeyError(
+      key_of_class(mill, number),
+      shown(size.mass) + " kg of balls of " + shown(size.diameter) +
+          " m in this mill, which rounds to 0 balls",
+      "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) + " kg: raise the mass" +
+          (is_whole_charge ? "" : ", or leave the class out (small ones by charge.fines_below)"));
 }
 
 std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
@@ -54,10 +54,10 @@ std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
   for (std::size_t i = 0; i < counted.size(); ++i) {
     const auto& size = counted[i];
     if (!(static_cast<double>(size.count) <= most_balls))
-      throw KeyError(key_of_class(mill, i),
-                     shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) + " m, which are " +
-                         shown(static_cast<double>(size.count)) + " balls",
-                     "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
+      throw meshing::KeyError(key_of_class(mill, i),
+                              shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) +
+                                  " m, which are " + shown(static_cast<double>(size.count)) + " balls",
+                              "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
     if (size.count == 0 && size.simulated) refuse_empty_class(mill, i);
     classes.push_back({size.diameter, size.mass_asked, size.mass, size.count, size.shape});
   }
@@ -70,9 +70,9 @@ void check_fits(const meshing::Mill& mill, const std::vector<ClassCount>& classe
   for (const auto& size : classes) {
     const double length = 2 * Insertion{size.diameter, size.count, size.shape}.reach();
     if (length < std::min(2 * mill.charge.start_radius, start_length(mill))) continue;
-    throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
-                   "a start cylinder (its length is " + shown(start_length(mill)) +
-                       " m) in which a ball of diameter " + shown(length) + " m has room");
+    throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
+                            "a start cylinder (its length is " + shown(start_length(mill)) +
+                                " m) in which a ball of diameter " + shown(length) + " m has room");
   }
 }
 
@@ -90,11 +90,12 @@ double room_below(const meshing::Mill& mill) {
   const std::string balls =
       std::to_string(left) + " of " + shown(diameter) + " m and all smaller ones are left over";
   if (mill.geometry.impeller)
-    throw KeyError("charge", shown(cylinder) + " m^3 above the impeller, where balls are released",
-                   "more room there, or fewer balls: " + balls + "; raise geometry.height");
-  throw KeyError("charge.start_radius", shown(mill.charge.start_radius),
-                 "a start cylinder (its volume is " + shown(cylinder) +
-                     " m^3) in which all balls have room: " + balls + "; raise it or lower the masses");
+    throw meshing::KeyError("charge", shown(cylinder) + " m^3 above the impeller, where balls are released",
+                            "more room there, or fewer balls: " + balls + "; raise geometry.height");
+  throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
+                          "a start cylinder (its volume is " + shown(cylinder) +
+                              " m^3) in which all balls have room: " + balls +
+                              "; raise it, at most to the radius inside the lifters, or take fewer balls");
 }
 
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.

@@ -53,8 +53,9 @@ inline constexpr double round_solidity = 0.2;
 inline constexpr double heap_solidity = 0.6;
 
 /// Counts the balls of each class by mass, n = round(mass/ball_mass), and cuts them into rounds. The mill has
-/// a class to simulate (simulated_classes). Throws KeyError when a simulated class results in no ball, when a
-/// ball is larger than the start cylinder, or when the charge does not fit into the start cylinder.
+/// a class to simulate (simulated_classes). Throws meshing::KeyError when a simulated class results in no
+/// ball, when a ball is larger than the start cylinder, or when the charge does not fit into the start
+/// cylinder.
 ChargePlan plan_charge(const meshing::Mill& mill);
 
 /// Prints the requested and realised mass per class, and the fines that are left out.

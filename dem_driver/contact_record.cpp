@@ -92,6 +92,10 @@ void write_contact_state(const fs::path& folder, long step, const ContactState& 
   });
 }
 
+bool has_contact_state(const fs::path& folder, long step) {
+  return fs::exists(numbered(folder, contact_state_kind, step));
+}
+
 std::optional<ContactState> read_contact_state(const fs::path& folder, long step) {
   const fs::path file = numbered(folder, contact_state_kind, step);
   if (!fs::exists(file)) return std::nullopt;

@@ -63,4 +63,7 @@ void write_contact_state(const std::filesystem::path& folder, long step, const C
 /// it cannot be read.
 std::optional<ContactState> read_contact_state(const std::filesystem::path& folder, long step);
 
+/// Whether that file is there.
+bool has_contact_state(const std::filesystem::path& folder, long step);
+
 }  // namespace millfoam::dem_driver

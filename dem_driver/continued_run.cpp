@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "dem_driver/output_check.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
@@ -68,7 +69,7 @@ LastState last_state(const CaseFolder& other, const CaseFolder& folder, const st
     refuse(state.restart, "no such file", "the restart file of the run's last step");
   const std::string complaint = restart_complaint(state.restart, plan.charge.balls());
   if (!complaint.empty()) throw std::runtime_error(state.restart.string() + ": " + complaint);
-  state.id = file_hash(state.restart);
+  state.id = file_fingerprint(state.restart);
   return state;
 }
 

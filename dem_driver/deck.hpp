@@ -55,8 +55,8 @@ inline constexpr double most_dumps = 1e6;
 
 /// Chooses the time-step and cuts charge and duration into whole balls and steps. The duration is rounded up
 /// to a whole number of record intervals, and the interval of the contacts to the nearest whole number of
-/// steps. Throws KeyError as `choose_time_step` and `plan_charge` do, for an interval of the contacts
-/// below the time-step, and for more than `most_steps` or `most_dumps`.
+/// steps. Throws meshing::KeyError as `choose_time_step` and `plan_charge` do, for an interval of the
+/// contacts below the time-step, and for more than `most_steps` or `most_dumps`.
 DemPlan plan_dem(const meshing::Mill& mill);
 
 /// Lets a plan begin with a step of the turning mill, with all balls in it, instead of with an insertion: its

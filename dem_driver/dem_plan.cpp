@@ -4,8 +4,8 @@
 #include <string>
 
 #include "dem_driver/deck.hpp"
-#include "dem_driver/mill_key.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -36,7 +36,8 @@ void plan_output(DemPlan& plan) {
 /// Before any such number is made a whole one: it may be larger than a `long` holds.
 void refuse_more(const char* key, double value, double count, double most, const std::string& what) {
   if (count <= most) return;
-  throw KeyError(key, shown(value), "at most " + shown(most) + ' ' + what + ", these are " + shown(count));
+  throw meshing::KeyError(key, shown(value),
+                          "at most " + shown(most) + ' ' + what + ", these are " + shown(count));
 }
 
 void check_times(const meshing::Dem& dem) {
@@ -57,8 +58,8 @@ long steps_between_contacts(const meshing::Mill& mill, double time_step) {
   const double interval = mill.dem.contact_interval;
   if (interval == 0) return 0;
   if (interval < time_step * (1 - 1e-9))
-    throw KeyError("dem.contact_interval", shown(interval),
-                   "0 or at least the time-step, " + shown(time_step) + " s");
+    throw meshing::KeyError("dem.contact_interval", shown(interval),
+                            "0 or at least the time-step, " + shown(time_step) + " s");
   refuse_more("dem.contact_interval", interval, mill.dem.duration / interval, most_dumps,
               "dumps of the contacts");
   return std::lround(interval / time_step);

@@ -6,9 +6,9 @@
 
 #include "averaging/files/slurry_file.hpp"
 #include "averaging/files/slurry_reader.hpp"
-#include "dem_driver/case_folder.hpp"
 #include "dem_driver/fluid_forces.hpp"
 #include "dem_driver/pairs.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/text_numbers.hpp"
 
 namespace millfoam::dem_driver {
@@ -104,7 +104,7 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   FluidSettings fluid;
   fluid.kind = FluidKind::slurry;
   fluid.file = std::filesystem::absolute(file);
-  fluid.file_id = file_hash(file);
+  fluid.file_id = file_fingerprint(file);
   fluid.time = time;
   fluid.shapes = shapes;
   return fluid;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "averaging/files/slurry_file.hpp"
-#include "dem_driver/case_folder.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 #include "meshing/mill/mill.hpp"
 #include "meshing/surface/pi.hpp"
 
@@ -40,7 +40,7 @@ FluidForce PoolForces::on(const BallInFluid& ball) const {
 
 std::unique_ptr<FluidForces> make_fluid_forces(const FluidSettings& fluid) {
   if (fluid.kind == FluidKind::slurry) {
-    if (file_hash(fluid.file) != fluid.file_id)
+    if (file_fingerprint(fluid.file) != fluid.file_id)
       throw averaging::SlurryFileError(fluid.file.string() +
                                        ": has changed since millDem checked it, run millDem again");
     return std::make_unique<VoxelForces>(fluid.file, fluid.time, fluid.shapes);

@@ -34,7 +34,7 @@ inline constexpr double trial_shaped_balls = 1000;
 /// A short periodic slice of the mill with about that many balls, long enough to be split as the mill is,
 /// soft and quickly settled: it costs as much per ball and step as the whole mill. Each size class keeps one
 /// ball at least. Of a stirred mill, the whole mill; where not all balls are spheres, the mill smaller in all
-/// lengths, with the same speed of the tips. Throws KeyError as plan_dem does.
+/// lengths, with the same speed of the tips. Throws meshing::KeyError as plan_dem does.
 meshing::Mill trial_mill(const meshing::Mill& mill, int ranks);
 
 /// Runs the trial mill in a temporary folder and measures it, in about half a minute; blunt superquadrics

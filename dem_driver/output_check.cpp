@@ -11,6 +11,7 @@
 
 #include "averaging/run/live_averages.hpp"
 #include "dem_driver/averages_order.hpp"
+#include "dem_driver/contact_record.hpp"
 #include "dem_driver/disk_room.hpp"
 #include "dem_driver/liggghts_log.hpp"
 #include "dem_driver/segments.hpp"
@@ -139,6 +140,7 @@ std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& p
   for (auto restart = restarts.rbegin(); restart != restarts.rend(); ++restart) {
     if (restart_complaint(restart->file, plan.charge.balls()).empty() &&
         whole_averages(folder, plan, restart->step) &&
+        (!plan.watches_contacts || has_contact_state(folder.dem(), restart->step)) &&
         whole_part(folder, plan, restart->step - plan.restart_steps, restart->step))
       return restart->step;
   }

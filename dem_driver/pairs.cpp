@@ -6,8 +6,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "dem_driver/mill_key.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -22,8 +22,9 @@ std::vector<meshing::SizeClass> simulated_classes(const meshing::Mill& mill) {
   std::copy_if(mill.charge.classes.begin(), mill.charge.classes.end(), std::back_inserter(classes),
                [&](const auto& size) { return size.diameter >= mill.charge.fines_below; });
   if (classes.empty())
-    throw KeyError("charge.fines_below", shown(mill.charge.fines_below),
-                   "a diameter in m not above the largest ball's: no size class is left to simulate");
+    throw meshing::KeyError(
+        "charge.fines_below", shown(mill.charge.fines_below),
+        "a diameter in m not above the largest ball's: no size class is left to simulate");
   return classes;
 }
 

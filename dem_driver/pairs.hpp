@@ -22,7 +22,8 @@ struct NamedPair {
 /// A length in words, for example "2 mm".
 std::string millimetres(double length);
 
-/// The size classes that are simulated: those not left out as fines. Throws KeyError when there is none.
+/// The size classes that are simulated: those not left out as fines. Throws meshing::KeyError when there is
+/// none.
 std::vector<meshing::SizeClass> simulated_classes(const meshing::Mill& mill);
 
 /// Smallest diameter of them, m.

@@ -83,7 +83,7 @@ void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& pla
         << 100 * std::abs(mill.angular_velocity) / meshing::critical_speed(mill.geometry)
         << " % of the critical speed)\n";
   print_advice(out, mill);
-  print_time_step(out, plan.step);
+  print_time_step(out, plan.step, mill);
   print_charge(out, plan.charge);
 }
 

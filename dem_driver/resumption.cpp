@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "dem_driver/mill_key.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/segments.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -56,9 +56,9 @@ void require_same_run(const CaseFolder& folder, const std::string& deck, const c
 void require_resumable(const CaseFolder& folder, const DemPlan& plan, long step) {
   if (step > plan.end_step()) {
     const auto seconds = [&](long steps) { return shown(static_cast<double>(steps) * plan.step.value); };
-    throw KeyError("dem.duration", seconds(plan.turning_steps),
-                   "at least the " + seconds(step - plan.begin) + " s that the run in " +
-                       folder.root.string() + " has reached" + otherwise);
+    throw meshing::KeyError("dem.duration", seconds(plan.turning_steps),
+                            "at least the " + seconds(step - plan.begin) + " s that the run in " +
+                                folder.root.string() + " has reached" + otherwise);
   }
   const long expected = plan.dumps > 0 ? (step - plan.begin) / plan.step.steps_per_record + 1 : 0;
   const long found = count_dumps_until(folder, step);

@@ -18,9 +18,9 @@ namespace millfoam::dem_driver {
 /// @param deck  of the run that resumes; numbers of ranks and the length may differ from those of the
 /// folder's
 /// @param out  gets a sentence about a restart file that is not used
-/// Throws KeyError for a plan that is shorter than the run, and std::runtime_error naming the file and what
-/// was expected for another run, for lost dumps, and for a complete run that is to be made longer without a
-/// complete restart file. So nothing of a complete run is removed.
+/// Throws meshing::KeyError for a plan that is shorter than the run, and std::runtime_error naming the file
+/// and what was expected for another run, for lost dumps, and for a complete run that is to be made longer
+/// without a complete restart file. So nothing of a complete run is removed.
 std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
                               std::ostream& out);
 

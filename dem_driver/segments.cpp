@@ -156,6 +156,9 @@ void remove_restarts_after(const CaseFolder& folder, long step) {
   for (const auto& files : {find_restarts(folder), find_states(folder)})
     for (const auto& found : files)
       if (found.step > step) fs::remove(found.file);
+  for (const char* kind : segment_kinds)
+    for (const auto& segment : find_segments(folder, kind))
+      if (segment.step > step) fs::remove(segment.file);
   remove_contact_states(folder, [&](long other) { return other > step; });
 }
 

@@ -70,7 +70,8 @@ void remove_contact_states(const CaseFolder& folder, const std::function<bool(lo
 /// Removes the restart files of steps before `step`, with what belongs to them.
 void remove_restarts_before(const CaseFolder& folder, long step);
 
-/// Removes the restart files of steps after `step`, with what belongs to them: they cannot be resumed from.
+/// Removes the restart files of steps after `step`, with what belongs to them, and histories that begin after
+/// it: they cannot be resumed from.
 void remove_restarts_after(const CaseFolder& folder, long step);
 
 }  // namespace millfoam::dem_driver

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
 
 namespace millfoam::dem_driver {
@@ -22,11 +22,12 @@ void check_modulus(const meshing::Mill& mill, const Stiffness& stiffness) {
   if (softest >= smallest_modulus * (1 - 1e-12)) return;
   const std::string least = "at least " + shown(smallest_modulus) + " Pa, the softest that LIGGGHTS accepts";
   if (stiffness.modulus < smallest_modulus)
-    throw KeyError(mill.dem.largest_overlap > 0 ? "materials.ball.youngs_modulus" : "dem.youngs_modulus",
-                   shown(stiffness.modulus), least);
-  throw KeyError("dem.soften_below", shown(mill.dem.soften_below),
-                 "a diameter in m with which the balls of " + shown(smallest_diameter) + " m have " + least +
-                     ", not " + shown(softest) + " Pa");
+    throw meshing::KeyError(
+        mill.dem.largest_overlap > 0 ? "materials.ball.youngs_modulus" : "dem.youngs_modulus",
+        shown(stiffness.modulus), least);
+  throw meshing::KeyError("dem.soften_below", shown(mill.dem.soften_below),
+                          "a diameter in m with which the balls of " + shown(smallest_diameter) + " m have " +
+                              least + ", not " + shown(softest) + " Pa");
 }
 
 /// All overlaps are proportional to modulus^-0.4, so one trial gives the modulus.

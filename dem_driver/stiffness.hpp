@@ -38,7 +38,7 @@ ExpectedOverlap expected_overlap(const meshing::Mill& mill, const Stiffness& sti
 
 /// The stiffness of a `mill.yaml`: its dem.youngs_modulus, or the softest with which the
 /// largest expected overlap stays within dem.largest_overlap, never stiffer than the real ball. Throws
-/// KeyError when a modulus is softer than LIGGGHTS accepts.
+/// meshing::KeyError when a modulus is softer than LIGGGHTS accepts.
 Stiffness choose_stiffness(const meshing::Mill& mill);
 
 }  // namespace millfoam::dem_driver

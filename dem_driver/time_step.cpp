@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "dem_driver/contact.hpp"
-#include "dem_driver/mill_key.hpp"
 #include "dem_driver/pairs.hpp"
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -63,7 +63,7 @@ TimeStep choose_time_step(const meshing::Mill& mill) {
   double longest = std::numeric_limits<double>::infinity();
   for (const auto& limit : step.limits) longest = std::min(longest, limit.value);
   if (!(longest > 0) || !(mill.dem.record_interval / longest < most_steps_per_record))
-    throw KeyError(
+    throw meshing::KeyError(
         "dem.rayleigh_fraction", shown(mill.dem.rayleigh_fraction),
         "a fraction from which, with the balls' modulus and the smallest ball, a time-step follows");
   // The slack keeps an interval that is a whole number of longest steps from being cut once more by
@@ -98,7 +98,7 @@ void print_advice(std::ostream& out, const meshing::Mill& mill) {
         << std::setw(15) << 1e6 * row.time_step << std::setw(7) << row.cost << '\n';
 }
 
-void print_time_step(std::ostream& out, const TimeStep& step) {
+void print_time_step(std::ostream& out, const TimeStep& step, const meshing::Mill& mill) {
   const auto smallest = std::min_element(step.limits.begin(), step.limits.end(),
                                          [](const auto& a, const auto& b) { return a.value < b.value; });
   out << "softened modulus of balls and walls: " << std::setprecision(4) << step.stiffness.modulus << " Pa";
@@ -119,6 +119,13 @@ void print_time_step(std::ostream& out, const TimeStep& step) {
   if (step.overlap.ratio > allowed_overlap_ratio)
     out << "WARNING: more than the " << 100 * allowed_overlap_ratio
         << " % up to which softened balls are accurate; raise dem.youngs_modulus\n";
+  // Round-off of the modulus' power
+  if (mill.dem.largest_overlap > 0 && step.overlap.ratio > mill.dem.largest_overlap * (1 + 1e-6))
+    out << "WARNING: dem.largest_overlap, " << 100 * mill.dem.largest_overlap
+        << " %, is not kept: the balls have their real modulus and are not stiffer\n";
+  if (step.stiffness.modulus > mill.ball.youngs_modulus)
+    out << "WARNING: dem.youngs_modulus is above the balls' real modulus, " << mill.ball.youngs_modulus
+        << " Pa\n";
 }
 
 }  // namespace millfoam::dem_driver

@@ -39,8 +39,8 @@ inline constexpr double allowed_overlap_ratio = 0.15;
 /// (`dem.rayleigh_fraction`) of the shortest Rayleigh time of all balls, of superquadrics that of a sphere of
 /// their least radius of curvature, a tenth of the shortest Hertz
 /// contact, and the time in which the hardest impact crosses a sixth of the allowed overlap; then shortened
-/// so that `dem.record_interval` is a whole number of steps. Throws KeyError for a mill without balls or with
-/// values that give no finite step.
+/// so that `dem.record_interval` is a whole number of steps. Throws meshing::KeyError for a mill without
+/// balls or with values that give no finite step.
 TimeStep choose_time_step(const meshing::Mill& mill);
 
 /// What softer and harder balls would mean for a mill.
@@ -59,7 +59,7 @@ std::vector<Softness> softness_table(const meshing::Mill& mill);
 void print_advice(std::ostream& out, const meshing::Mill& mill);
 
 /// Prints the moduli, the limits, the choice and the expected overlap as a small table; warns where the
-/// overlap is too large.
-void print_time_step(std::ostream& out, const TimeStep& step);
+/// overlap is too large, or larger than asked for, and of balls stiffer than the real ones.
+void print_time_step(std::ostream& out, const TimeStep& step, const meshing::Mill& mill);
 
 }  // namespace millfoam::dem_driver

@@ -4,12 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
-#include "dem_driver/json_file.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
@@ -106,21 +104,6 @@ void require_fit(const std::vector<Wall>& walls, const meshing::Geometry& geomet
   found << "the walls reach from z = " << low.point.z() << " to " << high.point.z() << " m";
   if (std::abs(low.point.z()) > off) refuse(low, found.str(), walls, geometry);
   if (std::abs(high.point.z() - geometry.length) > off) refuse(high, found.str(), walls, geometry);
-}
-
-void require_walls_of(const std::filesystem::path& walls_folder, const meshing::Mill& mill) {
-  const std::filesystem::path file = walls_folder / "walls.json";
-  std::ifstream in(file);
-  if (!in) return;
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object())
-    throw std::runtime_error(file.string() +
-                             ": is not a JSON object, expected what millMesh writes; run millMesh again");
-  const std::string found = json.value(Json::json_pointer("/mill/walls"), std::string());
-  if (!found.empty() && found != mill.fingerprint.walls)
-    throw std::runtime_error(file.string() + ": the walls are of another mill (" + found +
-                             "), expected those of this one (" + mill.fingerprint.walls +
-                             "): run millMesh again");
 }
 
 EndCover cover_of_ends(const std::vector<Wall>& walls, const meshing::Geometry& geometry) {

@@ -24,10 +24,6 @@ inline constexpr double allowed_misfit = 0.02;
 /// enough, the box of all walls, and what was expected.
 void require_fit(const std::vector<Wall>& walls, const meshing::Geometry& geometry);
 
-/// Throws std::runtime_error where `walls/walls.json` says that millMesh made the walls of another mill.
-/// Walls from CAD, and walls without that file, belong to no mill.
-void require_walls_of(const std::filesystem::path& walls_folder, const meshing::Mill& mill);
-
 /// Area of walls seen along the axis over that of the mill's section (a circle).
 struct EndCover {
   double feed = 0;       ///< of the half with z below the middle

@@ -11,7 +11,7 @@
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/solids_output.hpp"
-#include "dem_driver/mill_key.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
@@ -73,8 +73,8 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
   std::vector<std::string> texts = options;
   if (mill_.averages.live) texts.insert(texts.begin(), "");
   if (texts.empty() && !mill_.dem.dumps)
-    throw KeyError("dem.dumps", "no",
-                   "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
+    throw meshing::KeyError("dem.dumps", "no",
+                            "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
   order_.run = run_of(mill_, plan);
   for (const std::string& text : texts)
     requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),

@@ -19,8 +19,8 @@ class AveragesOfRun {
   /// Checks them as millAverage does, and notes them in the plan. The plan must have its begin.
   /// @param options  a text of millAverage's options for each
   /// @param out  gets sentences about them
-  /// Throws KeyError where nothing could be averaged at all (`dem.dumps: no`), and std::runtime_error or
-  /// std::invalid_argument.
+  /// Throws meshing::KeyError where nothing could be averaged at all (`dem.dumps: no`), and
+  /// std::runtime_error or std::invalid_argument.
   AveragesOfRun(const meshing::MillDescription& description, const CaseFolder& folder,
                 const std::vector<std::string>& options, DemPlan& plan, std::ostream& out);
 

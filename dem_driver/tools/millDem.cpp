@@ -21,17 +21,17 @@
 #include "dem_driver/fluid_check.hpp"
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
-#include "dem_driver/mill_key.hpp"
 #include "dem_driver/plan_report.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/resumption.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/tools/averages_of_run.hpp"
-#include "dem_driver/wall_fit.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/standard_output.hpp"
 #include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/tools/mill_options.hpp"
+#include "meshing/walls/wall_files.hpp"
 
 namespace {
 
@@ -111,26 +111,25 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const meshing::Mill& mill = description.mill;
   const dem_driver::CaseFolder folder{options.case_folder};
   auto plan = dem_driver::plan_dem(mill);
-  dem_driver::require_walls_of(folder.walls(), mill);
+  meshing::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
   if (!options.fluid.empty() && mill.machine() == meshing::Machine::stirred)
-    throw dem_driver::KeyError("machine", "stirred",
-                               "a tumbling mill with --fluid: the voxels of slurry.h5 do not turn with the "
-                               "impeller; take --with-flow");
+    throw meshing::KeyError("machine", "stirred",
+                            "a tumbling mill with --fluid: the voxels of slurry.h5 do not turn with the "
+                            "impeller; take --with-flow");
   if (!options.with_flow.empty() && mill.machine() == meshing::Machine::stirred && !mill.flow.coupling.voxels)
-    throw dem_driver::KeyError("flow.coupling", "one_way",
-                               "direct with --with-flow: it gives the voxels on which balls and slurry meet");
+    throw meshing::KeyError("flow.coupling", "one_way",
+                            "direct with --with-flow: it gives the voxels on which balls and slurry meet");
   if (!options.fluid.empty() && mill.dem.pool_level)
-    throw dem_driver::KeyError("dem.fluid", "buoyancy",
-                               "none with --fluid, which has the buoyancy of its flow");
+    throw meshing::KeyError("dem.fluid", "buoyancy", "none with --fluid, which has the buoyancy of its flow");
   if (!options.fluid.empty())
     plan.fluid = dem_driver::require_fluid_of(
         options.fluid,
         options.fluid_time == "windows" ? dem_driver::FluidTime::windows : dem_driver::FluidTime::mean, mill,
         plan);
   if (!options.with_flow.empty() && mill.dem.pool_level)
-    throw dem_driver::KeyError("dem.fluid", "buoyancy",
-                               "none with --with-flow, which has the buoyancy of its flow");
+    throw meshing::KeyError("dem.fluid", "buoyancy",
+                            "none with --with-flow, which has the buoyancy of its flow");
   std::optional<dem_driver::LastState> state;
   if (!options.continued.empty()) {
     state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
@@ -284,11 +283,7 @@ void act(const Options& options, Action action) {
     meshing::write_resolved_mill(description, "millDem", options.mill.resolved);
     return;
   }
-  try {
-    action(options, description);
-  } catch (const dem_driver::KeyError& error) {
-    throw meshing::MillError(description.document->place(error.key()) + ": " + error.what());
-  }
+  meshing::naming_place(description, [&] { action(options, description); });
 }
 
 }  // namespace

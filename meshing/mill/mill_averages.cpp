@@ -17,13 +17,17 @@ namespace {
 constexpr double usual_voxel = 2.5;
 constexpr double usual_voxels_of_radius = 4;
 
-void check_number_of_voxels(const Section& in, double across, double along) {
+void check_number_of_voxels(const Section& in, double across, double along, double size) {
   const double voxels = across * across * along;
   if (voxels <= most_voxels) return;
   const bool counted = in.has("counts");
-  in.refuse(counted ? "counts" : "voxel_size",
-            std::string(counted ? "numbers that give" : "a length that gives") + " at most " +
-                shown(most_voxels) + " voxels, not " + shown(voxels));
+  const bool usual = !counted && !in.has("voxel_size");
+  in.refuse(
+      counted ? "counts" : "voxel_size",
+      std::string(counted ? "numbers that give" : "a length that gives") + " at most " + shown(most_voxels) +
+          " voxels, not " + shown(voxels) +
+          (usual ? ", as its default does, " + shown(size) + " m, which follows from the balls' diameters"
+                 : std::string()));
 }
 
 /// A number of records, as a time.
@@ -65,7 +69,7 @@ Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int
     const Rule along = whole_number("voxels along the axis", 1, most_along_axis);
     voxels.shape[2] =
         usual_along > 0 ? counts.integer("along", along, usual_along) : counts.integer("along", along);
-    check_number_of_voxels(in, voxels.shape[0], voxels.shape[2]);
+    check_number_of_voxels(in, voxels.shape[0], voxels.shape[2], 0);
   } else {
     const double size =
         in.number("voxel_size",
@@ -76,7 +80,7 @@ Voxels read_voxels(Section& in, const Geometry& geometry, double usual_size, int
     voxels.shape[0] = 2 * static_cast<int>(std::ceil(half / size * (1 - 1e-9)));
     half = voxels.shape[0] * size / 2;
     const double along = usual_along > 0 ? usual_along : std::max(1.0, std::round(length / size));
-    check_number_of_voxels(in, voxels.shape[0], along);
+    check_number_of_voxels(in, voxels.shape[0], along, size);
     voxels.shape[2] = static_cast<int>(along);
   }
   voxels.shape[1] = voxels.shape[0];

@@ -9,8 +9,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
-#include "meshing/mill/mill_fingerprints.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -68,6 +69,30 @@ void refuse_tabs(const std::string& file, const std::string& text) {
   }
 }
 
+/// Values of a file with all aliases written out, and maps and lists within each other, above which it is
+/// refused.
+constexpr int most_values = 100'000, deepest = 100;
+
+/// A copy in which each use of an alias has a node of its own: otherwise a change of one is one of all.
+/// @param depth  of maps and lists around it
+/// @param left   values that it may still have
+YAML::Node written_out(const std::string& file, const YAML::Node& node, int depth, int& left) {
+  if (--left < 0 || depth > deepest)
+    throw MillError(
+        file + ": more than " + std::to_string(most_values) + " values, or " + std::to_string(deepest) +
+        " maps within each other, where all aliases (*NAME) are written out: expected fewer, and no "
+        "alias that contains itself");
+  YAML::Node copy(node.Type());
+  if (node.IsScalar()) copy = YAML::Node(node.Scalar());
+  if (node.IsSequence())
+    for (const YAML::Node& item : node) copy.push_back(written_out(file, item, depth + 1, left));
+  if (node.IsMap())  // with keys that are given twice, which are refused later
+    for (const auto& entry : node)
+      copy.force_insert(entry.first, written_out(file, entry.second, depth + 1, left));
+  copy.SetTag(node.Tag());
+  return copy;
+}
+
 YAML::Node load(const std::string& file, const std::string& text) {
   std::vector<YAML::Node> documents;
   try {
@@ -84,7 +109,10 @@ YAML::Node load(const std::string& file, const std::string& text) {
   if (!documents.front().IsMap())
     throw MillError(file + ":" + std::to_string(documents.front().Mark().line + 1) +
                     ": not a map of keys: expected a mill description with its sections, geometry first");
-  return documents.front();
+  // Copies have no lines; those of the keys stay
+  int left = most_values;
+  return text.find('*') == std::string::npos ? documents.front()
+                                             : written_out(file, documents.front(), 0, left);
 }
 
 /// "a.b[2].c" as {"a", "b", "2", "c"}; empty when it is not a path.
@@ -190,6 +218,36 @@ std::string line_of(const YAML::Node& node) {
 
 /// Path of the changes that apply a variant.
 const std::string variant_path = "variant";
+const std::string variants_key = "variants";
+
+/// Refuses entries of a map that have the same key.
+/// @param path  of the map
+void refuse_twice(const std::string& file, const YAML::Node& map, const std::string& path) {
+  std::set<std::string> seen;
+  for (const auto& entry : map)
+    if (!seen.insert(entry.first.Scalar()).second)
+      throw MillError(file + ":" + line_of(entry.first) + ": key '" + path + "." + entry.first.Scalar() +
+                      "' is given twice: expected once");
+}
+
+/// The variants of a file, which it may not have; of each, its paths are given once.
+YAML::Node take_variants(const std::string& file, YAML::Node& root) {
+  const YAML::Node variants = root[variants_key];
+  root.remove(variants_key);
+  if (!variants.IsDefined()) return variants;
+  if (!variants.IsMap())
+    throw MillError(file +
+                    ": key 'variants': expected a map of variants, as in variants: {hill: {flow.law: Hill}}");
+  refuse_twice(file, variants, variants_key);
+  for (const auto& entry : variants) {
+    const std::string path = variants_key + "." + entry.first.Scalar();
+    if (!entry.second.IsMap())
+      throw MillError(file + ":" + line_of(entry.first) + ": key '" + path +
+                      "': expected a map of paths and values, as in {flow.law: Hill}");
+    refuse_twice(file, entry.second, path);
+  }
+  return variants;
+}
 
 }  // namespace
 
@@ -202,8 +260,7 @@ MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::s
   source_fingerprint_ = fingerprint(text);
   root_ = load(file_, text);
   if (root_["format"].IsDefined()) take_resolved();
-  const YAML::Node variants = root_["variants"];
-  root_.remove("variants");
+  const YAML::Node variants = take_variants(file_, root_);
   std::vector<std::string> own;
   for (const std::string& change : set_) {
     const std::size_t sign = change.find('=');
@@ -259,15 +316,12 @@ void MillDocument::apply(const std::string& change) {
 
 void MillDocument::apply_variant(const YAML::Node& variants, const std::string& name) {
   const std::string change = "--set " + variant_path + "=" + name;
-  if (!variants.IsDefined() || !variants.IsMap())
+  if (!variants.IsDefined())
     throw MillError(change + ": " + source_ +
                     " has no variants: expected a map of them under its key 'variants'");
   const YAML::Node variant = variants[name];
   if (!variant.IsDefined())
     throw MillError(change + ": no variant of " + source_ + ": expected one of " + joined_names(variants));
-  if (!variant.IsMap())
-    throw MillError(source_ + ":" + line_of(variant) + ": key 'variants." + name +
-                    "': expected a map of paths and values, as in {flow.law: Hill}");
   for (const auto& entry : variant) {
     const std::string path = entry.first.Scalar();
     const std::string place = source_ + ":" + line_of(entry.first);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "meshing/mill/mill_fingerprints.hpp"
 
-#include <cstdint>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "meshing/files/file_fingerprint.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -50,14 +50,6 @@ Json averages_numbers(const Json& keys) {
 }
 
 }  // namespace
-
-std::string fingerprint(const std::string& bytes) {
-  std::uint64_t sum = 14695981039346656037U;
-  for (const char byte : bytes) sum = (sum ^ static_cast<unsigned char>(byte)) * 1099511628211U;
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
-  return text;
-}
 
 Json materials_numbers(const Mill& mill) {
   return {{"ball", material_numbers(mill.ball)},

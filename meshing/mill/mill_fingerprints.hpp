@@ -8,9 +8,6 @@
 
 namespace millfoam::meshing {
 
-/// FNV-1a hash of bytes, 16 hexadecimal digits: it distinguishes two states of a text.
-std::string fingerprint(const std::string& bytes);
-
 /// The numbers of the materials and contacts, by the keys of `materials`, with units in their names.
 nlohmann::ordered_json materials_numbers(const Mill& mill);
 

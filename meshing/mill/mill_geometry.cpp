@@ -13,8 +13,6 @@
 namespace millfoam::meshing {
 namespace {
 
-/// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
-constexpr double most_cells = 1e8;
 /// Cells along a side of a block or of the mill: more make too many together.
 constexpr int most_along_side = 100000;
 /// Lifters or sectors: more are no wider than the balls between them.

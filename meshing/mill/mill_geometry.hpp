@@ -6,6 +6,9 @@
 
 namespace millfoam::meshing {
 
+/// More cells than this overflow the 32-bit labels of OpenFOAM with their faces.
+inline constexpr double most_cells = 1e8;
+
 /// The map `geometry` of a mill.yaml. Throws MillError for an impossible mill: lifters that overlap, openings
 /// that do not fit inside the lifters or without plain ends, …
 Geometry read_geometry(const Section& in);

@@ -16,6 +16,12 @@ inline Rule positive_up_to(const std::string& what, double most) {
   return {what + " above 0 and up to " + shown(most), [=](double v) { return v > 0 && v <= most; }};
 }
 
+/// A number from `least` to `most`.
+inline Rule from_to(const std::string& what, double least, double most) {
+  return {what + " from " + shown(least) + " to " + shown(most),
+          [=](double v) { return v >= least && v <= most; }};
+}
+
 /// A number of 0 or more and up to `most`.
 inline Rule zero_up_to(const std::string& what, double most) {
   return {what + " of 0 or more and up to " + shown(most), [=](double v) { return v >= 0 && v <= most; }};
@@ -65,14 +71,14 @@ inline Rule positive_below(const std::string& what, double bound, const std::str
           [bound](double v) { return v > 0 && v < bound; }};
 }
 
-/// A density, kg/m^3; osmium has 22590.
+/// A density of balls, walls or slurry, kg/m^3; osmium has 22590. The least refuses densities in g/cm^3.
 inline Rule density() {
-  return positive_up_to("a density in kg/m^3", 23000);
+  return from_to("a density in kg/m^3", 100, 23000);
 }
 
-/// Young's modulus, Pa; diamond has 1.2e12.
+/// Young's modulus, Pa; diamond has 1.2e12, soft rubber 1e6. The least refuses moduli in GPa and MPa.
 inline Rule youngs_modulus() {
-  return positive_up_to("a modulus in Pa", 2e12);
+  return from_to("a modulus in Pa", 1e5, 2e12);
 }
 
 /// A friction coefficient; rubber on dry concrete has up to 4.

@@ -84,7 +84,10 @@ void Section::check_keys() const {
     // Keys that --set has made have no line
     if (entry.first.Mark().line >= 0) document_->note_line(path, entry.first.Mark().line + 1);
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
-      fail(path, "key '" + path + "' is unknown: " + suggestion(key, known_));
+      // {diameter: 0,6} is a diameter of 0 and a key 6
+      const bool comma = parse<double>(key) && entry.second.IsNull();
+      fail(path, "key '" + path + "' is unknown: " +
+                     (comma ? "a decimal comma? expected a point, as in 0.6" : suggestion(key, known_)));
     }
     if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }
@@ -206,7 +209,7 @@ bool Section::boolean(const std::string& key, bool fallback) const {
     const YAML::Node node = find(key);
     const std::string word = is_plain_scalar(node) ? node.Scalar() : "";
     truth = word == "true" || word == "yes";
-    if (!truth && word != "false" && word != "no") refuse(key, "true or false");
+    if (!truth && word != "false" && word != "no") refuse(key, "yes or no (true or false)");
   }
   document_->record(path_of(key), truth);
   return truth;

@@ -9,6 +9,9 @@
 #include <tuple>
 #include <utility>
 
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
+#include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill_mesh/openings.hpp"
 #include "meshing/volume/baffles.hpp"
 
@@ -266,6 +269,13 @@ std::vector<double> layer_ends(double length, int layers, double last) {
 
 VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers,
                           double last_layer) {
+  // Narrow lifters and circles of openings need more cells than resolution.cell_size alone
+  const int all_layers = layers + (geometry.pulp_lifters ? geometry.pulp_lifters->layers : 0);
+  const double cells = static_cast<double>(section.quads.size()) * all_layers;
+  if (cells > most_cells)
+    throw KeyError("resolution.layers", std::to_string(layers),
+                   "at most 1e8 cells in the mill, not " + shown(cells) + ": its cross-section has " +
+                       std::to_string(section.quads.size()));
   return Extrusion(section, geometry, layers, last_layer).run();
 }
 

@@ -27,7 +27,8 @@ std::vector<double> layer_ends(double length, int layers, double last);
 ///   end, then are pairs of faces, one for each side, with points of their own.
 ///
 /// With pulp lifters the face zone `grates` holds the faces through which alone mill and compartments are
-/// joined, and the cell zone `pulpLifters` holds all cells of the compartments.
+/// joined, and the cell zone `pulpLifters` holds all cells of the compartments. Throws KeyError for more than
+/// most_cells.
 VolumeMesh make_mill_mesh(const CrossSection& section, const Geometry& geometry, int layers,
                           double last_layer = 0);
 

@@ -6,9 +6,10 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
+#include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/opening_circles.hpp"
 #include "meshing/surface/pi.hpp"
@@ -125,10 +126,10 @@ Sectors divide(const CrossSection& section, const Grates& grates, bool walls) {
     const int columns =
         std::min(room, static_cast<int>(std::lround((k + 1) * width * grates.sector_share)) - taken);
     if (columns < 1) {
-      throw std::runtime_error(
-          "geometry.grates: sector " + std::to_string(k + 1) + " of " + std::to_string(grates.sectors) +
-          " has no column of the mesh's " + std::to_string(section.around()) +
-          " for its grate: expected fewer sectors, a larger sector_share, or more cells");
+      throw KeyError("geometry.grates.sectors", std::to_string(grates.sectors),
+                     "fewer sectors, a larger sector_share, or more cells: sector " + std::to_string(k + 1) +
+                         " has no column of the mesh's " + std::to_string(section.around()) +
+                         " for its grate");
     }
     sectors.first_grate.push_back(sectors.first_line[s] + (room - columns) / 2);
     sectors.grates.push_back(columns);
@@ -155,12 +156,12 @@ void require_inlet_area(double area, const Geometry& geometry) {
   if (std::abs(error) <= allowed_inlet_error) return;
   std::ostringstream text;
   text.precision(3);
-  text << "geometry.inlet: the whole cells about the axis that come nearest to " << 1e4 * asked
-       << " cm^2 have " << 1e4 * area << " cm^2, " << 100 * std::abs(error) << " % too "
-       << (error > 0 ? "much" : "little") << ": expected at most " << 100 * allowed_inlet_error
-       << " %; choose smaller cells, an inlet of that area, or one of a radius of "
+  text << "an inlet of which whole cells about the axis have the area to " << 100 * allowed_inlet_error
+       << " %; the nearest have " << 1e4 * area << " cm^2, " << 100 * std::abs(error) << " % too "
+       << (error > 0 ? "much" : "little")
+       << ": choose smaller cells, an inlet of that area, or one of a radius of "
        << smallest_circle * lifter_top_distance(geometry) << " m or more, which has a circle in the mesh";
-  throw std::runtime_error(text.str());
+  throw KeyError("geometry.inlet", shown(1e4 * asked) + " cm^2", text.str());
 }
 
 }  // namespace

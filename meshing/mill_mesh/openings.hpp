@@ -28,7 +28,7 @@ inline constexpr double allowed_inlet_error = 0.05;
 /// nearest to the axis whose area is nearest to the requested one, those at equal distances together. Sectors
 /// and grates begin and end at the mesh's lines nearest to theirs; the numbers of columns in the grates are
 /// chosen one after the other so that their sum stays within half a column of the requested area. Throws
-/// std::runtime_error where a sector has no column for its grate, and where an inlet without a circle is
+/// KeyError where a sector has no column for its grate, and where an inlet without a circle is
 /// wrong by more than allowed_inlet_error.
 Openings find_openings(const CrossSection& section, const Geometry& geometry);
 

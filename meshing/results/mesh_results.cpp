@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/resolved_mill.hpp"
+#include "meshing/walls/wall_files.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -68,9 +70,14 @@ void write_wall_results(const std::optional<MillDescription>& description, const
   json["upper_m"] = {high.x(), high.y(), high.z()};
   json["volume_m3"] = volume;
   json["triangles"] = Json::object();
-  for (const WallPart& part : walls.parts)
-    if (!part.triangles.empty()) json["triangles"][part.name] = part.triangles.size();
-  write_json(walls_folder / "walls.json", json);
+  json["files"] = Json::object();
+  for (const WallPart& part : walls.parts) {
+    if (part.triangles.empty()) continue;
+    json["triangles"][part.name] = part.triangles.size();
+    const std::filesystem::path file = walls_folder / (part.name + ".stl");
+    if (std::filesystem::exists(file)) json["files"][part.name] = file_fingerprint(file);
+  }
+  write_json(walls_folder / walls_results_name, json);
 }
 
 std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::path& case_folder) {

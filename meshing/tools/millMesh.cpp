@@ -128,8 +128,7 @@ void run_stirred(const Options& options, const MillDescription& description) {
   if (!options.case_folder.empty()) write_for_dry_run(description, surface, volume, options.case_folder);
 }
 
-void run(const Options& options) {
-  const MillDescription description = options.mill.read();
+void run(const Options& options, const MillDescription& description) {
   const Mill& mill = description.mill;
   if (mill.machine() == Machine::stirred) {
     run_stirred(options, description);
@@ -187,7 +186,8 @@ int main(int argc, char** argv) {
     }
     if (options.case_folder.empty() && quality->empty())
       throw std::runtime_error("expected --case DIR, --quality or --resolved FILE");
-    naming_case(options.case_folder, [&] { run(options); });
+    const MillDescription description = options.mill.read();
+    naming_case(options.case_folder, [&] { naming_place(description, [&] { run(options, description); }); });
   });
   try {
     CLI11_PARSE(app, argc, argv);

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "meshing/files/output_file.hpp"
+#include "meshing/mill/mill_document.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "millfoam_version.hpp"
@@ -39,6 +41,16 @@ inline CLI::Option* add_mill_options(CLI::App& app, MillOptions& options) {
          "write the mill with every default and derived number to this file (- : standard output) and stop")
       ->type_name("FILE");
   return mill;
+}
+
+/// Runs `action`. A key of the mill of which it can make nothing is named with its place in the file.
+template <typename Action>
+void naming_place(const MillDescription& description, Action&& action) {
+  try {
+    action();
+  } catch (const KeyError& error) {
+    throw MillError(description.document->place(error.key()) + ": " + error.what());
+  }
 }
 
 /// Runs `action`. Where it cannot make one of its folders or files, throws std::runtime_error that names the

@@ -65,7 +65,8 @@ struct FacesOptions {
 void run_faces(const FacesOptions& options) {
   if (!has_extension(options.file, ".obj"))
     throw std::runtime_error("-o " + options.file + ": expected a name that ends in .obj");
-  const Mill mill = options.mill.read().mill;
+  const MillDescription description = options.mill.read();
+  const Mill& mill = description.mill;
   if (mill.machine() == Machine::stirred)
     throw std::runtime_error(options.mill.file +
                              ": faces of a stirred mill are not written: expected a tumbling one");
@@ -75,8 +76,10 @@ void run_faces(const FacesOptions& options) {
         ": the mill's ends are periodic, and cells out of faces cannot have cyclic patches: "
         "expected 'ends: plain' without 'slice'");
   const CrossSection section = make_cross_section(mill.geometry, mill.resolution);
-  const VolumeMesh mesh =
-      make_mill_mesh(section, mill.geometry, mill.resolution.layers, mill.resolution.last_layer);
+  VolumeMesh mesh;
+  naming_place(description, [&] {
+    mesh = make_mill_mesh(section, mill.geometry, mill.resolution.layers, mill.resolution.last_layer);
+  });
   write_obj(mesh, options.file);
   std::printf("%s: %zu points, %zu faces, %zu of them in the group %s\n", options.file.c_str(),
               mesh.points.size(), mesh.faces.size(), mesh.neighbour.size(), internal_group);

@@ -2,7 +2,11 @@
 #include "meshing/walls/wall_files.hpp"
 
 #include <Eigen/Geometry>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/text_numbers.hpp"
 
@@ -29,6 +33,7 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
                                                const std::filesystem::path& folder) {
   const auto point = [&](int p) -> const Vector3d& { return surface.points[static_cast<std::size_t>(p)]; };
   std::vector<std::filesystem::path> files;
+  write_file(folder / walls_results_name, [](std::ostream& out) { out << R"({"files": null})" << '\n'; });
   for (const WallPart& part : surface.parts) {
     const std::filesystem::path file = folder / (part.name + ".stl");
     if (!is_wall(part, ends)) {
@@ -43,6 +48,30 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
     files.push_back(file);
   }
   return files;
+}
+
+void require_walls_of(const std::filesystem::path& folder, const Mill& mill) {
+  using Json = nlohmann::json;
+  const std::filesystem::path file = folder / walls_results_name;
+  std::ifstream in(file);
+  if (!in) return;
+  const Json json = Json::parse(in, nullptr, false);
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(file.string() + ": " + why + ": run millMesh again");
+  };
+  if (!json.is_object()) refuse("is not a JSON object; expected what millMesh writes");
+  const Json of_mill = json.value("mill", Json::object());
+  const std::string found = of_mill.is_object() ? of_mill.value("walls", std::string()) : std::string();
+  if (json.value("source", Json()) != "cad" && !found.empty() && found != mill.fingerprint.walls)
+    refuse("the walls are of another mill (walls " + found + ", this mill's are " + mill.fingerprint.walls +
+           ")");
+  if (!json.contains("files")) return;  // of an earlier version
+  if (!json["files"].is_object()) refuse("the walls are not complete, as after an interrupted millMesh");
+  for (const auto& [part, written] : json["files"].items()) {
+    const std::filesystem::path wall = folder / (part + ".stl");
+    if (!std::filesystem::exists(wall) || written != file_fingerprint(wall))
+      refuse(wall.filename().string() + " is not the wall that was written with this file");
+  }
 }
 
 }  // namespace millfoam::meshing

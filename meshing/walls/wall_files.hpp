@@ -9,10 +9,19 @@
 
 namespace millfoam::meshing {
 
+/// What millMesh writes next to the walls.
+inline constexpr const char* walls_results_name = "walls.json";
+
 /// Writes `<folder>/<part>.stl` (ASCII) for each part that LIGGGHTS needs as a wall: those with triangles,
 /// and the ends only where they are plain. A file of a part that is not a wall, left by an earlier mill, is
-/// removed. Returns the files written.
+/// removed. Until write_wall_results, walls.json says that the walls are not complete. Returns the files
+/// written.
 std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends ends,
                                                const std::filesystem::path& folder);
+
+/// Throws std::runtime_error where walls.json of a folder says that its walls are of another mill, not
+/// complete, or other files than those next to it. Walls from CAD, and walls without walls.json, belong to
+/// any mill.
+void require_walls_of(const std::filesystem::path& folder, const Mill& mill);
 
 }  // namespace millfoam::meshing

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <variant>
 
+#include "dem_driver/contact_record.hpp"
 #include "dem_driver/disk_room.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/segments.hpp"
@@ -185,6 +186,14 @@ TEST_F(Averages, AreNeededByARestartFileAndGoWithIt) {
       tests::write_restart(folder.dem() / ("restart." + std::to_string(part * plan.restart_steps)), {250});
   }
   EXPECT_EQ(last_good_restart(folder, plan), 3 * plan.restart_steps);
+  // So do the open contacts where they are followed
+  plan.watches_contacts = true;
+  write_contact_state(folder.dem(), plan.restart_steps, {});
+  EXPECT_EQ(last_good_restart(folder, plan), plan.restart_steps);
+  plan.watches_contacts = false;
+  const fs::path later = folder.dem() / ("torque." + std::to_string(3 * plan.restart_steps) + ".txt");
+  const fs::path earlier = folder.dem() / ("torque." + std::to_string(2 * plan.restart_steps) + ".txt");
+  for (const fs::path& history : {earlier, later}) std::ofstream(history) << "# a history\n";
   fs::resize_file(files.checkpoint(3 * plan.restart_steps), 10);
   EXPECT_EQ(last_good_restart(folder, plan), 2 * plan.restart_steps);
   OutputCheck check(folder, plan, 0);
@@ -200,6 +209,8 @@ TEST_F(Averages, AreNeededByARestartFileAndGoWithIt) {
   EXPECT_FALSE(fs::exists(files.checkpoint(plan.restart_steps)));
   EXPECT_FALSE(fs::exists(files.checkpoint(3 * plan.restart_steps)));
   EXPECT_TRUE(fs::exists(files.journal(0)));
+  EXPECT_TRUE(fs::exists(earlier));
+  EXPECT_FALSE(fs::exists(later)) << "it begins after the step";
   prepare_folders(folder);
   EXPECT_TRUE(find_averages(folder).empty());
 }

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "averaging/files/slurry_file.hpp"
-#include "dem_driver/case_folder.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 #include "tests/dem_driver/small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -220,7 +220,7 @@ TEST_F(FluidForcesTest, GiveEachShapeItsOwnDrag) {
   FluidSettings fluid;
   fluid.kind = FluidKind::slurry;
   fluid.file = write({uniform});
-  fluid.file_id = file_hash(fluid.file);
+  fluid.file_id = file_fingerprint(fluid.file);
   fluid.shapes = {{{0.4, round}, {0.6, blunt}}, slurry};
   const auto forces = make_fluid_forces(fluid);
   // A slip of 0.1 - 0.4 m/s along x and 0.4 along y
@@ -262,7 +262,7 @@ TEST_F(FluidForcesTest, OfAFileThatHasChangedSinceItWasCheckedAreRefused) {
   FluidSettings fluid;
   fluid.kind = FluidKind::slurry;
   fluid.file = write({pushing});
-  fluid.file_id = file_hash(fluid.file);
+  fluid.file_id = file_fingerprint(fluid.file);
   EXPECT_NE(make_fluid_forces(fluid), nullptr);
   fluid.file_id = "0123456789abcdef";
   const std::string message = tests::message_of([&] { make_fluid_forces(fluid); });

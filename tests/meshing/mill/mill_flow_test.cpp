@@ -458,6 +458,69 @@ TEST(Variants, are_refused_by_line_and_name) {
   EXPECT_EQ(refusal_of(wrong), "accepted");
 }
 
+TEST(Variants, are_refused_where_they_say_two_things) {
+  const auto refused = [](const std::string& variants) { return refusal_of(bare_mill + variants); };
+  EXPECT_EQ(refused("variants:\n  slow: {flow.law: Hill, flow.law: Beetstra}\n")
+                .rfind("mill.yaml:7: key 'variants.slow.flow.law' is given twice", 0),
+            0U);
+  EXPECT_EQ(refused("variants:\n  a: {flow.law: Hill}\n  a: {flow.law: Beetstra}\n")
+                .rfind("mill.yaml:8: key 'variants.a' is given twice", 0),
+            0U);
+  EXPECT_NE(refused("variants: [a]\n").find("key 'variants': expected a map of variants"), std::string::npos);
+  EXPECT_NE(refused("variants:\n").find("key 'variants': expected a map of variants"), std::string::npos);
+}
+
+TEST(Aliases, are_values_of_their_own) {
+  const std::string alike =
+      with(with(example_mill, "ball_ball: {", "ball_ball: &pair {"),
+           "ball_wall: {restitution: 0.703, friction: 0.287, rolling_friction: 0.02}", "ball_wall: *pair");
+  EXPECT_EQ(mill_of(alike).ball_wall.friction, 0.94);
+  const Mill mill = mill_of(alike, {"materials.ball_ball.friction=0.1"});
+  EXPECT_EQ(mill.ball_ball.friction, 0.1);
+  EXPECT_EQ(mill.ball_wall.friction, 0.94);
+  const std::string number =
+      with(with(example_mill, "height: 0.008", "height: &size 0.008"), "diameter: 0.008", "diameter: *size");
+  EXPECT_EQ(mill_of(number, {"geometry.lifters.height=0.007"}).charge.classes.front().diameter, 0.008);
+}
+
+TEST(Aliases, of_balls_fill_the_mill_as_other_balls_do) {
+  const std::string classes = "- {diameter: 0.008, mass: 0.02}\n    - {diameter: 0.002, mass: 0.03}";
+  const auto fill = [&](const std::string& two) {
+    double mass = 0;
+    for (const SizeClass& size :
+         mill_of(with(example_mill, classes, two), {"charge.fill=0.3"}).charge.classes)
+      mass += size.mass;
+    return mass;
+  };
+  EXPECT_DOUBLE_EQ(fill("- &ball {diameter: 0.008, mass: 0.02}\n    - *ball"),
+                   fill("- {diameter: 0.008, mass: 0.02}\n    - {diameter: 0.008, mass: 0.02}"));
+}
+
+TEST(Aliases, that_contain_themselves_or_grow_without_end_are_refused) {
+  EXPECT_NE(refusal_of("title: &a {b: *a}\n" + bare_mill).find("aliases (*NAME) are written out"),
+            std::string::npos);
+  std::string bomb = "title: &a0 [1, 1]\n";
+  for (int i = 1; i < 40; ++i)
+    bomb += "t" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + ", *a" +
+            std::to_string(i - 1) + "]\n";
+  EXPECT_NE(refusal_of(bomb + bare_mill).find("more than 100000 values"), std::string::npos);
+}
+
+TEST(Numbers, with_a_comma_in_a_map_of_one_line_are_told) {
+  EXPECT_NE(
+      refusal_of(with(bare_mill, "0.025", "0,025")).find("key 'charge.025' is unknown: a decimal comma?"),
+      std::string::npos);
+}
+
+TEST(Materials, in_other_units_are_refused) {
+  EXPECT_NE(refusal_of(example_mill, {"slurry.density=1.24"}).find("a density in kg/m^3 from 100 to 23000"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(example_mill, {"materials.ball.density=2.7"}).find("from 100 to 23000"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(example_mill, {"materials.ball.youngs_modulus=65"}).find("from 100000 to 2e+12"),
+            std::string::npos);
+}
+
 TEST(Encoding, is_named_when_it_is_not_utf8) {
   EXPECT_NE(refusal_of("title: M\xFChle\n" + bare_mill)
                 .find("mill.yaml:1: byte 0xFC is not UTF-8, as in a text in Latin-1"),

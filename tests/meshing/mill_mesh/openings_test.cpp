@@ -254,13 +254,12 @@ TEST(Inlet, whose_whole_cells_have_another_area_is_refused_with_the_areas) {
   try {
     find_openings(make_cross_section(mill, 0.012), mill);
     FAIL();
-  } catch (const std::runtime_error& error) {
+  } catch (const KeyError& error) {
     const std::string message = error.what();
-    EXPECT_EQ(
-        message.find("geometry.inlet: the whole cells about the axis that come nearest to 0.785 cm^2 have "),
-        0u)
+    EXPECT_EQ(message.find("key 'geometry.inlet' = 0.785398 cm^2: expected an inlet of which whole cells"),
+              0u)
         << message;
-    EXPECT_NE(message.find(": expected at most 5 %; choose smaller cells"), std::string::npos) << message;
+    EXPECT_NE(message.find(" have the area to 5 %; the nearest have "), std::string::npos) << message;
     EXPECT_NE(message.find("one of a radius of 0.035 m or more"), std::string::npos) << message;
   }
 }

@@ -10,6 +10,7 @@
 
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/results/mesh_results.hpp"
 #include "meshing/volume/mesh_quality.hpp"
 #include "meshing/walls/surface_check.hpp"
 #include "meshing/walls/wall_files.hpp"
@@ -161,6 +162,39 @@ TEST(Walls, of_a_periodic_slice_or_a_smooth_drum_leave_no_file_of_an_earlier_mil
   write_walls(walls_of(test_mill(0.12, 0, 0, 0, 0.006)), Ends::plain, folder.path());
   EXPECT_FALSE(has("lifters.stl"));
   EXPECT_TRUE(has("feedEnd.stl"));
+}
+
+TEST(WallFiles, that_are_not_those_of_walls_json_are_refused) {
+  const TemporaryFolder folder;
+  const MillDescription description = describe_mill(folder.write("mill.yaml", example_mill));
+  const Mill& mill = description.mill;
+  const WallSurface surface =
+      make_wall_surface(make_cross_section(mill.geometry, mill.resolution), mill.geometry.length);
+  const std::filesystem::path walls = folder.path() / "walls";
+  const auto complaint_of = [&](const Mill& one) {
+    try {
+      require_walls_of(walls, one);
+    } catch (const std::runtime_error& error) {
+      const std::string message = error.what();
+      return message.substr(message.find("walls.json"));
+    }
+    return std::string();
+  };
+  const auto complaint = [&] { return complaint_of(mill); };
+  EXPECT_EQ(complaint(), "") << "walls without walls.json belong to any mill";
+  write_walls(surface, mill.geometry.ends, walls);
+  EXPECT_EQ(complaint(),
+            "walls.json: the walls are not complete, as after an interrupted millMesh: run millMesh again");
+  write_wall_results(description, surface, 1.0, walls);
+  EXPECT_EQ(complaint(), "");
+  std::filesystem::copy_file(walls / "shell.stl", walls / "lifters.stl",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(complaint(),
+            "walls.json: lifters.stl is not the wall that was written with this file: run millMesh again");
+  std::filesystem::remove(walls / "lifters.stl");
+  EXPECT_NE(complaint(), "");
+  const MillDescription other = describe_mill(folder.path() / "mill.yaml", {"geometry.length=0.03"});
+  EXPECT_NE(complaint_of(other.mill).find("the walls are of another mill"), std::string::npos);
 }
 
 }  // namespace
