@@ -113,7 +113,7 @@ def plot(runs, path):
             if column == len(runs) - 1:
                 figure.colorbar(image, ax=axis, shrink=0.8, label=label)
         axes[-1, column].set_xlabel("x, mm")
-    figure.savefig(path, dpi=70)
+    figure.savefig(path, dpi=70, bbox_inches="tight")
     plt.close(figure)
 
 
