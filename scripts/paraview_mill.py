@@ -47,7 +47,7 @@ def show_walls(flow, view):
 
 
 def show_slurry(flow, view):
-    """The slurry's surface, coloured by its velocity along the axis."""
+    """The slurry's surface, blue."""
     inside = simple.ExtractBlock(registrationName="room", Input=flow, Selectors=["//internalMesh"])
     points = simple.CellDatatoPointData(registrationName="at points", Input=inside)
     body = simple.IsoVolume(registrationName="slurry", Input=points, InputScalars=["POINTS", "alpha.slurry"],

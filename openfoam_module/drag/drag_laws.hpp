@@ -76,7 +76,7 @@ double rong(double phi, double re);
 
 /// Tang, Peters, Kuipers, Kriebitzsch & van der Hoef 2015, AIChE J. 61:688.
 /// Range: phi <= 0.6 and Re <= 1000. Far beyond it F is negative, where its term linear in Re is: at phi 0.60
-/// from Re 34900 on, at 0.65 from 10600, at 0.70 from 5470; and below phi 0.05 from Re 1e5 or more.
+/// from Re 34910 on, at 0.65 from 10640, at 0.70 from 5480; and below phi 0.05 from Re 1e5 or more.
 double tang(double phi, double re);
 
 /// Tenneti, Garg & Subramaniam 2011, Int. J. Multiphase Flow 37:1072.

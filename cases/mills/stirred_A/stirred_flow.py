@@ -47,7 +47,7 @@ def show(case: Path) -> None:
     vortex = vortex_figure(mill, flow, records[-1] if records else None)
     for name, figure in (("flow_maps", maps_figure(mill, flow)), ("vortex", vortex)):
         figure.suptitle(f"{mill.title}, {mill.derived('speed', 'tip_speed_m_s'):.2f} m/s at the tips, with slurry, "
-                        f"{flow.times[0]:.2f} to {flow.times[-1]:.2f} s", fontsize=10)
+                        f"flow time {flow.times[0]:.2f} to {flow.times[-1]:.2f} s", fontsize=10)
         figure.savefig(case / f"{name}.png", dpi=110)
         print(f"{name}.png")
     if not numbers["missing_over_hold_up"] <= CONSERVED:

@@ -99,20 +99,21 @@ def plot(runs, path):
         inside, speed = charge.inside > 0.01, np.linalg.norm(charge.velocity[..., :2], axis=-1)
         # Where balls are rare the difference is chance
         dense = (charge.solidity > DENSE) & (last.solidity > DENSE)
-        panels = (("solidity", charge.solidity, inside, "YlOrBr", (0, 0.65)),
-                  (f"minus that of {runs[-1].name}", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
+        panels = (("solidity, –", charge.solidity, inside, "YlOrBr", (0, 0.65)),
+                  ("difference of solidity, –", charge.solidity - last.solidity, inside, "RdBu_r", (-0.1, 0.1)),
                   ("speed, m/s", speed, charge.solidity > DENSE, "viridis", (0, 0.9)),
-                  (f"minus that of {runs[-1].name}", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense,
+                  ("difference of speed, m/s", speed - np.linalg.norm(last.velocity[..., :2], axis=-1), dense,
                    "RdBu_r", (-0.05, 0.05)))
-        for axis, (title, values, shown, colours, limits) in zip(axes[:, column], panels):
+        for axis, (label, values, shown, colours, limits) in zip(axes[:, column], panels):
             image = axis.pcolormesh(1e3 * charge.x, 1e3 * charge.y, np.where(shown, values, np.nan), cmap=colours,
                                     vmin=limits[0], vmax=limits[1])
-            axis.set(aspect="equal")
-            axis.set_title(f"{dry.name}: {title}", fontsize=9)
+            axis.set(aspect="equal", ylabel="" if column else "y, mm")
+            less = f" minus {runs[-1].name}" if label.startswith("difference") else ""
+            axis.set_title(dry.name + less, fontsize=9)
             if column == len(runs) - 1:
-                figure.colorbar(image, ax=axis, shrink=0.8)
+                figure.colorbar(image, ax=axis, shrink=0.8, label=label)
         axes[-1, column].set_xlabel("x, mm")
-    figure.savefig(path, dpi=70)
+    figure.savefig(path, dpi=70, bbox_inches="tight")
     plt.close(figure)
 
 

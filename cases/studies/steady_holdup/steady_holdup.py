@@ -5,6 +5,7 @@ steady_holdup.txt, steady_holdup.csv and steady_holdup.png, with fitted exponent
 Morrell & Stephenson. Runs that are not complete are listed."""
 import argparse
 import csv
+import itertools
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -187,6 +188,22 @@ def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial
         axis.legend(fontsize=7)
 
 
+def draw_over_time(axis: plt.Axes, found: Sequence[Held]) -> None:
+    """Hold-up of the mill against time: the colour is the speed, the line the feed. Thick: with balls. Pale: on the
+    mill's own cells. Changed mills are left out."""
+    unchanged = [one for one in found if not one.kind.change]
+    lines = dict(zip(sorted({round(1e6 * one.feed) for one in unchanged}), itertools.cycle((":", "--", "-", "-."))))
+    for one in unchanged:
+        columns = one.case.balance
+        axis.plot(columns["Time"], 1e3 * columns["holdUp"], lines[round(1e6 * one.feed)], color=COLOURS[one.kind.speed],
+                  lw=1.8 if one.kind.balls else 0.8, alpha=0.5 if one.mesh == "own" else 1,
+                  label=f"{one.mesh}/{one.name}")
+    axis.set(title="hold-up against time; thick: with balls", xlabel="flow time, s",
+             ylabel="hold-up with the pulp lifters, l")
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=6, ncols=2)
+
+
 def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
     """Figure: hold-up against feed with the fits and the models, without and with balls; discharge against hold-up;
     hold-up against time."""
@@ -220,14 +237,7 @@ def draw(found: Sequence[Held], trials: Sequence[Trial]) -> plt.Figure:
         axis.set_visible(axis.has_data())
         if axis.has_data():
             axis.legend(fontsize=7)
-    unchanged = [one for one in found if not one.kind.change]
-    for number, one in enumerate(unchanged):
-        columns = one.case.balance
-        axes[3].plot(columns["Time"], 1e3 * columns["holdUp"], lw=1, label=f"{one.mesh}/{one.name}",
-                     color=plt.cm.turbo((number + 0.5) / len(unchanged)))
-    axes[3].set(title="hold-up against time", xlabel="flow time, s", ylabel="hold-up with the pulp lifters, l")
-    axes[3].grid(alpha=0.3)
-    axes[3].legend(fontsize=6, ncols=2)
+    draw_over_time(axes[3], found)
     return figure
 
 
