@@ -107,6 +107,13 @@ class Bed(RefusedTest):
     def test_a_solidity_of_one(self):
         self.assert_bed_refused(self.block("solidity 0.5", "solidity 1"), "solidity is 1", "0 <= solidity < 1")
 
+    def test_a_block_that_turns_about_nothing(self):
+        self.assert_bed_refused(f"block {{ {BLOCK} omega 5; axis (0 0 0); origin (0 0 0); }}", "axis is (0 0 0)",
+                                "a direction")
+
+    def test_a_block_of_no_volume(self):
+        self.assert_bed_refused(f"block {{ {BLOCK} volume -1e-5; }}", "volume is -1e-05", "above 0 m3")
+
 
 class Controls(RefusedTest):
     """Dictionaries and meshes that slurryFoam cannot obey"""
@@ -373,6 +380,18 @@ class Slurry(RefusedTest):
     def test_no_plastic_viscosity(self):
         self.assert_bingham_refused("plasticViscosity 1.4e-3", "plasticViscosity 0", "plasticViscosity is 0", "above")
 
+    def test_a_largest_viscosity_below_the_plastic_one(self):
+        self.assert_bingham_refused("viscosityRatio 1000", "viscosityRatio 0.5", "viscosityRatio is 0.5", "1 or more")
+
+    def test_a_negative_entry_of_another_model_is_named_as_it_was_written(self):
+        case = self.small()
+        case.bed(f"block {{ {BLOCK} }}", drag="law Beetstra; viscosity pore;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(re.sub(r"transportModel Bingham; (.*?) BinghamCoeffs \{.*?\}",
+                                     r"transportModel HerschelBulkley; \1 HerschelBulkleyCoeffs { tau0 -1e-4; k 1e-5; "
+                                     r"n 1; nu0 1e-3; }", properties.read_text()))
+        self.assert_says(case, "transportProperties", "tau0 is -0.0001", "not below zero")
+
     def test_a_negative_surface_tension(self):
         case = self.small()
         properties = case.path / "constant/transportProperties"
@@ -464,6 +483,13 @@ class Start(RefusedTest):
 
     def test_no_room_above_the_balls(self):
         self.assert_start_refused("start above; volume 1e-6;", "slurryStartDict", "volume is", "room", bed=True)
+
+    def test_above_no_balls(self):
+        self.assert_start_refused("start above; volume 1e-6;", "slurryStartDict", "bedShare is 0.05", "the largest, 0")
+
+    def test_a_share_of_balls_in_per_cent(self):
+        self.assert_start_refused("start above; volume 1e-6; bedShare 5;", "slurryStartDict", "bedShare is 5",
+                                  "the largest, 0.5", bed=True)
 
     def test_above_without_a_volume(self):
         self.assert_start_refused("start above; level 0.02;", "slurryStartDict", "volume")
