@@ -76,7 +76,7 @@ def show_charge(case, view, time0):
     simple.ColorBy(shown, ("POINTS", "velocity", "Magnitude"))
     shown.SetScalarBarVisibility(view, True)
     speed = simple.GetColorTransferFunction("velocity")
-    speed.ApplyPreset("Inferno (matplotlib)", True)
+    speed.ApplyPreset("Inferno (matplotlib)", False)  # True would also take the preset's range, 0 to 1
     bar = simple.GetScalarBar(speed, view)
     bar.Title, bar.ComponentTitle = "speed of the charge, m/s", ""
     bar.Orientation, bar.WindowLocation, bar.ScalarBarLength = "Horizontal", "Lower Center", 0.3
@@ -116,7 +116,9 @@ def show(case):
     camera.SetPosition(focus[0] + 0.45 * distance, focus[1] + 0.35 * distance, focus[2] + 0.85 * distance)
     camera.SetViewUp(0, 1, 0)
     view.ResetCamera()
-    camera.Dolly(1.15)
+    for shown in simple.GetRepresentations().values():
+        if getattr(shown, "ColorArrayName", [None, ""])[1] == "velocity":
+            shown.RescaleTransferFunctionToDataRange(False, True)  # at the time that is shown
     simple.Render(view)
     return view
 
