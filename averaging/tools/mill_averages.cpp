@@ -149,7 +149,11 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }
   if (!has_grid(options)) {
-    if (options.walls.empty()) meshing::require_walls_of(fs::path(options.case_folder) / "walls", mill);
+    const fs::path walls = fs::path(options.case_folder) / "walls";
+    if (options.walls.empty()) {
+      meshing::require_walls_of(walls, mill);
+      meshing::require_written_walls(walls);
+    }
     take_grid(mill, options);
   }
   if (options.output.empty()) options.output = (fs::path(options.case_folder) / "solids.h5").string();

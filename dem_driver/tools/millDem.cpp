@@ -113,6 +113,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   auto plan = dem_driver::plan_dem(mill);
   meshing::require_walls_of(folder.walls(), mill);
   const auto parts = dem_driver::find_walls(folder, mill);
+  meshing::require_written_walls(folder.walls());
   if (!options.fluid.empty() && mill.machine() == meshing::Machine::stirred)
     throw meshing::KeyError("machine", "stirred",
                             "a tumbling mill with --fluid: the voxels of slurry.h5 do not turn with the "

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "meshing/files/file_fingerprint.hpp"
@@ -14,6 +15,7 @@ namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector3d;
+using Json = nlohmann::json;
 
 void write_triangle(std::ostream& out, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d normal = (b - a).cross(c - a).normalized();
@@ -25,6 +27,19 @@ void write_triangle(std::ostream& out, const Vector3d& a, const Vector3d& b, con
 bool is_wall(const WallPart& part, Ends ends) {
   const bool is_end = part.name == "feedEnd" || part.name == "dischargeEnd";
   return !part.triangles.empty() && !(is_end && ends == Ends::periodic);
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& why) {
+  throw std::runtime_error((folder / walls_results_name).string() + ": " + why + ": run millMesh again");
+}
+
+/// walls.json of a folder, where it is there.
+std::optional<Json> read_results(const std::filesystem::path& folder) {
+  std::ifstream in(folder / walls_results_name);
+  if (!in) return std::nullopt;
+  Json json = Json::parse(in, nullptr, false);
+  if (!json.is_object()) refuse(folder, "is not a JSON object; expected what millMesh writes");
+  return json;
 }
 
 }  // namespace
@@ -51,26 +66,24 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
 }
 
 void require_walls_of(const std::filesystem::path& folder, const Mill& mill) {
-  using Json = nlohmann::json;
-  const std::filesystem::path file = folder / walls_results_name;
-  std::ifstream in(file);
-  if (!in) return;
-  const Json json = Json::parse(in, nullptr, false);
-  const auto refuse = [&](const std::string& why) {
-    throw std::runtime_error(file.string() + ": " + why + ": run millMesh again");
-  };
-  if (!json.is_object()) refuse("is not a JSON object; expected what millMesh writes");
-  const Json of_mill = json.value("mill", Json::object());
+  const auto json = read_results(folder);
+  if (!json) return;
+  const Json of_mill = json->value("mill", Json::object());
   const std::string found = of_mill.is_object() ? of_mill.value("walls", std::string()) : std::string();
-  if (json.value("source", Json()) != "cad" && !found.empty() && found != mill.fingerprint.walls)
-    refuse("the walls are of another mill (walls " + found + ", this mill's are " + mill.fingerprint.walls +
-           ")");
-  if (!json.contains("files")) return;  // of an earlier version
-  if (!json["files"].is_object()) refuse("the walls are not complete, as after an interrupted millMesh");
-  for (const auto& [part, written] : json["files"].items()) {
+  if (json->value("source", Json()) != "cad" && !found.empty() && found != mill.fingerprint.walls)
+    refuse(folder, "the walls are of another mill (walls " + found + ", this mill's are " +
+                       mill.fingerprint.walls + ")");
+  if (json->contains("files") && !(*json)["files"].is_object())
+    refuse(folder, "the walls are not complete, as after an interrupted millMesh");
+}
+
+void require_written_walls(const std::filesystem::path& folder) {
+  const auto json = read_results(folder);
+  if (!json || !json->contains("files")) return;  // of an earlier version
+  for (const auto& [part, written] : (*json)["files"].items()) {
     const std::filesystem::path wall = folder / (part + ".stl");
     if (!std::filesystem::exists(wall) || written != file_fingerprint(wall))
-      refuse(wall.filename().string() + " is not the wall that was written with this file");
+      refuse(folder, wall.filename().string() + " is not the wall that was written with this file");
   }
 }
 

@@ -19,9 +19,12 @@ inline constexpr const char* walls_results_name = "walls.json";
 std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends ends,
                                                const std::filesystem::path& folder);
 
-/// Throws std::runtime_error where walls.json of a folder says that its walls are of another mill, not
-/// complete, or other files than those next to it. Walls from CAD, and walls without walls.json, belong to
-/// any mill.
+/// Throws std::runtime_error where walls.json of a folder says that its walls are of another mill, or not
+/// complete. Walls from CAD, and walls without walls.json, belong to any mill.
 void require_walls_of(const std::filesystem::path& folder, const Mill& mill);
+
+/// Throws std::runtime_error where walls.json of a folder, whose walls are complete, names other files than
+/// those next to it.
+void require_written_walls(const std::filesystem::path& folder);
 
 }  // namespace millfoam::meshing

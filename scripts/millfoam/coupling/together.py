@@ -67,7 +67,6 @@ def align(case: Path) -> float:
         met = all(any(abs(value - at) <= interval for value in flow_times(folder).values()) for folder in folders)
         if met and at < end:
             common = max(common, at)
-    (case / "dumps" / "run.json").unlink(missing_ok=True)
     for path, at in restarts.items():
         if at > common + interval:
             path.unlink()
@@ -75,6 +74,8 @@ def align(case: Path) -> float:
         for name, value in flow_times(folder).items():
             if value > common + interval:
                 shutil.rmtree(folder / name)
+    # Last: an interrupted call must know again that the balls have ended
+    (case / "dumps" / "run.json").unlink(missing_ok=True)
     return common
 
 

@@ -174,6 +174,7 @@ TEST(WallFiles, that_are_not_those_of_walls_json_are_refused) {
   const auto complaint_of = [&](const Mill& one) {
     try {
       require_walls_of(walls, one);
+      require_written_walls(walls);
     } catch (const std::runtime_error& error) {
       const std::string message = error.what();
       return message.substr(message.find("walls.json"));

@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Functions of scripts/case_functions and scripts/mill_stages on folders of a few files."""
+import gzip
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+FUNCTIONS = (SCRIPTS / "case_functions").read_text()
+# What follows the setup of the machine
+FUNCTIONS = FUNCTIONS[FUNCTIONS.index("# Programs say in many ways"):]
+END = "\n// ************************************************************************* //\n"
+
+
+class Stages(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="stages-")))
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def bash(self, commands):
+        """Exit code, output and messages of commands after both files' functions."""
+        done = subprocess.run(["bash", "-c", f"set -eu -o pipefail\n{FUNCTIONS}\n. {SCRIPTS}/mill_stages\n{commands}"],
+                              text=True, cwd=self.folder, capture_output=True)
+        return done.returncode, done.stdout, done.stderr
+
+
+class Dictionaries(Stages):
+    def test_what_an_editor_leaves_is_none(self):
+        for name in ("system/controlDict", "constant/g", "0.orig/U"):
+            self.write(name, name)
+        before = self.bash("dictionaries")
+        self.assertEqual(before[0], 0)
+        for name in ("system/.controlDict.swp", "system/controlDict~", "0.orig/#U#", "constant/bedProperties.unused"):
+            self.write(name, "another")
+        self.assertEqual(self.bash("dictionaries"), before)
+        self.write("system/controlDict", "changed")
+        self.assertNotEqual(self.bash("dictionaries"), before)
+
+
+class HalfWritten(Stages):
+    LIST = ("foamListTimes() { local last=no; [ $# -lt 3 ] || last=yes; cd \"$2\"; "
+            "if [ $last = yes ]; then written_times | tail -n 1; else written_times; fi; }\n")
+
+    def dropped(self):
+        code, output, errors = self.bash(self.LIST + "drop_half_written")
+        return code, output + errors, sorted(path.name for path in self.folder.iterdir())
+
+    def test_a_whole_flow_is_kept_also_compressed(self):
+        for time in ("0", "0.1", "0.2"):
+            self.write(f"{time}/U", "U" + END)
+            (self.folder / time / "p_rgh.gz").write_bytes(gzip.compress(f"p_rgh{END}".encode()))
+        self.assertEqual(self.dropped(), (0, "", ["0", "0.1", "0.2"]))
+
+    def test_a_time_that_was_killed_is_computed_again(self):
+        for time in ("0", "0.1", "0.2"):
+            self.write(f"{time}/U", "U" + (END if time != "0.2" else ""))
+        self.assertEqual(self.dropped(), (0, "time 0.2 is not complete and is computed again\n", ["0", "0.1"]))
+
+    def test_files_of_another_form_do_not_cost_the_whole_flow(self):
+        for time in ("0", "0.1", "0.2", "0.3", "0.4"):
+            self.write(f"{time}/U", "U without an end")
+        code, said, left = self.dropped()
+        self.assertEqual((code, left), (1, ["0", "0.1", "0.2"]))
+        self.assertIn("time 0.2 is not complete, nor are the two after it", said)
+
+
+class Starting(Stages):
+    def test_a_start_that_cannot_be_copied_is_no_start(self):
+        code, output, _ = self.bash("slurryStart() { echo started; }\nstart_flow || echo failed")
+        self.assertEqual((code, output), (0, "failed\n"))
+        self.write("0.orig/U", "U")
+        self.assertEqual(self.bash("slurryStart() { echo started; }\nstart_flow")[:2], (0, "started\n"))
+
+    def test_balls_at_the_same_time_have_windows_no_longer_than_the_flow(self):
+        stubs = ("millMesh() { printf '%s\\n' \"$@\"; }\n"
+                 "json_value() { case $2 in mill.flow.duration) echo 0.3 ;; mill.dem.record_interval) echo 0.01 ;;\n"
+                 "    mill.flow.write_interval) echo 0.05 ;; mill.averages.window) echo \"$given\" ;; esac; }\n")
+        for window, taken in (("0.05", "0.05"), ("0.4", "0.3"), ("whole", "whole")):
+            code, output, errors = self.bash(f"{stubs}given={window}\ndirect_mill")
+            self.assertEqual(code, 0, errors)
+            self.assertIn(f"averages.window={taken}\n", output)
+            self.assertIn("flow.write_interval=0.05", output)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class Cleaning(Stages):
+    def test_refuses_a_folder_in_which_an_allrun_works(self):
+        self.write("dumps/dump.0.txt", "balls")
+        self.write(".stages/lock", "")
+        code, _, errors = self.bash("(exec {held}> .stages/lock; flock -n $held; clean_mill)")
+        self.assertEqual(code, 1)
+        self.assertIn("an Allrun, or a program of it, is running", errors)
+        self.assertTrue((self.folder / "dumps").is_dir())
+        self.assertEqual(self.bash("clean_mill")[0], 0)
+        self.assertFalse((self.folder / "dumps").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
