@@ -162,8 +162,8 @@ def drag_raises(runs):
 
 
 def drag_difference_shrinks(runs, four):
-    """Verdict on the difference between the heights with both laws: four Which, both laws with the thin slurry, then
-    with the thick one."""
+    """Verdict on the size of the difference between the heights with both laws: four Which, both laws with the thin
+    slurry, then with the thick one."""
     thin, thick = (which.solids for which in (four[0], four[2]))
     statement = f"that difference shrinks from {thin} % to {thick} % slurry"
     found = [runs.find(which) for which in four]
@@ -173,7 +173,8 @@ def drag_difference_shrinks(runs, four):
         return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
     rises = [height(found[second]) - height(found[second - 1]) for second in (1, 3)]
     figure = " and ".join(rise.text("mm", 1e3, ".2f") for rise in rises)
-    return Verdict(statement, names, *judged(by_sign(rises[0] - rises[1]), figure, *found))
+    sizes = [rise if rise.value >= 0 else -rise for rise in rises]
+    return Verdict(statement, names, *judged(by_sign(sizes[0] - sizes[1]), figure, *found))
 
 
 def reynolds_below(runs):
