@@ -96,7 +96,7 @@ class Cleaning(Stages):
         self.write(".stages/lock", "")
         code, _, errors = self.bash("(exec {held}> .stages/lock; flock -n $held; clean_mill)")
         self.assertEqual(code, 1)
-        self.assertIn("an Allrun, or a program of it, is running", errors)
+        self.assertIn("another Allrun is running in", errors)
         self.assertTrue((self.folder / "dumps").is_dir())
         self.assertEqual(self.bash("clean_mill")[0], 0)
         self.assertFalse((self.folder / "dumps").exists())
