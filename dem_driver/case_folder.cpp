@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -25,6 +26,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int longest_wait = 100;  // tenths of a second
+
+/// Digits without leading zeros, as the decks have them.
+std::string without_zeros(const std::string& digits) {
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+}
 
 double number(const Json& run, const char* key, const fs::path& file) {
   if (!run.contains(key) || !run[key].is_number())
@@ -123,7 +129,8 @@ std::size_t prepare_folders(const CaseFolder& folder) {
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts) {
   std::ostringstream lines;
   for (const auto& part : parts)
-    lines << "# wall " << part << ".stl " << file_fingerprint(folder.walls() / (part + ".stl")) << '\n';
+    lines << "# wall " << part << ".stl " << without_zeros(file_fingerprint(folder.walls() / (part + ".stl")))
+          << '\n';
   return lines.str();
 }
 

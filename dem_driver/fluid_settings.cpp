@@ -120,7 +120,7 @@ std::string in_words(const FluidSettings& fluid) {
     case FluidKind::none:
       return "none";
     case FluidKind::buoyancy:
-      return "buoyancy in a pool of " + exact(fluid.density) + " kg/m3 up to y = " + exact(fluid.level) +
+      return "buoyancy in a pool of " + shown(fluid.density) + " kg/m3 up to y = " + shown(fluid.level) +
              " m";
     case FluidKind::slurry:
       return "forces of a flow (slurry.h5 " + fluid.file_id + ", " + name_of(fluid.time) + ")";

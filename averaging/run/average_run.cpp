@@ -77,7 +77,8 @@ class Collector {
 
   /// Removes what is kept for a run that resumes.
   void forget() const {
-    std::filesystem::remove(resume_);
+    std::error_code no_matter;
+    std::filesystem::remove(resume_, no_matter);
     for (const WindowSeries& series : series_) series.forget();
   }
 
@@ -110,7 +111,7 @@ class Collector {
     std::optional<Checkpoint> earlier = read_checkpoint(resume_);
     if (!earlier) return std::nullopt;
     if (earlier->signature != signature_) {
-      progress_.note("an unfinished run had other dumps or settings: starting again");
+      progress_.note("an unfinished run had other dumps, settings or another version: starting again");
       return std::nullopt;
     }
     for (std::size_t s = 0; s < earlier->rows.size(); ++s) {

@@ -80,7 +80,7 @@ std::string misfit_in_words(const CellSetup& setup, const Ledger& ledger, const 
   text << name << ": ";
   if (ledger.outside > largest_outside * ledger.volume_in) {
     text << 100 * ledger.outside / ledger.volume_in << " % of the balls' volume lies outside the grid"
-         << (setup.limits.whole_volumes.empty() ? ": " : " or the walls: ") << extents(setup.grid, balls)
+         << (setup.walls ? " or the walls: " : ": ") << extents(setup.grid, balls)
          << ". To average only a part of the balls, give --tolerance SHARE";
     return text.str();
   }
@@ -93,9 +93,12 @@ std::string misfit_in_words(const CellSetup& setup, const Ledger& ledger, const 
 
 /// Ledger of a record where balls beyond the walls are outside, too.
 Ledger within_walls(const CellSetup& setup, const RecordSums& sums) {
+  if (!setup.walls) return sums.ledger;
   WindowMoments moments(cell_count(setup.grid));
   moments.add(sums);
-  return average(moments, setup.limits).ledger;
+  CellLimits limits = setup.limits;
+  limits.solidity_cap.reset();  // one record alone may exceed it
+  return average(moments, limits).ledger;
 }
 
 }  // namespace
@@ -104,6 +107,7 @@ std::string misfit(const CellSetup& setup, const ParticleRecord& record, double 
                    double largest_outside) {
   RecordSums sums;
   sum_record(*setup.deposition->clone(), record, time, sums);
+  if (setup.walls) sums.cell_volumes = setup.walls->inside_volumes(time);
   return misfit_in_words(setup, within_walls(setup, sums), extents(record), name, largest_outside);
 }
 

@@ -24,7 +24,7 @@ std::string misfit(const CellSetup& setup, const ParticleRecord& record, double 
 
 /// The same where only the sums over the balls are known: the sentence has the grid's extents alone.
 /// @param setup  of the grid
-/// @param sums  of the record
+/// @param sums  of the record, with the cells' volumes inside the walls
 /// @param name  of the record, for the sentence
 /// @param largest_outside  share of the balls' volume, 0 to 1
 std::string misfit(const CellSetup& setup, const RecordSums& sums, const std::string& name,

@@ -137,11 +137,11 @@ void LiveAverages::add(const ParticleRecord& own) {
   const double time = static_cast<double>(own.step) * run_.settings.timestep;
   sum_over_ranks(own, time);
   if (communicator_.rank() != 0) return;
+  if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
   if (own.step == run_.begin) {
     const std::string found = misfit(setup_, sums_, "the averages of the run", request_.largest_outside);
     if (!found.empty()) throw std::invalid_argument(found);
   }
-  if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
   if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
   for (Series& series : series_) {
     if (!series.windows.hold(own.step)) continue;

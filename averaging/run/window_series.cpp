@@ -26,7 +26,8 @@ void WindowSeries::add(const RecordBlock& block, const WindowMoments& moments) {
 }
 
 void WindowSeries::forget() const {
-  std::filesystem::remove(journal_path(output_));
+  std::error_code no_matter;
+  std::filesystem::remove(journal_path(output_), no_matter);
 }
 
 }  // namespace millfoam::averaging

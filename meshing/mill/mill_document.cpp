@@ -111,8 +111,8 @@ YAML::Node load(const std::string& file, const std::string& text) {
                     ": not a map of keys: expected a mill description with its sections, geometry first");
   // Copies have no lines; those of the keys stay
   int left = most_values;
-  return text.find('*') == std::string::npos ? documents.front()
-                                             : written_out(file, documents.front(), 0, left);
+  const bool has_aliases = text.find('&') != std::string::npos && text.find('*') != std::string::npos;
+  return !has_aliases ? documents.front() : written_out(file, documents.front(), 0, left);
 }
 
 /// "a.b[2].c" as {"a", "b", "2", "c"}; empty when it is not a path.

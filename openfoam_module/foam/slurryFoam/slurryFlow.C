@@ -230,6 +230,22 @@ Foam::scalar Foam::slurryFlow::finestAtSurface() const
             finest = max(finest, perLength[facei]);
         }
     }
+    // Both sides of a coupled face see it with their own cell
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (!patch.coupled())
+            continue;
+        forAll(patch, facei)
+        {
+            if (cut(patch.faceCells()[facei]))
+            {
+                finest = max(
+                    finest,
+                    mesh_.nonOrthDeltaCoeffs().boundaryField()[patchi][facei]);
+            }
+        }
+    }
     return returnReduce(finest, maxOp<scalar>());
 }
 

@@ -39,7 +39,8 @@ Foam::label Foam::slurryFlow::surfaceSteps(const scalarField& smaller) const
             << " slurry is carried in " << mostParts_ << " parts, which may"
             << " leave shares beyond 0 to 1: expected shorter steps" << endl;
     }
-    return max(label(1), min(mostParts_, label(std::ceil(largest))));
+    return largest >= mostParts_ ? mostParts_
+                                 : max(label(1), label(std::ceil(largest)));
 }
 
 

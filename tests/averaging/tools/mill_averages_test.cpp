@@ -159,7 +159,7 @@ TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
   EXPECT_DOUBLE_EQ(*taken("").end, 1.8e-5 * (2778 + 4 * 1667));
   EXPECT_EQ(live_request(mill_, "", path(""), 0, 0.2, 1.8e-5).end, taken("").end);
   folder_.write("dumps/run.json", R"({"duration_s": 0.2})");
-  expect_named(message_of<std::invalid_argument>([&] { taken(""); }), {"run.json", "timestep_s"});
+  expect_named(message_of<DumpError>([&] { taken(""); }), {"run.json", "timestep_s"});
 }
 
 TEST_F(MillAverages, DumpsOfAPatternWithoutQuotesAreToldShortly) {
