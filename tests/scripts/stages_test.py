@@ -90,6 +90,18 @@ class Starting(Stages):
         self.assertEqual(list(self.folder.iterdir()), [])
 
 
+class Inputs(Stages):
+    def test_a_value_that_cannot_be_read_is_no_input(self):
+        values = "case $2 in source) echo mill ;; *.live) echo false ;; *.dumps) echo true ;; *) echo false ;; esac"
+        code, output, _ = self.bash(f"json_value() {{ {values}; }}\ninputs=$(charge_inputs ABC)\necho \"$inputs\"")
+        self.assertEqual((code, output), (0, "ABC\n"))
+        for key in ("source", "mill.averages.live", "mill.dem.dumps"):
+            code, output, _ = self.bash(f"json_value() {{ [ $2 != {key} ] || return 137; {values}; }}\n"
+                                        "inputs=$(charge_inputs ABC)\necho \"$inputs\"")
+            self.assertNotEqual(code, 0, key)
+            self.assertEqual(output, "")
+
+
 class Cleaning(Stages):
     def test_refuses_a_folder_in_which_an_allrun_works(self):
         self.write("dumps/dump.0.txt", "balls")
