@@ -84,13 +84,30 @@ TEST(TimeStep, AFastMillIsLimitedByTheCrossingOfTheAllowedOverlap) {
 TEST(TimeStep, TheReportNamesTheLimitsAndWarnsWhenBallsAreTooSoft) {
   auto mill = small_mill();
   std::ostringstream fine;
-  print_time_step(fine, choose_time_step(mill));
+  print_time_step(fine, choose_time_step(mill), mill);
   EXPECT_NE(fine.str().find("Rayleigh time of 2 mm"), std::string::npos);
   EXPECT_EQ(fine.str().find("WARNING"), std::string::npos);
   mill.angular_velocity = -500;
   std::ostringstream soft;
-  print_time_step(soft, choose_time_step(mill));
+  print_time_step(soft, choose_time_step(mill), mill);
   EXPECT_NE(soft.str().find("raise dem.youngs_modulus"), std::string::npos);
+}
+
+TEST(TimeStep, TheReportWarnsOfBallsThatAreStifferThanRealOnesOrNotStiffEnough) {
+  const auto warning = [](const meshing::Mill& mill) {
+    std::ostringstream out;
+    print_time_step(out, choose_time_step(mill), mill);
+    const auto at = out.str().find("WARNING");
+    return at == std::string::npos ? std::string() : out.str().substr(at);
+  };
+  auto mill = small_mill();
+  mill.dem.youngs_modulus = 2 * mill.ball.youngs_modulus;
+  EXPECT_EQ(warning(mill).find("WARNING: dem.youngs_modulus is above the balls' real modulus"), 0u);
+  mill.dem.youngs_modulus = 0;
+  mill.dem.largest_overlap = 0.07;
+  EXPECT_EQ(warning(mill), "");
+  mill.dem.largest_overlap = 1e-9;
+  EXPECT_EQ(warning(mill).find("WARNING: dem.largest_overlap, 1e-07 %, is not kept"), 0u) << warning(mill);
 }
 
 TEST(TimeStep, AMillWithoutBallsIsRefused) {

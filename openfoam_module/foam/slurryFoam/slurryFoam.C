@@ -127,9 +127,10 @@ int main(int argc, char* argv[])
         const millfoam::record::StepRow row(flow.report());
         courant = flow.bounds();
 
-        runTime.write();
+        // Before the fields: a restart from them must find the row
         recorder.setStages(clock);
         recorder.add(row, courant);
+        runTime.write();
         runTime.printExecutionTime(Info);
     }
 
