@@ -195,6 +195,7 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
+    scalar smallest = GREAT;
     courantNumbers result;
     forAll(passed, celli)
     {
@@ -203,50 +204,19 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result.surface = max(result.surface, passed[celli]);
+            smallest = min(smallest, mesh_.V()[celli]);
         }
     }
     reduce(result.flow, maxOp<scalar>());
     reduce(result.surface, maxOp<scalar>());
     reduce(result.air, maxOp<scalar>());
+    reduce(smallest, minOp<scalar>());
     result.voidageChange = voidageChange_;
     const scalar capillary = 4 * constant::mathematical::pi *
                              pressure_.surfaceTension().value() /
                              (mixture_.rho1() + mixture_.rho2()).value();
-    result.capillary = deltaT * sqrt(capillary * pow3(finestAtSurface()));
+    result.capillary = deltaT * sqrt(capillary / smallest);
     return result;
-}
-
-
-Foam::scalar Foam::slurryFlow::finestAtSurface() const
-{
-    const scalarField& perLength = mesh_.nonOrthDeltaCoeffs().primitiveField();
-    const auto cut = [&](const label celli)
-    { return alpha_[celli] > 0.01 && alpha_[celli] < 0.99; };
-    scalar finest = 0;
-    forAll(perLength, facei)
-    {
-        if (cut(mesh_.owner()[facei]) || cut(mesh_.neighbour()[facei]))
-        {
-            finest = max(finest, perLength[facei]);
-        }
-    }
-    // Both sides of a coupled face see it with their own cell
-    forAll(mesh_.boundary(), patchi)
-    {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        if (!patch.coupled())
-            continue;
-        forAll(patch, facei)
-        {
-            if (cut(patch.faceCells()[facei]))
-            {
-                finest = max(
-                    finest,
-                    mesh_.nonOrthDeltaCoeffs().boundaryField()[patchi][facei]);
-            }
-        }
-    }
-    return returnReduce(finest, maxOp<scalar>());
 }
 
 

@@ -49,7 +49,12 @@ class AreWritten : public ::testing::Test {
   bool written() const { return are_written(request_, run_); }
 
   TemporaryFolder folder_;
-  RunMetadata run_ = {folder_.write("run.json", "{}"), "0123456789abcdef", {}, {}, {}, {}, {}};
+  RunMetadata run_ = [this] {
+    RunMetadata run;
+    run.file = folder_.write("run.json", "{}");
+    run.run_id = "0123456789abcdef";
+    return run;
+  }();
   AverageRequest request_{GridRequest(grid)};
 };
 
