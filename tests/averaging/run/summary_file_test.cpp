@@ -75,8 +75,9 @@ TEST_F(Summary, HoldsWhatThatComesTo) {
   EXPECT_EQ(all["balls_per_cell"], 15);
   EXPECT_EQ(all["largest_solidity"], 0.6);
   EXPECT_EQ(all["advice"], Json::array());
-  ASSERT_EQ(all["warnings"].size(), 1U);
+  ASSERT_EQ(all["warnings"].size(), 2U);
   expect_named(all["warnings"][0], {"25 % of the balls' volume lies outside the grid"});
+  expect_named(all["warnings"][1], {"25 % of the balls' volume was moved out of cells outside of the walls"});
 }
 
 TEST_F(Summary, NamesTheMillAndTheRunWhereTheyAreKnown) {
@@ -102,13 +103,25 @@ TEST_F(Summary, SaysWhenFinesAreLeftOut) {
 }
 
 TEST_F(Summary, WarnsOfBallsOutsideFromOnePercentOn) {
+  for (WindowSummary& window : summary.windows) window.ledger.clipped = 0;
   for (const double part : {0.009, 0.011}) {
     for (WindowSummary& window : summary.windows) window.ledger.outside = part * window.ledger.volume_in;
     EXPECT_EQ(json()["warnings"].size(), part > noted_outside ? 1U : 0U);
   }
 }
 
+TEST_F(Summary, WarnsOfWallsThatCutBallsOffFromOnePercentOnUnlessACapMovesThem) {
+  for (const double part : {0.009, 0.011}) {
+    for (WindowSummary& window : summary.windows)
+      window.ledger = {window.ledger.volume_in, window.ledger.deposited, 0, part * window.ledger.volume_in};
+    EXPECT_EQ(json()["warnings"].size(), part > noted_clipped ? 1U : 0U);
+  }
+  summary.header.solidity_cap = 0.6;
+  EXPECT_EQ(json()["warnings"].size(), 0U);
+}
+
 TEST_F(Summary, KeepsAdviceAndWarningsApart) {
+  for (WindowSummary& window : summary.windows) window.ledger.clipped = 0;
   summary.windows[0].ledger.outside = 0;
   summary.windows[0].small_cells = 2;
   summary.windows[1].largest_solidity = 1.2;
