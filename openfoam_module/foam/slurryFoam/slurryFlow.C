@@ -63,11 +63,10 @@ fieldIO(const word& name, const fvMesh& mesh, const IOobject::readOption read)
 
 
 //- Whether a restart has this field
-template <class FieldType = volVectorField>
 static bool isThere(const word& name, const fvMesh& mesh)
 {
     return fieldIO(name, mesh, IOobject::READ_IF_PRESENT)
-        .typeHeaderOk<FieldType>(true);
+        .typeHeaderOk<volVectorField>(true);
 }
 
 
@@ -158,13 +157,7 @@ Foam::slurryFlow::slurryFlow(
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
   misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
-  toldPressure_(),
-  toldExchange_(),
-  tellsAgain_(
-      bed_.feelsFlow() && isThere("toldPressure", mesh) &&
-      isThere<volScalarField>("toldExchange", mesh)),
-  givenForce_(state_.lookupOrDefault<vector>("givenForce", Zero)),
-  givenTorque_(state_.lookupOrDefault<scalar>("givenTorque", 0))
+  told_(bed_.feelsFlow() ? new toldForces(mesh) : nullptr)
 {
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
@@ -175,13 +168,6 @@ Foam::slurryFlow::slurryFlow(
     pressure_.update(p_rgh_, rho_);
     p_ = pressure_.staticPressure();
 
-    if (bed_.feelsFlow())
-    {
-        toldPressure_.reset(new volVectorField(continued<volVectorField>(
-            "toldPressure", mesh, dimForce / dimVolume)));
-        toldExchange_.reset(new volScalarField(continued<volScalarField>(
-            "toldExchange", mesh, dimDensity / dimTime)));
-    }
     readBed();
 }
 
@@ -258,10 +244,11 @@ millfoam::record::StepRow Foam::slurryFlow::report()
         row.force_mean = load_->mean();
         row.force_95 = load_->high();
     }
-    if (bed_.feelsFlow())
+    if (told_.valid())
     {
-        row.given_force = {givenForce_.x(), givenForce_.y(), givenForce_.z()};
-        row.given_torque = givenTorque_;
+        const vector& force = told_->force();
+        row.given_force = {force.x(), force.y(), force.z()};
+        row.given_torque = told_->torque();
     }
     return row;
 }

@@ -150,34 +150,26 @@ void Foam::slurryFlow::enter()
 
 void Foam::slurryFlow::tellBalls()
 {
-    if (bed_.feelsFlow())
+    if (!told_.valid())
     {
-        clock_.begin("balls");
-        ballForces feel(onBalls_->present());
-        if (tellsAgain_)
-        {
-            // The present ones need more of the last step than was written
-            feel.pressure = toldPressure_->primitiveField();
-            feel.exchange = toldExchange_->primitiveField();
-            tellsAgain_ = false;
-            bed_.tell(feel, U_.primitiveField(), givenTorque_);
-            return;
-        }
-        toldPressure_->primitiveFieldRef() = feel.pressure;
-        toldExchange_->primitiveFieldRef() = feel.exchange;
+        return;
+    }
+    clock_.begin("balls");
+    ballForces feel(onBalls_->present());
+    if (!told_->takeUp(feel))
+    {
         // What the flow loses: its drag has the factor of a mixture of sizes
         const scalarField exchange(
             drag_->exchange(bed_, alpha_.oldTime(), U_)->field());
         const vectorField force(
             mesh_.V() * (feel.solidity * feel.pressure +
                          exchange * (U_.primitiveField() - feel.velocity)));
-        givenForce_ = gSum(force);
-        givenTorque_ =
-            gSum((mesh_.C().primitiveField() ^ force)().component(vector::Z)());
-        state_.set("givenForce", givenForce_);
-        state_.set("givenTorque", givenTorque_);
-        bed_.tell(feel, U_.primitiveField(), givenTorque_);
+        told_->keep(
+            feel, gSum(force),
+            gSum(
+                (mesh_.C().primitiveField() ^ force)().component(vector::Z)()));
     }
+    bed_.tell(feel, U_.primitiveField(), told_->torque());
 }
 
 
