@@ -150,6 +150,8 @@ class Direct(unittest.TestCase):
         # Not the same numbers: two ranks may round sums differently, and the flow's times have ten digits
         apart = [np.abs(one.solidity - other.solidity).max() for one, other in zip(*windows)]
         self.assertLess(apart[0], 0.05)
+        # The first window after the resume; later ones are those of other balls, because impacts enlarge the difference
+        self.assertLess(next(filter(None, apart), 0), 0.05)
         # Killed after the balls' end, before the stage was noted
         (folders / ".stages" / "flow").unlink()
         self.assertIn("Balls and flow are complete", run_mill(case, "mill.yaml"))
