@@ -102,6 +102,24 @@ class Inputs(Stages):
             self.assertEqual(output, "")
 
 
+class Waiting(Stages):
+    """Two Allruns of a study that need the same dry run: the second waits."""
+    HELD = ("(exec {held}> .stages/lock; flock -n $held; echo > held; sleep 0.5; %s) &\n"
+            "until [ -e held ]; do sleep 0.05; done\nwaiting=yes\nlock_case\ncat done\n")
+
+    def test_goes_on_after_the_end_of_the_other_one(self):
+        self.write(".stages/lock", "")
+        code, output, errors = self.bash(self.HELD % "echo made > done")
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(output.splitlines(), [f"Waiting for the end of another Allrun in {self.folder}", "made"])
+
+    def test_ends_where_the_folder_was_removed(self):
+        self.write(".stages/lock", "")
+        code, _, errors = self.bash(self.HELD % "rm -r .stages")
+        self.assertEqual(code, 1)
+        self.assertIn("was removed while this Allrun waited", errors)
+
+
 class Cleaning(Stages):
     def test_refuses_a_folder_in_which_an_allrun_works(self):
         self.write("dumps/dump.0.txt", "balls")
