@@ -128,6 +128,7 @@ DemPlan plan_dem(const meshing::Mill& mill) {
 void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, DemPlan& plan) {
   plan.fluid.kind = FluidKind::flow;
   plan.fluid.file = std::filesystem::absolute(folder);
+  plan.fluid.averages = averages_in_words(mill);
   plan.fluid.shapes = shape_drag_of(mill);
   const long records = std::lround(mill.flow.write_interval / mill.dem.record_interval);
   plan.restart_steps = std::max(1L, records) * plan.step.steps_per_record;

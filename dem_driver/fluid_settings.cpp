@@ -125,14 +125,37 @@ std::string in_words(const FluidSettings& fluid) {
     case FluidKind::slurry:
       return "forces of a flow (slurry.h5 " + fluid.file_id + ", " + name_of(fluid.time) + ")";
     case FluidKind::flow:
-      return "forces of a flow that runs at the same time";
+      return "forces of a flow that runs at the same time and gets " + fluid.averages;
   }
   return {};
 }
 
+namespace {
+
+/// On which balls and a flow at the same time meet.
+meshing::Voxels exchange_voxels(const meshing::Mill& mill) {
+  return mill.flow.coupling.voxels.value_or(mill.averages.voxels);
+}
+
+}  // namespace
+
+std::string averages_in_words(const meshing::Mill& mill) {
+  const meshing::Voxels voxels = exchange_voxels(mill);
+  const std::string method =
+      mill.averages.method == "exact"
+          ? "exact averages"
+          : "averages by " + std::to_string(mill.averages.template_points) + " points along a diameter";
+  const auto point = [](const std::array<double, 3>& at) {
+    return "(" + exact(at[0]) + " " + exact(at[1]) + " " + exact(at[2]) + ")";
+  };
+  return method + " on " + std::to_string(voxels.shape[0]) + " x " + std::to_string(voxels.shape[1]) + " x " +
+         std::to_string(voxels.shape[2]) + " voxels from " + point(voxels.lower) + " to " + point(voxels.upper) +
+         " m";
+}
+
 ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin,
                           long end) {
-  const meshing::Voxels& voxels = mill.flow.coupling.voxels.value_or(mill.averages.voxels);
+  const meshing::Voxels voxels = exchange_voxels(mill);
   const bool periodic = mill.geometry.ends == meshing::Ends::periodic;
   ExchangeOrder order{{voxels.lower, voxels.upper, voxels.shape, {false, false, periodic}}};
   order.exact = mill.averages.method == "exact";

@@ -32,6 +32,7 @@ struct FluidSettings {
   double level = 0;                  ///< of the pool, m
   double density = 0;                ///< of the pool, kg/m^3
   std::filesystem::path file = {};   ///< slurry.h5, or the folder of the exchange with a flow
+  std::string averages = {};         ///< that a flow at the same time gets, in words: averages_in_words
   std::string file_id = {};          ///< hash of the file's bytes (FNV-1a, 16 hexadecimal digits)
   FluidTime time = FluidTime::mean;  ///< of slurry.h5
   ShapeDrag shapes = {};             ///< of the flow's drag
@@ -80,6 +81,10 @@ struct FluidOrder {
 /// @param begin, end  first and last step of the run
 ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<std::filesystem::path>& walls,
                           long begin, long end);
+
+/// How balls are averaged for a flow that runs at the same time, in words: "exact averages on 33 x 33 x 8
+/// voxels from (-0.06 -0.06 0) to (0.06 0.06 0.03) m".
+std::string averages_in_words(const meshing::Mill& mill);
 
 /// Writes `dem/fluid.json` (FORMATS.md), which appears whole or not at all; paths in it are relative to its
 /// folder. Throws std::runtime_error naming the file.

@@ -380,6 +380,26 @@ TEST(FluidOrderOfAFlow, has_the_shapes_of_the_balls_with_the_law_that_knows_them
   EXPECT_TRUE(shape_drag_of(mill).bed.empty());
 }
 
+TEST(FluidOrderOfAFlow, changes_the_deck_with_the_averages_that_the_flow_gets) {
+  meshing::Mill mill = tests::small_mill();
+  mill.averages.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, 0.01}, {4, 4, 2}};
+  mill.averages.method = "exact";
+  const auto words = [&] {
+    DemPlan plan = plan_dem(mill);
+    meet_flow("exchange", mill, plan);
+    return in_words(plan.fluid);
+  };
+  const std::string before = words();
+  EXPECT_EQ(before,
+            "forces of a flow that runs at the same time and gets exact averages on 4 x 4 x 2 voxels from "
+            "(-0.02 -0.02 0) to (0.02 0.02 0.01) m");
+  mill.averages.method = "sample";
+  mill.averages.template_points = 9;
+  EXPECT_NE(words().find("gets averages by 9 points along a diameter on 4 x 4 x 2"), std::string::npos);
+  mill.flow.coupling.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, 0.01}, {5, 5, 2}};
+  EXPECT_NE(words().find("on 5 x 5 x 2 voxels"), std::string::npos);
+}
+
 TEST(FluidOrderOfAFlow, has_a_restart_file_at_least_at_every_record) {
   meshing::Mill mill = tests::small_mill();
   mill.flow.write_interval = 0.1 * mill.dem.record_interval;
