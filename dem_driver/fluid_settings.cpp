@@ -149,8 +149,8 @@ std::string averages_in_words(const meshing::Mill& mill) {
     return "(" + exact(at[0]) + " " + exact(at[1]) + " " + exact(at[2]) + ")";
   };
   return method + " on " + std::to_string(voxels.shape[0]) + " x " + std::to_string(voxels.shape[1]) + " x " +
-         std::to_string(voxels.shape[2]) + " voxels from " + point(voxels.lower) + " to " + point(voxels.upper) +
-         " m";
+         std::to_string(voxels.shape[2]) + " voxels from " + point(voxels.lower) + " to " +
+         point(voxels.upper) + " m";
 }
 
 ExchangeOrder exchange_of(const meshing::Mill& mill, const std::vector<fs::path>& walls, long begin,
