@@ -220,6 +220,13 @@ class Arithmetic(Folder):
         content, stages, _ = self.planned("--until", "flow")
         self.assertEqual(list(stages), ["walls", "charge", "average", "mesh", "start", "flow"])
         self.assertEqual(content["flow_steps"], 1000)
+        self.assertEqual(list(self.planned("--until", "start")[1]), ["walls", "charge", "average", "mesh", "start"])
+        self.write(mill(coupling="direct", duration_s=2.0))
+        together = self.planned()[1]["balls and flow"]
+        stages = self.planned("--until", "flow")[1]
+        self.assertEqual(list(stages), ["walls", "charge", "average", "mesh", "start", "balls and flow"])
+        for key in ("time_s", "disk_bytes"):
+            self.assertEqual(stages["balls and flow"][key], together[key])
 
     def test_the_dry_run_of_a_flow_without_balls_is_planned_where_it_is_asked_for(self):
         self.write(mill(balls=False))

@@ -185,12 +185,14 @@ def make_stages(mill: Mill, ranks: int, charge: str | None = None,
     if not trial:
         return stages_until(until, stages), None, mesh
     plan = plan_flow(mill, mesh)
-    stages += [Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"),
-               flow_stage(mill, mesh, trial, plan, ranks)]
+    stages.append(Stage("start", trial.start.time, trial.start_disk, trial.start.memory, "made here"))
+    if until == "start":
+        return stages, plan, mesh
+    flow = flow_stage(mill, mesh, trial, plan, ranks)
+    direct = dry and mill.flow("coupling", "one_way") == "direct"
+    stages.append(together_stage(mill, stages[1], flow) if direct else flow)
     if until:
-        return stages_until(until, stages), plan, mesh
-    if dry and mill.flow("coupling", "one_way") == "direct":
-        stages[-1] = together_stage(mill, stages[1], stages[-1])
+        return stages, plan, mesh
     passes = passes_stage(mill, stages)
     stages += [passes] if passes else []
     return [*stages, pictures_stage(plan)], plan, mesh
