@@ -85,14 +85,18 @@ class Together(Case):
         self.assertEqual((self.case / "log.balls").read_text(), "balls\n")
 
     def test_balls_that_fail_end_the_flow_and_are_shown(self):
-        with self.assertRaisesRegex(TogetherError, "(?s)sh failed.*a wall is missing"):
+        with self.assertRaisesRegex(TogetherError, "^sh ended with 1; .*log.balls ends with:\na wall is missing$"):
             self.run_both("echo a wall is missing; exit 1", "exec sleep 60")
         self.assertLess(self.took, 30)
 
     def test_a_flow_that_fails_ends_the_balls(self):
-        with self.assertRaisesRegex(TogetherError, "sh ended with 3"):
+        with self.assertRaisesRegex(TogetherError, "^sh ended with 3$"):
             self.run_both("exec sleep 60", "exit 3")
         self.assertLess(self.took, 30)
+
+    def test_a_flow_that_fails_is_named_before_the_balls_that_notice_it(self):
+        with self.assertRaisesRegex(TogetherError, "^sh ended with 3, sh ended with 1$"):
+            self.run_both("sleep 0.7; echo the flow has ended; exit 1", "exit 3")
 
 
 if __name__ == "__main__":

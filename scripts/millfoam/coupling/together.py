@@ -89,7 +89,7 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     """Runs both programs in a case until both have ended; the balls' output goes to log.balls, the flow's to flow_log
     or, without it, to the output of this program. Each ends when this program is killed. SHARED_CORES are set unless
     the environment has them. If one program fails, the other is ended. TogetherError with the last lines of the balls'
-    log if they fail, or with the flow's exit code."""
+    log if they fail, or with the exit codes if the flow fails before them."""
     remove_pipes(case)
     # OpenFOAM takes its folder's name from PWD
     environment = {**SHARED_CORES, **os.environ, "PWD": str(case.resolve())}
@@ -100,9 +100,12 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     log = case / BALLS_LOG
     with open(log, "wb") as out:
         programs = [start(balls, out), start(flow, flow_log)]
+    first_failed: list[subprocess.Popen[bytes]] = []
+    stopped = []
     try:
         while any(program.poll() is None for program in programs):
-            if any(program.poll() for program in programs):
+            first_failed = [program for program in programs if program.poll()]
+            if first_failed:
                 # The other one notices that the pipe is closed, unless it waits for its opening
                 time.sleep(10 * WAIT)
                 break
@@ -110,14 +113,16 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     finally:
         for program in programs:
             if program.poll() is None:
+                stopped.append(program)
                 program.send_signal(signal.SIGTERM)
                 program.wait()
         remove_pipes(case)
-    balls_end, flow_end = (program.returncode for program in programs)
-    balls_name, flow_name = Path(balls[0]).name, Path(flow[0]).name
-    if balls_end > 0:
+    names = dict(zip(programs, (Path(balls[0]).name, Path(flow[0]).name)))
+    failed = [program for program in programs if program.returncode and program not in stopped]
+    failed.sort(key=lambda program: program not in first_failed)
+    ends = ", ".join(f"{names[program]} ended with {program.returncode}" for program in failed)
+    if programs[0] in failed and first_failed != programs[1:]:
         lines = log.read_text(errors="replace").splitlines()
-        raise TogetherError(f"{balls_name} failed; {log} ends with:\n" + "\n".join(lines[-15:]))
-    failed = [f"{name} ended with {end}" for name, end in ((balls_name, balls_end), (flow_name, flow_end)) if end]
+        raise TogetherError(f"{ends}; {log} ends with:\n" + "\n".join(lines[-15:]))
     if failed:
-        raise TogetherError(", ".join(failed))
+        raise TogetherError(ends)
