@@ -16,11 +16,14 @@ import numpy as np
 from millfoam.coupling import passes
 from millfoam.coupling.__main__ import judge, judge_direct, make_forces
 from millfoam.coupling.ball_forces import FIELDS, disagreement, relaxed
+from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import BallForces, read_ball_forces
 from millfoam.readings.fluid_on_balls import force_density
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
-from millfoam.report.coupling_section import coupling_checks, torques_balance, voxels_are_small
+from millfoam.report.case_readings import Readings
+from millfoam.report.coupling_section import (coupling_checks, coupling_section, forces_exchanged, torques_balance,
+                                              voxels_are_small)
 from report_cases import LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
@@ -257,6 +260,20 @@ class AtTheSameTime(unittest.TestCase):
         self.assertAlmostEqual(content["torque_added"], 0.003 / 0.5, places=9)
         # Over the drive's torque on the balls, not over their own, which may be 0
         self.assertAlmostEqual(content["torque_disagreement"], 0.004 / 0.5, places=9)
+
+    def test_the_report_shows_what_is_not_known(self):
+        self.judge()
+        for key in ("force_over_weight", "force_disagreement", "torque_by_flow_Nm"):
+            change_json(self.case / "coupling.json", key, to=None)
+        case = MillCase(self.case / "direct")
+        self.assertEqual("".join(coupling_section(case, Readings(case))).count("<td>–</td>"), 3)
+        found = forces_exchanged(case)
+        self.assertEqual((found.state, found.found),
+                         ("unknown", "the mean forces by the flow and by the balls are not known"))
+
+    def test_a_flow_that_gives_no_force_is_not_compared(self):
+        with mock.patch.object(passes, "given", lambda case: (np.zeros(3), None)):
+            self.assertIsNone(self.judge()["force_disagreement"])
 
     def test_the_torque_that_balls_take_is_compared_with_the_balance_of_the_slurry(self):
         # Of slurryBalance: 0.5 W in all, of which the walls give 0.06 and 0.42 W; the balls give 0.02 W

@@ -277,6 +277,10 @@ class Charge(Verdicts):
             results = {"steady": True, "steady_from_s": since}
             self.check(checks.charge_steadiness(case(results=results, solids="solids.h5", charge_span=(2.0, 3.0))),
                        state)
+        for since, state in ((20.5, "holds"), (20.7, "look"), (49.0, "look"), (51.0, "fails")):
+            results = {"steady": True, "steady_from_s": since}
+            self.check(checks.charge_steadiness(case(results=results, solids="solids.h5", charge_span=(20.0, 80.0))),
+                       state)
         self.check(checks.charge_steadiness(case(results={"steady": False})), "fails")
         self.check(checks.charge_steadiness(case(results={"steady": True, "steady_from_s": 1})), "holds")
 
@@ -403,6 +407,13 @@ class List(Verdicts):
         found = checks.all_checks(MillCase(folder))[0]
         self.check(found, "fails")
         self.assertRegex(found.found, "results.json: lost_balls = 'none'; expected a number")
+        for key, value, reason in (("lost_balls", None, "cannot convert float NaN"),
+                                   ("smallest_diameter_m", 0, "float division by zero")):
+            write_dry(folder)
+            change_json(folder / "dumps" / "results.json", key, to=value)
+            found = checks.all_checks(MillCase(folder))[0]
+            self.check(found, "fails")
+            self.assertIn(f"cannot be judged from its numbers ({reason}", found.found)
 
     def test_only_verdicts_that_no_longer_run_can_change_are_lasting(self):
         found = checks.one_way(case(load=(0.5, 1.1)))

@@ -293,8 +293,9 @@ class OneCase(Case):
                                                                "torque_disagreement": 0.0143,
                                                                "torque_unbalanced": -0.0252}))
         case.coupled = self.folder
-        self.assertRegex(net_note(case), r"does not balance, by 1\.4 % of .* and 2\.5 % of the drive's torque .*; the "
-                                         "drive's power has an error of this size")
+        self.assertIn("does not balance, by 1.4 % of the drive's torque on the balls (flow and balls) and 2.5 % of "
+                      "the drive's torque (balls and the slurry's own balance); the drive's power has an error of this "
+                      "size", net_note(case))
 
     def short_turns(self, flow):
         """MillCase of a flow whose averages are four turns of ten records."""

@@ -198,7 +198,7 @@ def exchanged_forces(folder: Path) -> Exchanged:
     within, driven = ((table["time_s"] > begin) & (table["time_s"] <= end) for table in (rows, drive))
     taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
     sizes = [float(np.linalg.norm(one)) for one in (force, taken, force - taken)]
-    exchanged = Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0])
+    exchanged = Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0] if sizes[0] > 0 else np.nan)
     if torque is None or "torque_Nm" not in rows:
         return exchanged
     felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))

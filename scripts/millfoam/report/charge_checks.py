@@ -12,7 +12,7 @@ LEDGER = 0.01  # of the balls' volume that may lie outside or be clipped
 FOLLOWS, SLIDES = 0.8, 0.5  # speed of the balls at the shell over its own: a charge that follows it, one that slides
 CONTACTS, CONTACTS_DOUBTFUL = 0.01, 0.05  # of the drive's power that may be missing in the contacts
 TORQUES, TORQUES_DOUBTFUL = 0.03, 0.1  # of the impeller's torque that may be missing on the walls at rest
-EARLY = 0.01  # of the averaged time that may lie before the charge is steady
+EARLY, TOO_EARLY = 0.01, 0.5  # of the averaged time that may lie before the charge is steady; not even doubtful
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
@@ -34,9 +34,9 @@ def charge_steadiness(case: MillCase) -> Check:
     if not case.solids:
         return Check(name, "holds", found)
     begin, end = case.charge_span
-    return judged(name, since - begin, EARLY * (end - begin), f"{found}; averages from {begin:.2f} s (limit "
+    return judged(name, (since - begin) / (end - begin), EARLY, f"{found}; averages from {begin:.2f} s (limit "
                   f"{100 * EARLY:.0f} % of their time)",
-                  "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=0.5)
+                  "Begin the averages later (--begin), or the flow at a later DEM time.", doubtful=TOO_EARLY)
 
 
 def follows_shell(case: MillCase) -> Check:

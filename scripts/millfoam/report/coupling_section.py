@@ -33,9 +33,12 @@ def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
 
 def forces_exchanged(case: MillCase) -> Check:
     """Whether balls and flow that ran at the same time gave the same force to each other."""
-    content = coupling_of(case)
-    apart = content["force_disagreement"]
-    return judged("The balls feel the slurry's force", apart, EXCHANGED, "balls and flow ran at the same time; the "
+    name = "The balls feel the slurry's force"
+    apart = coupling_of(case)["force_disagreement"]
+    if apart is None:
+        return Check(name, "unknown", "the mean forces by the flow and by the balls are not known",
+                     "Compare them again: python3 -m millfoam.coupling direct CASE.")
+    return judged(name, apart, EXCHANGED, "balls and flow ran at the same time; the "
                   f"mean force on all balls by the flow and by the balls differ by {100 * apart:.2f} % (limit "
                   f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
 
@@ -94,20 +97,23 @@ def forces_agree(case: MillCase) -> Check:
 def exchanged_table(case: MillCase) -> str:
     """Table of what balls and flow that ran at the same time gave to each other."""
     content = coupling_of(case)
-    rows = [["mean force of the flow on all balls, by the flow", f"{content['force_by_flow_N']:.4g} N"],
-            ["the same, by the balls", f"{content['force_by_balls_N']:.4g} N"],
-            ["size of their difference", f"{content['force_disagreement']:.2%}"]]
+
+    def shown(key: str, form: str, unit: str = "") -> str:
+        return "–" if content[key] is None else format(content[key], form) + unit
+    rows = [["mean force of the flow on all balls, by the flow", shown("force_by_flow_N", ".4g", " N")],
+            ["the same, by the balls", shown("force_by_balls_N", ".4g", " N")],
+            ["size of their difference", shown("force_disagreement", ".2%")]]
     if content.get("torque_disagreement") is not None:
-        rows += [["torque of this force about the axis, by the flow", f"{content['torque_by_flow_Nm']:.4g} N m"],
-                 ["the same, by the balls", f"{content['torque_by_balls_Nm']:.4g} N m"],
-                 ["their difference over the drive's torque on the balls", f"{content['torque_disagreement']:.2%}"]]
+        rows += [["torque of this force about the axis, by the flow", shown("torque_by_flow_Nm", ".4g", " N m")],
+                 ["the same, by the balls", shown("torque_by_balls_Nm", ".4g", " N m")],
+                 ["their difference over the drive's torque on the balls", shown("torque_disagreement", ".2%")]]
         if content.get("torque_added") is not None:
             rows.append(["torque that was added to the balls', because voxels spread them, over the drive's",
-                         f"{content['torque_added']:.2%}"])
+                         shown("torque_added", ".2%")])
         if content.get("torque_unbalanced") is not None:
             rows.append(["difference to the slurry's own balance, over the drive's torque",
-                         f"{content['torque_unbalanced']:+.2%}"])
-    rows.append(["slurry's force over the balls' weight", f"{content['force_over_weight']:.3f}"])
+                         shown("torque_unbalanced", "+.2%")])
+    rows.append(["slurry's force over the balls' weight", shown("force_over_weight", ".3f")])
     return page.table(["", ""], rows, title="Balls and slurry at the same time",
                       note="Means over the flow's averaged time. Balls and flow meet at every time-step of the flow.")
 

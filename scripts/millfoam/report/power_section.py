@@ -59,7 +59,7 @@ def torque_words(case: MillCase) -> str:
     balance; empty if these are not known."""
     content = coupling_of(case) if case.coupled is not None else {}
     found = [f"{100 * abs(content[key]):.1f} % of {whole}" for key, whole in (
-        ("torque_disagreement", "the torque on the balls (flow and balls)"),
+        ("torque_disagreement", "the drive's torque on the balls (flow and balls)"),
         ("torque_unbalanced", "the drive's torque (balls and the slurry's own balance)"))
         if content.get(key) is not None]
     return (f" Not in ±: the torque between balls and slurry does not balance, by {' and '.join(found)}; the drive's "
