@@ -99,9 +99,19 @@ class Dumps(unittest.TestCase):
         self.path.write_text("ITEM: ATOMS id x\n1 2\n")
         with self.assertRaisesRegex(RuntimeError, "no column vx, vy; it has id, x"):
             read_balls(self.path, "vx", "vy")
+
         self.path.write_text("text")
         with self.assertRaisesRegex(RuntimeError, "no line 'ITEM: ATOMS'"):
             read_balls(self.path, "x")
+
+    def test_a_dump_that_is_not_complete_is_refused(self):
+        for text, reason in (("ITEM: ATOMS id x\n1 2\n3", "expected a number for each ball in each column"),
+                             ("ITEM: ATOMS id x\n1 2\n3 a", "expected a number for each ball in each column"),
+                             ("ITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS id x\n1 2\n3 4\n",
+                              "4 values of balls; expected 3 balls of 2 columns each: the dump is not complete")):
+            self.path.write_text(text)
+            with self.assertRaisesRegex(RuntimeError, f"{self.path}: .*{reason}"):
+                read_balls(self.path, "x")
 
 
 if __name__ == "__main__":

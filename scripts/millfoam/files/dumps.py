@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The notes in the dumps' folder of a dry run, and the dumps by their steps (layout: dem_driver/README.md)."""
+import re
 from pathlib import Path
 from typing import Any
 
@@ -32,13 +33,21 @@ def numbered_dumps(folder: Path | str, kind: str = "dump") -> list[tuple[int, Pa
 
 
 def read_columns(path: Path) -> dict[str, np.ndarray]:
-    """All columns [balls] of a dump by their names, in the dump's units; RuntimeError if it is no dump of balls."""
+    """All columns [balls] of a dump by their names, in the dump's units; RuntimeError if it is no dump of balls, or not
+    complete."""
     parts = read_text(path).split("ITEM: ATOMS", 1)
     if len(parts) != 2:
         raise RuntimeError(f"{path}: no line 'ITEM: ATOMS'; expected a dump of balls")
-    head, rows = parts[1].split("\n", 1)
-    names = head.split()
-    return dict(zip(names, np.array(rows.split(), dtype=float).reshape(-1, len(names)).T))
+    head, _, rows = parts[1].partition("\n")
+    names, values = head.split(), rows.split()
+    count = re.search(r"ITEM: NUMBER OF ATOMS\s+(\d+)", parts[0])
+    if count and len(values) != int(count[1]) * len(names):
+        raise RuntimeError(f"{path}: {len(values)} values of balls; expected {int(count[1])} balls of {len(names)} "
+                           "columns each: the dump is not complete")
+    try:
+        return dict(zip(names, np.array(values, dtype=float).reshape(-1, len(names)).T))
+    except ValueError as error:
+        raise RuntimeError(f"{path}: {error}; expected a number for each ball in each column") from error
 
 
 def read_balls(path: Path, *columns: str) -> np.ndarray:
