@@ -52,6 +52,14 @@ class Powers(unittest.TestCase):
         self.assertEqual(drive.freedom, 2)
         self.assertAlmostEqual(mill_power.given_power(direct).value, (WALLS + BACK).mean(), places=9)
 
+    def test_end_with_the_last_written_time_of_a_flow_that_went_on(self):
+        direct, longer = case("flow"), case("flow")
+        more = LAST + np.arange(1, 76) * 0.004
+        longer.balance = {name: np.concatenate([values, more if name == "Time" else 9 + 0 * more])
+                          for name, values in longer.balance.items()}
+        for power in (mill_power.drive_power, mill_power.slurry_power, mill_power.given_power):
+            self.assertEqual(power(longer), power(direct))
+
     def test_begin_with_the_averaged_turns_of_a_flow_that_moved_the_balls_or_as_the_results_have_it(self):
         self.assertEqual(mill_power.power_begin(case("flow")), TIME0 + BEGIN)
         for kind in ("slurry", None):

@@ -118,6 +118,17 @@ class Loads(unittest.TestCase):
             charge_setting("30")
 
 
+class Steady(unittest.TestCase):
+    def test_a_dry_run_that_is_not_steady_is_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        write_dry(folder / "dry")
+        for steady, words in ((True, ""), (False, "charge")):
+            change_json(folder / "dry" / "dumps" / "results.json", "steady", to=steady)
+            dry, = study.rows_of(study.read_study(folder))
+            self.assertEqual(dry["not_steady"], words)
+            self.assertEqual(list(study.lines_of([dry]))[1].endswith("charge"), not steady)
+
+
 class Missing(unittest.TestCase):
     def setUp(self):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

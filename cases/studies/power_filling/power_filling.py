@@ -57,12 +57,14 @@ class Run:
 
 @dataclass(frozen=True)
 class Study:
-    """A mill: its name; power of its dry charge, W; its runs, and the names of those that are not complete."""
+    """A mill: its name; power of its dry charge, W; its runs, and the names of those that are not complete;
+    dry_unsteady: "charge" if power and energies of the dry run did not become steady, otherwise empty."""
     name: str
     mill: Mill
     dry: Mean
     runs: list[Run]
     missing: list[str]
+    dry_unsteady: str = ""
 
 
 def require_of(case: MillCase, charge: str, fill: float | None) -> None:
@@ -92,7 +94,7 @@ def read_run(folder: Path, charge: str) -> Run:
     slurry = mean_slurry(case, list(slurry_blocks(case)))
     area = pool(slurry, solidity_at_pixels(numbers.charge, slurry)).area
     whole = fill * case.mill.derived("charge", "pore_volume_m3")
-    judged = {"flow": flow_steadiness(case), **({"charge": charge_steadiness(case)} if direct else {})}
+    judged = {"flow": flow_steadiness(case), "charge": charge_steadiness(case)}
     apart = read_json(folder / "coupling.json", "coupling").get("torque_unbalanced") if direct else None
     return Run(way, fill, case, numbers, slurry, area * case.length / whole,
                ", ".join(name + (" (undecided)" if check.undecided else "") for name, check in judged.items()
@@ -114,7 +116,8 @@ def read_study(folder: Path) -> Study:
             runs.append(read_run(folder / match[0], charge))
         except (RuntimeError, OSError) as error:
             missing.append(f"{match[0]}: {error}")
-    return Study(folder.name, dry.mill, Mean(dry.result("power_W"), dry.result("power_error_W")), runs, missing)
+    return Study(folder.name, dry.mill, Mean(dry.result("power_W"), dry.result("power_error_W")), runs, missing,
+                 "" if dry.results.get("steady") else "charge")
 
 
 def models(mill: Mill) -> dict[str, Callable[[float], float]]:
@@ -146,7 +149,8 @@ def columns_of(key: str, mean: Mean) -> list[tuple[str, float]]:
 def rows_of(study: Study):
     """Rows of the table: column -> text or number."""
     yield {"mill": study.name, "coupling": "dry", "filling": 0.0,
-           **{name: value for key in ("drive_power", "charge_power") for name, value in columns_of(key, study.dry)}}
+           **{name: value for key in ("drive_power", "charge_power") for name, value in columns_of(key, study.dry)},
+           "not_steady": study.dry_unsteady}
     for run in study.runs:
         row = {"mill": study.name, "coupling": WAYS[run.way], "filling": run.fill}
         for key in (*POWERS, *READINGS):
