@@ -4,13 +4,36 @@
 import contextlib
 import io
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
 
-from study_scripts import load
+from study_scripts import CASES, load
+
+
+def load_case(name, script="compare.py"):
+    """The script of a verification case as a module; it imports what is in its folder."""
+    folder = str(CASES / "verification" / name)
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
+    return load(f"verification/{name}/{script}", f"{name}_{Path(script).stem}")
+
+
+class Printed(unittest.TestCase):
+    """Cases whose report prints a table and writes it into a file."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="verification-")))
+
+    def report(self, function, results):
+        """Number of missed limits, and the table."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            missed = function(results, self.folder / "table.txt")
+        return missed, (self.folder / "table.txt").read_text()
 
 
 class RotatingDrum(unittest.TestCase):
@@ -91,6 +114,139 @@ class Displacement(unittest.TestCase):
     def test_of_the_closed_box_no_pressure_is_judged(self):
         self.assertFalse(self.result("closed").misses())
         self.assertFalse(self.result("closed", pressure=np.nan).misses())
+
+
+class FallingHead(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("falling_head")
+
+    def fall(self, name, share=1.0):
+        """An exact fall in a column, for a share of its duration."""
+        column = next(column for column in self.case.COLUMNS if column.name == name)
+        time = np.linspace(0, share * column.end, 41)
+        return self.case.Fall(column, time, column.levels(time))
+
+    def test_every_error_that_is_not_a_number_misses_its_limit(self):
+        fall = self.fall("tailwater")
+        self.assertFalse(fall.misses())
+        for key in ("error", "closed_error", "fitted_time"):
+            with self.subTest(key), mock.patch.object(self.case.Fall, key, np.nan):
+                self.assertTrue(fall.misses())
+
+    def test_a_run_that_ended_early_misses(self):
+        self.assertFalse(self.fall("Ergun").misses())
+        self.assertTrue(self.fall("Ergun", share=0.5).misses())
+
+
+class Sloshing(Printed):
+    def setUp(self):
+        super().setUp()
+        self.case = load_case("sloshing")
+
+    def missed(self, *histories):
+        return self.report(self.case.report, histories)[0]
+
+    def test_a_deviation_in_a_bed_that_is_not_a_number_misses(self):
+        run = self.case.Run("box", "slurryFoam", bed=True)
+        wave = self.case.theory(run)
+        time = np.linspace(0, self.case.BED_DECAY / wave.slow_rate, 81)
+        history = self.case.History(run, time, 0.003 * wave.from_rest(time), 0.0)
+        self.assertEqual(self.missed(history), 0)
+        history.elevation[1] = np.nan  # before the time from which on the rate is fitted
+        self.assertEqual(self.missed(history), 1)
+
+    def free(self, solver, decay):
+        run = self.case.Run("box", solver, periods=2)
+        omega = self.case.theory(run).omega
+        time = np.linspace(0, 4 * np.pi / omega, 41)
+        noise = 1e-6 * np.sin(50 * time)  # without any, the fit has no covariance
+        return self.case.History(run, time, 0.003 * np.exp(-decay * time) * np.cos(omega * time) + noise, 0.0)
+
+    def test_a_wave_is_not_damped_more_than_by_interfoam(self):
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.008)), 0)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.04)), 1)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.04), self.free("interFoam", 0.05)), 0)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.02), self.free("interFoam", 0.01)), 1)
+
+
+class ThroughFlow(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("through_flow")
+
+    def flow(self, mesh, bed, cells, error=0.0):
+        """A steady, exact flow, or one with an error of the velocity."""
+        x = (np.arange(cells) + 0.5) * self.case.LENGTH / cells
+        own = self.case.BEDS[bed]
+        pressure = np.where((own.begin < x) & (x < own.end), 0, own.dynamic)
+        return self.case.Flow(mesh, bed, cells, 0, x, own.velocity(x), 0.0, pressure, 0.0, error, 0.0)
+
+    def test_a_jump_that_is_not_a_number_misses(self):
+        for begin, _ in self.case.PLATEAUS:
+            flow = self.flow("aligned", "edges", self.case.EDGE_CELLS)
+            self.assertEqual(list(self.case.misses([flow])), [])
+            flow.p[np.argmax(flow.x > begin)] = np.nan
+            with self.subTest(begin=begin):
+                self.assertEqual(list(self.case.misses([flow])), ["edges, aligned, 64 cells: jump"])
+
+    def test_an_order_from_an_error_that_is_not_a_number_misses(self):
+        # On slanted meshes the errors themselves have no limits
+        for coarse, missed in ((0.04, False), (0.02, True), (np.nan, True)):
+            found = list(self.case.misses([self.flow("slanted", "ramps", 64, coarse),
+                                           self.flow("slanted", "ramps", 128, 0.01)]))
+            self.assertEqual(found, ["ramps, slanted, 128 cells: order of the velocity"] * missed)
+
+
+class Bingham(unittest.TestCase):
+    def converges(self, case, *errors):
+        """Of three plugs of either regularisation, of which one has these errors."""
+        flows = [SimpleNamespace(solver="slurryFoam", regularisation=name, stiffness=stiffness, profile_error=error)
+                 for name, row in zip(case.REGULARISATIONS, ((0.3, 0.2, 0.1), errors))
+                 for stiffness, error in zip((0.1, 0.3, 1), row)]
+        return case.converges(flows)
+
+    def test_errors_that_are_not_numbers_or_not_there_do_not_converge(self):
+        for name in ("bingham_couette", "bingham_poiseuille"):
+            case = load_case(name)
+            with self.subTest(name):
+                self.assertTrue(self.converges(case, 0.3, 0.2, 0.1))
+                self.assertTrue(self.converges(case, 0.3))
+                for errors in ((0.3, 0.1, 0.2), (0.3, 0.2, 0.2), (0.3, np.nan, 0.1), (0.3, 0.2, np.nan), ()):
+                    self.assertFalse(self.converges(case, *errors))
+
+
+class CarriedAlong(Printed):
+    def test_a_run_that_ended_early_misses(self):
+        case = load_case("carried_along")
+        run = case.Run(False, False, 0, 1e-3)
+        radius = np.linspace(0.01, 0.14, 20)
+        for times, missed in ((np.linspace(0, run.setting["end"], 21), 0), (np.zeros(1), 1)):
+            flow = case.SpinUp(times, radius, np.zeros((len(times), 20)), np.ones(20), False)
+            flow.speed = flow.exact
+            self.assertEqual(self.report(case.report, {run: flow})[0], missed)
+
+
+class DiscThroughJumps(unittest.TestCase):
+    def test_a_time_without_a_number_or_not_written_misses(self):
+        case = load_case("disc_through_jumps")
+        run = case.Run("at rest", "aligned", 128)
+        discs = [case.Disc(time, None, None, None, 0, 0, 0, 0, 0) for time in range(case.RECORDS + 1)]
+        self.assertFalse(case.missed(run, discs))
+        self.assertTrue(case.missed(run, discs[:-1]))
+        discs[3].shape = np.nan
+        self.assertTrue(case.missed(run, discs))
+
+
+class Transport(unittest.TestCase):
+    def test_what_is_not_a_number_misses_its_limit(self):
+        case = load_case("rest", "transport.py")
+        for moved, change, missed in ((4e-4, 1e-9, ""), (6e-4, 1e-9, "distance"), (np.nan, 1e-9, "distance"),
+                                      (4e-4, 1e-7, "volume"), (4e-4, np.nan, "volume"),
+                                      (np.nan, np.nan, "distance, volume")):
+            found = {"slurryFoam": (moved, change, 46, 45), "interFoam": (1e-3, 1e-3, 46, 92)}
+            lines, count = case.judge("ogrid", found)
+            self.assertEqual(len(lines), 3)
+            self.assertEqual(count, len(missed.split()))
+            self.assertTrue(lines[-1].endswith(f"  MISSED: {missed}" if missed else "allowed 0.5"), lines[-1])
 
 
 if __name__ == "__main__":
