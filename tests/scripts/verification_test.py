@@ -249,5 +249,19 @@ class Transport(unittest.TestCase):
             self.assertTrue(lines[-1].endswith(f"  MISSED: {missed}" if missed else "allowed 0.5"), lines[-1])
 
 
+class StirredWalls(Printed):
+    def test_the_table_is_printed_and_names_what_missed(self):
+        case = load_case("stirred_walls")
+        rows = [("within", 0.1, 0.2), ("beyond", 0.3, 0.2), ("no number", np.nan, 0.2)]
+        words = io.StringIO()
+        with mock.patch.multiple(case, HERE=self.folder, run_jobs=mock.Mock(return_value=[]), draw=mock.Mock(),
+                                 table=lambda *_: (rows, {})), \
+                mock.patch.object(sys, "argv", ["compare.py"]), contextlib.redirect_stdout(words):
+            self.assertEqual(case.main(), 1)
+        lines = words.getvalue().splitlines()
+        self.assertEqual([line.endswith("  MISSED") for line in lines], [False, False, True, True])
+        self.assertEqual((self.folder / "stirred_walls.txt").read_text(), words.getvalue())
+
+
 if __name__ == "__main__":
     unittest.main()
