@@ -3,6 +3,7 @@
 """What verification cases call a miss, on made-up results. Nothing is run."""
 import contextlib
 import io
+import itertools
 import sys
 import tempfile
 import unittest
@@ -261,6 +262,42 @@ class StirredWalls(Printed):
         lines = words.getvalue().splitlines()
         self.assertEqual([line.endswith("  MISSED") for line in lines], [False, False, True, True])
         self.assertEqual((self.folder / "stirred_walls.txt").read_text(), words.getvalue())
+
+
+class PressureDrop(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("pressure_drop")
+        self.rows = list(itertools.product(self.case.published_laws.GRADIENTS, self.case.SOLIDITIES,
+                                           self.case.REYNOLDS))
+
+    def made(self, function):
+        """What a function makes of these rows of millDrag."""
+        table = "law,phi,Re,beta\n" + "".join(f"{law},{phi:g},{re:g},1\n" for law, phi, re in self.rows)
+        with mock.patch.object(self.case.subprocess, "run", return_value=SimpleNamespace(stdout=table)):
+            return function()
+
+    def test_there_are_beds_of_every_published_law(self):
+        for function, count in ((self.case.beds, 1820), (self.case.quick_beds, 42)):
+            found = self.made(function)
+            self.assertEqual(len(found), count)
+            self.assertEqual({bed.law for bed in found}, set(self.case.published_laws.GRADIENTS))
+
+    def test_a_row_that_milldrag_does_not_print_is_named(self):
+        whole = self.rows
+        without = [row for row in whole if row[0] != "Tang"]
+        for self.rows, words in ((without, "not printed by millDrag: Tang, phi 0.15, Re 0.5; Tang, "),
+                                 (whole[:-1], "not printed by millDrag: Tenneti, phi 0.5, Re 2000$"),
+                                 ([*whole, ("Stokes", 0.5, 5)], "not in published_laws.py: Stokes, phi 0.5, Re 5$"),
+                                 ([], "not printed by millDrag")):
+            for function in (self.case.beds, self.case.quick_beds):
+                with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                    self.made(function)
+
+    def test_every_quick_entry_has_a_bed(self):
+        for phi, re, laws in ((0.3, 50.0, ()), (0.5, 40.0, ()), (0.5, 50.0, ("Ergun", "Stokes"))):
+            quick = (*self.case.QUICK, ("slurryFoam", phi, (8, 4), re, laws))
+            with mock.patch.object(self.case, "QUICK", quick), self.assertRaisesRegex(ValueError, "QUICK: "):
+                self.made(self.case.quick_beds)
 
 
 if __name__ == "__main__":
