@@ -250,6 +250,37 @@ class Transport(unittest.TestCase):
             self.assertTrue(lines[-1].endswith(f"  MISSED: {missed}" if missed else "allowed 0.5"), lines[-1])
 
 
+class Pool(unittest.TestCase):
+    def setUp(self):
+        self.table = load_case("rest", "pool_table.py")
+        self.runs = load_case("rest", "pool_history.py")
+
+    def history(self, end, rms):
+        time = np.linspace(0, end, 41)
+        flat = np.ones(41)
+        return self.runs.History(time, rms * flat, rms * flat, rms * flat, 0 * flat, flat, 0 * flat, 1e3 * time)
+
+    def judge(self, reached, rms, own=1e-9):
+        """Judged are a run of slurryFoam and one of interFoam that reached this time."""
+        return self.table.judge({self.runs.Run("ogrid", "slurryFoam", 0.07, False): self.history(1.0, own),
+                                 self.runs.Run("ogrid", "interFoam", 0.07, False): self.history(reached, rms)}, 1.0)
+
+    def test_a_run_that_diverged_is_no_reference(self):
+        text, missed = self.judge(1.0, 0.04)
+        self.assertEqual(missed, 0)
+        self.assertIn("over interFoam's", "\n".join(text))
+        text, missed = self.judge(0.3, 1e30)
+        self.assertEqual(missed, 1)
+        self.assertNotIn("over interFoam's", "\n".join(text))
+        self.assertEqual([line for line in text if line.endswith("MISSED")], [
+            f"{'ogrid, static, sigma 0.07: interFoam ended early and is no reference, s short':<86} "
+            f"{0.7:10.3e} {1e-6:9.2e}  MISSED"])
+
+    def test_a_speed_that_is_not_a_number_misses(self):
+        self.assertEqual(self.judge(1.0, np.nan)[1], 1)
+        self.assertGreater(self.judge(1.0, 0.04, own=np.nan)[1], 1)
+
+
 class StirredWalls(Printed):
     def test_the_table_is_printed_and_names_what_missed(self):
         case = load_case("stirred_walls")
