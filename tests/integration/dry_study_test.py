@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What studies of dry runs and profiles along the axis are made of: on a drum of a few balls, and on made-up data whose
-answers are known."""
+"""What studies of dry runs are made of: on a drum of a few balls, and on made-up data whose answers are known."""
 import importlib.util
 import json
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -18,7 +16,6 @@ import numpy as np
 from dem_run_test import MILL
 from millfoam.files.mill import read_mill
 from millfoam.files.solids_file import SolidsMap
-from millfoam.readings import axial
 from millfoam.readings.compare import difference
 from millfoam.run import RunError, run
 from millstudies.dry_runs import is_whole, make_dry_run
@@ -26,7 +23,6 @@ from millstudies.mill_runs import resolved, write_mill
 from millstudies.published_mills import averages, published_loads
 
 ROOT = Path(__file__).resolve().parents[2]
-STARS = "\n// ************************************************************************* //\n"
 
 
 def load(path):
@@ -222,83 +218,6 @@ class Difference(unittest.TestCase):
         other.x = 2 * other.x
         with self.assertRaisesRegex(ValueError, "same voxels"):
             difference(self.map(0.5, (0, 0, 0)), other)
-
-
-class Axial(unittest.TestCase):
-    def test_two_humps_are_found_where_they_are(self):
-        z = np.linspace(0.005, 0.3, 33)
-        noise = 1e-5 * np.sin(700 * z)
-        height = axial.gaussians(z, -0.06, 0.003, 0.08, 0.03, 0.002, 0.21, 0.04) + noise
-        humps = axial.fit_gaussians(z, height, 2)
-        np.testing.assert_allclose(humps.places, (0.08, 0.21), atol=2e-3)
-        self.assertAlmostEqual(humps.distances[0], 0.13, delta=3e-3)
-        self.assertLess(humps.rmsd, 2e-5)
-
-    def write_steps(self, case, start, rows):
-        folder = case / "postProcessing" / "flow" / start
-        folder.mkdir(parents=True)
-        (folder / "steps.csv").write_text("time_s,slurry_m3\n" + "".join(f"{t},{v}\n" for t, v in rows))
-
-    def test_discharge_is_the_feed_less_what_is_kept(self):
-        with tempfile.TemporaryDirectory(prefix="discharge-") as name:
-            case = Path(name)
-            self.write_steps(case, "0", [(t, 2e-3 + 1e-5 * t) for t in (0.5, 1.0, 1.5, 2.0)])
-            times, volumes = axial.slurry_volumes(case)
-            self.assertEqual(len(times), 4)
-            self.assertAlmostEqual(axial.discharge(times, volumes, 6e-5, 1.0), 5e-5, delta=1e-12)
-            self.write_steps(case, "1", [(1.2, 3e-3)])
-            np.testing.assert_allclose(axial.slurry_volumes(case)[0], (0.5, 1.0, 1.2))
-        with self.assertRaisesRegex(RuntimeError, "no two steps"):
-            axial.discharge(times, volumes, 6e-5, 1.9)
-
-
-class HalfWritten(FolderTest):
-    """Times that ranks killed at different moments leave."""
-
-    def write(self, processor, time, end=STARS, names=("U", "alpha.slurry")):
-        folder = self.folder / f"processor{processor}" / time
-        folder.mkdir(parents=True)
-        for name in names:
-            (folder / name).write_text("FoamFile\n{\n}\n" + (end if name == "U" else STARS))
-
-    def drop(self):
-        run(self.folder, "millMesh", ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml", "--case", ".")
-        shutil.copytree(ROOT / "scripts" / "mill_case" / "system", self.folder / "system")
-        functions = (ROOT / "scripts" / "case_functions").read_text()
-        begin = functions.index("written() {")
-        script = "set -eu -o pipefail\n" + functions[begin:functions.index("\nparallel() {")] + "drop_half_written\n"
-        done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return {processor: sorted(path.name for path in (self.folder / f"processor{processor}").iterdir()
-                                  if path.name[0].isdigit())
-                for processor in (0, 1)}
-
-    def test_a_time_that_a_rank_wrote_half_goes_from_all_ranks(self):
-        for processor in (0, 1):
-            for time in ("0", "0.05", "0.1"):
-                self.write(processor, time)
-        self.write(0, "0.15")
-        self.write(1, "0.15", end="")
-        self.assertEqual(self.drop(), {0: ["0", "0.05", "0.1"], 1: ["0", "0.05", "0.1"]})
-
-    def test_a_time_without_all_fields_goes(self):
-        for processor in (0, 1):
-            self.write(processor, "0", names=("U",))
-            self.write(processor, "0.05")
-            self.write(processor, "0.1", names=("U",))
-        self.assertEqual(self.drop(), {0: ["0", "0.05"], 1: ["0", "0.05"]})
-
-    def test_a_time_that_not_all_ranks_have_goes(self):
-        for processor in (0, 1):
-            self.write(processor, "0")
-        self.write(1, "0.05")
-        self.assertEqual(self.drop(), {0: ["0"], 1: ["0"]})
-
-    def test_whole_times_stay(self):
-        for processor in (0, 1):
-            for time in ("0", "0.05"):
-                self.write(processor, time)
-        self.assertEqual(self.drop(), {0: ["0", "0.05"], 1: ["0", "0.05"]})
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`pip install ./scripts` gives the package to any Python: it is whole there, and needs nothing of the source tree."""
+"""`pip install ./scripts` gives the package to any Python: it is whole there, and needs nothing of the source tree.
+Ends with 77 where pip, setuptools or wheel is missing; what needs none of them is tested anyway."""
 import importlib.util
 import os
 import re
@@ -16,6 +17,8 @@ from report_cases import write_dry
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
+NOT_HERE = 77  # CTest's SKIP_RETURN_CODE
+MISSING = [name for name in ("pip", "setuptools", "wheel") if not importlib.util.find_spec(name)]
 LEFT_OUT = "millfoam.plan"  # needs the tree's programs and template
 # Prints where the package is, its version, and its modules; every one is imported
 WHAT_IS_THERE = """import importlib, importlib.metadata, pkgutil, millfoam
@@ -32,8 +35,7 @@ def modules():
     return names - {"millfoam"}
 
 
-@unittest.skipUnless(all(map(importlib.util.find_spec, ("pip", "setuptools", "wheel"))),
-                     "no pip, setuptools and wheel here; scripts/setup --tools installs them")
+@unittest.skipIf(MISSING, "not installed")
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -83,5 +85,25 @@ class Project(unittest.TestCase):
         self.assertEqual(foreign, set(project["dependencies"]))
 
 
+class Skipped(unittest.TestCase):
+    def test_without_pip_this_test_does_not_pass(self):
+        with tempfile.TemporaryDirectory(prefix="package-") as folder:
+            # Python imports this module when it starts
+            (Path(folder) / "sitecustomize.py").write_text(
+                "import importlib.util\nfind = importlib.util.find_spec\n"
+                "importlib.util.find_spec = lambda name, *of: None if name == 'pip' else find(name, *of)\n")
+            path = os.pathsep.join(filter(None, (folder, os.environ.get("PYTHONPATH"))))
+            done = subprocess.run([sys.executable, __file__, "Installed", "Project"], text=True, capture_output=True,
+                                  env={**os.environ, "PYTHONPATH": path})
+        self.assertEqual((done.returncode, done.stdout),
+                         (NOT_HERE, "not installed: pip; scripts/setup --tools installs it\n"), done.stderr)
+        self.assertIn("SKIP_RETURN_CODE 77", (Path(__file__).parent / "CMakeLists.txt").read_text())
+
+
 if __name__ == "__main__":
-    unittest.main()
+    program = unittest.main(exit=False)
+    if not program.result.wasSuccessful():
+        sys.exit(1)
+    if MISSING:
+        print(f"not installed: {', '.join(MISSING)}; scripts/setup --tools installs it")
+        sys.exit(NOT_HERE)

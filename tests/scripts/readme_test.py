@@ -5,6 +5,7 @@ import json
 import re
 import tempfile
 import unittest
+from collections import Counter
 from pathlib import Path
 
 from millfoam.run import run
@@ -15,14 +16,67 @@ PAGES = [path for path in (*ROOT.glob("*.md"), *(p for room in ("averaging", "ca
 
 
 def prose(page):
-    """Text of a page without its blocks of code."""
-    return re.sub(r"^```.*?^```|^    .*?$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    """Lines of a page outside of its blocks of code: between fences, or indented by four where no list is open."""
+    found, fence, in_list, after_blank, in_code = [], "", False, True, False
+    for line in page.read_text(encoding="utf-8").splitlines():
+        mark = re.match(r" *(`{3,}|~{3,})", line)
+        if fence:
+            if mark and mark[1].startswith(fence):
+                fence = ""
+            continue
+        if mark:
+            fence = mark[1]
+            continue
+        if line.strip():
+            if re.match(r" {0,3}([-*+]|\d+[.)]) ", line):
+                in_list = True
+            elif after_blank and not line.startswith(" "):
+                in_list = False
+            # In the middle of a paragraph it is text
+            in_code = line.startswith("    ") and not in_list and (after_blank or in_code)
+        after_blank = not line.strip()
+        if not in_code:
+            found.append(line)
+    return "\n".join(found)
 
 
 def anchors(page):
-    """Names by which the headings of a page are linked, as GitHub makes them."""
-    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.M)
-    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+    """Names by which the headings of a page are linked, as GitHub makes them: repeated ones end with -1, -2 …"""
+    found = Counter()
+    for heading in re.findall(r"^#{1,6} +(.*?) *$", prose(page), re.M):
+        name = re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+        count = found[name]
+        found[name] += 1
+        if count:
+            found[f"{name}-{count}"] += 1
+    return set(found)
+
+
+class Pages(unittest.TestCase):
+    """What of a page is text and what are its headings."""
+
+    def setUp(self):
+        self.page = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="readme-"))) / "README.md"
+
+    def links(self, text):
+        self.page.write_text(text)
+        return re.findall(r"\]\((\w+)\)", prose(self.page))
+
+    def test_nested_items_of_lists_are_text(self):
+        self.assertEqual(self.links("- [a](a)\n    - [b](b),\n      [c](c)\n\n    [d](d)\n10. [e](e)\n    [f](f)\n"),
+                         list("abcdef"))
+        self.assertEqual(self.links("a line\n    [b](b)\n"), ["b"])
+
+    def test_code_is_no_text(self):
+        self.assertEqual(self.links("A:\n\n    f[a](a)\n\n    f[b](b)\n\n[c](c)\n"), ["c"])
+        self.assertEqual(self.links("- item\n\nA:\n\n    f[a](a)\n"), [])
+        for fence in ("```", "~~~", "````"):
+            self.assertEqual(self.links(f"{fence}sh\nf[a](a)\n\nf[b](b)\n{fence}\n[c](c)\n"), ["c"])
+        self.assertEqual(self.links("- item:\n\n  ```sh\n  f[a](a)\n  ```\n  [b](b)\n"), ["b"])
+
+    def test_headings_are_numbered_when_repeated_and_are_not_comments_in_code(self):
+        self.page.write_text("# A page: `x.json`\n\n```sh\n# build it\n```\n\n## New\n## Fixed\n## New\n### New\n")
+        self.assertEqual(anchors(self.page), {"a-page-xjson", "new", "fixed", "new-1", "new-2"})
 
 
 class Readme(unittest.TestCase):

@@ -71,6 +71,52 @@ class HalfWritten(Stages):
         self.assertIn("time 0.2 is not complete, nor are the two after it", said)
 
 
+class HalfWrittenByRanks(Stages):
+    """Times that ranks killed at different moments leave, as OpenFOAM's foamListTimes sees them."""
+
+    def setUp(self):
+        super().setUp()
+        head = "FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }\n"
+        self.write("system/controlDict", head + "startTime 0; endTime 1; deltaT 0.05; writeInterval 0.05;\n")
+
+    def write_time(self, rank, time, end=END, names=("U", "alpha.slurry")):
+        for name in names:
+            self.write(f"processor{rank}/{time}/{name}", "FoamFile\n{\n}\n" + (end if name == "U" else END))
+
+    def left(self):
+        """Times of each rank."""
+        code, _, errors = self.bash("drop_half_written")
+        self.assertEqual(code, 0, errors)
+        return [sorted(path.name for path in (self.folder / f"processor{rank}").iterdir()) for rank in (0, 1)]
+
+    def test_a_time_that_a_rank_wrote_half_goes_from_all_ranks(self):
+        for rank in (0, 1):
+            for time in ("0", "0.05", "0.1"):
+                self.write_time(rank, time)
+        self.write_time(0, "0.15")
+        self.write_time(1, "0.15", end="")
+        self.assertEqual(self.left(), [["0", "0.05", "0.1"]] * 2)
+
+    def test_a_time_without_all_fields_goes(self):
+        for rank in (0, 1):
+            self.write_time(rank, "0", names=("U",))
+            self.write_time(rank, "0.05")
+            self.write_time(rank, "0.1", names=("U",))
+        self.assertEqual(self.left(), [["0", "0.05"]] * 2)
+
+    def test_a_time_that_not_all_ranks_have_goes(self):
+        for rank in (0, 1):
+            self.write_time(rank, "0")
+        self.write_time(1, "0.05")
+        self.assertEqual(self.left(), [["0"]] * 2)
+
+    def test_whole_times_stay(self):
+        for rank in (0, 1):
+            for time in ("0", "0.05"):
+                self.write_time(rank, time)
+        self.assertEqual(self.left(), [["0", "0.05"]] * 2)
+
+
 class Starting(Stages):
     def test_a_start_that_cannot_be_copied_is_no_start(self):
         code, output, _ = self.bash("slurryStart() { echo started; }\nstart_flow || echo failed")

@@ -3,14 +3,38 @@
 """What verification cases call a miss, on made-up results. Nothing is run."""
 import contextlib
 import io
+import itertools
 import sys
+import tempfile
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
 
-from study_scripts import load
+from study_scripts import CASES, load
+
+
+def load_case(name, script="compare.py"):
+    """The script of a verification case as a module; it imports what is in its folder."""
+    folder = str(CASES / "verification" / name)
+    if folder not in sys.path:
+        sys.path.insert(0, folder)
+    return load(f"verification/{name}/{script}", f"{name}_{Path(script).stem}")
+
+
+class Printed(unittest.TestCase):
+    """Cases whose report prints a table and writes it into a file."""
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="verification-")))
+
+    def report(self, function, results):
+        """Number of missed limits, and the table."""
+        with contextlib.redirect_stdout(io.StringIO()):
+            missed = function(results, self.folder / "table.txt")
+        return missed, (self.folder / "table.txt").read_text()
 
 
 class RotatingDrum(unittest.TestCase):
@@ -91,6 +115,220 @@ class Displacement(unittest.TestCase):
     def test_of_the_closed_box_no_pressure_is_judged(self):
         self.assertFalse(self.result("closed").misses())
         self.assertFalse(self.result("closed", pressure=np.nan).misses())
+
+
+class FallingHead(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("falling_head")
+
+    def fall(self, name, share=1.0):
+        """An exact fall in a column, for a share of its duration."""
+        column = next(column for column in self.case.COLUMNS if column.name == name)
+        time = np.linspace(0, share * column.end, 41)
+        return self.case.Fall(column, time, column.levels(time))
+
+    def test_every_error_that_is_not_a_number_misses_its_limit(self):
+        fall = self.fall("tailwater")
+        self.assertFalse(fall.misses())
+        for key in ("error", "closed_error", "fitted_time"):
+            with self.subTest(key), mock.patch.object(self.case.Fall, key, np.nan):
+                self.assertTrue(fall.misses())
+
+    def test_a_run_that_ended_early_misses(self):
+        self.assertFalse(self.fall("Ergun").misses())
+        self.assertTrue(self.fall("Ergun", share=0.5).misses())
+
+
+class Sloshing(Printed):
+    def setUp(self):
+        super().setUp()
+        self.case = load_case("sloshing")
+
+    def missed(self, *histories):
+        return self.report(self.case.report, histories)[0]
+
+    def test_a_deviation_in_a_bed_that_is_not_a_number_misses(self):
+        run = self.case.Run("box", "slurryFoam", bed=True)
+        wave = self.case.theory(run)
+        time = np.linspace(0, self.case.BED_DECAY / wave.slow_rate, 81)
+        history = self.case.History(run, time, 0.003 * wave.from_rest(time), 0.0)
+        self.assertEqual(self.missed(history), 0)
+        history.elevation[1] = np.nan  # before the time from which on the rate is fitted
+        self.assertEqual(self.missed(history), 1)
+
+    def free(self, solver, decay):
+        run = self.case.Run("box", solver, periods=2)
+        omega = self.case.theory(run).omega
+        time = np.linspace(0, 4 * np.pi / omega, 41)
+        noise = 1e-6 * np.sin(50 * time)  # without any, the fit has no covariance
+        return self.case.History(run, time, 0.003 * np.exp(-decay * time) * np.cos(omega * time) + noise, 0.0)
+
+    def test_a_wave_is_not_damped_more_than_by_interfoam(self):
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.008)), 0)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.04)), 1)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.04), self.free("interFoam", 0.05)), 0)
+        self.assertEqual(self.missed(self.free("slurryFoam", 0.02), self.free("interFoam", 0.01)), 1)
+
+
+class ThroughFlow(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("through_flow")
+
+    def flow(self, mesh, bed, cells, error=0.0):
+        """A steady, exact flow, or one with an error of the velocity."""
+        x = (np.arange(cells) + 0.5) * self.case.LENGTH / cells
+        own = self.case.BEDS[bed]
+        pressure = np.where((own.begin < x) & (x < own.end), 0, own.dynamic)
+        return self.case.Flow(mesh, bed, cells, 0, x, own.velocity(x), 0.0, pressure, 0.0, error, 0.0)
+
+    def test_a_jump_that_is_not_a_number_misses(self):
+        for begin, _ in self.case.PLATEAUS:
+            flow = self.flow("aligned", "edges", self.case.EDGE_CELLS)
+            self.assertEqual(list(self.case.misses([flow])), [])
+            flow.p[np.argmax(flow.x > begin)] = np.nan
+            with self.subTest(begin=begin):
+                self.assertEqual(list(self.case.misses([flow])), ["edges, aligned, 64 cells: jump"])
+
+    def test_an_order_from_an_error_that_is_not_a_number_misses(self):
+        # On slanted meshes the errors themselves have no limits
+        for coarse, missed in ((0.04, False), (0.02, True), (np.nan, True)):
+            found = list(self.case.misses([self.flow("slanted", "ramps", 64, coarse),
+                                           self.flow("slanted", "ramps", 128, 0.01)]))
+            self.assertEqual(found, ["ramps, slanted, 128 cells: order of the velocity"] * missed)
+
+
+class Bingham(unittest.TestCase):
+    def converges(self, case, *errors):
+        """Of three plugs of either regularisation, of which one has these errors."""
+        flows = [SimpleNamespace(solver="slurryFoam", regularisation=name, stiffness=stiffness, profile_error=error)
+                 for name, row in zip(case.REGULARISATIONS, ((0.3, 0.2, 0.1), errors))
+                 for stiffness, error in zip((0.1, 0.3, 1), row)]
+        return case.converges(flows)
+
+    def test_errors_that_are_not_numbers_or_not_there_do_not_converge(self):
+        for name in ("bingham_couette", "bingham_poiseuille"):
+            case = load_case(name)
+            with self.subTest(name):
+                self.assertTrue(self.converges(case, 0.3, 0.2, 0.1))
+                self.assertTrue(self.converges(case, 0.3))
+                for errors in ((0.3, 0.1, 0.2), (0.3, 0.2, 0.2), (0.3, np.nan, 0.1), (0.3, 0.2, np.nan), ()):
+                    self.assertFalse(self.converges(case, *errors))
+
+
+class CarriedAlong(Printed):
+    def test_a_run_that_ended_early_misses(self):
+        case = load_case("carried_along")
+        run = case.Run(False, False, 0, 1e-3)
+        radius = np.linspace(0.01, 0.14, 20)
+        for times, missed in ((np.linspace(0, run.setting["end"], 21), 0), (np.zeros(1), 1)):
+            flow = case.SpinUp(times, radius, np.zeros((len(times), 20)), np.ones(20), False)
+            flow.speed = flow.exact
+            self.assertEqual(self.report(case.report, {run: flow})[0], missed)
+
+
+class DiscThroughJumps(unittest.TestCase):
+    def test_a_time_without_a_number_or_not_written_misses(self):
+        case = load_case("disc_through_jumps")
+        run = case.Run("at rest", "aligned", 128)
+        discs = [case.Disc(time, None, None, None, 0, 0, 0, 0, 0) for time in range(case.RECORDS + 1)]
+        self.assertFalse(case.missed(run, discs))
+        self.assertTrue(case.missed(run, discs[:-1]))
+        discs[3].shape = np.nan
+        self.assertTrue(case.missed(run, discs))
+
+
+class Transport(unittest.TestCase):
+    def test_what_is_not_a_number_misses_its_limit(self):
+        case = load_case("rest", "transport.py")
+        for moved, change, missed in ((4e-4, 1e-9, ""), (6e-4, 1e-9, "distance"), (np.nan, 1e-9, "distance"),
+                                      (4e-4, 1e-7, "volume"), (4e-4, np.nan, "volume"),
+                                      (np.nan, np.nan, "distance, volume")):
+            found = {"slurryFoam": (moved, change, 46, 45), "interFoam": (1e-3, 1e-3, 46, 92)}
+            lines, count = case.judge("ogrid", found)
+            self.assertEqual(len(lines), 3)
+            self.assertEqual(count, len(missed.split()))
+            self.assertTrue(lines[-1].endswith(f"  MISSED: {missed}" if missed else "allowed 0.5"), lines[-1])
+
+
+class Pool(unittest.TestCase):
+    def setUp(self):
+        self.table = load_case("rest", "pool_table.py")
+        self.runs = load_case("rest", "pool_history.py")
+
+    def history(self, end, rms):
+        time = np.linspace(0, end, 41)
+        flat = np.ones(41)
+        return self.runs.History(time, rms * flat, rms * flat, rms * flat, 0 * flat, flat, 0 * flat, 1e3 * time)
+
+    def judge(self, reached, rms, own=1e-9):
+        """Judged are a run of slurryFoam and one of interFoam that reached this time."""
+        return self.table.judge({self.runs.Run("ogrid", "slurryFoam", 0.07, False): self.history(1.0, own),
+                                 self.runs.Run("ogrid", "interFoam", 0.07, False): self.history(reached, rms)}, 1.0)
+
+    def test_a_run_that_diverged_is_no_reference(self):
+        text, missed = self.judge(1.0, 0.04)
+        self.assertEqual(missed, 0)
+        self.assertIn("over interFoam's", "\n".join(text))
+        text, missed = self.judge(0.3, 1e30)
+        self.assertEqual(missed, 1)
+        self.assertNotIn("over interFoam's", "\n".join(text))
+        self.assertEqual([line for line in text if line.endswith("MISSED")], [
+            f"{'ogrid, static, sigma 0.07: interFoam ended early and is no reference, s short':<86} "
+            f"{0.7:10.3e} {1e-6:9.2e}  MISSED"])
+
+    def test_a_speed_that_is_not_a_number_misses(self):
+        self.assertEqual(self.judge(1.0, np.nan)[1], 1)
+        self.assertGreater(self.judge(1.0, 0.04, own=np.nan)[1], 1)
+
+
+class StirredWalls(Printed):
+    def test_the_table_is_printed_and_names_what_missed(self):
+        case = load_case("stirred_walls")
+        rows = [("within", 0.1, 0.2), ("beyond", 0.3, 0.2), ("no number", np.nan, 0.2)]
+        words = io.StringIO()
+        with mock.patch.multiple(case, HERE=self.folder, run_jobs=mock.Mock(return_value=[]), draw=mock.Mock(),
+                                 table=lambda *_: (rows, {})), \
+                mock.patch.object(sys, "argv", ["compare.py"]), contextlib.redirect_stdout(words):
+            self.assertEqual(case.main(), 1)
+        lines = words.getvalue().splitlines()
+        self.assertEqual([line.endswith("  MISSED") for line in lines], [False, False, True, True])
+        self.assertEqual((self.folder / "stirred_walls.txt").read_text(), words.getvalue())
+
+
+class PressureDrop(unittest.TestCase):
+    def setUp(self):
+        self.case = load_case("pressure_drop")
+        self.rows = list(itertools.product(self.case.published_laws.GRADIENTS, self.case.SOLIDITIES,
+                                           self.case.REYNOLDS))
+
+    def made(self, function):
+        """What a function makes of these rows of millDrag."""
+        table = "law,phi,Re,beta\n" + "".join(f"{law},{phi:g},{re:g},1\n" for law, phi, re in self.rows)
+        with mock.patch.object(self.case.subprocess, "run", return_value=SimpleNamespace(stdout=table)):
+            return function()
+
+    def test_there_are_beds_of_every_published_law(self):
+        for function, count in ((self.case.beds, 1820), (self.case.quick_beds, 42)):
+            found = self.made(function)
+            self.assertEqual(len(found), count)
+            self.assertEqual({bed.law for bed in found}, set(self.case.published_laws.GRADIENTS))
+
+    def test_a_row_that_milldrag_does_not_print_is_named(self):
+        whole = self.rows
+        without = [row for row in whole if row[0] != "Tang"]
+        for self.rows, words in ((without, "not printed by millDrag: Tang, phi 0.15, Re 0.5; Tang, "),
+                                 (whole[:-1], "not printed by millDrag: Tenneti, phi 0.5, Re 2000$"),
+                                 ([*whole, ("Stokes", 0.5, 5)], "not in published_laws.py: Stokes, phi 0.5, Re 5$"),
+                                 ([], "not printed by millDrag")):
+            for function in (self.case.beds, self.case.quick_beds):
+                with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                    self.made(function)
+
+    def test_every_quick_entry_has_a_bed(self):
+        for phi, re, laws in ((0.3, 50.0, ()), (0.5, 40.0, ()), (0.5, 50.0, ("Ergun", "Stokes"))):
+            quick = (*self.case.QUICK, ("slurryFoam", phi, (8, 4), re, laws))
+            with mock.patch.object(self.case, "QUICK", quick), self.assertRaisesRegex(ValueError, "QUICK: "):
+                self.made(self.case.quick_beds)
 
 
 if __name__ == "__main__":

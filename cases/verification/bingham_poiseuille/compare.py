@@ -127,7 +127,7 @@ def converges(flows):
     for name in REGULARISATIONS:
         errors = [flow.profile_error for flow in sorted(flows, key=lambda flow: flow.stiffness)
                   if flow.solver == "slurryFoam" and flow.regularisation == name]
-        if np.any(np.diff(errors) >= 0):
+        if not errors or not np.all(np.diff(errors) < 0):
             return False
     return True
 

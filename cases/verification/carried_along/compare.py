@@ -228,6 +228,8 @@ def report(results, out):
     """Writes and prints the table; returns the number of values beyond their limit."""
     rows, notes = [], []
     for run, found in results.items():
+        # A time that was not written has no error
+        rows.append((f"{run.name}: s that the run ended too early", run.setting["end"] - found.time[-1], 1e-6))
         if run.half:
             rows += [
                 (f"{run.name}, settled: factor of r^2, %", 100 * abs(found.curvature_error[-1]),

@@ -180,8 +180,13 @@ class Fall:
             found += [self.closed_error, abs(self.fitted_time / self.column.time_constant - 1)]
         return found
 
+    @property
+    def reached(self):
+        """Whether the run was written up to its end."""
+        return self.time[-1] >= 0.999 * self.column.end
+
     def misses(self):
-        return not max(self.errors) <= TOLERANCE
+        return not (self.reached and all(error <= TOLERANCE for error in self.errors))
 
 
 def write_surface(case):
@@ -226,7 +231,8 @@ def print_table(falls, out):
         if column.has_closed_form:
             line += (f" {100 * fall.closed_error:17.4f} {fall.fitted_time:12.5f} {column.time_constant:10.5f} "
                      f"{100 * (fall.fitted_time / column.time_constant - 1):8.4f}")
-        lines.append(line + ("  MISSED" if fall.misses() else ""))
+        lines.append(line + ("" if fall.reached else f"  ended at {fall.time[-1]:g} of {column.end:g} s")
+                     + ("  MISSED" if fall.misses() else ""))
     lines.append(f"tolerance {100 * TOLERANCE:g} %: of the first head, and of the closed form's time, fitted down to "
                  f"{100 * HEAD_LEFT:g} % of the first head above the bed")
     lines += [f"{column.name}: K = {column.loss:.1f}, discharge coefficient of the open holes "

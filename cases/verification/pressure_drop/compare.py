@@ -5,6 +5,7 @@
 The gradient is that of the publication (published_laws.py), a function of the superficial slip. millDrag's beta v/e,
 with the interstitial slip v, must be the same. Exit code 1 if a bed exceeds the tolerance of its solver."""
 import csv
+import itertools
 import shutil
 import subprocess
 import sys
@@ -119,12 +120,20 @@ class Bed:
 
 
 def exchange_coefficients():
-    """Rows of millDrag for every law, solidity and Reynolds number."""
+    """Rows of millDrag for every law, solidity and Reynolds number. ValueError if one is missing, or one is of another
+    law than those of published_laws.py."""
     table = subprocess.run(
         ["millDrag", "--phi", ",".join(map(str, SOLIDITIES)), "--re", ",".join(map(str, REYNOLDS)),
          "--mu", str(VISCOSITY), "--rho", str(DENSITY), "--d", str(DIAMETER)],
         check=True, capture_output=True, text=True).stdout
-    return list(csv.DictReader(table.splitlines()))
+    rows = list(csv.DictReader(table.splitlines()))
+    found = {(row["law"], float(row["phi"]), float(row["Re"])) for row in rows}
+    expected = set(itertools.product(published_laws.GRADIENTS, SOLIDITIES, REYNOLDS))
+    for words, those in (("not printed by millDrag", expected - found), ("not in published_laws.py", found - expected)):
+        if those:
+            raise ValueError(f"{words}: " + "; ".join(f"{law}, phi {phi:g}, Re {re:g}" for law, phi, re in
+                                                      sorted(those)))
+    return rows
 
 
 def beds():
@@ -137,12 +146,17 @@ def beds():
 
 
 def quick_beds():
-    """Every law with slurryFoam in dilute and dense beds, and a few with particleDrag, in a narrow box."""
-    return [
-        Bed(solver, "8 cm", 2, row["law"], phi, reynolds, first, cells, float(row["beta"]))
-        for solver, phi, (first, cells), reynolds, laws in QUICK for row in exchange_coefficients()
-        if (float(row["phi"]), float(row["Re"])) == (phi, reynolds) and (not laws or row["law"] in laws)
-    ]
+    """Every law with slurryFoam in dilute and dense beds, and a few with particleDrag, in a narrow box. ValueError if
+    an entry of QUICK names what millDrag was not asked for."""
+    betas = {(row["law"], float(row["phi"]), float(row["Re"])): float(row["beta"]) for row in exchange_coefficients()}
+    found = []
+    for solver, phi, (first, cells), reynolds, laws in QUICK:
+        for law in laws or published_laws.GRADIENTS:
+            if (law, phi, reynolds) not in betas:
+                raise ValueError(f"QUICK: {law}, phi {phi}, Re {reynolds} is no row of millDrag; expected one of "
+                                 f"SOLIDITIES {SOLIDITIES}, REYNOLDS {REYNOLDS} and the laws of published_laws.py")
+            found.append(Bed(solver, "8 cm", 2, law, phi, reynolds, first, cells, betas[law, phi, reynolds]))
+    return found
 
 
 def make_meshes(work, template, across):

@@ -41,6 +41,8 @@ PLASTIC_VISCOSITY, VISCOSITY_RATIO = 1.4e-3, 1000
 RECORDS, STEPS = 20, 150  # per period
 TOLERANCE = 0.01
 DECAY_TOLERANCE = 0.05  # of stiff slurry's rate of decay
+# interFoam's decay in a run with both solvers, 1/s (README.md, version 1ad2367): the bound where interFoam does not run
+INTERFOAM_DECAY = {"box": 0.023, "round": 0.035}
 CONSERVED = 5e-12  # change of the slurry's volume, relative
 
 
@@ -231,21 +233,22 @@ def report(histories, out):
     """Writes and prints the table; returns the number of values beyond their limit."""
     lines = [f"{'run':<26} {'theory':>9} {'found':>9} {'error %':>8} {'decay 1/s':>10} {'volume change':>14}"]
     # On the turning mesh interFoam's wave gains energy (see ../rest) and loses slurry, so its damping is no reference
-    reference = {history.run.room: history.fit[1] for history in histories
-                 if history.run.solver == "interFoam" and not history.run.turning}
+    reference = INTERFOAM_DECAY | {
+        history.run.room: history.fit[1] for history in histories
+        if history.run.solver == "interFoam" and not history.run.turning}
     missed = 0
     for history in histories:
         run, wave = history.run, history.wave
         if run.bed:
             expected, found, decay = wave.slow_rate, history.bed_rate, f"{100 * history.bed_deviation:9.2f}%"
-            bad = not max(abs(history.error), history.bed_deviation) <= TOLERANCE
+            bad = not (abs(history.error) <= TOLERANCE and history.bed_deviation <= TOLERANCE)
         else:
             expected, (found, rate) = history.frequency, history.fit
             decay = f"{rate:10.4f}"
             if run.stiff:
                 bad = not abs(rate / -stiff_mode().real - 1) <= DECAY_TOLERANCE
             else:
-                bad = not (run.turning or rate <= reference.get(run.room, np.inf))
+                bad = not (run.turning or rate <= reference[run.room])
             bad = bad or not abs(history.error) <= TOLERANCE
         bad = run.solver == "slurryFoam" and (bad or not history.volume_change <= CONSERVED)
         missed += bad

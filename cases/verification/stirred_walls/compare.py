@@ -230,6 +230,19 @@ def table(found: dict[str, Path], what: dict[str, Run]) -> tuple[list[tuple[str,
     return rows, states
 
 
+def report(rows: list[tuple[str, float, float]], out: Path) -> int:
+    """Writes and prints the table of rows (text, found, allowed); returns the number of values beyond their limit."""
+    lines = [f"{'':<66} {'found':>10} {'allowed':>9}"]
+    missed = 0
+    for text, value, allowed in rows:
+        bad = not value <= allowed
+        missed += bad
+        lines.append(f"{text:<66} {value:10.3e} {allowed:9.2e}" + ("  MISSED" if bad else ""))
+    print("\n".join(lines))
+    out.write_text("\n".join(lines) + "\n")
+    return missed
+
+
 def draw(states: dict[str, State]) -> None:
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     for (name, state), mark in zip(((n, s) for n, s in states.items() if n.startswith("Couette")), "ox"):
@@ -257,11 +270,7 @@ def main() -> int:
     what = runs(options.quick)
     found = dict(zip(what, run_jobs(compute, what.items(), options.jobs)))
     rows, states = table(found, what)
-    missed = [row for row in rows if not row[1] <= row[2]]
-    lines = [f"{'':<66} {'found':>10} {'allowed':>9}"]
-    lines += [f"{text:<66} {value:10.3e} {allowed:9.2e}" + ("" if value <= allowed else "  MISSED")
-              for text, value, allowed in rows]
-    (HERE / "stirred_walls.txt").write_text("\n".join(lines) + "\n")
+    missed = report(rows, HERE / "stirred_walls.txt")
     draw(states)
     return 1 if missed else 0
 

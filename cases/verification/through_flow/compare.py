@@ -239,7 +239,7 @@ def orders(flows, flow):
         return None, None
     coarse = max(coarser, key=lambda other: other.cells)
     pairs = ((coarse.velocity_error, flow.velocity_error), (coarse.pressure_error, flow.pressure_error))
-    return tuple(np.log2(a / b) if a > VISCOUS else None for a, b in pairs)
+    return tuple(None if a <= VISCOUS else np.log2(a / b) for a, b in pairs)
 
 
 def misses(flows):
@@ -254,7 +254,7 @@ def misses(flows):
             continue
         if not flow.moves and not flow.drift <= (JUMP_TOLERANCE if flow.bed == "edges" else STEADY):
             yield f"{where}: not steady"
-        if flow.bed == "edges" and not max(map(abs, flow.jumps)) <= JUMP_TOLERANCE:
+        if flow.bed == "edges" and not all(abs(jump) <= JUMP_TOLERANCE for jump in flow.jumps):
             yield f"{where}: jump"
         if flow.bed != "edges" and flow.mesh != "slanted" and flow.exceeded:
             yield f"{where}: error"
