@@ -225,24 +225,35 @@ class Judging(unittest.TestCase):
 
 
 class AtTheSameTime(unittest.TestCase):
-    """Balls and flow that ran at the same time."""
+    """Balls and flow that ran at the same time; before the averaged time, forces and torques are other ones."""
+    BEGIN, TIME0 = 0.4, 1.0
+
+    @classmethod
+    def series(cls, times, *values):
+        """Columns [n, 1 + values] of flow times: 9 up to BEGIN, then the values."""
+        return np.column_stack([times, *(np.where(times > cls.BEGIN + 1e-9, value, 9.0) for value in values)])
+
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.case = Path(folder.name) / "case"
         write_flow(cls.case / "direct")
-        for keys, value in ((("coupling",), "direct"), (("averages_start_s",), 0.4)):
+        for keys, value in ((("coupling",), "direct"), (("averages_start_s",), cls.BEGIN)):
             change_json(cls.case / "direct" / "mill.json", "derived", "flow", *keys, to=value)
         place = cls.case / "direct" / "postProcessing" / "flow" / "0" / "steps.csv"
         names, *rows = place.read_text().splitlines()
         more = [f"given_force_{axis}_N" for axis in "xyz"] + ["given_torque_Nm"]
-        place.write_text("\n".join([",".join([names, *more]), *(row + ",3,4,0,-0.02" for row in rows)]) + "\n")
-        times = 1.0 + np.arange(1, 81) * 0.01
-        table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024, -0.003))])
+        # What a step gives acts until the next one
+        ends = [float(row.split(",")[0]) for row in rows[1:]] + [np.inf]
+        given = cls.series(np.array(ends), 3, 4, 0, -0.02)[:, 1:]
+        place.write_text("\n".join([",".join([names, *more]), *(
+            ",".join([row, *(f"{number:g}" for number in numbers)]) for row, numbers in zip(rows, given))]) + "\n")
+        times = np.arange(1, 81) * 0.01
+        table = cls.series(times, 3.0, 4.03, 0.0, -0.024, -0.003) + [cls.TIME0, 0, 0, 0, 0, 0]
         np.savetxt(cls.case / "direct" / "dumps" / "fluid.csv", table, "%.8g", ",", comments="",
                    header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm,balance_torque_Nm")
-        drive = np.column_stack([times, *(0 * times + value for value in (0.5, 3.0))])
+        drive = cls.series(times, 0.5, 3.0) + [cls.TIME0, 0, 0]
         np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", drive, "%.8g", ",", comments="",
                    header="time_s,torque_Nm,power_W")
 

@@ -343,8 +343,10 @@ class Outline(unittest.TestCase):
 
 
 class SlurryWay(Case):
-    def test_circulates_by_two_standard_errors(self):
+    def test_circulates_with_95_percent_confidence(self):
         angle = Mean(0.0)
+        for size, expected in ((3, "undecided"), (5, "yes")):  # 4.3 errors of three turns, by Student's distribution
+            self.assertEqual(Way(angle, angle, Mean(size, 1, 2), Mean(-size, 1, 2)).circulates, expected)
         for toe, shoulder, expected in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"),
                                         ((3, 1), (-1, 1), "undecided"),
                                         ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"),
