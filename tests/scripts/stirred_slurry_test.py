@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Readings of the slurry in a stirred mill: frames, medians, what the impeller takes; columns of a dump."""
+import json
 import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,7 +13,9 @@ from matplotlib.quiver import Quiver, QuiverKey
 
 from millfoam.files.dumps import read_balls
 from millfoam.plots.stirred_slurry_plots import maps_figure, vortex_figure
-from millfoam.readings.stirred_slurry import SlurryFlow, along_cylinder, in_impeller, median
+from millfoam.readings import stirred_slurry
+from millfoam.readings.stirred_slurry import (SlurryFlow, along_cylinder, dumps_of_last_turn, in_impeller, median,
+                                              meridian_means, read_slurry_flow)
 
 
 class Impeller:
@@ -36,6 +40,97 @@ class Frames(unittest.TestCase):
         self.assertEqual(median(np.array([3.0, 1.0, 2.0]), np.array([1.0, 1.0, 5.0])), 2)
         self.assertEqual(median(np.array([3.0, 1.0, 2.0]), np.array([9.0, 1.0, 1.0])), 3)
         self.assertTrue(np.isnan(median(np.array([]), np.array([]))))
+
+
+class Fields(unittest.TestCase):
+    """A slurry that turns rigidly with the impeller, and balls that turn half as fast."""
+    OMEGA, TIME0 = 5.0, 0.1
+    RADII = np.array([0.02, 0.03, 0.04])
+    DERIVED = {"angular_velocity_rad_s": OMEGA, "density_kg_m3": 1500.0, "plastic_viscosity_Pa_s": 0.01,
+               "sauter_diameter_m": 0.005}
+
+    def setUp(self):
+        self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        (self.folder / "mesh.json").write_text(json.dumps({"format": "millfoam-mesh", "time0_s": self.TIME0}))
+        self.angles = np.array([0.3, 1.5, 4.0])  # of the cells at flow time 0
+        self.fields = {}
+        for time, solidity in ((0.2, 0.4), (0.4, 0.2)):
+            place = self.folder / f"{time:g}"
+            place.mkdir()
+            (place / "solidity").touch()
+            azimuth = self.angles + self.OMEGA * time
+            rigid = self.OMEGA * self.RADII[:, None] * np.stack([-np.sin(azimuth), np.cos(azimuth), 0 * azimuth], 1)
+            self.fields |= {place / "alpha.slurry": np.ones(3), place / "U": rigid, place / "solidsVelocity": rigid / 2,
+                            place / "solidity": np.full(3, solidity)}
+        mesh = SimpleNamespace(cells=3, centres_and_volumes=lambda: (np.stack(
+            [self.RADII * np.cos(self.angles), self.RADII * np.sin(self.angles), 0 * self.RADII], 1), np.full(3, 1e-6)))
+        times = [(0.0, self.folder / "0"), (0.2, self.folder / "0.2"), (0.4, self.folder / "0.4")]
+        self.enterContext(mock.patch.multiple(
+            stirred_slurry.foam, read_mesh=lambda case: mesh, times=lambda case: times,
+            read_field=lambda path, cells: self.fields[path]))
+        self.mill = SimpleNamespace(derived=lambda *keys: self.DERIVED[keys[-1]])
+
+    def test_are_in_the_impellers_frame_and_means_over_the_times(self):
+        flow = read_slurry_flow(self.folder, self.mill, 0.1)
+        self.assertEqual(flow.times, [0.2, 0.4])
+        at_dem_zero = self.angles - self.OMEGA * self.TIME0
+        np.testing.assert_allclose(flow.centre, np.stack([
+            self.RADII * np.cos(at_dem_zero), self.RADII * np.sin(at_dem_zero), 0 * self.RADII], 1), atol=1e-15)
+        zero = 0 * self.RADII
+        np.testing.assert_allclose(flow.velocity, np.stack([zero, self.OMEGA * self.RADII, zero], 1), atol=1e-14)
+        np.testing.assert_allclose(flow.share, 1)
+        np.testing.assert_allclose(flow.solidity, 0.3)
+
+    def test_slip_and_its_reynolds_number_are_medians_of_each_time(self):
+        flow = read_slurry_flow(self.folder, self.mill, 0.1)
+        np.testing.assert_allclose(flow.slips, 5.0 / 2 * 0.03)
+        np.testing.assert_allclose(flow.reynolds, 1500 * 0.075 * 0.005 / 0.01 * np.array([0.6, 0.8]))
+        for place in ("0.2", "0.4"):
+            self.fields[self.folder / place / "solidsVelocity"] = self.fields[self.folder / place / "U"]
+        np.testing.assert_allclose(read_slurry_flow(self.folder, self.mill, 0.1).slips, 0, atol=1e-15)
+
+    def test_are_of_the_last_time_where_none_is_late_enough(self):
+        self.assertEqual(read_slurry_flow(self.folder, self.mill, 9.0).times, [0.4])
+
+    def test_the_slurrys_velocity_is_weighted_by_its_share(self):
+        self.fields[self.folder / "0.4" / "alpha.slurry"] = np.full(3, 0.25)
+        self.fields[self.folder / "0.4" / "U"] = 0 * self.fields[self.folder / "0.4" / "U"]
+        flow = read_slurry_flow(self.folder, self.mill, 0.1)
+        np.testing.assert_allclose(flow.velocity[:, 1], self.OMEGA * self.RADII / 1.25)
+        np.testing.assert_allclose(flow.share, 0.625)
+
+
+class Meridian(unittest.TestCase):
+    def test_is_the_mean_around_the_axis_and_has_no_slurry_in_the_impeller(self):
+        edges = np.arange(-0.05, 0.0501, 0.0025)
+        x, y, z = np.meshgrid(edges, edges, np.arange(0, 0.0901, 0.005), indexing="ij")
+        centre = np.stack([x, y, z], axis=-1).reshape(-1, 3)
+        wet = (centre[:, 0] > 1e-9).astype(float)  # one half around the axis
+        radius, speed = np.hypot(centre[:, 0], centre[:, 1]), 5.0
+        velocity = np.stack([0 * radius, np.where(wet > 0, speed * radius, 9.0), 0 * radius], axis=1)
+        flow = SlurryFlow(centre, 0 * wet + 1, wet, 0 * wet + 0.4, velocity, [np.nan], [np.nan], [1.0])
+        shaft = SimpleNamespace(impeller={**Impeller.impeller, "pins": [], "discs": []})
+        middle = [np.array([0.005, 0.02, 0.04]), np.array([0.02, 0.05])]
+        share, solidity, mean = meridian_means(shaft, flow, middle)
+        np.testing.assert_array_equal(share[0], 0)
+        np.testing.assert_allclose(share[1:], 0.5, atol=0.05)
+        np.testing.assert_allclose(solidity[1:], 0.4)
+        # Of the slurry, not of the dry half
+        np.testing.assert_allclose(mean[1:, :, 1], speed * np.array([[0.02], [0.04]]) * [1, 1], rtol=0.03)
+
+
+class LastTurn(unittest.TestCase):
+    def test_has_the_dumps_of_one_turn_once(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        mill = SimpleNamespace(turn=1.0)
+        self.assertEqual(dumps_of_last_turn(folder, mill), [])
+        (folder / "dumps").mkdir()
+        (folder / "dumps" / "run.json").write_text(json.dumps({"format": "millfoam-dumps", "timestep_s": 0.01}))
+        for step in range(0, 201, 25):
+            (folder / "dumps" / f"dump.{step}.txt").touch()
+        found = dumps_of_last_turn(folder, mill)
+        np.testing.assert_allclose([time for time, _ in found], [1.25, 1.5, 1.75, 2.0])
+        self.assertEqual(found[-1][1].name, "dump.200.txt")
 
 
 class Solid(unittest.TestCase):
