@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Along the axis: thickness of slices; humps of a profile: sums of Gaussians are found again, in noise too."""
+import tempfile
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
-from millfoam.readings.axial import fit_gaussians, gaussians, humps_at_ends, slice_thickness
+from millfoam.files.written_times import MillFlow
+from millfoam.readings.axial import axial_series, fit_gaussians, gaussians, humps_at_ends, slice_thickness
+from report_cases import LENGTH, RADIUS, write_fluid_only
 
 Z = np.linspace(0.005, 0.3, 33)
 TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)
@@ -28,6 +33,36 @@ class Slices(unittest.TestCase):
         for place, at_end in ((0.2, 0), (0.223, 0), (0.2245, 1), (0.055, 1), (0.06, 0)):
             with self.subTest(place=place):
                 self.assertEqual(humps_at_ends(SimpleNamespace(places=(place,)), z), at_end)
+
+
+class Pool(unittest.TestCase):
+    """Slurry below y = -0.05 m in a mill that turns."""
+    LEVEL = 0.05
+
+    def setUp(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory())) / "flow"
+        self.flow = MillFlow(write_fluid_only(folder, tables=False, voxels=False))
+
+    def test_slices_have_the_pools_height_volume_and_pressure_wherever_the_mill_has_turned(self):
+        found = axial_series(self.flow, 0.1)
+        half = np.sqrt(RADIUS**2 - self.LEVEL**2)
+        area = RADIUS**2 * np.arccos(self.LEVEL / RADIUS) - self.LEVEL * half
+        np.testing.assert_allclose(found.times, [0.2, 0.4, 0.6, 0.8])
+        np.testing.assert_allclose(found.z, LENGTH * (np.arange(4) + 0.5) / 4)
+        # The cells are 30 mm wide
+        np.testing.assert_allclose(found.height, -2 / 3 * half**3 / area, atol=0.005)
+        np.testing.assert_allclose(found.holdup, area * LENGTH / 4, rtol=0.15)
+        np.testing.assert_allclose(found.pressure, np.tile(100 - 1000 * found.z, (4, 1)), rtol=1e-6)
+
+    def test_the_pressure_is_that_of_the_slurry(self):
+        read = self.flow.field
+
+        def field(name, path):
+            upwards = self.flow.turned(self.flow.centres[:, :2], float(path.name))[:, 1]
+            return upwards if name == "p_rgh" else read(name, path)
+        with mock.patch.object(self.flow, "field", field):
+            found = axial_series(self.flow, 0.1)
+        np.testing.assert_allclose(found.pressure, found.height)
 
 
 class Humps(unittest.TestCase):
