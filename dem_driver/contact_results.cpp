@@ -179,8 +179,11 @@ ContactBalance balance_of(const ContactSpan& span, const ContactOrder& order,
     throw std::runtime_error("contacts: no record of power after step " + std::to_string(span.begin));
   balance.drive /= counted;
   balance.torque /= counted;
+  // The energy before the first row is not known
   const long begin = std::max(span.begin, rows.front().step);
-  balance.gain = (energy_at(rows, span.end) - energy_at(rows, begin) + span.spin_gain) / time;
+  const double known = static_cast<double>(span.end - begin) * order.timestep;
+  balance.gain = span.spin_gain / time;
+  if (known > 0) balance.gain += (energy_at(rows, span.end) - energy_at(rows, begin)) / known;
   return balance;
 }
 

@@ -61,7 +61,6 @@ class SphereBoxes {
 
   std::array<std::vector<Plane>, 3> axes_;
   std::array<std::vector<double>, 3> near2_;    ///< [box] squared distance from the centre along the axis
-  std::array<std::vector<double>, 3> far2_;     ///< [box] of its farther side
   std::vector<double> xy_, xz_, yz_;            ///< [second][first] J of two planes
   std::array<std::vector<double>, 2> corners_;  ///< [y][x] I on the planes below and above a layer of boxes
   std::vector<double> volumes_;

@@ -29,7 +29,7 @@ FlowStart at_rest(double level, double balls, double pores, const Mill& mill) {
   const double space = analytic_section(mill.geometry) * level - impeller_volume(mill.geometry, level);
   FlowStart start;
   start.volume = space - std::min(balls, mill.charge.packing * space);
-  start.fill = start.volume / pores;
+  start.fill = pores > 0 ? start.volume / pores : 0;
   return start;
 }
 

@@ -190,13 +190,14 @@ Air read_air(const Section& in) {
 /// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which
 /// the whole mill's layers of the ring would not fit), and as much less charge and layers, which are equal.
 void take_slice(const Section& in, Mill& mill) {
-  const auto largest = std::max_element(mill.charge.classes.begin(), mill.charge.classes.end(),
-                                        [](const auto& a, const auto& b) { return a.diameter < b.diameter; });
+  double longest = 0;
+  for (const SizeClass& size : mill.charge.classes) longest = std::max(longest, longest_way(size));
+  const std::string words = mill.charge.has_shapes() ? "a ball's longest way through its centre, "
+                                                     : "the largest ball's diameter, ";
   const double whole = mill.geometry.length;
-  const double slice =
-      in.number("slice", {"a length above the largest ball's diameter, " + shown(largest->diameter) +
-                              " m, and up to the mill's, " + shown(whole) + " m",
-                          [&](double v) { return v > largest->diameter && v <= whole; }});
+  const double slice = in.number("slice", {"a length above " + words + shown(longest) +
+                                               " m, and up to the mill's, " + shown(whole) + " m",
+                                           [&](double v) { return v > longest && v <= whole; }});
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
   mill.geometry.circles_of_whole = opening_circles(mill.geometry);

@@ -14,8 +14,9 @@ namespace millfoam::drag {
 /// with the slip v.
 ///
 /// The functions that make a curve throw std::invalid_argument, which names the parameter and its value, for
-/// viscosities and consistencies of 0 or below, stresses, times and exponents below 0, and a largest
-/// viscosity below the smallest.
+/// viscosities, consistencies and exponents of 0 or below, stresses and times below 0, and a largest
+/// viscosity below the smallest. The smallest viscosity, that at high rates and Cross' time may be 0;
+/// Papanastasiou's time may not.
 class FlowCurve {
  public:
   /// One viscosity, Pa s.

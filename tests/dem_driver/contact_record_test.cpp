@@ -151,6 +151,10 @@ TEST_F(ContactRecordTest, TheBalanceComparesTheContactsWithTheDriveAndTheGainOfT
   EXPECT_NEAR(contacts.balance.drive, 3.5, 1e-12);
   EXPECT_NEAR(contacts.balance.gain, 1.5, 1e-12);
   EXPECT_NEAR(contacts.balance.ratio(), 1, 1e-12);
+  // Of rows that begin later the gain is that of their time
+  const std::vector<DriveRow> late(rows.begin() + 5, rows.end());
+  ASSERT_EQ(late.front().step, 30);
+  EXPECT_NEAR(gather_contacts(folder_, order_, late, 20).balance.gain, 1.5, 1e-12);
   EXPECT_NEAR(contacts.collisions_per_second(), 2 / 0.02, 1e-9);
   EXPECT_EQ(contacts.walls.begin, 20);
   EXPECT_NEAR(contacts.wall_torque(), 0.3, 1e-12);

@@ -190,6 +190,25 @@ TEST_F(FluidForcesTest, OfWindowsAreLinearInTimeAndHeldAtTheirEnds) {
   EXPECT_NEAR(mean.on(ball).pressure[0], 3 * ball.volume(), 1e-12 * ball.volume());
 }
 
+TEST_F(FluidForcesTest, BetweenAWindowWithFluidAtTheBallAndOneWithoutAreThoseOfTheFirst) {
+  const auto felt = [](double inside, double push) {
+    return [=](const Vector&) {
+      Felt result;
+      result.inside = inside;
+      result.pressure = {push, 0, 0};
+      return result;
+    };
+  };
+  const BallInFluid ball{{0.2, 0.2, 0.1}, {0, 0, 0}, 0.004};
+  for (const auto& fields :
+       {std::vector<Field>{felt(1, 5), felt(0, 0)}, std::vector<Field>{felt(0, 0), felt(1, 5)}}) {
+    VoxelForces forces(write(fields), FluidTime::windows);
+    forces.set_time(10.75);
+    EXPECT_TRUE(forces.on(ball).known);
+    EXPECT_NEAR(forces.on(ball).pressure[0], 5 * ball.volume(), 1e-12 * ball.volume());
+  }
+}
+
 TEST_F(FluidForcesTest, OfAMixtureGiveEachSizeItsOwnDrag) {
   const auto uniform = [](const Vector&) {
     Felt felt;

@@ -67,6 +67,18 @@ TEST(BallShape, MillsOfBeforeTheKeyHaveTheirFingerprints) {
       << stirred;
 }
 
+TEST(BallShape, ASliceIsLongerThanTheLongestWayOfABall) {
+  const std::string shape = "charge.classes[0].shape={half_axes: [3, 1, 1], blockiness: 2}";
+  const double longest = 2 * bounding_radius(*describe(example_mill, {shape}).mill.charge.classes[0].shape);
+  const double largest = 0.008;
+  ASSERT_GT(longest, 1.01 * largest);
+  const auto slice = [](double length) { return "geometry.slice=" + std::to_string(length); };
+  EXPECT_EQ(describe(example_mill, {shape, slice(1.01 * longest)}).mill.geometry.ends, Ends::periodic);
+  EXPECT_TRUE(
+      says(refusal(example_mill, {shape, slice(0.99 * longest)}), "a length above a ball's longest way"));
+  EXPECT_EQ(describe(example_mill, {slice(0.99 * longest)}).mill.geometry.ends, Ends::periodic);
+}
+
 TEST(BallShape, BallsOfATumblingMillHaveThemToo) {
   const std::string set = "charge.classes[0].shape={half_axes: [1.5, 1, 1], blockiness: 3}";
   const Mill mill = describe(example_mill, {set}).mill;
