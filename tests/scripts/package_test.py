@@ -91,12 +91,14 @@ class Skipped(unittest.TestCase):
             # Python imports this module when it starts
             (Path(folder) / "sitecustomize.py").write_text(
                 "import importlib.util\nfind = importlib.util.find_spec\n"
-                "importlib.util.find_spec = lambda name, *of: None if name == 'pip' else find(name, *of)\n")
+                "importlib.util.find_spec = lambda name, *of: None if name in ('pip', 'setuptools', 'wheel') else "
+                "find(name, *of)\n")
             path = os.pathsep.join(filter(None, (folder, os.environ.get("PYTHONPATH"))))
-            done = subprocess.run([sys.executable, __file__, "Installed", "Project"], text=True, capture_output=True,
+            done = subprocess.run([sys.executable, __file__, "Installed"], text=True, capture_output=True,
                                   env={**os.environ, "PYTHONPATH": path})
         self.assertEqual((done.returncode, done.stdout),
-                         (NOT_HERE, "not installed: pip; scripts/setup --tools installs it\n"), done.stderr)
+                         (NOT_HERE, "not installed: pip, setuptools, wheel; scripts/setup --tools installs it\n"),
+                         done.stderr)
         self.assertIn("SKIP_RETURN_CODE 77", (Path(__file__).parent / "CMakeLists.txt").read_text())
 
 

@@ -150,10 +150,12 @@ class Inputs(Stages):
 
 class Waiting(Stages):
     """Two Allruns of a study that need the same dry run: the second waits."""
-    HELD = ("(exec {held}> .stages/lock; flock -n $held; echo > held; sleep 0.5; %s) &\n"
-            "until [ -e held ]; do sleep 0.05; done\nwaiting=yes\nlock_case\ncat done\n")
+    HELD = ("(exec {held}> .stages/lock; flock -n $held; echo > held; until [ -e waits ]; do sleep 0.05; done; %s) &\n"
+            "until [ -e held ]; do sleep 0.05; done\n"
+            "flock() { [ \"$1\" = -n ] || echo > waits; command flock \"$@\"; }\n"
+            "waiting=yes\nlock_case\ncat done\n")
 
-    def test_goes_on_after_the_end_of_the_other_one(self):
+    def test_takes_the_lock_after_the_end_of_the_other_one(self):
         self.write(".stages/lock", "")
         code, output, errors = self.bash(self.HELD % "echo made > done")
         self.assertEqual((code, errors), (0, ""))

@@ -96,7 +96,7 @@ class Together(Case):
 
     def test_a_flow_that_fails_is_named_before_the_balls_that_notice_it(self):
         with self.assertRaisesRegex(TogetherError, "^sh ended with 3, sh ended with 1$"):
-            self.run_both("sleep 0.7; echo the flow has ended; exit 1", "exit 3")
+            self.run_both("sleep 0.2; echo the flow has ended; exit 1", "exit 3")
 
 
 if __name__ == "__main__":

@@ -264,6 +264,10 @@ def main():
     if options.quick:
         runs = [run for run in runs if run.cells == CELLS[0] and run.motion in QUICK[run.mesh]]
     results = dict(zip(runs, run_jobs(lambda run: perform(run, work, here / "template"), runs, options.jobs)))
+    short = [f"{run.motion}, {run.mesh}, {run.cells} cells: {len(discs) - 1} of {RECORDS} times were written"
+             for run, discs in results.items() if len(discs) <= RECORDS]
+    if short:
+        sys.exit("disc_through_jumps: MISSED: a flow ended early: " + "; ".join(short))
     print_table(results, here / "disc_through_jumps.txt")
     plot(results, here / "disc_through_jumps.png")
     return 1 if any(missed(run, discs) for run, discs in results.items()) else 0

@@ -70,7 +70,8 @@ def run_direct(case: Path, before: Path, ranks: int, resume: bool) -> None:
         common = together.align(case)
         print(f"Balls and flow resume at the flow's time {common:g} s" if common else "Balls and flow begin anew",
               file=sys.stderr)
-        balls += ["--resume", "--or-anew"]
+        # Balls that cannot resume must not begin anew beside a flow that does
+        balls += ["--resume"] if common else ["--resume", "--or-anew"]
     together.run_together(balls, flow, case)
 
 

@@ -4,6 +4,7 @@ import os
 import shutil
 import signal
 import subprocess
+import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -100,12 +101,18 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
     log = case / BALLS_LOG
     with open(log, "wb") as out:
         programs = [start(balls, out), start(flow, flow_log)]
-    first_failed: list[subprocess.Popen[bytes]] = []
+    ended: list[subprocess.Popen[bytes]] = []  # in their order
     stopped = []
+
+    def follow(program: subprocess.Popen[bytes]) -> None:
+        program.wait()
+        ended.append(program)
+    followers = [threading.Thread(target=follow, args=(program,), daemon=True) for program in programs]
+    for follower in followers:
+        follower.start()
     try:
-        while any(program.poll() is None for program in programs):
-            first_failed = [program for program in programs if program.poll()]
-            if first_failed:
+        while len(ended) < len(programs):
+            if any(program.returncode for program in ended):
                 # The other one notices that the pipe is closed, unless it waits for its opening
                 time.sleep(10 * WAIT)
                 break
@@ -115,13 +122,14 @@ def run_together(balls: Sequence[str], flow: Sequence[str], case: Path, flow_log
             if program.poll() is None:
                 stopped.append(program)
                 program.send_signal(signal.SIGTERM)
-                program.wait()
+        for follower in followers:
+            follower.join()
         remove_pipes(case)
     names = dict(zip(programs, (Path(balls[0]).name, Path(flow[0]).name)))
-    failed = [program for program in programs if program.returncode and program not in stopped]
-    failed.sort(key=lambda program: program not in first_failed)
+    failed = [program for program in sorted(programs, key=ended.index)
+              if program.returncode and program not in stopped]
     ends = ", ".join(f"{names[program]} ended with {program.returncode}" for program in failed)
-    if programs[0] in failed and first_failed != programs[1:]:
+    if failed[:1] == programs[:1]:
         lines = log.read_text(errors="replace").splitlines()
         raise TogetherError(f"{ends}; {log} ends with:\n" + "\n".join(lines[-15:]))
     if failed:
