@@ -132,7 +132,7 @@ std::string in_words(const FluidSettings& fluid) {
 
 namespace {
 
-/// On which balls and a flow at the same time meet.
+/// The voxels on which balls meet a flow that runs at the same time.
 meshing::Voxels exchange_voxels(const meshing::Mill& mill) {
   return mill.flow.coupling.voxels.value_or(mill.averages.voxels);
 }

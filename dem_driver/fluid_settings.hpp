@@ -32,7 +32,7 @@ struct FluidSettings {
   double level = 0;                  ///< of the pool, m
   double density = 0;                ///< of the pool, kg/m^3
   std::filesystem::path file = {};   ///< slurry.h5, or the folder of the exchange with a flow
-  std::string averages = {};         ///< that a flow at the same time gets, in words: averages_in_words
+  std::string averages = {};         ///< of the balls for a flow at the same time, as averages_in_words
   std::string file_id = {};          ///< hash of the file's bytes (FNV-1a, 16 hexadecimal digits)
   FluidTime time = FluidTime::mean;  ///< of slurry.h5
   ShapeDrag shapes = {};             ///< of the flow's drag

@@ -200,8 +200,9 @@ class Dumps(unittest.TestCase):
             read_balls(self.path, "x")
 
     def test_a_dump_that_is_not_complete_is_refused(self):
-        for text, reason in (("ITEM: ATOMS id x\n1 2\n3", "expected a number for each ball in each column"),
-                             ("ITEM: ATOMS id x\n1 2\n3 a", "expected a number for each ball in each column"),
+        for text, reason in (("ITEM: ATOMS id x\n1 2\n3 0.01", "no end of the last line: the dump is not complete"),
+                             ("ITEM: ATOMS id x\n1 2\n3\n", "expected a number for each ball in each column"),
+                             ("ITEM: ATOMS id x\n1 2\n3 a\n", "expected a number for each ball in each column"),
                              ("ITEM: NUMBER OF ATOMS\n3\nITEM: ATOMS id x\n1 2\n3 4\n",
                               "4 values of balls; expected 3 balls of 2 columns each: the dump is not complete")):
             self.path.write_text(text)

@@ -41,6 +41,8 @@ def read_columns(path: Path) -> dict[str, np.ndarray]:
     head, _, rows = parts[1].partition("\n")
     names, values = head.split(), rows.split()
     count = re.search(r"ITEM: NUMBER OF ATOMS\s+(\d+)", parts[0])
+    if not rows.endswith("\n"):
+        raise RuntimeError(f"{path}: no end of the last line: the dump is not complete")
     if count and len(values) != int(count[1]) * len(names):
         raise RuntimeError(f"{path}: {len(values)} values of balls; expected {int(count[1])} balls of {len(names)} "
                            "columns each: the dump is not complete")

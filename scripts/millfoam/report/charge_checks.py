@@ -16,10 +16,20 @@ EARLY, TOO_EARLY = 0.01, 0.5  # of the averaged time that may lie before the cha
 NOISE = 0.05  # of a window's mean solidity by chance
 
 
+def known_result(case: MillCase, key: str, above: float = -np.inf) -> float:
+    """A number of results.json; RuntimeError if it is null, or not above a limit."""
+    value = case.result(key)
+    if not value > above:
+        shown = "null" if np.isnan(value) else f"{value:g}"
+        raise RuntimeError(f"{case.dry}/results.json: {key} = {shown}; expected a number"
+                           + (f" above {above:g}" if np.isfinite(above) else ""))
+    return value
+
+
 def lost_balls(case: MillCase) -> Check:
     """Whether all balls stayed in the mill."""
-    lost = int(case.result("lost_balls"))
-    return judged("No ball is lost", lost, 0, f"{lost} of {int(case.result('balls'))} lost",
+    lost, balls = (known_result(case, key) for key in ("lost_balls", "balls"))
+    return judged("No ball is lost", lost, 0, f"{lost:.0f} of {balls:.0f} lost",
                   "Shorten the time-step (dem.rayleigh_fraction) or look for holes in the walls (millMesh surface).")
 
 
@@ -54,7 +64,7 @@ def follows_shell(case: MillCase) -> Check:
 
 def overlap(case: MillCase) -> Check:
     """Whether balls overlap so little that their softness does not matter."""
-    diameter = case.result("smallest_diameter_m")
+    diameter = known_result(case, "smallest_diameter_m", above=0)
     share = case.result("ball_overlap_largest_m") / diameter
     usual = case.result("ball_overlap_99_m") / diameter
     allowed = case.result("allowed_overlap")

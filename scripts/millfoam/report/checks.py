@@ -36,8 +36,6 @@ def all_checks(case: MillCase) -> list[Check]:
             checks.append(function(case))
         except (RuntimeError, OSError, KeyError) as error:
             unusable.append(str(error))
-        except (ArithmeticError, ValueError) as error:
-            unusable.append(f"cannot be judged from its numbers ({error}): {function.__doc__}")
     checks += [Check("All files can be used", "fails", reason, "Make the file again, or remove it.")
                for reason in dict.fromkeys([*case.unusable, *unusable])]
     return sorted(checks, key=lambda check: ORDER.index(check.state))

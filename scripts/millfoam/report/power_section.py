@@ -8,7 +8,7 @@ from ..files.mill_case import MillCase
 from ..readings import power_models
 from ..readings.batches import whole_turns
 from ..readings.means import Mean, time_mean
-from ..readings.mill_power import charge_power, drive_power, feels_slurry, slurry_power
+from ..readings.mill_power import charge_power, drive_power, feels_slurry, known_balance, slurry_power
 from . import page
 from .case_readings import Readings
 from .coupling_section import coupling_of
@@ -45,7 +45,8 @@ def net_note(case: MillCase) -> str:
     """What the powers are."""
     words = "Charge: what the walls give to the balls."
     if case.flow:
-        turns = whole_turns(case.balance["Time"][-1] - case.begin, case.turn) if case.balance is not None else 0
+        turns = (whole_turns(min(case.balance["Time"][-1], case.last) - case.begin, case.turn)
+                 if case.balance is not None else 0)
         words += (" Slurry: the torque of walls and balls on it, times the mill's speed. Drive: "
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
@@ -73,7 +74,9 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
     kinds = [] if feels_slurry(case) else [
         (", dry", found["charge"], power_models.bulk_density(mill.ball_density, solidity))]
     if "drive" in found:
-        held = time_mean(case.balance["Time"], case.balance["holdUp"], case.begin)
+        columns = known_balance(case)
+        assert columns is not None
+        held = time_mean(columns["Time"], columns["holdUp"], case.begin)
         filled = power_models.pores_filled(held, pores)
         kinds.append((f", pores filled to {100 * filled:.0f} %", found["drive"], power_models.bulk_density(
             mill.ball_density, solidity, mill.slurry("density_kg_m3"), filled)))
