@@ -8,6 +8,7 @@ import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import h5py
@@ -21,7 +22,7 @@ from millfoam.readings.fluid_on_balls import force_density
 from millfoam.readings.means import Mean
 from millfoam.report.build import report_case
 from millfoam.report.coupling_section import coupling_checks, torques_balance, voxels_are_small
-from report_cases import LENGTH, RADIUS, change_json, write_flow
+from report_cases import BALANCE, LENGTH, RADIUS, change_json, write_flow, write_table
 
 SHAPE = (2, 8, 8)
 LOWER, UPPER = np.array([-RADIUS, -RADIUS, 0]), np.array([RADIUS, RADIUS, LENGTH])
@@ -231,17 +232,27 @@ class AtTheSameTime(unittest.TestCase):
         write_flow(cls.case / "direct")
         for keys, value in ((("coupling",), "direct"), (("averages_start_s",), 0.4)):
             change_json(cls.case / "direct" / "mill.json", "derived", "flow", *keys, to=value)
+        # Before the averages begin at 0.4 s, and after the flow has ended at 0.8 s, all tables have other values
         place = cls.case / "direct" / "postProcessing" / "flow" / "0" / "steps.csv"
         names, *rows = place.read_text().splitlines()
         more = [f"given_force_{axis}_N" for axis in "xyz"] + ["given_torque_Nm"]
-        place.write_text("\n".join([",".join([names, *more]), *(row + ",3,4,0,-0.02" for row in rows)]) + "\n")
-        times = 1.0 + np.arange(1, 81) * 0.01
-        table = np.column_stack([times, *(0 * times + value for value in (3.0, 4.03, 0.0, -0.024, -0.003))])
-        np.savetxt(cls.case / "direct" / "dumps" / "fluid.csv", table, "%.8g", ",", comments="",
-                   header="time_s,force_x_N,force_y_N,force_z_N,torque_Nm,balance_torque_Nm")
-        drive = np.column_stack([times, *(0 * times + value for value in (0.5, 3.0))])
-        np.savetxt(cls.case / "direct" / "dumps" / "energy.csv", drive, "%.8g", ",", comments="",
-                   header="time_s,torque_Nm,power_W")
+        within = [",3,4,0,-0.02" if 0.4 <= float(row.split(",")[0]) < 0.8 else ",70,-80,90,0.6" for row in rows]
+        place.write_text("\n".join([",".join([names, *more]), *map("".join, zip(rows, within))]) + "\n")
+        cls.write_balls("fluid.csv", "force_x_N,force_y_N,force_z_N,torque_Nm,balance_torque_Nm",
+                        (3.0, 4.03, 0.0, -0.024, -0.003), (-50.0, 60.0, 70.0, 0.8, 0.9))
+        cls.write_balls("energy.csv", "torque_Nm,power_W", (0.5, 3.0), (7.0, 80.0))
+        balance = cls.case / "direct" / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
+        rows = np.loadtxt(balance)
+        rows[np.ix_(rows[:, 0] < 0.405, [name.startswith("power") for name in BALANCE])] = 20.0
+        write_table(cls.case / "direct", "slurryBalance", "slurryBalance", BALANCE, rows)
+
+    @classmethod
+    def write_balls(cls, name, columns, within, outside):
+        """A table of the balls, which go on after the flow's end: values within the averaged time and outside it."""
+        times = 1.0 + np.arange(1, 91) * 0.01
+        chosen = (times > 1.405) & (times < 1.805)
+        table = np.column_stack([times, *(np.where(chosen, *pair) for pair in zip(within, outside))])
+        np.savetxt(cls.case / "direct" / "dumps" / name, table, "%.8g", ",", comments="", header=f"time_s,{columns}")
 
     def judge(self):
         with mock.patch("builtins.print"):
@@ -261,6 +272,16 @@ class AtTheSameTime(unittest.TestCase):
     def test_the_torque_that_balls_take_is_compared_with_the_balance_of_the_slurry(self):
         # Of slurryBalance: 0.5 W in all, of which the walls give 0.06 and 0.42 W; the balls give 0.02 W
         self.assertAlmostEqual(self.judge()["torque_unbalanced"], (0.02 + 0.024 * 6) / (3.0 + 0.48), places=3)
+
+    def test_a_step_counts_by_its_part_of_the_averaged_time(self):
+        # Steps end at 0, 1, 2, 3 and 4 s; what each gave acts until the next one ends
+        steps = {"time_s": np.arange(5.0), "given_torque_Nm": np.array([50.0, 3.0, 6.0, 9.0, 70.0])}
+        steps |= {f"given_force_{axis}_N": scale * steps["given_torque_Nm"] for axis, scale in zip("xyz", (1, 2, -1))}
+        case = SimpleNamespace(record=SimpleNamespace(steps=steps), begin=1.75, last=3.5)
+        force, torque = passes.given(case)
+        mean = (0.25 * 3 + 1 * 6 + 0.5 * 9) / 1.75
+        np.testing.assert_allclose(force, [mean, 2 * mean, -mean])
+        self.assertAlmostEqual(torque, mean)
 
     def test_the_report_judges_both(self):
         self.judge()
