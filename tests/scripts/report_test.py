@@ -342,13 +342,17 @@ class Outline(unittest.TestCase):
 
 
 class SlurryWay(Case):
-    def test_circulates_by_two_standard_errors(self):
+    def test_circulates_if_both_halves_do_with_95_percent_confidence(self):
         angle = Mean(0.0)
         for toe, shoulder, expected in (((3, 1), (-3, 1), "yes"), ((3, 2), (-3, 1), "undecided"),
                                         ((3, 1), (-1, 1), "undecided"),
                                         ((3, 1), (3, 1), "no"), ((-3, 1), (-3, 9), "no"),
-                                        ((3, np.nan), (-3, 1), "undecided")):
-            self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, expected)
+                                        ((3, np.nan), (-3, 1), "undecided"),
+                                        # Student's distribution: 4.3 errors of three blocks, 2.8 of five
+                                        ((3, 1, 2), (-3, 1), "undecided"), ((3, 1), (-3, 1, 2), "undecided"),
+                                        ((3, 1, 4), (-3, 1, 4), "yes"), ((-3, 1, 2), (3, 1, 2), "undecided")):
+            with self.subTest(toe=toe, shoulder=shoulder):
+                self.assertEqual(Way(angle, angle, Mean(*toe), Mean(*shoulder)).circulates, expected)
 
     def test_angles_are_averaged_across_180_degrees(self):
         found = angle_mean([175, -175, 178, -178])
