@@ -292,7 +292,8 @@ class SmallMill(Folder):
             self.assertEqual(mesh.cells, 6 * mesh.cells_in_section)
             with mock.patch.object(trial, "TRIAL_TIME", 0):
                 flow = trial.try_flow(case, solver, 1e-3, 2)
-            self.assertIn(len(trial.execution_times(case)), range(trial.FEWEST_STEPS, 40))
+            # One that is not ended makes 18 steps or more
+            self.assertIn(len(trial.execution_times(case)), range(trial.FEWEST_STEPS, 3 * trial.FEWEST_STEPS))
             self.assertGreater(flow.step_time, 0)
             # Of a rank with OpenFOAM's libraries, not of mpirun
             self.assertGreater(flow.memory, 80e6)
