@@ -68,7 +68,7 @@ class TurnedPool(unittest.TestCase):
     def test_has_means_over_its_times(self):
         filled = slice(self.SLICES - 1)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", RuntimeWarning)  # of numpy: the last slice never has slurry
+            warnings.simplefilter("error")  # the last slice never has slurry
             profile = axial_profile(self.flow, self.begin)
         np.testing.assert_allclose(profile.holdup, [0.7 * self.HOLDUP, 0.7 * self.HOLDUP, 0], rtol=1e-7)
         np.testing.assert_allclose(profile.height[filled], self.HEIGHT, rtol=1e-7)
@@ -130,6 +130,12 @@ class Humps(unittest.TestCase):
     def test_too_few_slices_are_refused(self):
         with self.assertRaisesRegex(ValueError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
             fit_gaussians(Z[:9], Z[:9], 3)
+
+    def test_a_slice_without_slurry_is_named(self):
+        profile = self.profile(TWO)
+        profile[-1] = np.nan
+        with self.assertRaisesRegex(ValueError, "no slurry in the slice at 300 mm; a fit of 2 Gaussians needs it"):
+            fit_gaussians(Z, profile, 2)
 
 
 if __name__ == "__main__":
