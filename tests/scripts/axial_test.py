@@ -1,22 +1,84 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Along the axis: thickness of slices; humps of a profile: sums of Gaussians are found again, in noise too."""
+"""Along the axis: a pool in a mesh that turns; thickness of slices; humps of a profile: sums of Gaussians are found
+again, in noise too."""
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 from types import SimpleNamespace
-from unittest import mock
 
 import numpy as np
 
 from millfoam.files.written_times import MillFlow
-from millfoam.readings.axial import axial_series, fit_gaussians, gaussians, humps_at_ends, slice_thickness
-from report_cases import LENGTH, RADIUS, write_fluid_only
+from millfoam.readings.axial import (axial_profile, axial_series, fit_gaussians, gaussians, humps_at_ends,
+                                     slice_thickness)
+from report_cases import HEAD, hexahedra, write_field, write_mesh
 
 Z = np.linspace(0.005, 0.3, 33)
 TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)
 THREE = (0.003, 0.05, 0.02, 0.002, 0.15, 0.025, 0.0025, 0.25, 0.02)
 BASE, NOISE = -0.06, 5e-5
+
+
+class TurnedPool(unittest.TestCase):
+    """A pool at the lowest side of a square box of 0.2 m that has turned by a quarter and by half of a turn. The lower
+    of its two rows of cells has balls of solidity 0.5."""
+    OMEGA, SIDE, CELL, THICKNESS, SLICES = -6.0, 0.2, 0.025, 0.02, 3
+    LOWEST, SECOND = -0.0875, -0.0625  # y (m) of the rows
+    HEIGHT = (0.5 * LOWEST + SECOND) / 1.5
+    HOLDUP = 1.5 * SIDE * CELL * THICKNESS
+
+    def setUp(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        length = self.SLICES * self.THICKNESS
+        # One layer more is behind the grates
+        points = hexahedra.box((-0.1, -0.1, 0), (0.1, 0.1, length + self.THICKNESS), (8, 8, self.SLICES + 1))
+        write_mesh(folder / "constant" / "polyMesh", points)
+        (folder / "constant" / "millProperties").write_text(
+            HEAD.format("dictionary", "millProperties")
+            + f"radius 0.1;\nlength {length};\nomega {self.OMEGA};\ntime0 0;\n")
+        (folder / "constant" / "bedProperties").write_text(HEAD.format("dictionary", "bedProperties"))
+        self.places = (points[:-1, :-1, :-1] / 2 + points[1:, 1:, 1:] / 2).reshape(-1, 3)
+        quarter = np.pi / 2 / abs(self.OMEGA)
+        self.write(folder, 0.1, 0.1 * self.OMEGA, 1.0)
+        self.write(folder, quarter, -np.pi / 2, 1.0)
+        self.write(folder, 2 * quarter, -np.pi, 0.4)
+        self.begin, self.flow = quarter, MillFlow(folder)
+
+    def write(self, folder, time, angle, share):
+        """Fields at a time (s) at which the mesh has turned by an angle (rad): in the pool, slurry takes this share of
+        the space between the balls; none is in the last slice before the grates."""
+        y = np.sin(angle) * self.places[:, 0] + np.cos(angle) * self.places[:, 1]
+        z = self.places[:, 2]
+        pool = (y < -0.05) & (np.abs(z - (self.SLICES - 0.5) * self.THICKNESS) > 1e-6)
+        for name, values in (("alpha.slurry", share * pool), ("solidity", 0.5 * (y < -0.075)),
+                             ("p_rgh", 100 - 1000 * z + 500 * y)):
+            write_field(folder / f"{time:.9f}" / name, values)
+
+    def test_has_height_hold_up_and_pressure_of_the_lab(self):
+        series = axial_series(self.flow, self.begin)
+        np.testing.assert_allclose(series.z, [0.01, 0.03, 0.05])
+        np.testing.assert_allclose(series.times, [self.begin, 2 * self.begin], rtol=1e-8)
+        np.testing.assert_allclose(series.height, [[self.HEIGHT, self.HEIGHT, np.nan]] * 2, rtol=1e-7)
+        np.testing.assert_allclose(series.holdup, np.outer([1, 0.4], [self.HOLDUP, self.HOLDUP, 0]), rtol=1e-7)
+        pressure = [*(100 - 1000 * series.z[:2] + 500 * self.HEIGHT), np.nan]
+        np.testing.assert_allclose(series.pressure, [pressure] * 2, rtol=1e-7)
+
+    def test_has_means_over_its_times(self):
+        filled = slice(self.SLICES - 1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # the last slice never has slurry
+            profile = axial_profile(self.flow, self.begin)
+        np.testing.assert_allclose(profile.holdup, [0.7 * self.HOLDUP, 0.7 * self.HOLDUP, 0], rtol=1e-7)
+        np.testing.assert_allclose(profile.height[filled], self.HEIGHT, rtol=1e-7)
+        np.testing.assert_allclose(profile.height_spread[filled], 0, atol=1e-9)
+        np.testing.assert_allclose(profile.pressure[filled], 100 - 1000 * profile.z[filled] + 500 * self.HEIGHT)
+        self.assertTrue(np.isnan([profile.height[-1], profile.pressure[-1]]).all())
+
+    def test_of_a_time_that_was_not_written_is_refused(self):
+        with self.assertRaisesRegex(RuntimeError, "no time from 2 s on was written"):
+            axial_series(self.flow, 2)
 
 
 class Slices(unittest.TestCase):
@@ -33,36 +95,6 @@ class Slices(unittest.TestCase):
         for place, at_end in ((0.2, 0), (0.223, 0), (0.2245, 1), (0.055, 1), (0.06, 0)):
             with self.subTest(place=place):
                 self.assertEqual(humps_at_ends(SimpleNamespace(places=(place,)), z), at_end)
-
-
-class Pool(unittest.TestCase):
-    """Slurry below y = -0.05 m in a mill that turns."""
-    LEVEL = 0.05
-
-    def setUp(self):
-        folder = Path(self.enterContext(tempfile.TemporaryDirectory())) / "flow"
-        self.flow = MillFlow(write_fluid_only(folder, tables=False, voxels=False))
-
-    def test_slices_have_the_pools_height_volume_and_pressure_wherever_the_mill_has_turned(self):
-        found = axial_series(self.flow, 0.1)
-        half = np.sqrt(RADIUS**2 - self.LEVEL**2)
-        area = RADIUS**2 * np.arccos(self.LEVEL / RADIUS) - self.LEVEL * half
-        np.testing.assert_allclose(found.times, [0.2, 0.4, 0.6, 0.8])
-        np.testing.assert_allclose(found.z, LENGTH * (np.arange(4) + 0.5) / 4)
-        # The cells are 30 mm wide
-        np.testing.assert_allclose(found.height, -2 / 3 * half**3 / area, atol=0.005)
-        np.testing.assert_allclose(found.holdup, area * LENGTH / 4, rtol=0.15)
-        np.testing.assert_allclose(found.pressure, np.tile(100 - 1000 * found.z, (4, 1)), rtol=1e-6)
-
-    def test_the_pressure_is_that_of_the_slurry(self):
-        read = self.flow.field
-
-        def field(name, path):
-            upwards = self.flow.turned(self.flow.centres[:, :2], float(path.name))[:, 1]
-            return upwards if name == "p_rgh" else read(name, path)
-        with mock.patch.object(self.flow, "field", field):
-            found = axial_series(self.flow, 0.1)
-        np.testing.assert_allclose(found.pressure, found.height)
 
 
 class Humps(unittest.TestCase):
@@ -98,6 +130,12 @@ class Humps(unittest.TestCase):
     def test_too_few_slices_are_refused(self):
         with self.assertRaisesRegex(ValueError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
             fit_gaussians(Z[:9], Z[:9], 3)
+
+    def test_a_slice_without_slurry_is_named(self):
+        profile = self.profile(TWO)
+        profile[-1] = np.nan
+        with self.assertRaisesRegex(ValueError, "no slurry in the slice at 300 mm; a fit of 2 Gaussians needs it"):
+            fit_gaussians(Z, profile, 2)
 
 
 if __name__ == "__main__":

@@ -201,16 +201,19 @@ def write_time(folder, time, places):
     fields = {"alpha.slurry": wet, "solidity": 0.5 * (y < -0.02 - 0.5 * x), "p_rgh": 100 - 1000 * places[:, 2],
               "forceOverWeight": 0.1 + 0 * wet, "U": np.column_stack([0.1 * wet, 0 * wet, np.where(x > 0, 0.02,
                                                                                                    -0.01) * wet])}
-    (folder / f"{time:g}").mkdir()
     if time == 0:  # written before the flow knows its balls
         del fields["solidity"], fields["forceOverWeight"]
     for name, values in fields.items():
-        kind = "vector" if values.ndim > 1 else "scalar"
-        rows = "\n".join(f"({' '.join(f'{v:.9g}' for v in row)})" if values.ndim > 1 else f"{row:.9g}"
-                         for row in values)
-        (folder / f"{time:g}" / name).write_text(HEAD.format("volField", name) + f"internalField nonuniform "
-                                                                                 f"List<{kind}>\n"
-                                                 f"{len(values)}\n(\n{rows}\n)\n;\nboundaryField {{}}\n")
+        write_field(folder / f"{time:g}" / name, values)
+
+
+def write_field(path, values):
+    """A field of cells, [cells] or [cells, 3], in OpenFOAM's text."""
+    kind = "vector" if values.ndim > 1 else "scalar"
+    rows = "\n".join(f"({' '.join(f'{v:.9g}' for v in row)})" if values.ndim > 1 else f"{row:.9g}" for row in values)
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(HEAD.format("volField", path.name) + f"internalField nonuniform List<{kind}>\n{len(values)}\n"
+                    f"(\n{rows}\n)\n;\nboundaryField {{}}\n")
 
 
 def write_tables(folder):

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reports of small cases are complete pages that need no network, name what is missing, and refuse folders that are no
 mill's case."""
-import html
 import json
 import re
 import subprocess
@@ -21,18 +20,17 @@ from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.outline import circle, lifter_outline
 from millfoam.plots.mill_plots import plot_strip
-from millfoam.readings import power_models
 from millfoam.readings.axial import Humps, drop, drop_error, mean_profile
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
 from millfoam.readings.means import Mean, angle_mean, time_mean
-from millfoam.readings.mill_power import charge_power, power_begin
+from millfoam.readings.mill_power import power_begin
 from millfoam.readings.power_models import hogg_fuerstenau
 from millfoam.readings.slurry_on_maps import pool
 from millfoam.readings.slurry_over_time import Way, slurry_blocks, slurry_way
 from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.case_readings import Readings, humps_words, key_numbers
-from millfoam.report.power_section import models_table, net_note, powers
+from millfoam.report.power_section import net_note
 from millfoam.report.sections import spans
 from millfoam.report.words import uncertain
 from report_cases import (OMEGA, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only, write_mill,
@@ -298,32 +296,6 @@ class OneCase(Case):
         self.assertIn("does not balance, by 1.4 % of the drive's torque on the balls (flow and balls) and 2.5 % of "
                       "the drive's torque (balls and the slurry's own balance); the drive's power has an error of this "
                       "size", net_note(case))
-
-    def test_a_wet_mills_drive_is_compared_with_models_of_filled_pores(self):
-        flow = write_flow(self.folder / "flow")
-        # Bulk of balls and a quarter of its pores with slurry: 0.6 2500 and 0.4 0.25 1500 kg/m3
-        dry, wet = 1500, 1650
-        filling = power_models.filling_of(2.0, 2500, 0.6, 0.3, 0.06)
-        size = 0.3, 0.06, 6.0 / 8.09, filling
-        for kind, densities in ((None, ((", dry", "charge", dry), (", pores filled to 25 %", "drive", wet))),
-                                ("flow", ((", pores filled to 25 %", "drive", wet),))):
-            change_json(flow / "dumps" / "results.json", "fluid", to={"kind": kind} if kind else None)
-            case = self.short_turns(flow)
-            case.balance["holdUp"][:] = 0.25 * 8e-4 * 0.4 / 0.6
-            found = powers(case)
-            # One way, the drive gives the charge's 3.21 W and the slurry's 0.5 W; otherwise what the walls give
-            drive = 3.71 if kind is None else charge_power(case).value + 0.48
-            self.assertAlmostEqual(found["drive"].value, drive, delta=2e-3)
-            expected = []
-            for words, name, density in densities:
-                for model, power in ((f"Hogg & Fuerstenau, 35°{words}", power_models.hogg_fuerstenau(*size, density)),
-                                     (f"Morrell, C-model{words}", power_models.morrell(*size, density).net)):
-                    expected.append([model, f"{power:.3g} W", f"{found[name].value / power:.2f}"])
-            bond = power_models.bond(0.3, *size[2:], 2.0)
-            expected.append(["Bond", f"{bond:.3g} W", f"{found['drive'].value / bond:.2f}"])
-            rows = re.findall("<tr>(.*?)</tr>", models_table(case, found), re.DOTALL)
-            self.assertEqual([[html.unescape(cell) for cell in re.findall("<t[dh][^>]*>(.*?)</t[dh]>", row)]
-                              for row in rows[1:]], expected)
 
     def short_turns(self, flow):
         """MillCase of a flow whose averages are four turns of ten records."""

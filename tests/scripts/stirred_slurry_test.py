@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readings of the slurry in a stirred mill: frames, medians, what the impeller takes; columns of a dump."""
-import json
+"""Readings of the slurry in a stirred mill: written fields, frames, medians, what the impeller takes, means in the r-z
+plane; dumps of the last turn, columns of a dump."""
 import tempfile
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
-from unittest import mock
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.quiver import Quiver, QuiverKey
 
 from millfoam.files.dumps import read_balls
+from millfoam.files.mill import read_mill
 from millfoam.plots.stirred_slurry_plots import maps_figure, vortex_figure
-from millfoam.readings import stirred_slurry
-from millfoam.readings.stirred_slurry import (SlurryFlow, along_cylinder, dumps_of_last_turn, in_impeller, median,
-                                              meridian_means, read_slurry_flow)
+from millfoam.readings.stirred_slurry import (SECTORS, SlurryFlow, along_cylinder, dumps_of_last_turn, in_impeller,
+                                              median, meridian_means, read_slurry_flow)
+from report_cases import DIAMETER, OMEGA, hexahedra, write_field, write_json, write_mesh, write_mill
 
 
 class Impeller:
@@ -42,95 +42,131 @@ class Frames(unittest.TestCase):
         self.assertTrue(np.isnan(median(np.array([]), np.array([]))))
 
 
-class Fields(unittest.TestCase):
-    """A slurry that turns rigidly with the impeller, and balls that turn half as fast."""
-    OMEGA, TIME0 = 5.0, 0.1
-    RADII = np.array([0.02, 0.03, 0.04])
-    DERIVED = {"angular_velocity_rad_s": OMEGA, "density_kg_m3": 1500.0, "plastic_viscosity_Pa_s": 0.01,
-               "sauter_diameter_m": 0.005}
+class WrittenFlow(unittest.TestCase):
+    """Fields on a mesh about the axis with the mill of report_cases: 1500 kg/m3, 0.01 Pa s, balls of 5 mm."""
+    TIME0, SHAPE = 0.35, (4, 4, 5)  # DEM time (s) of flow time 0, cells
 
     def setUp(self):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        (self.folder / "mesh.json").write_text(json.dumps({"format": "millfoam-mesh", "time0_s": self.TIME0}))
-        self.angles = np.array([0.3, 1.5, 4.0])  # of the cells at flow time 0
-        self.fields = {}
-        for time, solidity in ((0.2, 0.4), (0.4, 0.2)):
-            place = self.folder / f"{time:g}"
-            place.mkdir()
-            (place / "solidity").touch()
-            azimuth = self.angles + self.OMEGA * time
-            rigid = self.OMEGA * self.RADII[:, None] * np.stack([-np.sin(azimuth), np.cos(azimuth), 0 * azimuth], 1)
-            self.fields |= {place / "alpha.slurry": np.ones(3), place / "U": rigid, place / "solidsVelocity": rigid / 2,
-                            place / "solidity": np.full(3, solidity)}
-        mesh = SimpleNamespace(cells=3, centres_and_volumes=lambda: (np.stack(
-            [self.RADII * np.cos(self.angles), self.RADII * np.sin(self.angles), 0 * self.RADII], 1), np.full(3, 1e-6)))
-        times = [(0.0, self.folder / "0"), (0.2, self.folder / "0.2"), (0.4, self.folder / "0.4")]
-        self.enterContext(mock.patch.multiple(
-            stirred_slurry.foam, read_mesh=lambda case: mesh, times=lambda case: times,
-            read_field=lambda path, cells: self.fields[path]))
-        self.mill = SimpleNamespace(derived=lambda *keys: self.DERIVED[keys[-1]])
+        write_mill(self.folder)
+        write_json(self.folder / "mesh.json", "mesh", ("flow",), time0_s=self.TIME0)
+        points = hexahedra.box((-0.1, -0.1, 0), (0.1, 0.1, 0.1), self.SHAPE)
+        write_mesh(self.folder / "constant" / "polyMesh", points)
+        self.centre = (points[:-1, :-1, :-1] / 2 + points[1:, 1:, 1:] / 2).reshape(-1, 3)
+        self.radius = np.hypot(self.centre[:, 0], self.centre[:, 1])
 
-    def test_are_in_the_impellers_frame_and_means_over_the_times(self):
-        flow = read_slurry_flow(self.folder, self.mill, 0.1)
-        self.assertEqual(flow.times, [0.2, 0.4])
-        at_dem_zero = self.angles - self.OMEGA * self.TIME0
-        np.testing.assert_allclose(flow.centre, np.stack([
-            self.RADII * np.cos(at_dem_zero), self.RADII * np.sin(at_dem_zero), 0 * self.RADII], 1), atol=1e-15)
-        zero = 0 * self.RADII
-        np.testing.assert_allclose(flow.velocity, np.stack([zero, self.OMEGA * self.RADII, zero], 1), atol=1e-14)
-        np.testing.assert_allclose(flow.share, 1)
-        np.testing.assert_allclose(flow.solidity, 0.3)
+    def write(self, time, share, solidity=None, turning=1.0, slip=(0.0, 0.0), rising=0.0):
+        """A written time; share, solidity, slip: numbers, or of each layer [5]; no balls without solidity. The slurry
+        turns with `turning` times the impeller's speed and rises (m/s). The velocity of the balls is slip[0] less
+        around the axis and slip[1] less along it (m/s)."""
+        angle = np.arctan2(self.centre[:, 1], self.centre[:, 0]) + OMEGA * time
+        around, along = turning * OMEGA * self.radius, rising + 0 * self.radius
+        slip = [self.cells(part) for part in slip]
+        fields = {"alpha.slurry": self.cells(share), "U": self.in_lab(angle, around, along)}
+        if solidity is not None:
+            fields |= {"solidity": self.cells(solidity),
+                       "solidsVelocity": self.in_lab(angle, around - slip[0], along - slip[1])}
+        for name, values in fields.items():
+            write_field(self.folder / f"{time:g}" / name, values)
 
-    def test_slip_and_its_reynolds_number_are_medians_of_each_time(self):
-        flow = read_slurry_flow(self.folder, self.mill, 0.1)
-        np.testing.assert_allclose(flow.slips, 5.0 / 2 * 0.03)
-        np.testing.assert_allclose(flow.reynolds, 1500 * 0.075 * 0.005 / 0.01 * np.array([0.6, 0.8]))
-        for place in ("0.2", "0.4"):
-            self.fields[self.folder / place / "solidsVelocity"] = self.fields[self.folder / place / "U"]
-        np.testing.assert_allclose(read_slurry_flow(self.folder, self.mill, 0.1).slips, 0, atol=1e-15)
+    def cells(self, values):
+        return np.broadcast_to(values, self.SHAPE).reshape(-1)
 
-    def test_are_of_the_last_time_where_none_is_late_enough(self):
-        self.assertEqual(read_slurry_flow(self.folder, self.mill, 9.0).times, [0.4])
+    def in_lab(self, angle, around, along):
+        return np.stack([-np.sin(angle) * around, np.cos(angle) * around, along], axis=1)
 
-    def test_the_slurrys_velocity_is_weighted_by_its_share(self):
-        self.fields[self.folder / "0.4" / "alpha.slurry"] = np.full(3, 0.25)
-        self.fields[self.folder / "0.4" / "U"] = 0 * self.fields[self.folder / "0.4" / "U"]
-        flow = read_slurry_flow(self.folder, self.mill, 0.1)
-        np.testing.assert_allclose(flow.velocity[:, 1], self.OMEGA * self.RADII / 1.25)
-        np.testing.assert_allclose(flow.share, 0.625)
+    def read(self, begin=0.0):
+        return read_slurry_flow(self.folder, read_mill(self.folder), begin)
+
+    def test_a_rigid_rotation_with_the_impeller_has_no_slip(self):
+        for time in (0.2, 0.5):
+            self.write(time, 1.0, 0.4)
+        found = self.read()
+        # The impeller's frame is that of DEM time 0, in which no cell has turned yet
+        angle = np.arctan2(self.centre[:, 1], self.centre[:, 0]) - OMEGA * self.TIME0
+        back = np.stack([self.radius * np.cos(angle), self.radius * np.sin(angle), self.centre[:, 2]], axis=1)
+        np.testing.assert_allclose(found.centre, back, atol=1e-12)
+        np.testing.assert_allclose(found.volume, 0.05 * 0.05 * 0.02)
+        np.testing.assert_allclose(found.share, 1)
+        np.testing.assert_allclose(found.solidity, 0.4)
+        around = np.stack([0 * self.radius, OMEGA * self.radius, 0 * self.radius], axis=1)
+        np.testing.assert_allclose(found.velocity, around, atol=1e-8)  # nine digits are written
+        np.testing.assert_allclose(found.slips + found.reynolds, 0, atol=1e-4)
+        self.assertEqual(found.times, [0.2, 0.5])
+
+    def test_slip_and_its_reynolds_number_are_those_of_each_time(self):
+        self.write(0.2, 1.0, 0.4, slip=(0.03, 0.04))
+        self.write(0.5, 1.0, 0.3, slip=(0.06, -0.08))
+        found = self.read()
+        np.testing.assert_allclose(found.slips, [0.05, 0.1], rtol=1e-6)
+        # By the slip times the voidage: the drag laws' superficial velocity
+        np.testing.assert_allclose(found.reynolds, [1500 * 0.05 * DIAMETER * 0.6 / 0.01, 1500 * 0.1 * DIAMETER * 0.7
+                                                    / 0.01], rtol=1e-6)
+        np.testing.assert_allclose(found.solidity, 0.35)
+
+    def test_slip_counts_by_the_volume_of_balls_and_where_they_are_in_slurry(self):
+        # At the first time a layer has hardly any slurry; at the second one, four have hardly any balls
+        self.write(0.2, [1, 1, 1, 0.4, 1], [0.4, 0.1, 0.1, 0.7, 0], slip=([0.2, 0.1, 0.1, 3, 3], 0.0))
+        self.write(0.5, 1.0, [0.06, 0.04, 0.04, 0.04, 0.04], slip=([0.3, 3, 3, 3, 3], 0.0))
+        found = self.read()
+        np.testing.assert_allclose(found.slips, [0.2, 0.3], rtol=1e-6)
+        np.testing.assert_allclose(found.reynolds, [1500 * 0.2 * DIAMETER * 0.6 / 0.01, 1500 * 0.3 * DIAMETER * 0.94
+                                                    / 0.01], rtol=1e-6)
+
+    def test_means_are_from_the_begin_on_and_velocities_are_weighted_by_slurry(self):
+        for time, share, solidity, turning, rising in ((0.1, 1.0, 0.6, 9.0, 9.0), (0.2, 1.0, 0.4, 1.0, 0.1),
+                                                       (0.5, 0.5, 0.2, 0.4, 0.4)):
+            self.write(time, share, solidity, turning, rising=rising)
+        found = self.read(begin=0.2)
+        self.assertEqual(found.times, [0.2, 0.5])
+        np.testing.assert_allclose(found.share, 0.75)
+        np.testing.assert_allclose(found.solidity, 0.3)
+        np.testing.assert_allclose(found.velocity[:, 1], 0.8 * OMEGA * self.radius, atol=1e-8)
+        np.testing.assert_allclose(found.velocity[:, 2], 0.2, atol=1e-8)
+        self.assertEqual(self.read(begin=0.6).times, [0.5])
+
+    def test_a_flow_without_balls_has_no_slip_and_one_of_time_0_alone_is_refused(self):
+        self.write(0, 1.0)
+        with self.assertRaisesRegex(RuntimeError, "no written time after 0; expected one"):
+            self.read()
+        self.write(0.2, 1.0)
+        found = self.read()
+        self.assertEqual(found.times, [0.2])
+        self.assertTrue(np.isnan(found.slips + found.reynolds).all())
 
 
 class Meridian(unittest.TestCase):
-    def test_is_the_mean_around_the_axis_and_has_no_slurry_in_the_impeller(self):
-        edges = np.arange(-0.05, 0.0501, 0.0025)
-        x, y, z = np.meshgrid(edges, edges, np.arange(0, 0.0901, 0.005), indexing="ij")
-        centre = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-        wet = (centre[:, 0] > 1e-9).astype(float)  # one half around the axis
-        radius, speed = np.hypot(centre[:, 0], centre[:, 1]), 5.0
-        velocity = np.stack([0 * radius, np.where(wet > 0, speed * radius, 9.0), 0 * radius], axis=1)
-        flow = SlurryFlow(centre, 0 * wet + 1, wet, 0 * wet + 0.4, velocity, [np.nan], [np.nan], [1.0])
-        shaft = SimpleNamespace(impeller={**Impeller.impeller, "pins": [], "discs": []})
-        middle = [np.array([0.005, 0.02, 0.04]), np.array([0.02, 0.05])]
-        share, solidity, mean = meridian_means(shaft, flow, middle)
-        np.testing.assert_array_equal(share[0], 0)
-        np.testing.assert_allclose(share[1:], 0.5, atol=0.05)
-        np.testing.assert_allclose(solidity[1:], 0.4)
-        # Of the slurry, not of the dry half
-        np.testing.assert_allclose(mean[1:, :, 1], speed * np.array([[0.02], [0.04]]) * [1, 1], rtol=0.03)
+    RADII, HEIGHTS = np.array([0.005, 0.025, 0.045]), np.array([0.01, 0.03, 0.06])
 
+    def setUp(self):
+        azimuth = 2 * np.pi * (np.arange(SECTORS) + 0.5) / SECTORS
+        self.radius, self.azimuth, height = (one.ravel() for one in np.meshgrid(self.RADII, azimuth, self.HEIGHTS,
+                                                                                indexing="ij"))
+        self.centre = np.stack([self.radius * np.cos(self.azimuth), self.radius * np.sin(self.azimuth), height], axis=1)
 
-class LastTurn(unittest.TestCase):
-    def test_has_the_dumps_of_one_turn_once(self):
-        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        mill = SimpleNamespace(turn=1.0)
-        self.assertEqual(dumps_of_last_turn(folder, mill), [])
-        (folder / "dumps").mkdir()
-        (folder / "dumps" / "run.json").write_text(json.dumps({"format": "millfoam-dumps", "timestep_s": 0.01}))
-        for step in range(0, 201, 25):
-            (folder / "dumps" / f"dump.{step}.txt").touch()
-        found = dumps_of_last_turn(folder, mill)
-        np.testing.assert_allclose([time for time, _ in found], [1.25, 1.5, 1.75, 2.0])
-        self.assertEqual(found[-1][1].name, "dump.200.txt")
+    def means(self, share, solidity, velocity, impeller):
+        one = np.ones(len(self.centre))
+        flow = SlurryFlow(self.centre, one, share * one, solidity * one, velocity, [np.nan], [np.nan], [1.0])
+        return meridian_means(SimpleNamespace(impeller=impeller), flow, [self.RADII, self.HEIGHTS])
+
+    def test_of_a_rigid_rotation_is_the_rotation_outside_the_impeller(self):
+        around = np.stack([0 * self.radius, OMEGA * self.radius, 0 * self.radius], axis=1)
+        share, solidity, velocity = self.means(1.0, 0.4, around, Impeller.impeller)
+        # Shaft from 0.01 m up, and a disc of 0.04 m at the top; one pin leaves most of its circle
+        free = np.array([[1, 0, 0], [1, 1, 0], [1, 1, 1]])
+        np.testing.assert_array_equal(share, free)
+        np.testing.assert_allclose(solidity, 0.4 * free)
+        expected = free * OMEGA * self.RADII[:, None]
+        np.testing.assert_allclose(velocity, np.stack([0 * expected, expected, 0 * expected], axis=-1), atol=1e-12)
+
+    def test_around_the_axis_velocities_are_weighted_by_slurry(self):
+        none = {**Impeller.impeller, "shaft_diameter_m": 0.0, "pins": [], "discs": []}
+        half = np.sin(self.azimuth) > 0
+        velocity = np.stack([0 * self.radius, 0 * self.radius, np.where(half, 0.1, 0.4)], axis=1)
+        share, solidity, mean = self.means(np.where(half, 1.0, 0.5), np.where(half, 0.2, 0.6), velocity, none)
+        np.testing.assert_allclose(share, 0.75)
+        np.testing.assert_allclose(solidity, 0.4)
+        np.testing.assert_allclose(mean[..., 2], 0.2)
 
 
 class Solid(unittest.TestCase):
@@ -180,6 +216,20 @@ class Section(unittest.TestCase):
             self.assertEqual(key.text.get_text(), f"{speed:g} m/s")
 
 
+class LastTurn(unittest.TestCase):
+    def test_has_its_dumps_in_order_of_time_and_none_of_its_begin(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        mill = SimpleNamespace(turn=0.5)
+        self.assertEqual(dumps_of_last_turn(folder, mill), [])
+        write_json(folder / "dumps" / "run.json", "dumps", ("charge",), timestep_s=1e-3)
+        self.assertEqual(dumps_of_last_turn(folder, mill), [])
+        for step in range(0, 1201, 100):
+            (folder / "dumps" / f"dump.{step}.txt").touch()
+        times, paths = zip(*dumps_of_last_turn(folder, mill))
+        np.testing.assert_allclose(times, [0.8, 0.9, 1.0, 1.1, 1.2])
+        self.assertEqual([path.name for path in paths], [f"dump.{step}.txt" for step in range(800, 1201, 100)])
+
+
 class Dumps(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -194,7 +244,6 @@ class Dumps(unittest.TestCase):
         self.path.write_text("ITEM: ATOMS id x\n1 2\n")
         with self.assertRaisesRegex(RuntimeError, "no column vx, vy; it has id, x"):
             read_balls(self.path, "vx", "vy")
-
         self.path.write_text("text")
         with self.assertRaisesRegex(RuntimeError, "no line 'ITEM: ATOMS'"):
             read_balls(self.path, "x")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Along the axis of a mill: height of the slurry's centre of mass, hold-up and head by slices; humps; discharge."""
+import warnings
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -75,9 +76,12 @@ def axial_series(flow: MillFlow, begin: float) -> AxialSeries:
 
 
 def mean_profile(series: AxialSeries) -> AxialProfile:
-    """AxialProfile of an AxialSeries: means over its times, of slices where and when they hold slurry."""
-    return AxialProfile(series.z, np.nanmean(series.height, axis=0), np.nanstd(series.height, axis=0),
-                        np.mean(series.holdup, axis=0), np.nanmean(series.pressure, axis=0))
+    """AxialProfile of an AxialSeries: means over its times, of slices where and when they hold slurry; NaN in those
+    that never do, except for the hold-up."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # of numpy about slices that never hold slurry
+        return AxialProfile(series.z, np.nanmean(series.height, axis=0), np.nanstd(series.height, axis=0),
+                            np.mean(series.holdup, axis=0), np.nanmean(series.pressure, axis=0))
 
 
 def axial_profile(flow: MillFlow, begin: float) -> AxialProfile:
@@ -119,10 +123,14 @@ def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
 
     z [n] (m), rising; height [n] (m). Places are within the profile, heights are not negative. Widths are from 3 % to
     100 % of its length, and at least half of the distance between two slices: a narrower hump could be between them.
-    ValueError if it has fewer points than the fit has values, RuntimeError if no fit was found."""
+    ValueError if it has fewer points than the fit has values, or a slice without slurry (NaN), RuntimeError if no fit
+    was found."""
     z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
     if len(z) < 1 + 3 * count:
         raise ValueError(f"{len(z)} places along the axis; a fit of {count} Gaussians needs at least {1 + 3 * count}")
+    if not np.all(np.isfinite(height)):
+        dry = z[~np.isfinite(height)][0]
+        raise ValueError(f"no slurry in the slice at {1e3 * dry:.4g} mm; a fit of {count} Gaussians needs it in all")
     length, scale = z[-1] - z[0], np.ptp(height) or 1e-12
     narrowest = max(0.03 * length, np.diff(z).max() / 2)
     lower = [height.min() - scale, *([0, z[0], narrowest] * count)]
