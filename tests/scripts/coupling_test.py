@@ -280,7 +280,7 @@ class AtTheSameTime(unittest.TestCase):
         self.assertEqual("".join(coupling_section(case, Readings(case))).count("<td>–</td>"), 3)
         found = forces_exchanged(case)
         self.assertEqual((found.state, found.found),
-                         ("unknown", "the mean forces by the flow and by the balls are not known"))
+                         ("unknown", "the mean force of the flow on the balls is 0 or not known"))
 
     def test_a_flow_that_gives_no_force_is_not_compared(self):
         with mock.patch.object(passes, "given", lambda case: (np.zeros(3), None)):

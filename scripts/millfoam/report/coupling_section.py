@@ -36,8 +36,7 @@ def forces_exchanged(case: MillCase) -> Check:
     name = "The balls feel the slurry's force"
     apart = coupling_of(case)["force_disagreement"]
     if apart is None:
-        return Check(name, "unknown", "the mean forces by the flow and by the balls are not known",
-                     "Compare them again: python3 -m millfoam.coupling direct CASE.")
+        return Check(name, "unknown", "the mean force of the flow on the balls is 0 or not known")
     return judged(name, apart, EXCHANGED, "balls and flow ran at the same time; the "
                   f"mean force on all balls by the flow and by the balls differ by {100 * apart:.2f} % (limit "
                   f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
