@@ -40,7 +40,7 @@ Room room_in_stirred(const Section& charge, const Geometry& geometry) {
   if (charge.boolean("larger_than_gap", false))
     return {room, "the room between the shaft and the shell", " m"};
   const char* unless = " m (or charge.larger_than_gap: true)";
-  const double aside = geometry.radius() - impeller_radius(impeller);
+  const double aside = impeller_gap(geometry);
   if (impeller.shaft_end < aside)
     return {impeller.shaft_end, "the gap between the impeller and the base", unless};
   return {std::min(aside, room), "the gap between the impeller and the shell", unless};

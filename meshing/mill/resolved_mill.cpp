@@ -44,7 +44,7 @@ Json impeller_numbers(const Geometry& geometry) {
           {"shaft_end_m", impeller.shaft_end},
           {"radius_m", impeller_radius(impeller)},
           {"top_m", impeller_top(impeller)},
-          {"gap_m", geometry.radius() - impeller_radius(impeller)},
+          {"gap_m", impeller_gap(geometry)},
           {"volume_below_top_m3", impeller_volume(geometry, impeller_top(impeller))},
           {"pins", pins},
           {"discs", discs}};

@@ -230,6 +230,13 @@ double impeller_radius(const Impeller& impeller) {
   return reach;
 }
 
+double impeller_gap(const Geometry& geometry) {
+  double reach = impeller_radius(*geometry.impeller);
+  for (const PinLevel& level : geometry.impeller->pins)
+    reach = std::max(reach, std::hypot(level.length / 2, level.thickness / 2));
+  return geometry.radius() - reach;
+}
+
 double impeller_top(const Impeller& impeller) {
   double top = impeller.shaft_end;
   for (const PinLevel& level : impeller.pins) top = std::max(top, span_of(level).second);

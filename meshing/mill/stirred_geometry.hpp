@@ -23,8 +23,12 @@ double impeller_volume(const Geometry& geometry, double height);
 /// Whether a disc's lower face is the shaft's end.
 bool is_at_shaft_end(const Disc& disc, const Impeller& impeller);
 
-/// Largest distance of the impeller's pins and discs from the axis, m; of a bare shaft its radius.
+/// Largest distance of the tips' centres and of the discs' rims from the axis, m; of a bare shaft its radius.
 double impeller_radius(const Impeller& impeller);
+
+/// Smallest distance of the shell from pins, whose ends are flat, and from discs, m.
+/// @param geometry  of a stirred mill
+double impeller_gap(const Geometry& geometry);
 
 /// Height of the upper edge of the highest pin or disc, m; of a bare shaft that of its end.
 double impeller_top(const Impeller& impeller);

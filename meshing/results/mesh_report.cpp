@@ -112,7 +112,7 @@ std::string stirred_lines(const MillDescription& description) {
   return line("mill                     %s", mill.title.c_str()) +
          line("impeller                 %zu levels of pins, %zu discs, %.4g mm from tip to tip, gap %.3g mm",
               impeller.pins.size(), impeller.discs.size(), 2e3 * impeller_radius(impeller),
-              1e3 * (mill.geometry.radius() - impeller_radius(impeller))) +
+              1e3 * impeller_gap(mill.geometry)) +
          line("speed                    %.4g rad/s, %.4g m/s at the tips, %s seen from above",
               mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
               mill.sense()) +

@@ -104,7 +104,7 @@ TEST(BallShape, ImpossibleShapesAreRefused) {
   EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], roundness: 0.5, blockiness: 4}"),
                    "expected either this key or blockiness, which is 2/roundness"));
   EXPECT_TRUE(says(with_shape("{half_axes: [9, 2, 2], blockiness: 3}"),
-                   "is below the gap between the impeller and the shell, 0.007 m"));
+                   "is below the gap between the impeller and the shell, 0.0066"));
 }
 
 TEST(BallShape, EdgesThatHertzLawDoesNotBearAreRefused) {

@@ -29,6 +29,8 @@ TEST(StirredMill, turns_its_impeller_in_a_shell_at_rest) {
   EXPECT_DOUBLE_EQ(mill.angular_velocity, 31.416);
   EXPECT_DOUBLE_EQ(impeller_radius(*mill.geometry.impeller), 0.0705);
   EXPECT_DOUBLE_EQ(impeller_top(*mill.geometry.impeller), 0.0775);
+  // Corners of the pins' flat ends, 15 mm wide, are further out than their centres
+  EXPECT_NEAR(impeller_gap(mill.geometry), 0.0775 - std::sqrt(0.0705 * 0.0705 + 0.0075 * 0.0075), 1e-15);
 }
 
 TEST(StirredMill, speed_of_the_tips_is_that_of_the_pins) {
@@ -168,7 +170,7 @@ TEST(StirredMill, what_cannot_turn_is_refused) {
   EXPECT_TRUE(says(set("geometry.impeller.pins[0].height=0.01"), "the pins lie on the shaft"));
   EXPECT_TRUE(says(set("geometry.impeller.pins[0].thickness=0.03"), "below that of the shaft"));
   EXPECT_TRUE(says(set("geometry.impeller.pins[0].arms=8"), "these meet outside of the shaft"));
-  EXPECT_TRUE(says(set("charge.diameter=0.008"), "the gap between the impeller and the shell, 0.007 m"));
+  EXPECT_TRUE(says(set("charge.diameter=0.008"), "the gap between the impeller and the shell, 0.0066"));
   EXPECT_TRUE(says(set("charge.level=0.5"), "up to the mill's"));
   EXPECT_TRUE(says(set("speed.tip_speed=500"), "a speed of the impeller's tips"));
   EXPECT_TRUE(says(set("flow.turns=3"), "without it the mill has a dry run alone"));
