@@ -6,8 +6,6 @@
 #include "timeStep.H"
 #include "knownEntries.H"
 
-#include <algorithm>
-
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
 namespace Foam
@@ -43,33 +41,32 @@ static void checkBounds(const dictionary& control)
 
 void Foam::timeStep::watch(const scalar deltaT, const word& cause)
 {
-    steps_.append(deltaT);
-    List<scalar> sorted(steps_);
-    const label middle = sorted.size() / 2;
-    std::nth_element(sorted.begin(), sorted.begin() + middle, sorted.end());
-    const scalar median = sorted[middle];
+    using millfoam::record::StepLength;
 
-    // Not at the end of a run or before a written time: only Courant numbers
-    // that are beyond all bounds lead there
-    if (!(deltaT > 1e-6 * median))
+    const scalar median = watched_.median();
+    switch (watched_.add(deltaT))
     {
-        FatalErrorInFunction
-            << "time-step " << deltaT << " s, median so far " << median
-            << " s, because of the " << cause << ": the flow has diverged at "
-            << time_.value() << " s. Resume from an earlier written time with"
-            << " smaller maxCo and maxAlphaCo, and look at U there"
-            << exit(FatalError);
-    }
+        // Not at the end of a run or before a written time: only Courant
+        // numbers that are beyond all bounds lead there
+        case StepLength::diverged:
+            FatalErrorInFunction
+                << "time-step " << deltaT << " s, median so far " << median
+                << " s, because of the " << cause << ": the flow has diverged"
+                << " at " << time_.value() << " s. Resume from an earlier"
+                << " written time with smaller maxCo and maxAlphaCo, and look"
+                << " at U there" << exit(FatalError);
+            break;
 
-    const bool isShort = deltaT < median / 20;
-    if (isShort && !reported_)
-    {
-        WarningInFunction << "time-step " << deltaT
-                          << " s is below a twentieth of its"
-                          << " median so far, " << median
-                          << " s, because of the " << cause << endl;
+        case StepLength::begins_short:
+            WarningInFunction
+                << "time-step " << deltaT << " s is below a twentieth of its"
+                << " median so far, " << median << " s, because of the "
+                << cause << endl;
+            break;
+
+        default:
+            break;
     }
-    reported_ = isShort;
 }
 
 
@@ -77,8 +74,7 @@ void Foam::timeStep::watch(const scalar deltaT, const word& cause)
 
 Foam::timeStep::timeStep(Time& time)
 : time_(time),
-  steps_(),
-  reported_(false)
+  watched_()
 {
 }
 
