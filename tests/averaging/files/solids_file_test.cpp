@@ -24,12 +24,17 @@ WindowAverage window_number(int number) {
   window.ledger = {4.0, 2.5, 1.5, 0};
   window.mean = {std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n, 0.004),
                  std::vector<double>(n, 0.005), std::vector<double>(n, 0.75)};
-  window.number.assign(n, 2.5);
   for (std::size_t v = 0; v < n; ++v) window.mean.solidity[v] = 0.01 * static_cast<double>(v) + 0.1 * number;
   for (std::size_t v = 0; v < 3 * n; ++v) window.mean.velocity[v] = static_cast<double>(v) - 5.0 * number;
-  window.solidity_deviation.assign(n, 0.01);
-  window.velocity_deviation.assign(3 * n, 0.02);
-  window.granular_temperature.assign(n, 0.03);
+  const auto growing = [number](std::size_t size, double first) {
+    std::vector<double> values(size);
+    for (std::size_t v = 0; v < size; ++v) values[v] = first + 1e-3 * static_cast<double>(v) + 0.2 * number;
+    return values;
+  };
+  window.number = growing(n, 2.5);
+  window.solidity_deviation = growing(n, 0.01);
+  window.velocity_deviation = growing(3 * n, 0.02);
+  window.granular_temperature = growing(n, 0.03);
   return window;
 }
 
@@ -73,6 +78,18 @@ struct SolidsFile : ::testing::Test {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     H5Ldelete(file, name, H5P_DEFAULT);
     H5Fclose(file);
+  }
+
+  /// All values of a data set in the order of the file.
+  std::vector<double> values(const char* name) const {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const hid_t data = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(data);
+    std::vector<double> result(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, result.data());
+    H5Sclose(space);
+    H5Dclose(data);
+    H5Fclose(file);
+    return result;
   }
 
   std::string refusal_to_open() const {
@@ -120,6 +137,24 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(read.diameter43, written.mean.diameter43);
     EXPECT_EQ(read.inside_fraction, written.mean.inside_fraction);
   }
+}
+
+TEST_F(SolidsFile, HoldsWhatOtherProgramsReadOfIt) {
+  std::vector<double> number, solidity, velocity, temperature;
+  const auto append = [](std::vector<double>& all, const std::vector<double>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (int w = 0; w < 3; ++w) {
+    const WindowAverage window = window_number(w);
+    append(number, window.number);
+    append(solidity, window.solidity_deviation);
+    append(velocity, window.velocity_deviation);
+    append(temperature, window.granular_temperature);
+  }
+  EXPECT_EQ(values("number"), number);
+  EXPECT_EQ(values("solidity_deviation"), solidity);
+  EXPECT_EQ(values("velocity_deviation"), velocity);
+  EXPECT_EQ(values("granular_temperature"), temperature);
 }
 
 TEST_F(SolidsFile, MayBeReadSeveralTimesAtOnce) {

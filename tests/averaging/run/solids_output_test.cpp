@@ -101,6 +101,30 @@ TEST_F(AreWritten, TheirLedgersAreReadWithoutTheirFields) {
   EXPECT_EQ(failures, ledger_failures(summarise(folder_ / "long.h5"), 0.05));
 }
 
+TEST(LedgerFailures, NameWhatIsMissingOutsideOrMoved) {
+  const auto failures = [](const Ledger& ledger, double tolerance) {
+    SolidsSummary summary;
+    summary.windows.resize(2);
+    summary.windows[0].ledger = {2.0, 2.0, 0, 0};
+    summary.windows[1].time.begin = 0.25;
+    summary.windows[1].ledger = ledger;
+    return ledger_failures(summary, tolerance);
+  };
+  EXPECT_TRUE(failures({2.0, 1.9, 0.1, 0.1}, 0.05).empty());
+  EXPECT_EQ(failures({2.0, 1.9, 0.1, 0}, 0.04),
+            (std::vector<std::string>{"window 1 from 0.25 s: 5 % of the particle volume is outside the grid, "
+                                      "allowed are 4 %"}));
+  EXPECT_EQ(failures({2.0, 2.0, 0, 0.1}, 0.04),
+            (std::vector<std::string>{"window 1 from 0.25 s: 5 % of the particle volume was moved to "
+                                      "neighbours, from within walls or above a cap, allowed are 4 %"}));
+  // Nothing may be missing, whatever the tolerance, and nothing may be there twice
+  for (const double deposited : {1.9, 2.1})
+    EXPECT_EQ(failures({2.0, deposited, 0, 0}, 1),
+              (std::vector<std::string>{"window 1 from 0.25 s: 5 % of the particle volume is missing in the "
+                                        "ledger, allowed are 1e-08 %"}));
+  EXPECT_EQ(failures({2.0, 1.7, 0.1, 0.2}, 0.01).size(), 3U);
+}
+
 TEST(OccupiedCells, AreNotThoseThatOnlyTailsOfSmoothingReach) {
   const BoxGrid four({0, 0, 0}, {4, 1, 1}, {4, 1, 1}, {false, false, false});
   const SolidsWindow fields{

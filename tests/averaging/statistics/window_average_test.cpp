@@ -139,6 +139,16 @@ TEST_F(TwoVoxels, WithinTheWallGiveWhatReachesIntoThemToTheirNeighbours) {
   EXPECT_NEAR(window.ledger.deposited, 0.42, 1e-15);
 }
 
+TEST_F(TwoVoxels, WithinTheWallAndFarFromAllOthersLoseWhatReachesIntoThem) {
+  limits.neighbours.clear();
+  const WindowAverage window = average_of(0.001);
+  EXPECT_EQ(window.mean.solidity[0], 0);
+  EXPECT_NEAR(window.mean.solidity[1], 0.4, 1e-15);
+  EXPECT_EQ(window.ledger.clipped, 0);
+  EXPECT_NEAR(window.ledger.deposited, 0.4, 1e-15);
+  EXPECT_NEAR(window.ledger.outside, 0.02, 1e-15);
+}
+
 TEST_F(TwoVoxels, AboveACapGiveTheExcessToTheirNeighbours) {
   limits.solidity_cap = 0.3;
   const WindowAverage window = average_of(1);
