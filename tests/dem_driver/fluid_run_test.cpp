@@ -120,6 +120,35 @@ TEST_F(FluidRun, ADragThatStopsTheSmallestBallWithinTwentyStepsIsRefused) {
   EXPECT_NE(complaint(mixture), "");
 }
 
+TEST(SlowDrag, IsThatOfTheSmallestBallAndItsShape) {
+  const averaging::BoxGrid two({0, 0, 0}, {2, 1, 1}, {2, 1, 1}, {false, false, false});
+  averaging::BallFields fields;
+  fields.inside = {1, 1};
+  fields.solidity = {0, 0.5};
+  fields.diameter = {0, 0.003};
+  fields.exchange = {0, 1};
+  DragLimits limits{true, 0.002, 2500, 1e-5, 0.2, 1};
+  // y = d/d32 = 2/3: e/y + phi + 0.064 e y
+  const double mixture = 0.5 / (2.0 / 3) + 0.5 + 0.064 * 0.5 * (2.0 / 3);
+  const auto largest = [&](double factor) { return largest_drag_step * 2500 / 1e-5 / factor; };
+  const auto complaint = [&](double exchange) {
+    fields.exchange[1] = exchange;
+    return message_of([&] { require_slow_drag(fields, two, limits, "slurry.h5"); });
+  };
+  EXPECT_EQ(complaint(0.999 * largest(mixture)), "");
+  EXPECT_NE(complaint(1.001 * largest(mixture)).find("slurry.h5: the drag at (1.5, 0.5, 0.5) m"),
+            std::string::npos);
+  limits.shape_factor = 3;
+  EXPECT_EQ(complaint(0.999 * largest(3 * mixture)), "");
+  EXPECT_NE(complaint(1.001 * largest(3 * mixture)), "");
+  limits.polydispersity = false;
+  EXPECT_EQ(complaint(0.999 * largest(3)), "");
+  EXPECT_NE(complaint(1.001 * largest(3)), "");
+  // Outside of the mill no ball feels it
+  fields.inside[1] = 0;
+  EXPECT_EQ(complaint(1.001 * largest(3)), "");
+}
+
 TEST_F(FluidRun, FlowsOfAnotherMillAndVoxelsThatDoNotFitItAreRefused) {
   auto mill = small_mill();
   mill.fingerprint.flow = "00000000000000aa";

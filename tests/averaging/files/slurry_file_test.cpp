@@ -108,7 +108,9 @@ TEST_F(SlurryFile, BeginsAtTheFlowTimeOfItsFirstSegment) {
                   {write("a.h5", stretch(0.25, 1, 0.2, 1)), write("b.h5", stretch(1, 2, 0.6, 3))});
   EXPECT_EQ(slurry_begin(whole), 0.25);
   std::filesystem::resize_file(whole, std::filesystem::file_size(whole) / 2);
+  ::testing::internal::CaptureStderr();
   EXPECT_EQ(slurry_begin(whole), std::nullopt);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "HDF5 does not print its own errors";
 }
 
 TEST_F(SlurryFile, WindowsThatAreNotFilledAreMarked) {
