@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "dem_driver/deck.hpp"
@@ -24,8 +25,6 @@ namespace millfoam::dem_driver {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int longest_wait = 100;  // tenths of a second
 
 /// Digits without leading zeros, as the decks have them.
 std::string without_zeros(const std::string& digits) {
@@ -83,16 +82,17 @@ std::vector<fs::path> find_dumps(const CaseFolder& folder) {
   return dumps;
 }
 
-FolderLock::FolderLock(const CaseFolder& folder)
+FolderLock::FolderLock(const CaseFolder& folder, std::chrono::milliseconds longest_wait)
     : file_(open(folder.lock().c_str(), O_RDWR | O_CREAT, 0666)) {
   if (file_ < 0) throw std::runtime_error(folder.lock().string() + ": cannot be written");
-  for (int tenth = 0; flock(file_, LOCK_EX | LOCK_NB) != 0; ++tenth) {
-    if (tenth == longest_wait) {
+  constexpr std::chrono::milliseconds between(100);
+  for (std::chrono::milliseconds waited(0); flock(file_, LOCK_EX | LOCK_NB) != 0; waited += between) {
+    if (waited >= longest_wait) {
       close(file_);
       throw std::runtime_error(folder.dem().string() +
                                ": another millDem runs in this folder, expected one at a time");
     }
-    usleep(100000);
+    std::this_thread::sleep_for(between);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <iosfwd>
@@ -75,10 +76,12 @@ std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
 /// The lock is the system's (flock): it ends with the last of these programs, however they end.
 class FolderLock {
  public:
-  /// Locks `dem/lock`, which is made where it is missing; the folder `dem` must exist. Waits up to 10 s for
-  /// programs that a killed run has left behind. Throws std::runtime_error when another run keeps the lock,
-  /// or when the file cannot be written.
-  explicit FolderLock(const CaseFolder& folder);
+  /// Locks `dem/lock`, which is made where it is missing; the folder `dem` must exist. Throws
+  /// std::runtime_error when another run keeps the lock, or when the file cannot be written.
+  /// @param folder  of the case
+  /// @param longest_wait  for programs that a killed run has left behind
+  explicit FolderLock(const CaseFolder& folder,
+                      std::chrono::milliseconds longest_wait = std::chrono::seconds(10));
   /// Gives the lock back, unless a program that this process has started still runs.
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
+#include <memory>
+#include <thread>
 
 #include "dem_driver/segments.hpp"
 #include "millfoam_version.hpp"
@@ -73,6 +76,31 @@ TEST(CaseFolder, ContactsThatAreMissingAreCounted) {
   EXPECT_EQ(contacts_complaint(folder, plan, 120),
             folder.contacts().string() + ": 2 walls up to step 120, expected 3");
   EXPECT_EQ(contacts_complaint(folder, plan, 49), "");
+}
+
+TEST(FolderLock, IsKeptByOneRunAtATime) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  prepare_folders(folder);
+  {
+    const FolderLock first(folder);
+    EXPECT_EQ(message_of([&] { FolderLock(folder, std::chrono::milliseconds(150)); }),
+              folder.dem().string() + ": another millDem runs in this folder, expected one at a time");
+  }
+  EXPECT_EQ(message_of([&] { FolderLock(folder, std::chrono::milliseconds(0)); }), "");
+}
+
+TEST(FolderLock, WaitsForProgramsThatAKilledRunHasLeft) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  prepare_folders(folder);
+  auto first = std::make_unique<FolderLock>(folder);
+  std::thread ends([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    first.reset();
+  });
+  EXPECT_EQ(message_of([&] { FolderLock second(folder); }), "");
+  ends.join();
 }
 
 TEST(CaseFolder, AMissingWallIsNamed) {

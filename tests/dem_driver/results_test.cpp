@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
@@ -102,6 +106,49 @@ TEST_F(ResultsTest, OverlapsOfTheStepFromWhichARunResumesAreCountedOnce) {
 TEST_F(ResultsTest, ARunWithoutContactsHasNoOverlap) {
   write("dem/wallOverlaps.0.txt", "10 1000 0 0 1e20 -1e20\n");
   EXPECT_EQ(read_overlaps(folder_, "wallOverlaps", 0.01).percentile(0.99), 0);
+}
+
+TEST(PrintedResults, SayWhatWasMadeAndWhetherItIsSteady) {
+  DemPlan plan = plan_dem(tests::small_mill());
+  Results results;
+  results.balls = 250;
+  results.run.balls = 247;
+  results.run.wall_time = 12.5;
+  results.run.dumps = 31;
+  results.resting_speed = 0.0125;
+  results.power = std::vector<double>(30, 0.5);
+  for (std::size_t i = 0; i < 30; ++i) results.time.push_back(0.01 * static_cast<double>(i + 1));
+  results.power_steadiness = {true, 4, 0.5, 0.002, 0};
+  results.kinetic_steadiness = {true, 9, 1e-4, 1e-6, 0};
+  results.potential_steadiness = {true, 2, -2e-3, 1e-6, 0};
+  results.ball_overlaps = {{0, 99, 1}, 2e-6, 100, 5.5e-6};
+  const auto printed = [&] {
+    std::ostringstream out;
+    print_results(out, plan, results);
+    return out.str();
+  };
+  const auto expect_line = [&](const std::string& line) {
+    EXPECT_NE(printed().find(line + '\n'), std::string::npos) << printed();
+  };
+  const double million = 250e-6 * static_cast<double>(plan.total_steps()) / 12.5;
+  std::ostringstream speed;
+  speed << std::setprecision(4) << "done: 250 balls, 3 lost, " << plan.total_steps() << " steps of "
+        << 1e6 * plan.step.value << " us in 12.5 s (" << million << " million particle-steps per second)";
+  expect_line(speed.str());
+  expect_line("charge at DEM time 0: rms speed 0.0125 m/s");
+  expect_line("power 0.5 +- 0.002 W, kinetic energy 0.0001 J, potential energy -0.002 J");
+  expect_line("steady from 0.1 s of DEM time on");
+  expect_line("overlap of two balls: 99 % below 4 um, largest 5.5 um, 0.275 % of the smallest diameter");
+  expect_line("overlap of balls and walls: no contact was counted");
+  expect_line("31 dumps, one every " + std::to_string(plan.step.steps_per_record) + " steps");
+
+  results.potential_steadiness.steady = false;
+  results.power_steadiness.standard_error = std::nan("");
+  plan.dumps = 0;
+  expect_line("power 0.5 W, kinetic energy 0.0001 J, potential energy -0.002 J");
+  expect_line("NOT STEADY: power, kinetic or potential energy still change; raise dem.duration");
+  expect_line("no dumps (dem.dumps: no), " + std::to_string(plan.records) + " records, one every " +
+              std::to_string(plan.step.steps_per_record) + " steps");
 }
 
 TEST_F(ResultsTest, OnlyWholeRestartFilesAreFoundInTheOrderOfTheirSteps) {

@@ -122,6 +122,20 @@ TEST_F(Resumption, ACompleteRunIsMadeLongerFromItsRestartFileOrNotAtAll) {
   expect_refused(longer_, "no complete restart file with the averages of its step");
 }
 
+TEST_F(Resumption, ARunMayHaveOtherRanksAndAnotherLengthButNoOtherDeck) {
+  const auto deck_of = [](const std::string& ranks, const std::string& steps, const std::string& seed) {
+    return "processors " + ranks + "\ninsert " + seed + "\nthermo " + steps + "\nfix h all ave/histo " +
+           steps + " 1 0 5\nrun " + steps + " upto every 10\n";
+  };
+  run_to(plan_.restart_steps);
+  write(folder_.deck(), deck_of("1 1 1", "300", "7"));
+  EXPECT_EQ(step(plan_, deck_of("2 1 1", "400", "7")), plan_.restart_steps);
+  expect_refused(plan_, "another mill.yaml", deck_of("1 1 1", "300", "8"));
+  // Not the length of a stage before the mill turns
+  write(folder_.deck(), deck + "run 50\n");
+  expect_refused(plan_, "another mill.yaml", deck + "run 60\n");
+}
+
 TEST_F(Resumption, ACompleteRunIsNotMadeShorter) {
   complete_run();
   std::filesystem::remove(restart(plan_.end_step()));

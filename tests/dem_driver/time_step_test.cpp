@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "dem_driver/contact.hpp"
 #include "small_mill.hpp"
@@ -108,6 +110,56 @@ TEST(TimeStep, TheReportWarnsOfBallsThatAreStifferThanRealOnesOrNotStiffEnough) 
   EXPECT_EQ(warning(mill), "");
   mill.dem.largest_overlap = 1e-9;
   EXPECT_EQ(warning(mill).find("WARNING: dem.largest_overlap, 1e-07 %, is not kept"), 0u) << warning(mill);
+}
+
+TEST(Softness, HarderBallsOverlapLessAndCostMoreByHertzAndRayleigh) {
+  auto mill = small_mill();
+  mill.dem.rayleigh_fraction = 0.01;
+  mill.dem.youngs_modulus = 1e8;
+  const std::vector<Softness> table = softness_table(mill);
+  ASSERT_EQ(table.size(), 7U);
+  const std::vector<double> moduli{5e6, 1e7, 3e7, 1e8, 1e9, 1e10, 6e10};
+  const TimeStep chosen = choose_time_step(mill);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    EXPECT_EQ(table[i].modulus, moduli[i]);
+    // The largest overlap goes with E^-0.4, the step with E^-0.5 and is cut to a whole number of records
+    EXPECT_NEAR(table[i].overlap / chosen.overlap.ratio, std::pow(moduli[i] / 1e8, -0.4), 1e-9);
+    const double cut = 2 * std::max(table[i].time_step, chosen.value) / mill.dem.record_interval;
+    EXPECT_NEAR(table[i].time_step / chosen.value / std::pow(moduli[i] / 1e8, -0.5), 1, cut);
+    EXPECT_DOUBLE_EQ(table[i].cost, chosen.value / table[i].time_step);
+  }
+  EXPECT_EQ(table[3].time_step, chosen.value);
+}
+
+TEST(Softness, EndsAtTheBallsOwnModulus) {
+  auto mill = small_mill();
+  const auto moduli = [&](double real) {
+    mill.ball.youngs_modulus = real;
+    std::vector<double> result;
+    for (const Softness& row : softness_table(mill)) result.push_back(row.modulus);
+    return result;
+  };
+  EXPECT_EQ(moduli(3e7), (std::vector<double>{5e6, 1e7, 3e7}));
+  EXPECT_EQ(moduli(2e7), (std::vector<double>{5e6, 1e7, 2e7}));
+  EXPECT_EQ(moduli(5e6), (std::vector<double>{5e6}));
+}
+
+TEST(Softness, IsPrintedAsATable) {
+  const auto mill = small_mill();
+  std::ostringstream out;
+  print_advice(out, mill);
+  std::istringstream lines(out.str());
+  std::string heading;
+  std::getline(lines, heading);
+  EXPECT_EQ(heading, "softness: modulus Pa   largest overlap %   time-step us   cost");
+  for (const Softness& row : softness_table(mill)) {
+    double modulus = 0, overlap = 0, step = 0, cost = 0;
+    ASSERT_TRUE(lines >> modulus >> overlap >> step >> cost);
+    EXPECT_NEAR(modulus / row.modulus, 1, 5e-3);
+    EXPECT_NEAR(overlap / (100 * row.overlap), 1, 5e-3);
+    EXPECT_NEAR(step / (1e6 * row.time_step), 1, 5e-3);
+    EXPECT_NEAR(cost / row.cost, 1, 5e-3);
+  }
 }
 
 TEST(TimeStep, AMillWithoutBallsIsRefused) {

@@ -73,6 +73,14 @@ TEST(MeshQuality, compares_the_volumes_of_neighbours) {
   EXPECT_NEAR(quality(mesh).max_volume_ratio, 2.5, 1e-14);
 }
 
+TEST(ChamberVolume, leaves_out_what_is_behind_the_mills_length) {
+  VolumeMesh mesh = two_cells([](double) { return 0.0; });
+  for (auto& point : mesh.points)
+    point = {point.y(), point.z(), 2 * point.x()};  // along z, from -2 to 0 to 2
+  EXPECT_NEAR(chamber_volume(mesh, 0), 2, 1e-15);
+  EXPECT_NEAR(chamber_volume(mesh, 1.5), 4, 1e-15);
+}
+
 TEST(MeshQuality, says_where_the_worst_is) {
   VolumeMesh mesh = two_cells([](double x) { return x > 0 ? 0.4 * x : 0; });
   for (Eigen::Vector3d& point : mesh.points) {
