@@ -3,20 +3,49 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
+#include "meshing/surface/pi.hpp"
 #include "tests/meshing/test_geometry.hpp"
 
 namespace millfoam::meshing {
 namespace {
 
-std::string report_of(const Geometry& geometry, double ball) {
+/// A mill's mesh of 20 layers, what is measured on it, and its report.
+struct Reported {
+  Geometry geometry;
+  VolumeMesh mesh;
+  MeshQuality measured;
+  std::string report;
+};
+
+Reported reported(const Geometry& geometry, double ball) {
   Mill mill;
   mill.geometry = geometry;
   mill.charge.classes = {{0.001, 1}, {ball, 1}};
   const CrossSection section = make_cross_section(geometry, 0.012);
   const VolumeMesh mesh = make_mill_mesh(section, geometry, 20);
-  return mesh_report(mill, mesh, quality(mesh), find_openings(section, geometry));
+  const MeshQuality measured = quality(mesh);
+  return {geometry, mesh, measured, mesh_report(mill, mesh, measured, find_openings(section, geometry))};
+}
+
+std::string report_of(const Geometry& geometry, double ball) {
+  return reported(geometry, ball).report;
+}
+
+template <typename... Values>
+std::string line(const char* format, Values... values) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
 }
 
 void expect_lines(const std::string& report, const std::vector<std::string>& parts) {
@@ -24,17 +53,32 @@ void expect_lines(const std::string& report, const std::vector<std::string>& par
     EXPECT_NE(('\n' + report).find('\n' + part), std::string::npos) << part << "\n" << report;
 }
 
+/// Edges of the mesh's cells as cubes, m.
+std::vector<double> cell_sizes(const VolumeMesh& mesh) {
+  std::vector<double> sizes;
+  for (const double volume : measure(mesh).cell_volume) sizes.push_back(std::cbrt(volume));
+  return sizes;
+}
+
 TEST(MeshReport, holds_the_quality_against_its_limits) {
-  expect_lines(report_of(mill_with_grates(), 0.002),
-               {"cells                    33200, 1660 of them in the cross-section\n"
-                "faces                    102460\n"
-                "volume                   0.0209316 m^3 (closed form 0.0209509)\n"
-                "volume error             9.19e-04 (limit 0.005)\n"
-                "max non-orthogonality    25.3 degrees (limit 45)\n"
-                "max skewness             0.49 (limit 1)\n"
-                "max volume ratio         2.11 (limit 3)\n"
-                "edges                    3.2 to 15.3 mm\n",
-                "largest ball             2 mm; cells 5.47 mm (smallest), 8.57 mm (mean volume's)\n"});
+  const Reported mill = reported(mill_with_grates(), 0.002);
+  const MeshQuality& q = mill.measured;
+  const double closed_form = analytic_volume(mill.geometry);
+  const std::vector<double> sizes = cell_sizes(mill.mesh);
+  const double mean = std::cbrt(q.volume / static_cast<double>(mill.mesh.cells));
+  expect_lines(
+      mill.report,
+      {line("cells                    %d, %d of them in the cross-section\n", mill.mesh.cells,
+            mill.mesh.cells / 20),
+       line("faces                    %zu\n", mill.mesh.faces.size()),
+       line("volume                   %.6g m^3 (closed form %.6g)\n", q.volume, closed_form),
+       line("volume error             %.2e (limit 0.005)\n", std::abs(q.volume / closed_form - 1)),
+       line("max non-orthogonality    %.1f degrees (limit 45)\n", q.max_non_orthogonality),
+       line("max skewness             %.2f (limit 1)\n", q.max_skewness),
+       line("max volume ratio         %.2f (limit 3)\n", q.max_volume_ratio),
+       line("edges                    %.3g to %.3g mm\n", 1e3 * q.smallest_edge, 1e3 * q.largest_edge),
+       line("largest ball             2 mm; cells %.3g mm (smallest), %.3g mm (mean volume's)\n",
+            1e3 * *std::min_element(sizes.begin(), sizes.end()), 1e3 * mean)});
 }
 
 TEST(MeshReport, says_which_value_is_too_large) {
@@ -61,12 +105,18 @@ TEST(MeshReport, holds_the_areas_of_the_openings_against_those_asked_for) {
 }
 
 TEST(MeshReport, names_the_averages_to_use_where_the_smallest_cell_is_smaller_than_the_largest_ball) {
+  const Reported mill = reported(mill_with_grates(), 0.007);
+  const std::vector<double> sizes = cell_sizes(mill.mesh);
+  const double smallest = *std::min_element(sizes.begin(), sizes.end());
+  const auto below = std::count_if(sizes.begin(), sizes.end(), [](double size) { return size < 0.007; });
+  const double held = 0.5 * std::pow(smallest, 3) / (pi / 6 * std::pow(0.007, 3));
   expect_lines(
-      report_of(mill_with_grates(), 0.007),
-      {"largest ball             7 mm; cells 5.47 mm (smallest), 8.57 mm (mean volume's)\n"
-       "advice: 44.3 % of the cells are smaller than the largest ball, of which the smallest holds 0.46 in a "
-       "dense charge; drag laws were derived on averages over 8 to 64: average on voxels coarser than the "
-       "cells (millAverage --box), or on the mesh with --smooth; see averaging/README.md\n"});
+      mill.report,
+      {line(
+          "advice: %.3g %% of the cells are smaller than the largest ball, of which the smallest holds %.2g "
+          "in a dense charge; drag laws were derived on averages over 8 to 64: average on voxels coarser "
+          "than the cells (millAverage --box), or on the mesh with --smooth; see averaging/README.md\n",
+          100.0 * static_cast<double>(below) / static_cast<double>(sizes.size()), held)});
   EXPECT_EQ(report_of(mill_with_grates(), 0.002).find("advice"), std::string::npos);
 }
 
