@@ -220,6 +220,24 @@ TEST_F(FlowExchangeTest, gives_the_balls_the_torque_of_the_flow) {
   EXPECT_EQ(added[2], 0);
 }
 
+TEST_F(FlowExchangeTest, meets_every_step_of_a_flow_with_steps_shorter_than_the_balls) {
+  const double volume = pi / 6 * diameter * diameter * diameter;
+  start([&](ExchangePipes& pipes) {
+    greet(pipes);
+    // Ends nearest to the balls' step 0, and nearest to their step 1
+    pipes.send(pack(averaging::ForcesUntil{0.4 * dem_step, 0, uniform(1e4, 0, 0)}));
+    const auto again = averaging::unpack_solids(pipes.receive(averaging::SolidsAt::kind), box.size());
+    EXPECT_EQ(again.time, 0);
+    pipes.send(pack(averaging::ForcesUntil{0.8 * dem_step, 0, uniform(2e4, 0, 0)}));
+  });
+  FlowExchange exchange(order(), first_step, alone_);
+  exchange.meet(first_step, ball());
+  flow_.get();
+  EXPECT_FALSE(exchange.due(first_step));
+  EXPECT_TRUE(exchange.due(first_step + 1));
+  EXPECT_NEAR(exchange.on({{0.015, 0.02, 0.01}, {0.5, 0, 0}, diameter}).pressure[1], 2e4 * volume, 1e-12);
+}
+
 TEST_F(FlowExchangeTest, lets_the_flow_end_within_the_last_record) {
   for (const long before : {100L, 101L}) {
     start([&](ExchangePipes& pipes) {
