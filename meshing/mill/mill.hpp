@@ -157,11 +157,19 @@ struct Dem {
 };
 
 /// Bingham slurry under air.
+/// A Bingham slurry. Below the shear rate tau0/((viscosity_ratio - 1) mu) it is a Newtonian liquid of its
+/// largest viscosity.
 struct Slurry {
-  double density = 0;            ///< kg/m^3
-  double plastic_viscosity = 0;  ///< Pa s
-  double yield_stress = 0;       ///< Pa
-  double surface_tension = 0;    ///< N/m
+  static constexpr double usual_viscosity_ratio = 1000;
+
+  double density = 0;                              ///< kg/m^3
+  double plastic_viscosity = 0;                    ///< Pa s
+  double yield_stress = 0;                         ///< Pa
+  double surface_tension = 0;                      ///< N/m
+  double viscosity_ratio = usual_viscosity_ratio;  ///< its largest viscosity over the plastic one
+
+  /// Shear rate below which it has no yield stress, 1/s.
+  double liquid_below() const { return yield_stress / ((viscosity_ratio - 1) * plastic_viscosity); }
 };
 
 /// Air above the slurry.

@@ -178,7 +178,9 @@ Slurry read_slurry(const Section& in) {
   return {in.number("density", density()),
           in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
           in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
-          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07)};
+          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07),
+          in.number("viscosity_ratio", from_to("the largest viscosity over the plastic one,", 10, 1e9),
+                    Slurry::usual_viscosity_ratio)};
 }
 
 /// Gases reach a liquid's density and viscosity at the critical point at most.
@@ -253,8 +255,8 @@ void read_tumbling(const Section& in, Mill& mill) {
                             mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", and_more(dem_keys, {"fluid", "fluid_level"}));
   mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
-  Section slurry =
-      in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
+  Section slurry = in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension",
+                                         "viscosity_ratio", "level"});
   mill.slurry = read_slurry(slurry);
   mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
   Section resolution = in.optional_section("resolution", {"cell_size", "counts", "layers", "last_layer"});
@@ -271,8 +273,8 @@ void read_stirred_flow(const Section& in, Mill& mill) {
       if (in.has(key)) in.refuse(key, "this key with slurry only: without it the mill has a dry run alone");
     return;
   }
-  Section slurry =
-      in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension", "level"});
+  Section slurry = in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension",
+                                         "viscosity_ratio", "level"});
   mill.slurry = read_slurry(slurry);
   mill.air = read_air(in.optional_section("air", {"density", "viscosity"}));
   const double radius = mill.geometry.radius();

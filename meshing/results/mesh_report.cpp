@@ -19,6 +19,9 @@ namespace {
 
 /// Solidity of a charge in motion, for the advice only.
 constexpr double charge_solidity = 0.5;
+/// Shear rate, 1/s, down to which a slurry has its yield stress without an advice: below a mill's own, of
+/// 2 to 10.
+constexpr double slowest_yield = 1;
 
 template <typename... Values>
 std::string line(const char* format, Values... values) {
@@ -40,6 +43,20 @@ std::string shape_lines(const Charge& charge) {
         1e3 * least_radius_of_curvature(*size.shape), 1e3 * longest_way(size));
   }
   return lines;
+}
+
+/// What is left of the yield stress of a slurry whose largest viscosity is limited.
+std::string slurry_lines(const Slurry& slurry) {
+  const double below = slurry.liquid_below();
+  if (!(below > 0)) return {};
+  std::string text = line("slurry                   a liquid of %.3g Pa s below a shear rate of %.3g 1/s",
+                          slurry.viscosity_ratio * slurry.plastic_viscosity, below);
+  if (below <= slowest_yield) return text;
+  const double enough = slurry.yield_stress / (slowest_yield * slurry.plastic_viscosity) + 1;
+  return text + line(
+                    "advice: slurry that moves more slowly has no yield stress; with slurry.viscosity_ratio "
+                    "%.2g it has one down to %g 1/s, in a flow that may need more time",
+                    enough, slowest_yield);
 }
 
 std::string quality_line(const char* what, const char* format, double value, double limit) {
@@ -102,7 +119,8 @@ std::string mill_lines(const MillDescription& description) {
         "fines                    %.4g kg (%.3g %% of the mass) are left out; with them the load is %.3g %%",
         charge.fines_mass, 100 * charge.fines_mass / (charge.mass + charge.fines_mass),
         100 * charge.load_asked);
-  return text + line("fingerprint              %s", description.mill.fingerprint.flow.c_str());
+  return text + slurry_lines(mill.slurry) +
+         line("fingerprint              %s", description.mill.fingerprint.flow.c_str());
 }
 
 std::string stirred_lines(const MillDescription& description) {
@@ -117,7 +135,7 @@ std::string stirred_lines(const MillDescription& description) {
               mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
               mill.sense()) +
          line("charge                   %ld balls, %.4g kg", charge.balls, charge.mass) +
-         shape_lines(mill.charge) +
+         shape_lines(mill.charge) + (mill.has_flow() ? slurry_lines(mill.slurry) : "") +
          line("fingerprint              %s", description.mill.fingerprint.charge.c_str());
 }
 

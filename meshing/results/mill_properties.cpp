@@ -55,6 +55,7 @@ void write_fluids(Entries& out, const Mill& mill) {
   out.number("slurryViscosity", mill.slurry.plastic_viscosity);
   out.number("slurryKinematicViscosity", mill.slurry.plastic_viscosity / mill.slurry.density);
   out.number("yieldStress", mill.slurry.yield_stress);
+  out.number("slurryViscosityRatio", mill.slurry.viscosity_ratio);
   out.number("surfaceTension", mill.slurry.surface_tension);
   out.number("airDensity", mill.air.density);
   out.number("airViscosity", mill.air.viscosity);

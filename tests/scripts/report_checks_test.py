@@ -331,6 +331,42 @@ class BallsInTheFlow(Verdicts):
             self.check(checks.continuity(case(steps=steps)), state)
         self.check(checks.continuity(case()), "unknown")
 
+    def test_slurry_that_has_no_yield_stress_where_it_moves_slowly(self):
+        for stress, ratio, state in ((0.9, 101, "holds"), (1.1, 101, "look"), (10.1, 101, "fails"),
+                                     (10.1, 1101, "holds")):
+            slurry = {"yield_stress_Pa": stress, "plastic_viscosity_Pa_s": 0.01}.get
+            found = checks.yield_stress(case(mill=SimpleNamespace(slurry=slurry, viscosity_ratio=ratio)))
+            self.check(found, state)
+            self.assertIn(f"below a shear rate of {stress / (0.01 * (ratio - 1)):.2g} 1/s", found.found)
+            self.assertIn(f"a liquid of {0.01 * ratio:.2g} Pa s", found.found)
+
+    def test_drag_by_the_plastic_viscosity_where_the_pores_shear_slowly(self):
+        # 12 slip/d is 240 1/s; the slip is known at written times
+        steps = {"slip_m_per_s": np.array([np.nan, 0.15, 0.05])}
+        for stress, ratio, state in ((1.1, 1000, "holds"), (1.3, 1000, "look"), (4.9, 1000, "fails"),
+                                     (4.9, 1.4, "holds")):
+            slurry = {"yield_stress_Pa": stress, "plastic_viscosity_Pa_s": 0.01}.get
+            mill = SimpleNamespace(slurry=slurry, viscosity_ratio=ratio, sauter_diameter=0.005)
+            found = checks.drag_viscosity(case(mill=mill, steps=steps))
+            self.check(found, state)
+            self.assertIn("pores shear at 240 1/s", found.found)
+            self.assertIn(f"{1 + min(stress / 2.4, ratio - 1):.3g} times as much", found.found)
+        self.check(checks.drag_viscosity(case(mill=mill)), "unknown")
+
+    def test_the_viscosity_is_checked_where_the_slurry_yields_and_the_drag_is_by_the_plastic_one(self):
+        def names(**derived):
+            folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+            write_flow(folder)
+            for section, entries in derived.items():
+                for key, value in entries.items():
+                    change_json(folder / "mill.json", "derived", section, key, to=value)
+            return {check.name for check in checks.all_checks(MillCase(folder))}
+
+        both = {"Slow slurry keeps its yield stress", "The drag has the slurry's viscosity"}
+        self.assertEqual(names() & both, both)
+        self.assertEqual(names(flow={"viscosity": "pore"}) & both, {"Slow slurry keeps its yield stress"})
+        self.assertEqual(names(slurry={"yield_stress_Pa": 0}) & both, set())
+
     def test_slurry_beyond_the_drag_laws_range_in_the_mean_over_time(self):
         for share, state in ((0.19, "holds"), (0.21, "look"), (0.51, "fails")):
             # A short step of another share, and one in which it is not known

@@ -178,6 +178,12 @@ class Mill:
         """A number of the slurry: density_kg_m3, plastic_viscosity_Pa_s, yield_stress_Pa."""
         return self.derived("slurry", key)
 
+    @property
+    def viscosity_ratio(self) -> float:
+        """Of the slurry's largest viscosity and the plastic one; that of a mill.json before the key is 1000."""
+        slurry = entry(self.content, self.path, "derived", "slurry")
+        return number(slurry, self.path, "viscosity_ratio") if "viscosity_ratio" in slurry else 1000.0
+
     def flow(self, key: str, default: Any = None) -> Any:
         """A derived value of the flow, or the default if the mill has none."""
         return (self.content["derived"].get("flow") or {}).get(key, default)

@@ -4,8 +4,8 @@ from ..files.mill_case import MillCase
 from .charge_checks import (averaging_volume, charge_steadiness, contact_balance, follows_shell, ledger, lost_balls,
                             overlap, torque_balance, window_noise)
 from .coupling_section import coupling_checks
-from .flow_checks import (conservation, continuity, courant, drag_range, mesh, one_way, slurry_torques,
-                          solids_on_mesh)
+from .flow_checks import (conservation, continuity, courant, drag_range, drag_viscosity, mesh, one_way, slurry_torques,
+                          solids_on_mesh, yield_stress)
 from .stages import same_mill
 from .steadiness import flow_steadiness
 from .verdict import Check
@@ -19,6 +19,10 @@ def all_checks(case: MillCase) -> list[Check]:
     if case.flow:
         functions += [conservation, flow_steadiness, courant, mesh]
         functions += [slurry_torques] if "torque_balls" in (case.balance or {}) else []
+        yields = case.mill.slurry("yield_stress_Pa") > 0
+        functions += [yield_stress] if yields else []
+        plastic = case.mill.flow("viscosity", "plastic") == "plastic"
+        functions += [drag_viscosity] if yields and plastic and case.law else []
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]
         # Slurry that the balls feel takes a part of the torque

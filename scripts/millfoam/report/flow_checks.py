@@ -12,6 +12,8 @@ CONSERVED = 1e-6  # of the hold-up that may be missing
 CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
 TORQUES = 0.05  # of the impeller's torque on balls and slurry that the slurry's balance may miss
+SLOWEST_YIELD = 1.0  # 1/s, down to which a slurry has its yield stress: below a mill's own rate of 2 to 10
+APPARENT = 1.5  # times the plastic viscosity, that the slurry may have in the pores
 CONTINUITY = 15.0  # % of the slip, of the flow that the balls' averages drive by not being continuous
 LIGHT, HEAVY = 0.2, 0.5  # of the balls' weight, force of the fluid: its mean, and what 95 % of the balls stay below
 # Share of the time-steps that may go beyond a multiple of a limit. A step follows from the one before, so some go
@@ -138,6 +140,36 @@ def drag_range(case: MillCase) -> Check:
                   f"(limit {OUT_OF_RANGE:g} %)", "Compare with a law of another range (millDrag --ranges, flow.law).",
                   doubtful=50,
                   meaning="beyond the range the drag is extrapolated; another law shows how much that matters")
+
+
+def yield_stress(case: MillCase) -> Check:
+    """Whether slurry that hardly moves keeps its yield stress, although its viscosity has a largest value."""
+    slurry = case.mill.slurry
+    below = slurry("yield_stress_Pa") / ((case.mill.viscosity_ratio - 1) * slurry("plastic_viscosity_Pa_s"))
+    return judged("Slow slurry keeps its yield stress", below, SLOWEST_YIELD,
+                  f"below a shear rate of {below:.2g} 1/s (limit {SLOWEST_YIELD:g} 1/s) it is a liquid of "
+                  f"{case.mill.viscosity_ratio * slurry('plastic_viscosity_Pa_s'):.2g} Pa s",
+                  "Raise slurry.viscosity_ratio; the flow may need more time.", doubtful=10 * SLOWEST_YIELD,
+                  meaning="where slurry is sheared more slowly, it flows although it should not")
+
+
+def drag_viscosity(case: MillCase) -> Check:
+    """Whether drag by the plastic viscosity is near that by the apparent viscosity of the slurry in the pores.
+
+    The pores shear at 12 phi v/((1 - phi) d), with the mean slip v and a solidity phi of 0.5.
+    """
+    name = "The drag has the slurry's viscosity"
+    slip = column(case, "slip_m_per_s")
+    if slip is None:
+        return Check(name, "unknown", "steps.csv has no slip between slurry and balls", NO_STEPS)
+    speed = float(np.nanmean(slip))
+    rate = 12 * speed / case.mill.sauter_diameter
+    yields = case.mill.slurry("yield_stress_Pa") / case.mill.slurry("plastic_viscosity_Pa_s")
+    apparent = 1 + min(yields / rate, case.mill.viscosity_ratio - 1)
+    return judged(name, apparent, APPARENT, f"the drag takes the plastic viscosity; with a slip of {speed:.2g} m/s the "
+                  f"pores shear at {rate:.3g} 1/s, where the slurry has {apparent:.3g} times as much (limit "
+                  f"{APPARENT:g})", "Compare with flow.viscosity: pore.", doubtful=3,
+                  meaning="slurry passes slowly between the balls more easily than it should")
 
 
 def continuity(case: MillCase) -> Check:

@@ -66,6 +66,7 @@ TEST(ReadMill, fills_in_the_documented_defaults) {
   const Mill mill = read(with(example_mill, "title: example\n", ""));
   EXPECT_EQ(mill.title, "mill");
   EXPECT_EQ(mill.slurry.surface_tension, 0.07);
+  EXPECT_EQ(mill.slurry.viscosity_ratio, 1000);
   EXPECT_EQ(mill.air.density, 1.2);
   EXPECT_EQ(mill.air.viscosity, 1.8e-5);
   EXPECT_DOUBLE_EQ(mill.charge.start_radius, 0.06 - 0.008 - 0.004);

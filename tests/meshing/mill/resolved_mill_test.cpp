@@ -67,6 +67,9 @@ TEST(Fingerprints, change_with_what_a_stage_depends_on_alone) {
   EXPECT_EQ(changed("flow.coupling=iterated").flow, mill.flow);
   EXPECT_EQ(changed("flow.passes=3").flow, mill.flow);
   EXPECT_NE(changed("flow.law=Hill").flow, mill.flow);
+  EXPECT_EQ(changed("slurry.viscosity_ratio=1000").flow, mill.flow);
+  EXPECT_NE(changed("slurry.viscosity_ratio=2000").flow, mill.flow);
+  EXPECT_EQ(changed("slurry.viscosity_ratio=2000").averages, mill.averages);
   EXPECT_EQ(changed("resolution.layers=4").walls, mill.walls);
   EXPECT_EQ(changed("resolution.last_layer=0.002").walls, mill.walls);
   EXPECT_NE(changed("resolution.last_layer=0.002").flow, mill.flow);

@@ -81,6 +81,26 @@ TEST(MeshReport, holds_the_quality_against_its_limits) {
             1e3 * *std::min_element(sizes.begin(), sizes.end()), 1e3 * mean)});
 }
 
+TEST(MeshReport, says_below_which_shear_rate_a_slurry_has_no_yield_stress) {
+  MillDescription description;
+  description.mill.geometry = mill_with_grates();
+  description.mill.slurry = {1239, 0.0014, 0.16, 0.07};
+  const auto lines = [&] { return mill_lines(description); };
+  expect_lines(lines(), {"slurry                   a liquid of 1.4 Pa s below a shear rate of 0.114 1/s\n"});
+  EXPECT_EQ(lines().find("advice"), std::string::npos);
+  description.mill.slurry.yield_stress = 14;
+  // 14 Pa over 0.0014 Pa s and 1 /s
+  expect_lines(
+      lines(),
+      {"slurry                   a liquid of 1.4 Pa s below a shear rate of 10 1/s\n"
+       "advice: slurry that moves more slowly has no yield stress; with slurry.viscosity_ratio 1e+04 "
+       "it has one down to 1 1/s"});
+  description.mill.slurry.viscosity_ratio = 10001;
+  EXPECT_EQ(lines().find("advice"), std::string::npos);
+  description.mill.slurry.yield_stress = 0;
+  EXPECT_EQ(lines().find("slurry "), std::string::npos);
+}
+
 TEST(MeshReport, says_which_value_is_too_large) {
   const Geometry geometry = mill_with_grates();
   const CrossSection section = make_cross_section(geometry, 0.012);

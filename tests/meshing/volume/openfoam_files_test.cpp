@@ -104,8 +104,8 @@ TEST(MillProperties, hold_one_plain_line_per_number) {
   for (const char* line :
        {"\nradius 0.06;\n", "\nlength 0.024;\n", "\nlifterHeight 0.008;\n", "\nendsType plain;\n",
         "\ntime0 0.25;\n", "\nballDensity 2700;\n", "\nslurryDensity 1239;\n", "\nslurryViscosity 0.0014;\n",
-        "\nyieldStress 0.16;\n", "\nsurfaceTension 0.07;\n", "\n    level -0.012;\n", "\nairDensity 1.2;\n",
-        "\nairViscosity 1.8e-05;\n"}) {
+        "\nyieldStress 0.16;\n", "\nslurryViscosityRatio 1000;\n", "\nsurfaceTension 0.07;\n",
+        "\n    level -0.012;\n", "\nairDensity 1.2;\n", "\nairViscosity 1.8e-05;\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
   const auto number = [&](const std::string& key) {
