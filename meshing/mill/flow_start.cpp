@@ -59,10 +59,8 @@ FlowStart read_start(const Section& flow, Section& slurry, bool with_balls, cons
     return stirred ? at_rest(at, balls, pores, mill) : at_level(at);
   }
   if (in.has("volume")) {
-    start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)",
-                                                  flow_volume(mill.geometry) * mill.whole_length /
-                                                      mill.geometry.length)) *
-                   mill.geometry.length / mill.whole_length;
+    start.volume = in.number("volume", zero_up_to("a volume in m^3 (of the whole mill)", mill.whole_volume)) *
+                   flow_volume(mill.geometry) / mill.whole_volume;
   } else {
     start.volume = pores * in.number("fill",
                                      {"a share of the resting charge's pores of 0 or more and up to 20",

@@ -323,6 +323,7 @@ struct Mill {
   std::string title;        ///< for people and pictures
   Geometry geometry;        ///< walls and openings
   double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
+  double whole_volume = 0;  ///< flow_volume of the same, m^3
   /// rad/s, right-handed about +z: negative turns clockwise with x right and y up.
   double angular_velocity = 0;
   Charge charge;                                        ///< the balls

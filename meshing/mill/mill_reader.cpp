@@ -12,6 +12,7 @@
 #include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_flow.hpp"
 #include "meshing/mill/mill_geometry.hpp"
+#include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
@@ -224,6 +225,7 @@ void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
   resolution.alternatives({"cell_size", "counts"});
   mill.resolution = read_resolution(resolution, mill.geometry);
   mill.whole_length = mill.geometry.length;
+  mill.whole_volume = flow_volume(mill.geometry);
   if (geometry.has("slice")) take_slice(geometry, mill);
   if (mill.geometry.ends == Ends::plain && mill.resolution.layers < 2)
     resolution.refuse(
@@ -291,6 +293,7 @@ void read_stirred_flow(const Section& in, Mill& mill) {
 void read_stirred(const Section& in, Mill& mill) {
   mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
   mill.whole_length = mill.geometry.length;
+  mill.whole_volume = flow_volume(mill.geometry);
   Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
   mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
   read_materials(in, mill);

@@ -114,6 +114,13 @@ TEST(FlowStart, by_level_volume_or_fill_of_the_pores) {
 TEST(FlowStart, volumes_are_those_of_the_whole_mill) {
   const std::string whole = with(bare_mill, "ends: periodic", "ends: plain, slice: 0.05");
   EXPECT_DOUBLE_EQ(mill_of(whole, {"flow.start.volume=0.002"}).flow.start.volume, 0.001);
+  // A part of it is in the pulp lifters, 25 mm deep behind 100 mm
+  const std::string lifted = with(
+      bare_mill, "ends: periodic",
+      "ends: plain, slice: 0.05, inlet: {radius: 0.09}, grates: {inner_radius: 0.12, outer_radius: 0.25, "
+      "sectors: 12, sector_share: 0.8, open_fraction: 0.3}, "
+      "pulp_lifters: {depth: 0.025, layers: 2, discharge_radius: 0.09}");
+  EXPECT_DOUBLE_EQ(mill_of(lifted, {"flow.start.volume=0.002"}).flow.start.volume, 0.0008);
 }
 
 TEST(FlowStart, is_refused_when_given_twice_or_too_large) {
