@@ -5,6 +5,7 @@ have the slope of spheres, and blunt bodies pile up steeper. Piles that are comp
 import argparse
 import json
 import shutil
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -13,6 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.readings.means import Mean, block_mean
+from millfoam.run import write_table
 from repose import DIAMETER, Ledge, Shape, run_pile, slope
 
 HERE = Path(__file__).parent.resolve()
@@ -67,7 +69,7 @@ def text(difference: Mean) -> str:
     return f"{difference.value:+.2f} ± {difference.reach:.2f} degrees (95 % confidence)"
 
 
-def main() -> None:
+def main() -> int:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true", help="two smaller piles of each shape, in the folder quick/")
@@ -90,12 +92,11 @@ def main() -> None:
     lines += [f"{verdict}: {sentence}" for verdict, sentence in judged]
     if any(verdict == UNDECIDED for verdict, _ in judged):
         lines.append("More piles decide it: --piles N")
-    (HERE / "repose.txt").write_text("\n".join(lines) + "\n")
+    write_table(lines, HERE / "repose.txt")
     draw({shape.name: found[shape.name, seeds[0]] for shape in SHAPES}, angles, ledge).savefig(
         HERE / "repose.png", dpi=130)
-    if any(verdict != HOLDS for verdict, _ in judged):
-        parser.exit(1, "\n".join(lines) + "\n")
+    return 1 if any(verdict != HOLDS for verdict, _ in judged) else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

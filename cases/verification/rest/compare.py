@@ -19,7 +19,7 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import set_options, write_parameters
+from millfoam.run import limit_table, set_options, write_parameters, write_table
 from mill_slice import FINE, MILL
 from pool_history import largest_speeds
 
@@ -82,26 +82,17 @@ def measure(case):
 
 def report(fluids, pool, out):
     """Writes and prints the table; returns the number of values beyond their limit."""
-    lines = [f"{'':<44} {'found':>11} {'allowed':>9}"]
-    missed = 0
-
-    def row(text, found, allowed):
-        nonlocal missed
-        hit = math.isfinite(found) and found <= allowed
-        missed += not hit
-        lines.append(f"{text:<44} {found:11.3e} {allowed:9.2e}" + ("" if hit else "  MISSED"))
-
-    for name, fluid in fluids.items():
-        row(f"slurry alone ({name}), {len(fluid)} steps: largest m/s", fluid[:, 1].max(), STILL)
-    row(f"pool, {pool.time[-1]:g} s: air, largest m/s", pool.air.max(), MOST_AIR)
-    row("pool: slurry, largest m/s", pool.slurry.max(), MOST_SLURRY)
-    row("pool: relative change of the slurry's volume", pool.volume_change, CONSERVED)
+    lines, missed = limit_table([
+        *((f"slurry alone ({name}), {len(fluid)} steps: largest m/s", fluid[:, 1].max(), STILL)
+          for name, fluid in fluids.items()),
+        (f"pool, {pool.time[-1]:g} s: air, largest m/s", pool.air.max(), MOST_AIR),
+        ("pool: slurry, largest m/s", pool.slurry.max(), MOST_SLURRY),
+        ("pool: relative change of the slurry's volume", pool.volume_change, CONSERVED)])
     lines += ["", "pool, spurious speeds in m/s",
               f"{'time s':>7} {'air max':>9} {'slurry max':>11} {'slurry rms':>11}"]
     lines += [f"{t:7.3f} {air:9.4f} {slurry:11.5f} {rms:11.6f}"
               for t, air, slurry, rms in zip(pool.time, pool.air, pool.slurry, pool.slurry_rms)]
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
     return missed
 
 
