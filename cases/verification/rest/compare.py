@@ -5,11 +5,9 @@
 Slurry alone must stay at rest to round-off. The pool's free surface, exactly flat at the start, does not stay at rest
 with interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported and
 must not increase. Exit code 1 if a check fails."""
-import argparse
 import math
 import shutil
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,7 +17,7 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import limit_table, set_options, write_parameters, write_table
+from millfoam.run import case_options, fresh_runs, limit_table, run_jobs, set_options, write_parameters, write_table
 from mill_slice import FINE, MILL
 from pool_history import largest_speeds
 
@@ -114,14 +112,10 @@ def plot(fluids, pool, steps, out):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--jobs", type=int, default=2)
-    options = parser.parse_args()
+    options = case_options(__doc__)
     here = Path(__file__).parent.resolve()
-    work = here / "runs"
-    shutil.rmtree(work, ignore_errors=True)
-    with ThreadPoolExecutor(options.jobs) as threads:
-        cases = dict(zip(RUNS, threads.map(lambda name: run(name, work, here), RUNS)))
+    work = fresh_runs(here)
+    cases = dict(zip(RUNS, run_jobs(lambda name: run(name, work, here), RUNS, options.jobs)))
     steps, pool = largest_speeds(cases["pool"]), measure(cases["pool"])
     fluids = {"plain ends": largest_speeds(cases["fluid"]), "slice": largest_speeds(cases["slice"])}
     missed = report(fluids, pool, here / "rest.txt")
