@@ -274,6 +274,24 @@ class DiscThroughJumps(unittest.TestCase):
         self.assertTrue(case.missed(run, discs))
 
 
+class Rest(Printed):
+    def test_a_run_that_ended_early_or_moves_misses(self):
+        case = load_case("rest")
+        time = np.linspace(0, case.POOL_END, 21)
+
+        def missed(steps=case.FLUID_STEPS, records=21, fluid=1e-15, air=1.0):
+            speeds = np.column_stack([1e-3 * np.arange(steps), np.full(steps, fluid)])
+            pool = case.Pool(time, air + 0 * time, 0.04 + 0 * time, 0.01 + 0 * time, 1 + 0 * time)
+            for name, values in vars(pool).items():
+                setattr(pool, name, values[:records])
+            return self.report(lambda found, out: case.report(found, pool, out), {"slice": speeds})[0]
+
+        self.assertEqual(missed(), 0)
+        for one in (dict(steps=case.FLUID_STEPS - 1), dict(records=20), dict(fluid=1e-13), dict(fluid=np.nan),
+                    dict(air=3.0), dict(air=np.nan)):
+            self.assertEqual(missed(**one), 1, one)
+
+
 class Transport(unittest.TestCase):
     def test_what_is_not_a_number_misses_its_limit(self):
         case = load_case("rest", "transport.py")
