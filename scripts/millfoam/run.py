@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes and runs OpenFOAM cases from a template."""
+"""Makes and runs OpenFOAM cases from a template, and prints which limits a verification case misses."""
 import argparse
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
@@ -63,3 +63,29 @@ def run_jobs(function: Callable[[Item], Result], items: Iterable[Item], jobs: in
     """[function(item), …] in the items' order, so many at a time."""
     with ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(function, items))
+
+
+def marked(line: str, missed: bool | list[str], word: str = "MISSED") -> str:
+    """A line of a table, with a word at its end if what it shows missed a limit; missed: whether, or the limits'
+    names, which follow the word."""
+    names = f": {', '.join(missed)}" if isinstance(missed, list) else ""
+    return f"{line}  {word}{names}" if missed else line
+
+
+def limit_table(rows: Sequence[tuple[str, float, float]], limit: str = "allowed",
+                word: str = "MISSED") -> tuple[list[str], int]:
+    """Lines of a table of (what, found, largest that is allowed), and how many are larger or not a number; limit: what
+    the head calls the last column."""
+    width = max((len(what) for what, *_ in rows), default=0)
+    lines = [f"{'':<{width}} {'found':>10} {limit:>10}"]
+    beyond = [not found <= largest for _, found, largest in rows]
+    lines += [marked(f"{what:<{width}} {found:10.4g} {largest:10.3g}", bad, word)
+              for (what, found, largest), bad in zip(rows, beyond)]
+    return lines, sum(beyond)
+
+
+def write_table(lines: Iterable[str], out: Path) -> None:
+    """Prints the lines of a verification case's table, and writes them into a file."""
+    text = "\n".join(lines)
+    print(text)
+    out.write_text(text + "\n")

@@ -84,6 +84,7 @@ class FedMill(unittest.TestCase):
     def test_profiles_are_drawn_of_one_run_and_of_several(self):
         output = run(self.case, sys.executable, CASE / "axial.py", ".")
         self.assertRegex(output, r"feed 65\.3 ml/s, discharge")
+        self.assertIn("\n3 Gaussians: not known: 9 places along the axis;", output)
         for name in ("axial.csv", "axial.png", "z_velocity.png"):
             self.assertGreater((self.case / "pictures" / name).stat().st_size, 300, name)
         run(self.case, sys.executable, CASE / "axial_together.py", ".", self.case, "-o", "both.png")

@@ -2,18 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Along the axis: a pool in a mesh that turns; thickness of slices; humps of a profile: sums of Gaussians are found
 again, in noise too."""
+import contextlib
+import io
+import sys
 import tempfile
 import unittest
 import warnings
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 
 from millfoam.files.written_times import MillFlow
-from millfoam.readings.axial import (axial_profile, axial_series, fit_gaussians, gaussians, humps_at_ends,
+from millfoam.readings.axial import (AxialProfile, axial_profile, axial_series, fit_gaussians, gaussians, humps_at_ends,
                                      slice_thickness)
 from report_cases import HEAD, hexahedra, write_field, write_mesh
+from study_scripts import load
 
 Z = np.linspace(0.005, 0.3, 33)
 TWO = (0.003, 0.08, 0.03, 0.002, 0.21, 0.04)
@@ -128,14 +133,62 @@ class Humps(unittest.TestCase):
         self.assertLess(found.fitted(np.linspace(z[0], z[-1], 500)).max(), -0.02)
 
     def test_too_few_slices_are_refused(self):
-        with self.assertRaisesRegex(ValueError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
+        with self.assertRaisesRegex(RuntimeError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
             fit_gaussians(Z[:9], Z[:9], 3)
 
     def test_a_slice_without_slurry_is_named(self):
         profile = self.profile(TWO)
         profile[-1] = np.nan
-        with self.assertRaisesRegex(ValueError, "no slurry in the slice at 300 mm; a fit of 2 Gaussians needs it"):
+        with self.assertRaisesRegex(RuntimeError, "no slurry in the slice at 300 mm; a fit of 2 Gaussians needs it"):
             fit_gaussians(Z, profile, 2)
+
+    def test_a_flat_profile_has_none(self):
+        for height in (np.full(len(Z), BASE), BASE + 1e-12 * Z):
+            with self.assertRaisesRegex(RuntimeError, "the heights differ by .* m; a profile with humps"):
+                fit_gaussians(Z, height, 2)
+
+
+class Printed(unittest.TestCase):
+    """What the 30 cm mill's axial.py prints of a profile."""
+
+    def setUp(self):
+        self.script = load("mills/mill_30cm/axial.py", "mill_30cm_axial")
+
+    def printed(self, slices, dry=()):
+        script = self.script
+        z = Z[:slices]
+        height, holdup = gaussians(z, BASE, *TWO), np.full(slices, 1e-6)
+        height[list(dry)], holdup[list(dry)] = np.nan, 0
+        profile = AxialProfile(z, height, 0 * z, holdup, 100 - 1000 * z + 0 * height)
+        words = io.StringIO()
+        with contextlib.redirect_stdout(words):
+            script.print_profile(profile, script.fit_profile(profile))
+        script.plot_profile(profile, script.fit_profile(profile), io.BytesIO())
+        return words.getvalue()
+
+    def test_one_layer_of_cells_is_refused(self):
+        errors, one = io.StringIO(), np.ones(1)
+        flow = SimpleNamespace(frames=[(1.0, None)])
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(errors), \
+                mock.patch.multiple(self.script, MillFlow=lambda _: flow,
+                                    axial_profile=lambda *_: AxialProfile(one, one, one, one, one)), \
+                mock.patch.object(sys, "argv", ["axial.py", folder]), self.assertRaises(SystemExit):
+            self.script.main()
+        self.assertRegex(errors.getvalue(), "one layer of cells along the axis; expected two or more$")
+
+    def test_gaussians_are_not_known_of_too_few_slices(self):
+        words = self.printed(9)
+        self.assertRegex(words, "(?m)^2 Gaussians: humps at ")
+        self.assertRegex(words, "(?m)^3 Gaussians: not known: 9 places along the axis; a fit of 3 .* at least 10$")
+
+    def test_slices_without_slurry_leave_the_rest(self):
+        words = self.printed(33, dry=(31, 32))
+        self.assertNotIn("nan", words)
+        self.assertRegex(words, "^height .*: mean -58.* mm along the axis; 2 of 33 slices hold no slurry\n")
+        self.assertRegex(words, "(?m)^2 Gaussians: not known: no slurry in the slice at 290.8 mm")
+        self.assertRegex(words, "(?m)^p_rgh .*: 95.0 Pa at z = 5 mm, -181.6 Pa at z = 282 mm, drop 276.6 Pa$")
+        self.assertEqual(self.printed(9, dry=range(9)),
+                         "height of the slurry's centre of mass: not known: no slice holds slurry\n")
 
 
 if __name__ == "__main__":

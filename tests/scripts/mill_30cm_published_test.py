@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
@@ -142,6 +143,16 @@ class Axis(unittest.TestCase):
         self.assertAlmostEqual(found.distances[0].error, 0.004 / np.sqrt(3), delta=4e-4)
         self.assertEqual(found.at_ends, 0)
         self.assertAlmostEqual(found.humps.rmsd, 0, delta=2e-4)
+
+    def test_a_slice_that_one_turn_alone_fills_has_no_error(self):
+        holdup = self.slices.holdup.copy()
+        holdup[1:, 10] = 0  # the profile without the first turn has no slurry there
+        with self.assertRaisesRegex(RuntimeError, r"no slurry in the slice at 107\.5 mm"):
+            read_profile(replace(self.slices, holdup=holdup), 2, LENGTH)
+
+    def test_too_few_slices_are_refused(self):
+        with self.assertRaisesRegex(RuntimeError, "9 places along the axis; a fit of 3 Gaussians needs at least 10"):
+            read_profile(self.slices, 3, 0.134)
 
     def test_pressure_falls_over_the_mill(self):
         for name in ("p_rgh", "level"):

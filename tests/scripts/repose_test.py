@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The verification case repose: the slope of made-up piles, its balls, and its verdicts."""
+import contextlib
+import io
 import math
 import sys
+import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -76,6 +80,27 @@ class Verdicts(unittest.TestCase):
 
     def test_single_piles_have_no_error(self):
         self.assertEqual(self.verdicts(25, 25, 40, error=np.nan), [UNDECIDED, UNDECIDED])
+
+
+class Table(unittest.TestCase):
+    def run_case(self, blunt):
+        """Exit code and table, with piles of blunt bodies of this angle, degrees."""
+        def pile(_, shape, ledge, seed):
+            return heap((blunt if shape.name == "blunt" else 25) + 0.1 * seed)[::4]
+        words = io.StringIO()
+        with tempfile.TemporaryDirectory(prefix="repose-") as folder, contextlib.redirect_stdout(words), \
+                mock.patch.multiple(compare, HERE=Path(folder), pile=pile, LEDGE=LEDGE), \
+                mock.patch.object(sys, "argv", ["compare.py"]):
+            code = compare.main()
+            self.assertEqual((Path(folder) / "repose.txt").read_text(), words.getvalue())
+            self.assertTrue((Path(folder) / "repose.png").exists())
+        return code, words.getvalue().splitlines()
+
+    def test_is_printed_and_fails_unless_all_holds(self):
+        code, lines = self.run_case(30)
+        self.assertEqual((code, [line.split(":")[0] for line in lines[3:]]), (0, [HOLDS, HOLDS]))
+        code, lines = self.run_case(25)
+        self.assertEqual((code, [line.split(":")[0] for line in lines[3:]]), (1, [HOLDS, FAILS]))
 
 
 if __name__ == "__main__":

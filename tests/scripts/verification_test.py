@@ -13,6 +13,7 @@ from unittest import mock
 
 import numpy as np
 
+from millfoam.run import limit_table, marked
 from study_scripts import CASES, load
 
 
@@ -35,6 +36,31 @@ class Printed(unittest.TestCase):
         with contextlib.redirect_stdout(io.StringIO()):
             missed = function(results, self.folder / "table.txt")
         return missed, (self.folder / "table.txt").read_text()
+
+
+class Limits(unittest.TestCase):
+    ROWS = [("at its limit", 0.2, 0.2), ("beyond", 0.20004, 0.2), ("none", np.nan, 1e-14), ("within", -7.125e-16, 1.0)]
+
+    def test_what_is_beyond_its_limit_or_no_number_is_marked_and_counted(self):
+        lines, missed = limit_table(self.ROWS)
+        self.assertEqual(missed, 2)
+        self.assertEqual(lines, ["                  found    allowed",
+                                 "at its limit        0.2        0.2",
+                                 "beyond              0.2        0.2  MISSED",
+                                 "none                nan      1e-14  MISSED",
+                                 "within       -7.125e-16          1"])
+
+    def test_aims_have_other_words(self):
+        lines, missed = limit_table(self.ROWS[:2], "aim", "above the aim")
+        self.assertEqual(([line.split()[-1] for line in lines], missed), (["aim", "0.2", "aim"], 1))
+        self.assertTrue(lines[2].endswith("0.2  above the aim"), lines[2])
+
+    def test_a_line_names_the_limits_that_it_missed(self):
+        for missed, end in ((False, ""), (True, "  MISSED"), ([], ""), (["mean", "spread"], "  MISSED: mean, spread")):
+            self.assertEqual(marked("tank  1.0", missed), "tank  1.0" + end)
+
+    def test_a_table_without_rows_has_its_head_alone(self):
+        self.assertEqual(limit_table([]), (["      found    allowed"], 0))
 
 
 class RotatingDrum(unittest.TestCase):
@@ -91,8 +117,9 @@ class ResidenceTime(unittest.TestCase):
         self.assertEqual(self.missed(missing=np.nan, lowest=np.nan), ["conserved", "bounded"])
 
 
-class Displacement(unittest.TestCase):
+class Displacement(Printed):
     def setUp(self):
+        super().setUp()
         self.case = load("verification/displacement/compare.py", "displacement")
 
     def result(self, name, pressure=0.0):
@@ -112,13 +139,18 @@ class Displacement(unittest.TestCase):
         one.share[-1, 3, 0] = np.nan
         self.assertTrue(one.misses())
 
+    def test_the_table_marks_what_missed(self):
+        _, table = self.report(self.case.print_table, [self.result("open"), self.result("open", pressure=0.03)])
+        self.assertEqual([line.endswith("  MISSED") for line in table.splitlines()[1:3]], [False, True])
+
     def test_of_the_closed_box_no_pressure_is_judged(self):
         self.assertFalse(self.result("closed").misses())
         self.assertFalse(self.result("closed", pressure=np.nan).misses())
 
 
-class FallingHead(unittest.TestCase):
+class FallingHead(Printed):
     def setUp(self):
+        super().setUp()
         self.case = load_case("falling_head")
 
     def fall(self, name, share=1.0):
@@ -136,7 +168,12 @@ class FallingHead(unittest.TestCase):
 
     def test_a_run_that_ended_early_misses(self):
         self.assertFalse(self.fall("Ergun").misses())
-        self.assertTrue(self.fall("Ergun", share=0.5).misses())
+        short = self.fall("Ergun", share=0.5)
+        self.assertTrue(short.misses())
+        _, table = self.report(self.case.print_table, [self.fall("Ergun"), short])
+        end = short.column.end
+        self.assertFalse(table.splitlines()[1].endswith("MISSED"))
+        self.assertTrue(table.splitlines()[2].endswith(f"  ended at {end / 2:g} of {end:g} s  MISSED"))
 
 
 class Sloshing(Printed):
@@ -237,6 +274,24 @@ class DiscThroughJumps(unittest.TestCase):
         self.assertTrue(case.missed(run, discs))
 
 
+class Rest(Printed):
+    def test_a_run_that_ended_early_or_moves_misses(self):
+        case = load_case("rest")
+        time = np.linspace(0, case.POOL_END, 21)
+
+        def missed(steps=case.FLUID_STEPS, records=21, fluid=1e-15, air=1.0):
+            speeds = np.column_stack([1e-3 * np.arange(steps), np.full(steps, fluid)])
+            pool = case.Pool(time, air + 0 * time, 0.04 + 0 * time, 0.01 + 0 * time, 1 + 0 * time)
+            for name, values in vars(pool).items():
+                setattr(pool, name, values[:records])
+            return self.report(lambda found, out: case.report(found, pool, out), {"slice": speeds})[0]
+
+        self.assertEqual(missed(), 0)
+        for one in (dict(steps=case.FLUID_STEPS - 1), dict(records=20), dict(fluid=1e-13), dict(fluid=np.nan),
+                    dict(air=3.0), dict(air=np.nan)):
+            self.assertEqual(missed(**one), 1, one)
+
+
 class Transport(unittest.TestCase):
     def test_what_is_not_a_number_misses_its_limit(self):
         case = load_case("rest", "transport.py")
@@ -272,13 +327,24 @@ class Pool(unittest.TestCase):
         text, missed = self.judge(0.3, 1e30)
         self.assertEqual(missed, 1)
         self.assertNotIn("over interFoam's", "\n".join(text))
-        self.assertEqual([line for line in text if line.endswith("MISSED")], [
-            f"{'ogrid, static, sigma 0.07: interFoam ended early and is no reference, s short':<86} "
-            f"{0.7:10.3e} {1e-6:9.2e}  MISSED"])
+        self.assertEqual([line.split() for line in text if line.endswith("MISSED")], [
+            [*"ogrid, static, sigma 0.07: interFoam ended early and is no reference, s short".split(),
+             "0.7", "1e-06", "MISSED"]])
 
     def test_a_speed_that_is_not_a_number_misses(self):
         self.assertEqual(self.judge(1.0, np.nan)[1], 1)
         self.assertGreater(self.judge(1.0, 0.04, own=np.nan)[1], 1)
+
+    def test_what_is_aimed_at_is_reported_and_misses_nothing(self):
+        with mock.patch.multiple(self.table, AIM_SLURRY=1e-10, AIM_AIR=1e-8):
+            text, missed = self.judge(1.0, 0.04)
+        self.assertEqual(missed, 0)
+        aims = text[text.index("slurryFoam: aims"):]
+        self.assertEqual([line.endswith("  above the aim") for line in aims], [False, False, True, False])
+
+    def test_without_slurryfoam_nothing_is_judged(self):
+        run = self.runs.Run("ogrid", "interFoam", 0.07, False)
+        self.assertEqual(self.table.judge({run: self.history(1.0, 1.0)}, 1.0), ([], 0))
 
 
 class StirredWalls(Printed):

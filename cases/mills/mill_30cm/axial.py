@@ -14,12 +14,23 @@ from millfoam.files import foam
 from millfoam.files.mill import read_mill
 from millfoam.files.written_times import MillFlow
 from millfoam.plots import mill_plots
-from millfoam.readings.axial import (axial_profile, discharge, fit_gaussians, humps_at_ends, slice_thickness,
+from millfoam.readings.axial import (Humps, axial_profile, discharge, fit_gaussians, humps_at_ends, slice_thickness,
                                      slurry_volumes)
 from millfoam.readings.slurry_on_maps import axial_flow, axial_velocity, slurry_ends
 from millfoam.readings.slurry_over_time import RING, ring_depth
 
 matplotlib.use("Agg")
+
+
+def fit_profile(profile, counts=(2, 3)):
+    """Humps of an AxialProfile by their number, or the text of why there are none."""
+    fits = {}
+    for count in counts:
+        try:
+            fits[count] = fit_gaussians(profile.z, profile.height, count)
+        except RuntimeError as error:
+            fits[count] = str(error)
+    return fits
 
 
 def plot_profile(profile, fits, path):
@@ -30,9 +41,11 @@ def plot_profile(profile, fits, path):
                          alpha=0.2, label="standard deviation over time")
     axes[0].plot(z, 1e3 * profile.height, "o-", ms=3, label="mean")
     along = np.linspace(profile.z[0], profile.z[-1], 200)
-    for humps, style in zip(fits, ("--", ":")):
+    for (count, humps), style in zip(fits.items(), ("--", ":")):
+        if not isinstance(humps, Humps):
+            continue
         axes[0].plot(1e3 * along, 1e3 * humps.fitted(along), color="0.3", ls=style, lw=1.2,
-                     label=f"{len(humps.places)} Gaussians, RMSD {1e3 * humps.rmsd:.2g} mm"
+                     label=f"{count} Gaussians, RMSD {1e3 * humps.rmsd:.2g} mm"
                            + (" (at the profile's end)" if humps_at_ends(humps, profile.z) else ""))
     axes[0].set_ylabel("height of the slurry's\ncentre of mass, mm")
     axes[0].legend(fontsize=8)
@@ -62,6 +75,28 @@ def millimetres(lengths, digits):
     return ", ".join(f"{1e3 * length:.{digits}f}" for length in lengths)
 
 
+def print_profile(profile, fits):
+    """Prints the heights and pressures of an AxialProfile, of the slices that hold slurry, and its fits."""
+    wet = np.isfinite(profile.height)
+    if not wet.any():
+        print("height of the slurry's centre of mass: not known: no slice holds slurry")
+        return
+    z, height, pressure = profile.z[wet], profile.height[wet], profile.pressure[wet]
+    print(f"height of the slurry's centre of mass: mean {1e3 * np.average(height, weights=profile.holdup[wet]):.2f} "
+          f"mm, {1e3 * height.min():.2f} to {1e3 * height.max():.2f} mm along the axis"
+          + ("" if wet.all() else f"; {np.sum(~wet)} of {len(wet)} slices hold no slurry"))
+    for count, humps in fits.items():
+        if isinstance(humps, Humps):
+            words = (f"humps at {millimetres(humps.places, 0)} mm, {millimetres(humps.heights, 2)} mm high, "
+                     f"{millimetres(humps.distances, 0)} mm apart, RMSD {1e3 * humps.rmsd:.2g} mm"
+                     + (", at the profile's end" if humps_at_ends(humps, profile.z) else ""))
+        else:
+            words = f"not known: {humps}"
+        print(f"{count} Gaussians: {words}")
+    print(f"p_rgh in the slurry: {pressure[0]:.1f} Pa at z = {1e3 * z[0]:.0f} mm, {pressure[-1]:.1f} Pa at z = "
+          f"{1e3 * z[-1]:.0f} mm, drop {pressure[0] - pressure[-1]:.1f} Pa")
+
+
 def print_axial_flow(flow, slurry):
     """Prints the ends of the slurry, and its motion along the axis at the toe and at the shoulder."""
     height = float(foam.read_dictionary(flow.case / "constant" / "millProperties")["lifterHeight"])
@@ -88,7 +123,9 @@ def main():
     folder.mkdir(exist_ok=True)
 
     profile = axial_profile(flow, begin)
-    fits = [fit_gaussians(profile.z, profile.height, count) for count in (2, 3) if len(profile.z) > 3 * count]
+    if len(profile.z) < 2:
+        parser.error(f"{options.case}: one layer of cells along the axis; expected two or more")
+    fits = fit_profile(profile)
     np.savetxt(folder / "axial.csv", np.column_stack([profile.z, profile.height, profile.height_spread, profile.holdup,
                                                       profile.pressure]), delimiter=",", comments="", fmt="%.8g",
                header="z_m,height_m,height_spread_m,holdup_m3,p_rgh_Pa")
@@ -104,15 +141,8 @@ def main():
     print(f"averages from {begin:g} to {last:g} s")
     print(f"slurry: {1e3 * volumes[0]:.3f} l at the start, {1e3 * volumes[-1]:.3f} l at the end")
     print(f"feed {1e6 * feed:.1f} ml/s, discharge {1e6 * out:.1f} ml/s, net {1e6 * (feed - out):+.1f} ml/s")
-    print(f"height of the slurry's centre of mass: mean {1e3 * np.average(profile.height, weights=profile.holdup):.2f} "
-          f"mm, {1e3 * profile.height.min():.2f} to {1e3 * profile.height.max():.2f} mm along the axis")
-    for humps in fits:
-        print(f"{len(humps.places)} Gaussians: humps at {millimetres(humps.places, 0)} mm, "
-              f"{millimetres(humps.heights, 2)} mm high, {millimetres(humps.distances, 0)} mm apart, "
-              f"RMSD {1e3 * humps.rmsd:.2g} mm" + (", at the profile's end" if humps_at_ends(humps, profile.z) else ""))
+    print_profile(profile, fits)
     print_axial_flow(flow, slurry)
-    print(f"p_rgh in the slurry: {profile.pressure[0]:.1f} Pa at the feed end, {profile.pressure[-1]:.1f} Pa at the "
-          f"discharge end, drop {profile.pressure[0] - profile.pressure[-1]:.1f} Pa")
 
 
 if __name__ == "__main__":

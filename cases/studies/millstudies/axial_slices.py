@@ -130,12 +130,10 @@ def jackknife(read: Callable[[np.ndarray], np.ndarray], turns: int) -> tuple[np.
 
 
 def read_profile(slices: Slices, count: int, length: float = np.inf) -> Profile:
-    """Profile, with `count` Gaussians, of the slices before z = length (m). RuntimeError if there is no fit, or a slice
-    without slurry."""
+    """Profile, with `count` Gaussians, of the slices before z = length (m). RuntimeError if there is no fit
+    (fit_gaussians), also without one of the turns."""
     chosen = slices.read(length)
     z = slices.z[chosen]
-    if not np.isfinite(slices.profile()[chosen]).all():
-        raise RuntimeError("a slice has no slurry; expected slurry in all slices of the profile")
 
     def read(turns: np.ndarray) -> np.ndarray:
         height = slices.profile(turns)[chosen]

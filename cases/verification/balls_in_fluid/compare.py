@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from experiments import fluidisation, pool, segregation, settled_bed, settling, terminal, upflow
-from millfoam.run import case_options, fresh_runs, run_jobs
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_table
 
 matplotlib.use("Agg")
 
@@ -40,10 +40,10 @@ def print_table(findings, out):
     for one in findings:
         limit = f"{100 * one.limit:9.2g}" if one.limit else f"{'above':>9}"
         off = f"{100 * one.off:9.3f}" if one.limit else f"{'':9}"
-        lines.append(f"{one.experiment:<40}{one.quantity + (f', {one.unit}' if one.unit else ''):<38}{one.found:12.6g}"
-                     f"{one.expected:12.6g}{off}{limit}{'  MISSED' if one.missed else ''}")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+        line = f"{one.experiment:<40}{one.quantity + (f', {one.unit}' if one.unit else ''):<38}{one.found:12.6g}" \
+               f"{one.expected:12.6g}{off}{limit}"
+        lines.append(marked(line, one.missed))
+    write_table(lines, out)
 
 
 def plot(curves, out):

@@ -22,7 +22,7 @@ from scipy.optimize import brentq
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
 from flow_curve import regularised  # noqa: E402
@@ -156,19 +156,17 @@ def print_table(flows, out):
     lines = [f"{'regularisation':<14} {'stiffness':>9} {'profile %':>9} {'own curve %':>11} {'plug width mm':>13} "
              f"{'error %':>8} {'uneven %':>8} {'drift':>8}", f"{'closed form':<46} {1e3 * (OUTER - EDGE):13.4f}"]
     for flow in flows:
-        lines.append(
+        lines.append(marked(
             f"{flow.regularisation:<14} {flow.stiffness:9.3g} {100 * flow.profile_error:9.3f} "
             f"{100 * flow.model_error:11.3f} {1e3 * (OUTER - flow.edge):13.4f} {100 * flow.plug_width_error:8.3f} "
-            f"{100 * flow.unevenness:8.3f} {flow.drift:8.1e}"
-            + ("  MISSED" if flow.misses() else ""))
+            f"{100 * flow.unevenness:8.3f} {flow.drift:8.1e}", flow.misses()))
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     lines.append(f"tolerance {100 * TOLERANCE:g} %; steady to {STEADY}; profiles: largest error over the inner "
                  f"cylinder's speed; stiffness {MILL:.3g}: the mills' ratio, {MILL_CELLS} cells; 1: viscosity ratios "
                  f"{', '.join(f'{value:g}' for value in STIFFEST.values())}; softer plugs are compared with "
                  "their own curve alone")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(flows, out):

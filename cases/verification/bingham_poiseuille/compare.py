@@ -19,7 +19,7 @@ import numpy as np
 from flow_curve import regularised
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -137,19 +137,18 @@ def print_table(flows, out):
              f"{'plug speed m/s':>14} {'error %':>8} {'plug width mm':>13} {'error %':>8} {'drift':>8}",
              f"{'closed form':<55} {'':>2} {exact(0.0):13.5f} {'':>8} {2e3 * PLUG * HALF_GAP:13.4f}"]
     for flow in flows:
-        lines.append(
+        lines.append(marked(
             f"{flow.solver:<10} {flow.regularisation:<14} {flow.stiffness:9g} {100 * flow.profile_error:9.3f} "
             f"{100 * flow.model_error:11.3f} {flow.u.max():14.5f} {100 * flow.plug_speed_error:8.3f} "
-            f"{2e3 * flow.plug_half_width:13.4f} {100 * flow.plug_width_error:8.3f} {flow.drift:8.1e}"
-            + ("  MISSED" if flow.misses() else ""))
+            f"{2e3 * flow.plug_half_width:13.4f} {100 * flow.plug_width_error:8.3f} {flow.drift:8.1e}",
+            flow.misses()))
     if not converges(flows):
         lines.append("MISSED: a stiffer plug is not nearer to the closed form")
     allowed = ", ".join(f"{solver} {100 * value:g} %" for solver, value in TOLERANCE.items())
     lines.append(f"tolerance: {allowed}; steady to {STEADY}; profiles: largest error over the plug's speed; stiffness "
                  f"1: viscosity ratio {VISCOSITY_RATIO:g}, m {M:g} s; {MILL:g}: the mills' ratio, {MILL_CELLS} cells; "
                  "softer plugs are compared with their own curve alone")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(flows, out):

@@ -15,7 +15,7 @@ from scipy.optimize import curve_fit
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 from prosperetti import Wave
 
 matplotlib.use("Agg")
@@ -150,13 +150,12 @@ def report(histories, out):
                    and history.volume_change <= 1e-8)
         bad = bad and history.run.solver == "slurryFoam"
         missed += bad
-        lines.append(f"{history.run.solver:<16} {history.run.cells:6d} {100 * history.deviation:12.1f} " +
-                     "{:12.1f} {:8.1f}".format(*(100 * history.errors)) + f" {history.volume_change:14.1e}" +
-                     ("  MISSED" if bad else ""))
+        lines.append(marked(f"{history.run.solver:<16} {history.run.cells:6d} {100 * history.deviation:12.1f} " +
+                            "{:12.1f} {:8.1f}".format(*(100 * history.errors)) + f" {history.volume_change:14.1e}",
+                            bad))
     lines.append("Cells per wave; deviation from theory, root mean square over two periods, relative to the start; "
                  "errors of frequency and rate of decay")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
     return missed
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, limit_table, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
@@ -251,15 +251,8 @@ def report(results, out):
             ]
             notes.append(f"{run.name}: largest error of any cell {100 * np.abs(found.errors).max():.2g} % of the "
                          "wall's velocity")
-    lines = [f"{'':<86} {'error':>10} {'allowed':>10}"]
-    missed = 0
-    for text, error, allowed in rows:
-        bad = not error <= allowed
-        missed += bad
-        lines.append(f"{text:<86} {error:10.3g} {allowed:10.3g}" + ("  MISSED" if bad else ""))
-    lines += notes
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    lines, missed = limit_table(rows)
+    write_table(lines + notes, out)
     return missed
 
 

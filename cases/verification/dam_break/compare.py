@@ -16,7 +16,7 @@ from scipy.optimize import minimize_scalar
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -126,13 +126,12 @@ def report(fronts, out):
                 and front.volume_change <= 1e-8)
         bad = front.solver == "slurryFoam" and not good
         missed += bad
-        lines.append(f"{front.solver + ', ' + str(front.cells) + ' cells':<24} {found:11.4f} {100 * error:8.2f} "
-                     f"{front.delay:10.3f} {position:8.4f} {position_error(front, 0):13.4f} {front.volume_change:9.1e}"
-                     + ("  MISSED" if bad else ""))
+        lines.append(marked(
+            f"{front.solver + ', ' + str(front.cells) + ' cells':<24} {found:11.4f} {100 * error:8.2f} "
+            f"{front.delay:10.3f} {position:8.4f} {position_error(front, 0):13.4f} {front.volume_change:9.1e}", bad))
     lines.append(f"Z from {Z[0]:g} to {Z[-1]:g}. Tolerance of slurryFoam: speed {100 * SPEED_TOLERANCE:g} %, rms of Z "
                  f"{POSITION_TOLERANCE:g} with a delay of 0 to {LONGEST_DELAY:g}")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
     return missed
 
 

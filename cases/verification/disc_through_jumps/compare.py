@@ -18,7 +18,7 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -219,14 +219,14 @@ def print_table(results, out):
              f"{'at the end':>10} {'beyond 0, 1':>11} {'volume':>8}"]
     for run, discs in results.items():
         place, height, shape, beyond, volume = worst(discs)
-        lines.append(f"{run.motion:<20} {run.mesh:<8} {run.cells:5d} {place:9.1e} {height:9.1e} {shape:9.1e} "
-                     f"{discs[RECORDS // 2].shape:10.1e} {discs[-1].shape:10.1e} {beyond:11.1e} {volume:8.1e}"
-                     + ("  MISSED" if missed(run, discs) else ""))
+        lines.append(marked(
+            f"{run.motion:<20} {run.mesh:<8} {run.cells:5d} {place:9.1e} {height:9.1e} {shape:9.1e} "
+            f"{discs[RECORDS // 2].shape:10.1e} {discs[-1].shape:10.1e} {beyond:11.1e} {volume:8.1e}",
+            missed(run, discs)))
     lines += [f"{mesh}, {CELLS[0]} cells: allowed place {limits[0]:g}, across {limits[1]:g}, shape {limits[2]:g}"
               for mesh, limits in LIMITS.items()]
     lines.append(f"finer meshes by the order {LEAST_ORDER}; share beyond [0, 1] {BOUNDED:g}, volume {CONSERVED:g}")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def outline(run, time, at):

@@ -19,7 +19,7 @@ from scipy.integrate import trapezoid
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
@@ -199,16 +199,15 @@ def print_table(results, out):
     lines = [f"{'box':<18} {'level mm':>10} {'expected mm':>12} {'error':>8} {'at any time':>12} "
              f"{'phase beyond 0, 1':>18} {'not settled':>12} {'volume':>8} {'pressure':>9} {'speed at end m/s':>17}"]
     for result in results:
-        lines.append(
+        lines.append(marked(
             f"{result.name:<18} {1e3 * result.level[-1].mean():10.5f} {1e3 * final_level(result.kind):12.5f} "
             f"{result.final_error:8.1e} {result.error.max():12.1e} {result.beyond:18.1e} {result.not_settled:12.1e} "
-            f"{result.volume_change:8.1e} {result.pressure_error:9.1e} {result.last_speed:17.1e}"
-            + ("  MISSED" if result.misses() else ""))
+            f"{result.volume_change:8.1e} {result.pressure_error:9.1e} {result.last_speed:17.1e}",
+            result.misses()))
     lines.append(f"tolerance of levels (relative) and phase fraction {TOLERANCE:g}, of the slurry's volume "
                  f"{CONSERVED:g}, of the pressure at the bottom {PRESSURE:g} times the largest step in s; "
                  f"level at the start {1e3 * POOL:g} mm")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(results, out):

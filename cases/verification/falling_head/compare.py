@@ -25,7 +25,7 @@ from scipy.integrate import solve_ivp
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -232,14 +232,13 @@ def print_table(falls, out):
         if column.has_closed_form:
             line += (f" {100 * fall.closed_error:17.4f} {fall.fitted_time:12.5f} {column.time_constant:10.5f} "
                      f"{100 * (fall.fitted_time / column.time_constant - 1):8.4f}")
-        lines.append(line + ("" if fall.reached else f"  ended at {fall.time[-1]:g} of {column.end:g} s")
-                     + ("  MISSED" if fall.misses() else ""))
+        line += "" if fall.reached else f"  ended at {fall.time[-1]:g} of {column.end:g} s"
+        lines.append(marked(line, fall.misses()))
     lines.append(f"tolerance {100 * TOLERANCE:g} %: of the first head, and of the closed form's time, fitted down to "
                  f"{100 * HEAD_LEFT:g} % of the first head above the bed")
     lines += [f"{column.name}: K = {column.loss:.1f}, discharge coefficient of the open holes "
               f"{column.discharge_coefficient:.3f}" for column in COLUMNS if column.is_grate]
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(falls, out):

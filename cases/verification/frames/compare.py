@@ -19,7 +19,7 @@ from scipy.spatial import cKDTree
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -203,11 +203,10 @@ def report(drums, extent, out):
             rows.append(order_row(kind, late))
     lines = [f"{'drum':<16} {'cell mm':>7} {'time s':>7} {'height: mean mm':>15} {'rms mm':>7} {'largest mm':>10} "
              f"{'allowed':>7} {'share, mean |diff|':>18} {'u in slurry, rms %':>18} {'allowed %':>9}"]
-    lines += [text + ("  MISSED" if bad else "") for text, bad in rows]
+    lines += [marked(text, bad) for text, bad in rows]
     lines.append("height of the surface on the turning mesh minus that on the mesh at rest, at |x| <= 0.8 R; judged "
                  f"are the last {extent.late} quarters")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
     return sum(bad for _, bad in rows)
 
 

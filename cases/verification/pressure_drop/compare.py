@@ -19,7 +19,7 @@ import numpy as np
 import published_laws
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -221,13 +221,12 @@ def print_table(results, out):
            f"{'published Pa':>12} {'millDrag':>9} {'found Pa':>12} {'error %':>9} {'overshoot %':>11} {'|u|/u_s':>9}"
     lines = [head]
     for bed in results:
-        lines.append(f"{bed.solver:<16} {bed.box:>5} {bed.law:<12} {bed.solidity:5.2f} {bed.reynolds:7.1f} "
-                     f"{bed.first:5d} {bed.cells:5d} {bed.analytic:12.5g} {bed.printed:9.1e} {bed.numerical:12.5g} "
-                     f"{100 * bed.error:9.1e} {100 * bed.overshoot:11.1e} {bed.spurious:9.1e}"
-                     + ("  MISSED" if bed.missed else ""))
+        lines.append(marked(
+            f"{bed.solver:<16} {bed.box:>5} {bed.law:<12} {bed.solidity:5.2f} {bed.reynolds:7.1f} {bed.first:5d} "
+            f"{bed.cells:5d} {bed.analytic:12.5g} {bed.printed:9.1e} {bed.numerical:12.5g} {100 * bed.error:9.1e} "
+            f"{100 * bed.overshoot:11.1e} {bed.spurious:9.1e}", bed.missed))
     lines += summary(results)
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def place(bed, laws):

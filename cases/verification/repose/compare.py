@@ -5,7 +5,7 @@ have the slope of spheres, and blunt bodies pile up steeper. Piles that are comp
 import argparse
 import json
 import shutil
-from concurrent.futures import ThreadPoolExecutor
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.readings.means import Mean, block_mean
+from millfoam.run import run_jobs, write_table
 from repose import DIAMETER, Ledge, Shape, run_pile, slope
 
 HERE = Path(__file__).parent.resolve()
@@ -67,7 +68,7 @@ def text(difference: Mean) -> str:
     return f"{difference.value:+.2f} ± {difference.reach:.2f} degrees (95 % confidence)"
 
 
-def main() -> None:
+def main() -> int:
     matplotlib.use("Agg")
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--quick", action="store_true", help="two smaller piles of each shape, in the folder quick/")
@@ -78,11 +79,10 @@ def main() -> None:
     seeds = range(1, (piles if options.piles is None else options.piles) + 1)
     if len(seeds) < 2:
         parser.error(f"--piles {options.piles}; expected two or more, whose slopes have an error")
-    with ThreadPoolExecutor(options.jobs) as pool:
-        jobs = {(shape.name, seed): pool.submit(pile, HERE / root / f"{shape.name}_{seed}", shape, ledge, seed)
-                for seed in seeds for shape in SHAPES[::-1]}
-        found = {key: job.result() for key, job in jobs.items()}
-    slopes = {shape.name: [slope(found[shape.name, seed], ledge) for seed in seeds] for shape in SHAPES}
+    wanted = [(shape, seed) for seed in seeds for shape in SHAPES[::-1]]
+    found = dict(zip(wanted, run_jobs(
+        lambda item: pile(HERE / root / f"{item[0].name}_{item[1]}", item[0], ledge, item[1]), wanted, options.jobs)))
+    slopes = {shape.name: [slope(found[shape, seed], ledge) for seed in seeds] for shape in SHAPES}
     angles = {name: block_mean(values) for name, values in slopes.items()}
     lines = [f"{name:<8} {angles[name].value:6.2f} degrees ± {angles[name].error:.2f}, piles: "
              + ", ".join(f"{one:.2f}" for one in values) for name, values in slopes.items()]
@@ -90,12 +90,11 @@ def main() -> None:
     lines += [f"{verdict}: {sentence}" for verdict, sentence in judged]
     if any(verdict == UNDECIDED for verdict, _ in judged):
         lines.append("More piles decide it: --piles N")
-    (HERE / "repose.txt").write_text("\n".join(lines) + "\n")
-    draw({shape.name: found[shape.name, seeds[0]] for shape in SHAPES}, angles, ledge).savefig(
+    write_table(lines, HERE / "repose.txt")
+    draw({shape.name: found[shape, seeds[0]] for shape in SHAPES}, angles, ledge).savefig(
         HERE / "repose.png", dpi=130)
-    if any(verdict != HOLDS for verdict, _ in judged):
-        parser.exit(1, "\n".join(lines) + "\n")
+    return 1 if any(verdict != HOLDS for verdict, _ in judged) else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -13,7 +13,7 @@ import numpy as np
 
 from millfoam.readings.residence import Residence, TracerTable, closed_spread, read_tracer, residence
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -99,13 +99,12 @@ def print_table(runs, out):
     lines = [f"{'vessel':<28}{'mean, s':>10}{'off %':>8}{'spread':>10}{'expected':>10}{'tanks':>8}{'Pe':>8}"
              f"{'left %':>8}{'missing':>10}{'below 0':>10}{'above 1':>10}"]
     for one in runs:
-        lines.append(f"{one.vessel.name:<28}{one.found.mean:10.4f}{100 * one.mean_off:8.3f}{one.found.spread:10.5f}"
-                     f"{one.vessel.spread:10.5f}{one.found.tanks:8.1f}{one.found.peclet:8.2f}"
-                     f"{100 * one.found.left:8.2f}{one.table.missing:10.1e}{max(0, -one.table.lowest):10.1e}"
-                     f"{max(0, one.table.highest - 1):10.1e}"
-                     + (f"  MISSED: {', '.join(one.missed)}" if one.missed else ""))
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+        lines.append(marked(
+            f"{one.vessel.name:<28}{one.found.mean:10.4f}{100 * one.mean_off:8.3f}{one.found.spread:10.5f}"
+            f"{one.vessel.spread:10.5f}{one.found.tanks:8.1f}{one.found.peclet:8.2f}{100 * one.found.left:8.2f}"
+            f"{one.table.missing:10.1e}{max(0, -one.table.lowest):10.1e}{max(0, one.table.highest - 1):10.1e}",
+            one.missed))
+    write_table(lines, out)
 
 
 def plot(runs, out):

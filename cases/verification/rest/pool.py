@@ -9,7 +9,6 @@ its limits."""
 import argparse
 import shutil
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,7 @@ import numpy as np
 import pool_pictures
 import pool_table
 from millfoam.run import run as run_program
-from millfoam.run import RunError, set_options, write_parameters
+from millfoam.run import RunError, run_jobs, set_options, write_parameters
 from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 
@@ -149,8 +148,7 @@ def main():
             parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target "
                          f"{program}, then source scripts/env")
     work.mkdir(parents=True, exist_ok=True)
-    with ThreadPoolExecutor(options.jobs) as threads:
-        histories = dict(zip(runs, threads.map(lambda run: perform(run, work, here, end, options.keep), runs)))
+    histories = dict(zip(runs, run_jobs(lambda run: perform(run, work, here, end, options.keep), runs, options.jobs)))
     missed = pool_table.report(histories, end, out)
     pool_pictures.speeds(histories, out / "pool_speeds.png")
     pool_pictures.maps(histories, work, out / "pool_maps.png")

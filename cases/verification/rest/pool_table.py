@@ -4,6 +4,8 @@ import csv
 import math
 from dataclasses import dataclass
 
+from millfoam.run import limit_table, write_table
+
 AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
 REFERENCE, JUDGED = "interFoam", "slurryFoam"
 REACHED = 1e-6  # s that a run may be short of the end
@@ -99,33 +101,28 @@ def table(histories, end):
 
 
 def judge(histories, end):
-    """Lines about slurryFoam, and how many of them missed."""
-    text, missed = [], 0
+    """Lines about slurryFoam, and how many of them missed a limit."""
+    limits, aims = [], []
     for run, history in histories.items():
         if run.solver != JUDGED:
             continue
         references = [other for other in histories if other.setting == run.setting and other.solver == REFERENCE]
-        for what, found, allowed in checks(run, history, histories[references[0]] if references else None, end):
-            hit = math.isfinite(found) and found <= allowed
-            missed += not hit
-            text.append(f"{what:<86} {found:10.3e} {allowed:9.2e}" + ("" if hit else "  MISSED"))
-        for what, found, aim in (("slurry", history.slurry[-1], AIM_SLURRY), ("air", history.air[-1], AIM_AIR)):
-            if run.filled:
-                continue
-            text.append(f"{run.setting + ': largest speed in the ' + what + ' at the end, m/s (aim)':<86} "
-                        f"{found:10.3e} {aim:9.2e}" + ("" if found <= aim else "  above the aim"))
-    if text:
-        text.insert(0, f"{JUDGED:<86} {'found':>10} {'allowed':>9}")
-    return text, missed
+        limits += checks(run, history, histories[references[0]] if references else None, end)
+        if not run.filled:
+            aims += [(f"{run.setting}: largest speed in the {what} at the end, m/s", found, aim)
+                     for what, found, aim in (("slurry", history.slurry[-1], AIM_SLURRY),
+                                              ("air", history.air[-1], AIM_AIR))]
+    if not limits:
+        return [], 0
+    lines, missed = limit_table(limits)
+    return [f"{JUDGED}: limits", *lines, "", f"{JUDGED}: aims", *limit_table(aims, "aim", "above the aim")[0]], missed
 
 
 def report(histories, end, out):
     """Prints the tables, writes them to pool.txt and the numbers to pool.csv in folder `out`; returns the
     number of values beyond their limit."""
     judged, missed = judge(histories, end)
-    text = "\n".join(table(histories, end) + [""] + judged)
-    print(text)
-    (out / "pool.txt").write_text(text + "\n")
+    write_table([*table(histories, end), "", *judged], out / "pool.txt")
     lines = [figures(run, history, end) for run, history in histories.items()]
     with open(out / "pool.csv", "w", newline="") as stream:
         writer = csv.DictWriter(stream, lines[0])

@@ -16,6 +16,7 @@ import numpy as np
 
 import pool
 from millfoam.files import foam
+from millfoam.run import marked, write_table
 from millfoam.run import run as run_program
 from pool_history import Run
 
@@ -56,8 +57,8 @@ def judge(mesh, found):
     moved, change, *_ = found["slurryFoam"]
     share = moved / found["interFoam"][0]
     missed = [name for name, hit in (("distance", share <= LARGEST_SHARE), ("volume", change <= CONSERVED)) if not hit]
-    lines.append(f"{mesh}: slurryFoam moves it by {share:.2f} of interFoam's distance, allowed {LARGEST_SHARE}"
-                 + (f"  MISSED: {', '.join(missed)}" if missed else ""))
+    lines.append(marked(f"{mesh}: slurryFoam moves it by {share:.2f} of interFoam's distance, allowed {LARGEST_SHARE}",
+                        missed))
     return lines, len(missed)
 
 
@@ -74,9 +75,7 @@ def main():
         text, bad = judge(mesh, {solver: measure(perform(mesh, solver, work, here), mesh) for solver in pool.SOLVERS})
         lines += text
         missed += bad
-    text = "\n".join(lines)
-    print(text)
-    (here / "transport.txt").write_text(text + "\n")
+    write_table(lines, here / "transport.txt")
     return 1 if missed else 0
 
 

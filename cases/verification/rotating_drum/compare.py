@@ -22,7 +22,7 @@ from millfoam.readings.charge import shell_following
 from millfoam.readings.free_surface import at_points
 from millfoam.readings.means import with_error
 from millfoam.run import run as run_program
-from millfoam.run import run_jobs, set_options
+from millfoam.run import run_jobs, set_options, write_table
 
 matplotlib.use("Agg")
 
@@ -276,8 +276,7 @@ def report(runs, measured, out):
               f"{down:12.5f}{up:10.5f}",
               "down, up: volume of balls per length and time above and below the depth of zero velocity; measured: "
               f"with the solidity of {first.name}"]
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(runs, measured, out):

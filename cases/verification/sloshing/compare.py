@@ -17,7 +17,7 @@ from scipy.optimize import curve_fit
 import potential_flow
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
@@ -252,16 +252,15 @@ def report(histories, out):
             bad = bad or not abs(history.error) <= TOLERANCE
         bad = run.solver == "slurryFoam" and (bad or not history.volume_change <= CONSERVED)
         missed += bad
-        lines.append(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
-                     f"{history.volume_change:14.1e}" + ("  MISSED" if bad else ""))
+        lines.append(marked(f"{run.name:<26} {expected:9.4f} {found:9.4f} {100 * history.error:8.3f} {decay} "
+                            f"{history.volume_change:14.1e}", bad))
     lines.append("rad/s; with a bed the slow rate of decay, 1/s, and in per cent of the start the largest distance "
                  f"from theory's course. Tolerance {100 * TOLERANCE:g} % for slurryFoam, which may not damp more than "
                  "interFoam where the mesh rests (without a run of interFoam, in the box: "
                  f"{INTERFOAM_DECAY} 1/s)")
     if any(history.run.stiff for history in histories):
         lines.append(f"stiff: theory's decay is {-stiff_mode().real:.4f} 1/s, tolerance {100 * DECAY_TOLERANCE:g} %")
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
     return missed
 
 

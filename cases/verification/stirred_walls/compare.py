@@ -17,7 +17,7 @@ import numpy as np
 from millfoam.files import foam
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.tables import read_columns
-from millfoam.run import case_options, fresh_runs, run, run_jobs, set_options
+from millfoam.run import case_options, fresh_runs, limit_table, run, run_jobs, set_options, write_table
 
 matplotlib.use("Agg")
 
@@ -230,19 +230,6 @@ def table(found: dict[str, Path], what: dict[str, Run]) -> tuple[list[tuple[str,
     return rows, states
 
 
-def report(rows: list[tuple[str, float, float]], out: Path) -> int:
-    """Writes and prints the table of rows (text, found, allowed); returns the number of values beyond their limit."""
-    lines = [f"{'':<66} {'found':>10} {'allowed':>9}"]
-    missed = 0
-    for text, value, allowed in rows:
-        bad = not value <= allowed
-        missed += bad
-        lines.append(f"{text:<66} {value:10.3e} {allowed:9.2e}" + ("  MISSED" if bad else ""))
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
-    return missed
-
-
 def draw(states: dict[str, State]) -> None:
     figure, axes = plt.subplots(1, 2, figsize=(10, 4), constrained_layout=True)
     for (name, state), mark in zip(((n, s) for n, s in states.items() if n.startswith("Couette")), "ox"):
@@ -270,7 +257,8 @@ def main() -> int:
     what = runs(options.quick)
     found = dict(zip(what, run_jobs(compute, what.items(), options.jobs)))
     rows, states = table(found, what)
-    missed = report(rows, HERE / "stirred_walls.txt")
+    lines, missed = limit_table(rows)
+    write_table(lines, HERE / "stirred_walls.txt")
     draw(states)
     return 1 if missed else 0
 

@@ -22,7 +22,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters
+from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
@@ -278,8 +278,7 @@ def print_table(flows, out):
     lines.append(f"least order {LEAST_ORDER}, of the pressure on moving meshes {LEAST_ORDER_MOVING}; jumps "
                  f"{100 * JUMP_TOLERANCE:g} %")
     lines += [f"MISSED: {miss}" for miss in misses(flows)] or ["nothing missed"]
-    print("\n".join(lines))
-    out.write_text("\n".join(lines) + "\n")
+    write_table(lines, out)
 
 
 def plot(flows, out):

@@ -13,6 +13,8 @@ from ..files.flow_record import read_flow_record
 from ..files.written_times import MillFlow
 from .batches import error_over_turns
 
+FLAT = 1e-9  # m: a range of heights that round-off can make
+
 
 @dataclass
 class AxialProfile:
@@ -123,15 +125,17 @@ def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
 
     z [n] (m), rising; height [n] (m). Places are within the profile, heights are not negative. Widths are from 3 % to
     100 % of its length, and at least half of the distance between two slices: a narrower hump could be between them.
-    ValueError if it has fewer points than the fit has values, or a slice without slurry (NaN), RuntimeError if no fit
-    was found."""
+    RuntimeError if it has fewer points than the fit has values, a slice without slurry (NaN) or no more range than
+    FLAT, or if no fit was found."""
     z, height = np.asarray(z, dtype=float), np.asarray(height, dtype=float)
     if len(z) < 1 + 3 * count:
-        raise ValueError(f"{len(z)} places along the axis; a fit of {count} Gaussians needs at least {1 + 3 * count}")
+        raise RuntimeError(f"{len(z)} places along the axis; a fit of {count} Gaussians needs at least {1 + 3 * count}")
     if not np.all(np.isfinite(height)):
         dry = z[~np.isfinite(height)][0]
-        raise ValueError(f"no slurry in the slice at {1e3 * dry:.4g} mm; a fit of {count} Gaussians needs it in all")
-    length, scale = z[-1] - z[0], np.ptp(height) or 1e-12
+        raise RuntimeError(f"no slurry in the slice at {1e3 * dry:.4g} mm; a fit of {count} Gaussians needs it in all")
+    length, scale = z[-1] - z[0], np.ptp(height)
+    if scale <= FLAT:
+        raise RuntimeError(f"the heights differ by {scale:.1g} m; a profile with humps differs by more than {FLAT:g} m")
     narrowest = max(0.03 * length, np.diff(z).max() / 2)
     lower = [height.min() - scale, *([0, z[0], narrowest] * count)]
     upper = [height.max(), *([3 * scale, z[-1], length] * count)]
