@@ -39,6 +39,9 @@ constexpr double usual_stirred_cells = 17;
 /// Largest radius of curvature of a superquadric's flat sides over the radius of the sphere of equal volume.
 constexpr double usual_curvature_limit = 10;
 
+/// LIGGGHTS takes coefficients of restitution above this.
+constexpr double least_restitution = 0.05;
+
 /// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
 constexpr double slowest_fraction = 0.001;
 constexpr double fastest_fraction = 3;
@@ -90,8 +93,9 @@ Contact read_contact(const Section& materials, const std::string& key, const std
     if (std::find(names.begin(), names.end(), name) != names.end()) return named_contact(name);
   }
   const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
-  return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
-                                    [](double v) { return v > 0 && v <= 1; }}),
+  return {in.number("restitution",
+                    {"a coefficient of restitution above " + shown(least_restitution) + " and up to 1",
+                     [](double v) { return v > least_restitution && v <= 1; }}),
           in.number("friction", friction_coefficient("a friction coefficient")),
           in.number("rolling_friction", friction_coefficient("a rolling friction coefficient"))};
 }

@@ -407,7 +407,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"poisson_ratio: 0.23", "poisson_ratio: 0.5", "'materials.ball.poisson_ratio' = 0.5"},
         Refused{"poisson_ratio: 0.23", "poisson_ratio: 0", "'materials.ball.poisson_ratio' = 0"},
         Refused{"restitution: 0.8", "restitution: 1.1", "'materials.ball_ball.restitution' = 1.1"},
-        Refused{"restitution: 0.8", "restitution: 0", "'materials.ball_ball.restitution' = 0"},
+        Refused{"restitution: 0.8", "restitution: 0.05",
+                "'materials.ball_ball.restitution' = 0.05: expected a coefficient of restitution above 0.05 "
+                "and up to 1"},
         Refused{"friction: 0.94", "friction: -0.1", "'materials.ball_ball.friction' = -0.1"},
         Refused{"rayleigh_fraction: 0.2", "rayleigh_fraction: 2", "'dem.rayleigh_fraction' = 2"},
         Refused{"record_interval: 0.002", "record_interval: 2", "'dem.record_interval' = 2"},
