@@ -25,13 +25,6 @@ constexpr double start_gap = 0.1;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
-/// A length that balls must be below, and what it is.
-struct Room {
-  double length;     ///< m
-  const char* of;    ///< for messages
-  const char* unit;  ///< its unit, and how to allow larger balls
-};
-
 /// A stirred mill's balls must not be clamped between the impeller and the shell, or the base, unless the
 /// charge's `larger_than_gap` is true. They are released between shaft and shell.
 Room room_in_stirred(const Section& charge, const Geometry& geometry) {
@@ -46,25 +39,27 @@ Room room_in_stirred(const Section& charge, const Geometry& geometry) {
   return {std::min(aside, room), "the gap between the impeller and the shell", unless};
 }
 
-/// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
-/// images.
+/// The balls must move freely between the lifters' tops and, in a periodic mill, must not touch the same ball
+/// on both sides.
 Room room_of_ball(const Section& charge, const Geometry& geometry) {
   if (geometry.impeller) return room_in_stirred(charge, geometry);
   const double room = geometry.radius() - geometry.lifters.height;
+  const double half = geometry.length / fewest_diameters_of_period;
+  if (geometry.ends == Ends::periodic && half < room)
+    return {half, "half of the periodic mill's length", " m", true};
   if (geometry.length < room) return {geometry.length, "the mill's length", " m"};
   return {room, "the radius inside the lifters", " m"};
 }
 
 Rule ball_diameter(const Section& charge, const Geometry& geometry) {
   const Room room = room_of_ball(charge, geometry);
-  return positive_below("a ball's diameter", room.length, room.unit, room.of);
+  return {"a ball's diameter above 0 and " + room.words(), [=](double v) { return v > 0 && room.holds(v); }};
 }
 
 /// The shape of the balls of a class, or of a charge of one class.
 std::optional<Superquadric> read_shape(const Section& in, const Section& charge, const Geometry& geometry,
                                        double diameter) {
-  const Room room = room_of_ball(charge, geometry);
-  return read_ball_shape(in, diameter, room.length, room.of);
+  return read_ball_shape(in, diameter, room_of_ball(charge, geometry));
 }
 
 std::vector<Section> list_classes(const Section& in) {

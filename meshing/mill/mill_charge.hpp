@@ -10,6 +10,10 @@ namespace millfoam::meshing {
 
 class Section;
 
+/// Length of a periodic mill over the longest way through its largest ball, at least: in a shorter one a ball
+/// could touch the same ball on both sides.
+inline constexpr double fewest_diameters_of_period = 2;
+
 /// The charge of the section `charge`, by classes or by fill.
 /// @param in  that section
 /// @param geometry  of the mill that the balls must fit into

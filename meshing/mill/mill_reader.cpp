@@ -198,10 +198,11 @@ void take_slice(const Section& in, Mill& mill) {
   for (const SizeClass& size : mill.charge.classes) longest = std::max(longest, longest_way(size));
   const std::string words = mill.charge.has_shapes() ? "a ball's longest way through its centre, "
                                                      : "the largest ball's diameter, ";
+  const double shortest = fewest_diameters_of_period * longest;
   const double whole = mill.geometry.length;
-  const double slice = in.number("slice", {"a length above " + words + shown(longest) +
+  const double slice = in.number("slice", {"a length in m of at least twice " + words + shown(shortest) +
                                                " m, and up to the mill's, " + shown(whole) + " m",
-                                           [&](double v) { return v > longest && v <= whole; }});
+                                           [&](double v) { return v >= shortest && v <= whole; }});
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
   mill.geometry.circles_of_whole = opening_circles(mill.geometry);

@@ -294,7 +294,7 @@ TEST(Set, takes_the_place_of_a_key_and_is_refused_like_one) {
 TEST(Set, takes_maps_and_removes_keys) {
   const Mill mill = mill_of(example_mill, {"charge={fill: 0.3, diameter: 0.005}"});
   EXPECT_EQ(mill.charge.classes.size(), 1U);
-  EXPECT_EQ(mill_of(example_mill, {"geometry.slice=0.012", "geometry.slice=~"}).geometry.length, 0.024);
+  EXPECT_EQ(mill_of(example_mill, {"geometry.slice=0.018", "geometry.slice=~"}).geometry.length, 0.024);
 }
 
 TEST(Set, of_one_alternative_takes_the_place_of_the_other) {

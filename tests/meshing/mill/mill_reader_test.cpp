@@ -539,15 +539,29 @@ TEST(ReadMill, takes_fines_up_to_the_largest_ball) {
 
 TEST(ReadMill, takes_a_periodic_slice_of_a_whole_mill) {
   const Mill whole = read(example_mill);
-  const Mill slice = read(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"));
-  EXPECT_EQ(slice.geometry.length, 0.012);
+  const Mill slice = read(with(example_mill, "  ends: plain", "  slice: 0.018\n  ends: plain"));
+  EXPECT_EQ(slice.geometry.length, 0.018);
   EXPECT_EQ(slice.geometry.ends, Ends::periodic);
-  EXPECT_EQ(slice.resolution.layers, 4);
-  EXPECT_NEAR(slice.charge.classes[0].mass, whole.charge.classes[0].mass / 2, 1e-15);
-  EXPECT_NE(refusal("  ends: plain", "  slice: 0.007\n  ends: plain").find("largest ball's diameter, 0.008"),
-            std::string::npos);
+  EXPECT_EQ(slice.resolution.layers, 6);
+  EXPECT_NEAR(slice.charge.classes[0].mass, whole.charge.classes[0].mass * 0.75, 1e-15);
   EXPECT_NE(refusal("  ends: plain", "  slice: 0.03\n  ends: plain").find("'geometry.slice' = 0.03"),
             std::string::npos);
+}
+
+// In less than two diameters a ball could touch the same ball on both sides
+TEST(ReadMill, refuses_a_period_of_less_than_two_of_the_largest_balls) {
+  EXPECT_EQ(
+      refusal("  ends: plain", "  slice: 0.0159\n  ends: plain"),
+      "mill.yaml:5: key 'geometry.slice' = 0.0159: expected a length in m of at least twice the largest "
+      "ball's diameter, 0.016 m, and up to the mill's, 0.024 m");
+  EXPECT_EQ(refusal("  ends: plain", "  slice: 0.016\n  ends: plain"), "accepted");
+  const std::string periodic = with(example_mill, "ends: plain", "ends: periodic");
+  EXPECT_EQ(
+      refusal(with(periodic, "length: 0.024", "length: 0.0158")),
+      "mill.yaml:15: key 'charge.classes[0].diameter' = 0.008: expected a ball's diameter above 0 and up "
+      "to half of the periodic mill's length, 0.0079 m");
+  EXPECT_EQ(refusal(with(periodic, "length: 0.024", "length: 0.016")), "accepted");
+  EXPECT_EQ(refusal("length: 0.024", "length: 0.0158"), "accepted");
 }
 
 TEST(ReadMill, takes_the_last_of_layers_that_grow) {
@@ -565,14 +579,14 @@ TEST(ReadMill, takes_the_last_of_layers_that_grow) {
 
 TEST(ReadMill, has_equal_layers_where_the_ends_are_periodic) {
   const std::string graded = with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.001");
-  EXPECT_EQ(read(with(graded, "  ends: plain", "  slice: 0.012\n  ends: plain")).resolution.last_layer, 0);
+  EXPECT_EQ(read(with(graded, "  ends: plain", "  slice: 0.018\n  ends: plain")).resolution.last_layer, 0);
   EXPECT_NE(refusal(with(graded, "ends: plain", "ends: periodic"))
                 .find("'resolution.last_layer' = 0.001: expected this key with plain ends only"),
             std::string::npos);
 }
 
 TEST(ReadMill, takes_one_layer_where_the_ends_are_periodic) {
-  EXPECT_EQ(read(with(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"), "layers: 8",
+  EXPECT_EQ(read(with(with(example_mill, "  ends: plain", "  slice: 0.016\n  ends: plain"), "layers: 8",
                       "layers: 2"))
                 .resolution.layers,
             1);
