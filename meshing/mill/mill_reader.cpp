@@ -78,21 +78,28 @@ double read_angular_velocity(Section& in, const Geometry& geometry) {
 }
 
 Material read_material(const Section& materials, const std::string& key) {
-  if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
-  const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
+  const Section::Keys keys = {"density", "youngs_modulus", "poisson_ratio"};
+  if (!materials.has(key) || materials.is_text(key))
+    return named_material(materials.name(key, material_names(), keys));
+  const Section in = materials.section(key, keys);
   return {in.number("density", density()), in.number("youngs_modulus", youngs_modulus()),
           in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
 }
 
 /// A contact by name, by its numbers, or, where the key is missing, by the names of its two materials.
 Contact read_contact(const Section& materials, const std::string& key, const std::string& partner) {
-  if (materials.is_text(key)) return named_contact(materials.choice(key, contact_names()));
-  if (!materials.has(key) && materials.is_text("ball") && materials.is_text(partner)) {
-    const std::string name = materials.text("ball", "") + "-" + materials.text(partner, "");
-    const auto names = contact_names();
+  const Section::Keys keys = {"restitution", "friction", "rolling_friction"};
+  const Section::Keys names = contact_names();
+  if (materials.is_text(key)) return named_contact(materials.name(key, names, keys));
+  if (!materials.has(key)) {
+    const bool named = materials.is_text("ball") && materials.is_text(partner);
+    const std::string name =
+        named ? materials.text("ball", "") + "-" + materials.text(partner, "") : std::string();
     if (std::find(names.begin(), names.end(), name) != names.end()) return named_contact(name);
+    materials.refuse(key, name_or_map(names, keys) + ", because no contact " +
+                              (named ? "'" + name + "'" : "of these materials") + " is known");
   }
-  const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
+  const Section in = materials.section(key, keys);
   return {in.number("restitution",
                     {"a coefficient of restitution above " + shown(least_restitution) + " and up to 1",
                      [](double v) { return v > least_restitution && v <= 1; }}),

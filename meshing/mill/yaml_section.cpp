@@ -67,6 +67,10 @@ std::string shown(const YAML::Node& node) {
 
 }  // namespace
 
+std::string name_or_map(const Section::Keys& names, const Section::Keys& map_keys) {
+  return "one of " + joined(names) + ", or a map {" + joined(map_keys) + "}";
+}
+
 Section::Section(const std::shared_ptr<MillDocument>& document, const Keys& known)
     : Section(document->root(), document, "", known) {}
 
@@ -227,11 +231,17 @@ std::string Section::text(const std::string& key, const std::string& fallback) c
 }
 
 std::string Section::choice(const std::string& key, const Keys& choices) const {
-  const std::string expected = "one of " + joined(choices);
+  return chosen(key, choices, "one of " + joined(choices));
+}
+
+std::string Section::name(const std::string& key, const Keys& names, const Keys& map_keys) const {
+  return chosen(key, names, name_or_map(names, map_keys));
+}
+
+std::string Section::chosen(const std::string& key, const Keys& choices, const std::string& expected) const {
   const YAML::Node node = value(key, expected);
-  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
+  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end())
     refuse(key, expected);
-  }
   document_->record(path_of(key), node.Scalar());
   return node.Scalar();
 }

@@ -504,15 +504,28 @@ TEST(ReadMill, takes_a_contact_by_name_beside_materials_of_its_own) {
 }
 
 TEST(ReadMill, names_what_it_knows_when_a_material_or_contact_is_not) {
-  EXPECT_NE(refusal(with(with_named_materials(), "HDPE", "rubber")).find("HDPE"), std::string::npos);
-  EXPECT_NE(refusal(with(with_named_materials(), "wall: HDPE", "wall: HDPE\n  ball_wall: glass-rubber"))
-                .find("glass-perspex"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(refusal(with(with_named_materials(), "HDPE", "rubber")),
+           "key 'materials.wall' = rubber: expected one of HDPE, aluminium, glass, nylon, perspex, or a "
+           "map {density, youngs_modulus, poisson_ratio}"));
+  EXPECT_TRUE(says(refusal(with(with_named_materials(), "  wall: HDPE\n", "")),
+                   "key 'materials.wall' is missing: expected one of HDPE, aluminium"));
+  EXPECT_TRUE(
+      says(refusal(with(with_named_materials(), "wall: HDPE", "wall: HDPE\n  ball_wall: glass-rubber")),
+           "key 'materials.ball_wall' = glass-rubber: expected one of glass-HDPE, glass-aluminium, "
+           "glass-glass, glass-nylon, glass-perspex, or a map {restitution, friction, rolling_friction}"));
 }
 
 TEST(ReadMill, asks_for_a_contact_that_no_table_has) {
-  const std::string text = with(with_named_materials(), "ball: glass", "ball: aluminium");
-  EXPECT_NE(refusal(text).find("'materials.ball_ball' is missing"), std::string::npos) << refusal(text);
+  const auto missing = [](const std::string& ball) {
+    return refusal(with(with_named_materials(), "ball: glass", "ball: " + ball));
+  };
+  const std::string expected =
+      "key 'materials.ball_ball' is missing: expected one of glass-HDPE, glass-aluminium, glass-glass, "
+      "glass-nylon, glass-perspex, or a map {restitution, friction, rolling_friction}, because no contact ";
+  EXPECT_TRUE(says(missing("aluminium"), expected + "'aluminium-aluminium' is known"));
+  EXPECT_TRUE(says(missing("{density: 7800, youngs_modulus: 2e11, poisson_ratio: 0.3}"),
+                   expected + "of these materials is known"));
 }
 
 TEST(ReadMill, takes_an_overlap_instead_of_a_modulus) {
