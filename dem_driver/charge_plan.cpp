@@ -19,8 +19,6 @@ namespace millfoam::dem_driver {
 
 namespace {
 
-using meshing::ball_mass;
-
 constexpr double most_balls = 1e8;  // of a class: LIGGGHTS counts balls by int
 
 double ball_volume(double diameter) {
@@ -31,34 +29,17 @@ double start_length(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic ? mill.geometry.length : mill.charge.start_length;
 }
 
-/// A charge of one class may be given by `fill`, without a list of classes.
-std::string key_of_class(const meshing::Mill& mill, std::size_t number) {
-  return mill.charge.classes.size() == 1 ? "charge" : "charge.classes[" + std::to_string(number) + "]";
-}
-
-/// A class without a ball would still set the time-step and the softness of the balls that there are.
-[[noreturn]] void refuse_empty_class(const meshing::Mill& mill, std::size_t number) {
-  const auto& size = mill.charge.classes[number];
-  const bool is_whole_charge = mill.charge.classes.size() == 1;
-  throw meshing::KeyError(
-      key_of_class(mill, number),
-      shown(size.mass) + " kg of balls of " + shown(size.diameter) +
-          " m in this mill, which rounds to 0 balls",
-      "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) + " kg: raise the mass" +
-          (is_whole_charge ? "" : ", or leave the class out (small ones by charge.fines_below)"));
-}
-
 std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
+  meshing::require_balls(mill);
   std::vector<ClassCount> classes;
   const auto counted = meshing::count_charge(mill).classes;
   for (std::size_t i = 0; i < counted.size(); ++i) {
     const auto& size = counted[i];
     if (!(static_cast<double>(size.count) <= most_balls))
-      throw meshing::KeyError(key_of_class(mill, i),
+      throw meshing::KeyError(meshing::key_of_class(mill, i),
                               shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) +
                                   " m, which are " + shown(static_cast<double>(size.count)) + " balls",
                               "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
-    if (size.count == 0 && size.simulated) refuse_empty_class(mill, i);
     classes.push_back({size.diameter, size.mass_asked, size.mass, size.count, size.shape});
   }
   std::stable_sort(classes.begin(), classes.end(),

@@ -6,6 +6,7 @@
 
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_ball_shape.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
@@ -269,6 +270,24 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
   return charge;
 }
 
+std::string key_of_class(const Mill& mill, std::size_t number) {
+  return mill.charge.classes.size() == 1 ? "charge" : "charge.classes[" + std::to_string(number) + "]";
+}
+
+void require_balls(const Mill& mill) {
+  const std::vector<BallCount> counted = count_charge(mill).classes;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    const BallCount& size = counted[i];
+    if (size.count > 0 || !size.simulated) continue;
+    throw KeyError(
+        key_of_class(mill, i),
+        shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) +
+            " m in this mill, which rounds to 0 balls",
+        "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) + " kg: raise the mass" +
+            (counted.size() == 1 ? "" : ", or leave the class out (small ones by charge.fines_below)"));
+  }
+}
+
 std::vector<ClassShape> class_shapes(const ChargeNumbers& charge) {
   std::vector<ClassShape> shares;
   for (const BallCount& ball : charge.classes)
@@ -309,7 +328,8 @@ ChargeNumbers count_charge(const Mill& mill) {
     if (numbers.smallest_diameter == 0) numbers.smallest_diameter = ball.diameter;
     numbers.smallest_diameter = std::min(numbers.smallest_diameter, ball.diameter);
   }
-  // A charge that rounds to no ball at all, which the dry run refuses, is as large as its largest class
+  // A charge that rounds to no ball at all, which only a flow without balls may have, is as large as its
+  // largest class
   numbers.sauter_diameter =
       mass_over_diameter > 0 ? numbers.mass / mass_over_diameter : numbers.largest_diameter;
   if (numbers.mass > 0) numbers.sphericity = mass_times_sphericity / numbers.mass;

@@ -330,6 +330,11 @@ MillDescription describe_mill(const std::filesystem::path& file, const std::vect
   const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
                                 "slurry", "air", "resolution", "flow", "machine"});
   MillDescription description{read_root(root, file.stem().string()), document};
+  try {
+    if (description.mill.flow.balls) require_balls(description.mill);
+  } catch (const KeyError& error) {
+    throw MillError(document->place(error.key()) + ": " + error.what());
+  }
   description.mill.fingerprint = fingerprints(document->keys(), description.mill);
   return description;
 }

@@ -601,6 +601,23 @@ TEST(Charge, packing_is_that_of_bulk_and_pores) {
   EXPECT_DOUBLE_EQ(loose.pore_volume, loose.volume);
 }
 
+TEST(Charge, has_a_ball_of_each_class_that_is_computed) {
+  const std::string whole =
+      with(example_mill, "    - {diameter: 0.002, mass: 0.03}\n", "    - {diameter: 0.006, number: 1}\n");
+  EXPECT_EQ(refusal_of(whole), "accepted");
+  // 2700 pi/6 0.006^3 = 3.05363e-04 kg, of which a slice of 16 mm has two thirds, of 24 mm from 72 a third
+  EXPECT_EQ(refusal_of(whole, {"geometry.slice=0.016"}), "accepted");
+  const std::string third = with(whole, "length: 0.024", "length: 0.072");
+  EXPECT_EQ(
+      refusal_of(third, {"geometry.slice=0.024"}),
+      "mill.yaml:16: key 'charge.classes[1]' = 0.000101788 kg of balls of 0.006 m in this mill, which "
+      "rounds to 0 balls: expected at least half of one ball's mass, 0.000305363 kg: raise the mass, or "
+      "leave the class out (small ones by charge.fines_below)");
+  EXPECT_EQ(refusal_of(third, {"geometry.slice=0.024", "charge.fines_below=0.007"}), "accepted");
+  EXPECT_EQ(refusal_of(third, {"geometry.slice=0.024", "flow.balls=no"}), "accepted");
+  EXPECT_EQ(refusal_of(bare_mill, {"charge.fill=1e-6"}).rfind("mill.yaml:3: key 'charge' = ", 0), 0U);
+}
+
 TEST(Charge, counts_whole_balls_and_names_fines) {
   const ChargeNumbers charge = count_charge(mill_of(example_mill, {"charge.fines_below=0.003"}));
   ASSERT_EQ(charge.classes.size(), 2U);
