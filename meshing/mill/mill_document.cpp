@@ -59,14 +59,19 @@ void require_utf8(const std::string& file, const std::string& text) {
   }
 }
 
-/// Refuses a tab in a line's indentation, of which YAML's own message says nothing useful.
-void refuse_tabs(const std::string& file, const std::string& text) {
+/// The text with blanks for the tabs before comments and in blank lines, which YAML allows and the parser
+/// does not. Refuses other tabs in a line's indentation, of which the parser's message says nothing useful.
+std::string without_tabs(const std::string& file, std::string text) {
   for (std::size_t at = text.find('\t'); at != std::string::npos; at = text.find('\t', at + 1)) {
     const std::size_t begin = text.rfind('\n', at) + 1;  // npos + 1 is 0
-    if (text.find_first_not_of(" \t", begin) > at)
+    const std::size_t first = std::min(text.find_first_not_of(" \t", begin), text.size());
+    if (first < at) continue;
+    if (first < text.size() && std::string("#\r\n").find(text[first]) == std::string::npos)
       throw MillError(file + ":" + std::to_string(line_at(text, at)) +
                       ": a tab before the key: expected blanks, because YAML allows no tabs there");
+    text[at] = ' ';
   }
+  return text;
 }
 
 /// Values of a file with all aliases written out, and maps and lists within each other, above which it is
@@ -255,10 +260,9 @@ MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::s
     : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {
   const std::string text = read_bytes(file_);
   require_utf8(file_, text);
-  refuse_tabs(file_, text);
   source_ = file_;
   source_fingerprint_ = fingerprint(text);
-  root_ = load(file_, text);
+  root_ = load(file_, without_tabs(file_, text));
   if (root_["format"].IsDefined()) take_resolved();
   const YAML::Node variants = take_variants(file_, root_);
   std::vector<std::string> own;

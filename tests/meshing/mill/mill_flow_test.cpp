@@ -534,6 +534,13 @@ TEST(Encoding, tabs_before_keys_are_named) {
   EXPECT_EQ(refusal_of("speed:\n\tsense: clockwise\n").find("mill.yaml:2: a tab before the key"), 0U);
 }
 
+TEST(Encoding, tabs_in_blank_lines_and_before_comments_are_allowed) {
+  for (const char* line : {"\t\n", "  \t\r\n", "\t# comment\n", " \t # a:\tb\n"})
+    EXPECT_EQ(mill_of(with(example_mill, "  length", line + std::string("  length"))).geometry.length, 0.024);
+  EXPECT_EQ(refusal_of(example_mill + "\t"), "accepted");
+  EXPECT_EQ(refusal_of(example_mill + "\t# end"), "accepted");
+}
+
 TEST(Lengths, in_millimetres_are_refused) {
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=120"}).find("up to 50 m"), std::string::npos);
   EXPECT_NE(refusal_of(example_mill, {"geometry.diameter=1e300"}).find("up to 50 m"), std::string::npos);
