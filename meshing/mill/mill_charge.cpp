@@ -117,8 +117,9 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry,
 /// Mass in kg of balls that fill the requested share of the mill in bulk.
 double read_fill_mass(const Section& in, const Geometry& geometry, double density, double packing) {
   if (in.has("reference_length")) in.refuse("reference_length", "this key with classes only, not with fill");
-  const double fill =
-      in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
+  const double fill = in.number(
+      "fill", {"a share of the mill's volume above 0 and below 1, 0.3 for 30 % (or the key classes)",
+               [](double v) { return v > 0 && v < 1; }});
   return fill * packing * density * analytic_volume(geometry);
 }
 

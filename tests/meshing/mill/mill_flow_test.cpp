@@ -608,6 +608,12 @@ TEST(Charge, packing_is_that_of_bulk_and_pores) {
   EXPECT_DOUBLE_EQ(loose.pore_volume, loose.volume);
 }
 
+TEST(Charge, of_a_fill_in_percent_is_refused_with_an_example) {
+  EXPECT_EQ(refusal_of(bare_mill, {"charge.fill=30"}),
+            "--set charge.fill=30: key 'charge.fill' = 30: expected a share of the mill's volume above 0 and "
+            "below 1, 0.3 for 30 % (or the key classes)");
+}
+
 TEST(Charge, has_a_ball_of_each_class_that_is_computed) {
   const std::string whole =
       with(example_mill, "    - {diameter: 0.002, mass: 0.03}\n", "    - {diameter: 0.006, number: 1}\n");
