@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -51,6 +52,14 @@ std::optional<Number> parse(std::string text) {
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   if (error != std::errc{} || stop != end) return std::nullopt;
   return number;
+}
+
+/// A number without a fraction, also one written as 12.0.
+std::optional<int> parse_whole(const std::string& text) {
+  if (const auto digits = parse<int>(text)) return digits;
+  const auto number = parse<double>(text);
+  const bool fits = number && std::abs(*number) <= std::numeric_limits<int>::max();
+  return fits && *number == std::floor(*number) ? std::optional(static_cast<int>(*number)) : std::nullopt;
 }
 
 /// A scalar that was written without quotes: a quoted number is a text.
@@ -195,7 +204,7 @@ std::vector<double> Section::numbers(const std::string& key, std::size_t count, 
 
 int Section::integer(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
-  const auto number = is_plain_scalar(node) ? parse<int>(node.Scalar()) : std::nullopt;
+  const auto number = is_plain_scalar(node) ? parse_whole(node.Scalar()) : std::nullopt;
   if (!number || !rule.holds(*number)) refuse(key, rule.expected);
   document_->record(path_of(key), *number);
   return *number;

@@ -62,7 +62,7 @@ class Section {
   double number(const std::string& key, const Rule& rule, double fallback) const;
   /// The list of `count` finite numbers under `key`, each of which must satisfy the rule.
   std::vector<double> numbers(const std::string& key, std::size_t count, const Rule& rule) const;
-  /// The whole number under `key`, in decimal digits.
+  /// The whole number under `key`, in decimal digits; a fraction of 0 is allowed, as in 12.0.
   int integer(const std::string& key, const Rule& rule) const;
   /// As above, or `fallback` where the key is not there.
   int integer(const std::string& key, const Rule& rule, int fallback) const;

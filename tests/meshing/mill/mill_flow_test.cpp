@@ -512,6 +512,17 @@ TEST(Numbers, with_a_comma_in_a_map_of_one_line_are_told) {
       std::string::npos);
 }
 
+TEST(Numbers, that_are_whole_may_have_a_point) {
+  const Mill mill = mill_of(example_mill, {"geometry.lifters.count=12.0", "dem.seed=2.0121e4"});
+  EXPECT_EQ(mill.geometry.lifters.count, 12);
+  EXPECT_EQ(mill.fingerprint.flow, mill_of(example_mill).fingerprint.flow);
+  for (const char* wrong : {"12.5", "1e300", ".nan", ".inf", "'12.0'", "3e9"})
+    EXPECT_NE(refusal_of(example_mill, {std::string("geometry.lifters.count=") + wrong})
+                  .find("expected a whole number of lifters from 0 to 1000"),
+              std::string::npos)
+        << wrong;
+}
+
 TEST(Materials, in_other_units_are_refused) {
   EXPECT_NE(refusal_of(example_mill, {"slurry.density=1.24"}).find("a density in kg/m^3 from 100 to 23000"),
             std::string::npos);
