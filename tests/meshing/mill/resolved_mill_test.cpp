@@ -106,6 +106,15 @@ TEST(Fingerprints, of_walls_and_charge_do_not_know_core_and_ring) {
   EXPECT_EQ(with_counts("gap: 11, lifter: 3, height: 5, ring: 9, core: 42").flow, usual.flow);
 }
 
+TEST(ResolvedMill, has_no_size_of_cells_that_are_counted) {
+  const auto cell_size = [](const std::string& resolution) {
+    return resolved_mill(describe(example_mill, {"resolution=" + resolution}),
+                         "test")["derived"]["resolution"]["cell_size_m"];
+  };
+  EXPECT_EQ(cell_size("{cell_size: 0.004}"), 0.004);
+  EXPECT_TRUE(cell_size("{counts: {gap: 11, lifter: 3, height: 5, ring: 9}}").is_null());
+}
+
 TEST(ResolvedMill, has_the_last_layers_thickness) {
   const auto last_layer = [](const std::vector<std::string>& changes) {
     return resolved_mill(describe(example_mill, changes), "test")["derived"]["resolution"]["last_layer_m"]
