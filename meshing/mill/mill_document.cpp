@@ -265,6 +265,8 @@ MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::s
   root_ = load(file_, without_tabs(file_, text));
   if (root_["format"].IsDefined()) take_resolved();
   const YAML::Node variants = take_variants(file_, root_);
+  if (variants.IsDefined())
+    for (const auto& entry : variants) variants_.push_back(entry.first.Scalar());
   std::vector<std::string> own;
   for (const std::string& change : set_) {
     const std::size_t sign = change.find('=');
@@ -306,6 +308,8 @@ void MillDocument::apply(const std::string& change) {
       sign == std::string::npos ? std::vector<std::string>() : names_of(change.substr(0, sign));
   if (names.empty())
     throw MillError(place + ": expected PATH=VALUE, as in flow.law=Hill or charge.classes[0].mass=0.1");
+  if (names.front() == variants_key)
+    throw MillError(place + ": expected a key of the mill, or a variant by its name, as in variant=slow");
   YAML::Node value;
   try {
     value = YAML::Load(change.substr(sign + 1));
@@ -330,9 +334,9 @@ void MillDocument::apply_variant(const YAML::Node& variants, const std::string& 
     const std::string path = entry.first.Scalar();
     const std::string place = source_ + ":" + line_of(entry.first);
     const auto names = names_of(path);
-    if (names.empty())
-      throw MillError(place + ": key '" + path + "' of the variant " + name +
-                      ": expected a path, as in flow.law or charge.classes[0].mass");
+    if (names.empty() || names.front() == variants_key)
+      throw UnknownKey(place + ": key '" + path + "' of the variant " + name +
+                       ": expected a path, as in flow.law or charge.classes[0].mass");
     require_lists(place, root_, path);
     assign(place, root_, names, entry.second);
     variant_lines_[path] = entry.first.Mark().line + 1;

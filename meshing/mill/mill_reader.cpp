@@ -323,12 +323,12 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   return mill;
 }
 
-}  // namespace
-
-MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
+MillDescription describe_without_variants(const std::filesystem::path& file,
+                                          const std::vector<std::string>& set) {
   const auto document = std::make_shared<MillDocument>(file, set);
+  // The document has taken the variants out of its root
   const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
-                                "slurry", "air", "resolution", "flow", "machine"});
+                                "slurry", "air", "resolution", "flow", "machine", "variants"});
   MillDescription description{read_root(root, file.stem().string()), document};
   try {
     if (description.mill.flow.balls) require_balls(description.mill);
@@ -336,6 +336,29 @@ MillDescription describe_mill(const std::filesystem::path& file, const std::vect
     throw MillError(document->place(error.key()) + ": " + error.what());
   }
   description.mill.fingerprint = fingerprints(document->keys(), description.mill);
+  return description;
+}
+
+/// Throws UnknownKey for variants with paths that are no keys. Values are only checked where a variant is
+/// used: some go with other changes only.
+void check_variants(const std::filesystem::path& file, const MillDocument& document) {
+  if (!std::filesystem::is_regular_file(file)) return;  // a pipe has no second reading
+  for (const std::string& name : document.variants()) {
+    try {
+      describe_without_variants(file, {"variant=" + name});
+    } catch (const UnknownKey&) {
+      throw;
+    } catch (const MillError&) {
+      continue;
+    }
+  }
+}
+
+}  // namespace
+
+MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  MillDescription description = describe_without_variants(file, set);
+  check_variants(file, *description.document);
   return description;
 }
 

@@ -99,8 +99,8 @@ void Section::check_keys() const {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
       // {diameter: 0,6} is a diameter of 0 and a key 6
       const bool comma = parse<double>(key) && entry.second.IsNull();
-      fail(path, "key '" + path + "' is unknown: " +
-                     (comma ? "a decimal comma? expected a point, as in 0.6" : suggestion(key, known_)));
+      throw UnknownKey(document_->place(path) + ": key '" + path + "' is unknown: " +
+                       (comma ? "a decimal comma? expected a point, as in 0.6" : suggestion(key, known_)));
     }
     if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }

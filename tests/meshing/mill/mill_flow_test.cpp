@@ -458,6 +458,30 @@ TEST(Variants, are_refused_by_line_and_name) {
   EXPECT_EQ(refusal_of(wrong), "accepted");
 }
 
+TEST(Variants, have_paths_of_keys_also_where_they_are_not_used) {
+  const auto refused = [](const std::string& variant) {
+    return refusal_of(bare_mill + "variants:\n  slow: {flow.turns: 2}\n  other: {" + variant + "}\n");
+  };
+  EXPECT_EQ(refused("flow.law: Hill"), "accepted");
+  EXPECT_EQ(refused("flow.lwa: Hill").rfind("mill.yaml:8: key 'flow.lwa' is unknown: did you mean 'law'?", 0),
+            0U)
+      << refused("flow.lwa: Hill");
+  EXPECT_EQ(refused("flow: {lwa: Hill}").rfind("mill.yaml:8: key 'flow.lwa' is unknown", 0), 0U);
+  EXPECT_EQ(refused("flwo.law: Hill").rfind("mill.yaml:8: key 'flwo' is unknown: did you mean 'flow'?", 0),
+            0U);
+  EXPECT_NE(refused("flow..law: Hill").find("expected a path, as in flow.law"), std::string::npos);
+  EXPECT_NE(refused("variants.slow.flow.turns: 3").find("expected a path"), std::string::npos);
+  // Values may go with other changes
+  EXPECT_EQ(refused("flow.averages.start: 1e4"), "accepted");
+}
+
+TEST(Variants, are_among_the_known_sections) {
+  EXPECT_NE(refusal_of(bare_mill + "variant: {slow: {flow.turns: 2}}\n").find("did you mean 'variants'?"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"variants.slow.flow.turns=2"}).find("as in variant=slow"),
+            std::string::npos);
+}
+
 TEST(Variants, are_refused_where_they_say_two_things) {
   const auto refused = [](const std::string& variants) { return refusal_of(bare_mill + variants); };
   EXPECT_EQ(refused("variants:\n  slow: {flow.law: Hill, flow.law: Beetstra}\n")
