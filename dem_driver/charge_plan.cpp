@@ -66,6 +66,13 @@ double room_below(const meshing::Mill& mill) {
          meshing::impeller_volume(mill.geometry, bottom);
 }
 
+/// Of a superquadric, the longest way through it.
+double largest_diameter(const meshing::Mill& mill) {
+  double largest = 0;
+  for (const auto& size : mill.charge.classes) largest = std::max(largest, meshing::longest_way(size));
+  return largest;
+}
+
 /// The start cylinder is too small for the balls that are left.
 [[noreturn]] void refuse_start(const meshing::Mill& mill, double cylinder, long left, double diameter) {
   const std::string balls =
@@ -73,10 +80,16 @@ double room_below(const meshing::Mill& mill) {
   if (mill.geometry.impeller)
     throw meshing::KeyError("charge", shown(cylinder) + " m^3 above the impeller, where balls are released",
                             "more room there, or fewer balls: " + balls + "; raise geometry.height");
+  const double room = mill.geometry.radius() - mill.geometry.lifters.height;
+  std::string remedies = "; take fewer balls (charge.fill or charge.classes)";
+  if (mill.geometry.ends == meshing::Ends::plain)
+    remedies += ", or a longer charge.start_length, up to " + shown(mill.geometry.length) + " m";
+  // The default leaves the radius of the largest ball
+  if (mill.charge.start_radius < room - largest_diameter(mill) / 2 * (1 + 1e-9))
+    remedies += ", or raise it, up to " + shown(room) + " m";
   throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
                           "a start cylinder (its volume is " + shown(cylinder) +
-                              " m^3) in which all balls have room: " + balls +
-                              "; raise it, at most to the radius inside the lifters, or take fewer balls");
+                              " m^3) in which all balls have room: " + balls + remedies);
 }
 
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.
