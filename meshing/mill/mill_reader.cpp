@@ -46,35 +46,43 @@ constexpr double least_restitution = 0.05;
 constexpr double slowest_fraction = 0.001;
 constexpr double fastest_fraction = 3;
 
+double read_fraction(const Section& speed) {
+  return speed.number("fraction_of_critical",
+                      {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
+                           shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity or rpm)",
+                       [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+}
+
 double read_angular_velocity(Section& in, const Geometry& geometry) {
   const double critical = critical_speed(geometry);
   const double slowest = slowest_fraction * critical;
   const double fastest = fastest_fraction * critical;
   const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
                             " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
-                            " of the critical speed), negative for clockwise",
+                            " of the critical speed), negative for clockwise (or the key rpm)",
                         [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
-  // A fraction that --set gives turns the mill as the file's angular velocity does
+  // Another speed that --set gives turns the mill as the file's angular velocity does
   std::optional<std::string> usual_sense;
-  if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
+  const bool other_is_set = in.is_set("fraction_of_critical") || in.is_set("rpm");
+  if (in.has("angular_velocity") && other_is_set && !in.is_set("angular_velocity"))
     usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
-  in.alternatives({"angular_velocity", "fraction_of_critical"});
+  in.alternatives({"angular_velocity", "fraction_of_critical", "rpm"});
   in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
-    for (const char* other : {"fraction_of_critical", "sense"}) {
-      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
-    }
+    for (const char* other : {"fraction_of_critical", "rpm", "sense"})
+      if (in.has(other))
+        in.refuse(other, "either angular_velocity alone, or sense with fraction_of_critical or rpm");
     return in.number("angular_velocity", turning);
   }
-  const double fraction = in.number(
-      "fraction_of_critical", {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
-                                   shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity)",
-                               [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+  if (in.has("rpm") && in.has("fraction_of_critical"))
+    in.refuse("rpm", "either this key or fraction_of_critical");
+  const double speed = in.has("rpm") ? turn_per_minute * in.number("rpm", turns_per_minute(slowest, fastest))
+                                     : critical * read_fraction(in);
   const Section::Keys senses = {"clockwise", "anticlockwise"};
   const std::string sense =
       usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
   const double sign = sense == "clockwise" ? -1 : 1;
-  return sign * fraction * critical;
+  return sign * speed;
 }
 
 Material read_material(const Section& materials, const std::string& key) {
@@ -257,7 +265,7 @@ void read_tumbling(const Section& in, Mill& mill) {
   const Section geometry = in.section(
       "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
   mill.geometry = read_geometry(geometry);
-  Section speed = in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"});
+  Section speed = in.section("speed", {"fraction_of_critical", "rpm", "sense", "angular_velocity"});
   mill.angular_velocity = read_angular_velocity(speed, mill.geometry);
   read_materials(in, mill);
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter", "shape",
@@ -301,7 +309,7 @@ void read_stirred_flow(const Section& in, Mill& mill) {
 void read_stirred(const Section& in, Mill& mill) {
   mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
   mill.whole_length = mill.geometry.length;
-  Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
+  Section speed = in.section("speed", {"angular_velocity", "tip_speed", "rpm", "sense"});
   mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
   read_materials(in, mill);
   mill.charge = read_stirred_charge(in.section("charge", {"classes", "level", "share", "diameter", "shape",

@@ -91,10 +91,10 @@ std::string mill_lines(const MillDescription& description) {
   std::string text =
       line("mill                     %s", mill.title.c_str()) +
       line(
-          "speed                    %.4g rad/s, %.3g %% of the critical, %s seen with x to the right and y "
-          "up",
-          mill.angular_velocity, 100 * std::abs(mill.angular_velocity) / critical_speed(mill.geometry),
-          mill.sense()) +
+          "speed                    %.4g rad/s (%.4g rpm), %.3g %% of the critical, %s seen with x to the "
+          "right and y up",
+          mill.angular_velocity, std::abs(mill.angular_velocity) / turn_per_minute,
+          100 * std::abs(mill.angular_velocity) / critical_speed(mill.geometry), mill.sense()) +
       line("charge                   %ld balls, %.4g kg, load %.3g %%", charge.balls, charge.mass,
            100 * charge.load);
   if (charge.fines_mass > 0)
@@ -113,9 +113,9 @@ std::string stirred_lines(const MillDescription& description) {
          line("impeller                 %zu levels of pins, %zu discs, %.4g mm from tip to tip, gap %.3g mm",
               impeller.pins.size(), impeller.discs.size(), 2e3 * impeller_radius(impeller),
               1e3 * impeller_gap(mill.geometry)) +
-         line("speed                    %.4g rad/s, %.4g m/s at the tips, %s seen from above",
-              mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
-              mill.sense()) +
+         line("speed                    %.4g rad/s (%.4g rpm), %.4g m/s at the tips, %s seen from above",
+              mill.angular_velocity, std::abs(mill.angular_velocity) / turn_per_minute,
+              std::abs(mill.angular_velocity) * impeller_radius(impeller), mill.sense()) +
          line("charge                   %ld balls, %.4g kg", charge.balls, charge.mass) +
          shape_lines(mill.charge) +
          line("fingerprint              %s", description.mill.fingerprint.charge.c_str());

@@ -329,6 +329,7 @@ TEST(Set, of_a_fraction_of_the_critical_speed_keeps_the_sense_of_the_files_angul
   const double critical = std::sqrt(9.81 / 0.06);
   for (const double sign : {-1, 1}) {
     const std::string text = with(example_mill, speed, "angular_velocity: " + std::to_string(sign * 6.4));
+    EXPECT_NEAR(mill_of(text, {"speed.rpm=60"}).angular_velocity, sign * 2 * std::acos(-1.0), 1e-14);
     EXPECT_DOUBLE_EQ(mill_of(text, {"speed.fraction_of_critical=0.7"}).angular_velocity,
                      sign * 0.7 * critical);
   }

@@ -123,7 +123,24 @@ TEST(ReadMill, takes_a_signed_angular_velocity_instead_of_a_fraction) {
   EXPECT_EQ(
       refusal("  sense", "  angular_velocity: 1\n  sense"),
       "mill.yaml:11: key 'speed.fraction_of_critical' = 0.5: expected either angular_velocity alone, or "
-      "fraction_of_critical and sense");
+      "sense with fraction_of_critical or rpm");
+}
+
+TEST(ReadMill, takes_turns_per_minute_instead_of_a_fraction) {
+  const auto turning = [](const std::string& speed) {
+    return with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", speed);
+  };
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(read(turning("rpm: 60\n  sense: clockwise")).angular_velocity, -2 * pi, 1e-14);
+  EXPECT_NEAR(read(turning("rpm: 30\n  sense: anticlockwise")).angular_velocity, pi, 1e-14);
+  EXPECT_TRUE(says(refusal(turning("rpm: 60")), "key 'speed.sense' is missing"));
+  // 0.001 to 3 times sqrt(9.81/0.06) = 12.787 rad/s
+  EXPECT_TRUE(says(refusal(turning("rpm: -60\n  sense: clockwise")),
+                   "key 'speed.rpm' = -60: expected a speed in turns per minute from 0.122104 to 366.312"));
+  EXPECT_TRUE(says(refusal("  sense", "  rpm: 60\n  sense"),
+                   "key 'speed.rpm' = 60: expected either this key or fraction_of_critical"));
+  EXPECT_TRUE(says(refusal(turning("angular_velocity: 1\n  rpm: 60")),
+                   "key 'speed.rpm' = 60: expected either angular_velocity alone, or sense with"));
 }
 
 TEST(ReadMill, scales_the_masses_from_the_reference_length_to_the_mills) {

@@ -14,7 +14,9 @@
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/surface/pi.hpp"
+#include "tests/meshing/stirred_mill.hpp"
 #include "tests/meshing/test_geometry.hpp"
+#include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -79,6 +81,13 @@ TEST(MeshReport, holds_the_quality_against_its_limits) {
        line("edges                    %.3g to %.3g mm\n", 1e3 * q.smallest_edge, 1e3 * q.largest_edge),
        line("largest ball             2 mm; cells %.3g mm (smallest), %.3g mm (mean volume's)\n",
             1e3 * *std::min_element(sizes.begin(), sizes.end()), 1e3 * mean)});
+}
+
+TEST(MillLines, have_the_speed_in_turns_per_minute_too) {
+  expect_lines(mill_lines(describe(example_mill, {"speed={angular_velocity: -6.2831853}"})),
+               {"speed                    -6.283 rad/s (60 rpm), 49.1 % of the critical, clockwise seen"});
+  expect_lines(stirred_lines(describe(stirred_mill)),
+               {"speed                    31.42 rad/s (300 rpm), 2.215 m/s at the tips, anticlockwise"});
 }
 
 TEST(MeshReport, says_which_value_is_too_large) {
