@@ -20,6 +20,9 @@ namespace {
 /// Solidity of a charge in motion, for the advice only.
 constexpr double charge_solidity = 0.5;
 
+/// Slurries of mills have less, Pa s: a larger value may be in mPa s.
+constexpr double unusual_viscosity = 1;
+
 template <typename... Values>
 std::string line(const char* format, Values... values) {
   std::array<char, 400> text{};
@@ -83,6 +86,15 @@ std::string ball_lines(double ball, const std::vector<double>& volumes) {
              100 * below / static_cast<double>(volumes.size()), balls);
 }
 
+std::string viscosity_lines(const Slurry& slurry) {
+  if (slurry.plastic_viscosity <= unusual_viscosity) return "";
+  return line(
+      "advice: slurry.plastic_viscosity is %.4g Pa s, more than slurries of mills have (water has 0.001 Pa "
+      "s): "
+      "is the value in mPa s?",
+      slurry.plastic_viscosity);
+}
+
 }  // namespace
 
 std::string mill_lines(const MillDescription& description) {
@@ -138,7 +150,8 @@ std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQual
          quality_line("max skewness", "%.2f", q.max_skewness, limits.skewness) +
          quality_line("max volume ratio", "%.2f", q.max_volume_ratio, limits.volume_ratio) +
          line("edges                    %.3g to %.3g mm", 1e3 * q.smallest_edge, 1e3 * q.largest_edge) +
-         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume);
+         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume) +
+         viscosity_lines(mill.slurry);
 }
 
 std::string wall_report(const WallSurface& walls, double volume, double expected, double limit) {

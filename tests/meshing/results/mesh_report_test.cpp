@@ -129,6 +129,21 @@ TEST(MeshReport, names_the_averages_to_use_where_the_smallest_cell_is_smaller_th
   EXPECT_EQ(report_of(mill_with_grates(), 0.002).find("advice"), std::string::npos);
 }
 
+TEST(MeshReport, asks_for_the_unit_of_a_viscosity_that_no_slurry_of_a_mill_has) {
+  const Geometry geometry = mill_with_grates();
+  const CrossSection section = make_cross_section(geometry, 0.012);
+  const VolumeMesh mesh = make_mill_mesh(section, geometry, 2);
+  const auto report_with = [&](double viscosity) {
+    Mill mill;
+    mill.geometry = geometry;
+    mill.slurry.plastic_viscosity = viscosity;
+    return mesh_report(mill, mesh, quality(mesh), find_openings(section, geometry));
+  };
+  expect_lines(report_with(14), {"advice: slurry.plastic_viscosity is 14 Pa s, more than slurries of mills "
+                                 "have (water has 0.001 Pa s): is the value in mPa s?\n"});
+  EXPECT_EQ(report_with(1).find("advice"), std::string::npos);
+}
+
 TEST(WallReport, has_triangles_the_flattest_and_the_difference_in_volume) {
   const WallSurface surface{{{0, 0, 0}, {1, 0, 0}, {0.5, 0.25, 0}, {0.5, 1, 0}},
                             {{"shell", {{0, 1, 2}, {0, 1, 3}}}}};
