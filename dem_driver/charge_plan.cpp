@@ -19,8 +19,6 @@ namespace millfoam::dem_driver {
 
 namespace {
 
-using meshing::ball_mass;
-
 constexpr double most_balls = 1e8;  // of a class: LIGGGHTS counts balls by int
 
 double ball_volume(double diameter) {
@@ -31,34 +29,17 @@ double start_length(const meshing::Mill& mill) {
   return mill.geometry.ends == meshing::Ends::periodic ? mill.geometry.length : mill.charge.start_length;
 }
 
-/// A charge of one class may be given by `fill`, without a list of classes.
-std::string key_of_class(const meshing::Mill& mill, std::size_t number) {
-  return mill.charge.classes.size() == 1 ? "charge" : "charge.classes[" + std::to_string(number) + "]";
-}
-
-/// A class without a ball would still set the time-step and the softness of the balls that there are.
-[[noreturn]] void refuse_empty_class(const meshing::Mill& mill, std::size_t number) {
-  const auto& size = mill.charge.classes[number];
-  const bool is_whole_charge = mill.charge.classes.size() == 1;
-  throw meshing::KeyError(
-      key_of_class(mill, number),
-      shown(size.mass) + " kg of balls of " + shown(size.diameter) +
-          " m in this mill, which rounds to 0 balls",
-      "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) + " kg: raise the mass" +
-          (is_whole_charge ? "" : ", or leave the class out (small ones by charge.fines_below)"));
-}
-
 std::vector<ClassCount> count_balls(const meshing::Mill& mill) {
+  meshing::require_balls(mill);
   std::vector<ClassCount> classes;
   const auto counted = meshing::count_charge(mill).classes;
   for (std::size_t i = 0; i < counted.size(); ++i) {
     const auto& size = counted[i];
     if (!(static_cast<double>(size.count) <= most_balls))
-      throw meshing::KeyError(key_of_class(mill, i),
+      throw meshing::KeyError(meshing::key_of_class(mill, i),
                               shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) +
                                   " m, which are " + shown(static_cast<double>(size.count)) + " balls",
                               "at most " + shown(most_balls) + ": raise the diameter or lower the mass");
-    if (size.count == 0 && size.simulated) refuse_empty_class(mill, i);
     classes.push_back({size.diameter, size.mass_asked, size.mass, size.count, size.shape});
   }
   std::stable_sort(classes.begin(), classes.end(),
@@ -85,6 +66,13 @@ double room_below(const meshing::Mill& mill) {
          meshing::impeller_volume(mill.geometry, bottom);
 }
 
+/// Of a superquadric, the longest way through it.
+double largest_diameter(const meshing::Mill& mill) {
+  double largest = 0;
+  for (const auto& size : mill.charge.classes) largest = std::max(largest, meshing::longest_way(size));
+  return largest;
+}
+
 /// The start cylinder is too small for the balls that are left.
 [[noreturn]] void refuse_start(const meshing::Mill& mill, double cylinder, long left, double diameter) {
   const std::string balls =
@@ -92,10 +80,16 @@ double room_below(const meshing::Mill& mill) {
   if (mill.geometry.impeller)
     throw meshing::KeyError("charge", shown(cylinder) + " m^3 above the impeller, where balls are released",
                             "more room there, or fewer balls: " + balls + "; raise geometry.height");
+  const double room = mill.geometry.radius() - mill.geometry.lifters.height;
+  std::string remedies = "; take fewer balls (charge.fill or charge.classes)";
+  if (mill.geometry.ends == meshing::Ends::plain)
+    remedies += ", or a longer charge.start_length, up to " + shown(mill.geometry.length) + " m";
+  // The default leaves the radius of the largest ball
+  if (mill.charge.start_radius < room - largest_diameter(mill) / 2 * (1 + 1e-9))
+    remedies += ", or raise it, up to " + shown(room) + " m";
   throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
                           "a start cylinder (its volume is " + shown(cylinder) +
-                              " m^3) in which all balls have room: " + balls +
-                              "; raise it, at most to the radius inside the lifters, or take fewer balls");
+                              " m^3) in which all balls have room: " + balls + remedies);
 }
 
 /// Cuts the classes, largest first, into rounds whose volume the free part of the start cylinder can take.

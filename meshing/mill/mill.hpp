@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "meshing/mill/superquadric.hpp"
+#include "meshing/surface/pi.hpp"
 
 /// The description of a mill and what is made from it: its walls, the mesh of its flow, and meshes out of
 /// faces. Units are SI.
@@ -346,6 +347,9 @@ struct Mill {
 
 /// Gravity's magnitude used by every stage, m/s^2; it points to -y, in a stirred mill to -z.
 inline constexpr double gravity = 9.81;
+
+/// Angular speed of one turn in a minute, rad/s.
+inline constexpr double turn_per_minute = 2 * pi / 60;
 
 /// Angular speed at which a ball on the shell would centrifuge, sqrt(g/R), rad/s.
 double critical_speed(const Geometry& geometry);

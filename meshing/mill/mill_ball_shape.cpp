@@ -25,7 +25,11 @@ double read_blockiness(Section& in) {
 
 }  // namespace
 
-std::optional<Superquadric> read_ball_shape(Section in, double diameter, double room, const char* of) {
+std::string Room::words() const {
+  return (included ? "up to " : "below ") + std::string(of) + ", " + shown(length) + unit;
+}
+
+std::optional<Superquadric> read_ball_shape(Section in, double diameter, const Room& room) {
   if (!in.has("shape")) return std::nullopt;
   if (in.is("shape", "sphere")) {
     in.drop("shape");
@@ -36,9 +40,9 @@ std::optional<Superquadric> read_ball_shape(Section in, double diameter, double 
   const auto axes = map.numbers("half_axes", 3, positive_up_to("a length", 1e6));
   const Superquadric shape = scaled_to({{axes[0], axes[1], axes[2]}, read_blockiness(map)}, diameter);
   const double longest_way = 2 * bounding_radius(shape);
-  if (longest_way >= room)
+  if (!room.holds(longest_way))
     in.refuse("shape", "a shape whose longest way through its centre, here " + shown(longest_way) +
-                           " m, is below " + of + ", " + shown(room) + " m");
+                           " m, is " + room.words());
   const double radius = least_radius_of_curvature(shape);
   const double least = least_curvature_share * diameter;
   if (radius < least)

@@ -6,6 +6,7 @@
 
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_ball_shape.hpp"
+#include "meshing/mill/mill_error.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
@@ -25,13 +26,6 @@ constexpr double start_gap = 0.1;
 /// Solidity of the closest random packing of equal balls.
 constexpr double closest_packing = 0.64;
 
-/// A length that balls must be below, and what it is.
-struct Room {
-  double length;     ///< m
-  const char* of;    ///< for messages
-  const char* unit;  ///< its unit, and how to allow larger balls
-};
-
 /// A stirred mill's balls must not be clamped between the impeller and the shell, or the base, unless the
 /// charge's `larger_than_gap` is true. They are released between shaft and shell.
 Room room_in_stirred(const Section& charge, const Geometry& geometry) {
@@ -46,25 +40,27 @@ Room room_in_stirred(const Section& charge, const Geometry& geometry) {
   return {std::min(aside, room), "the gap between the impeller and the shell", unless};
 }
 
-/// The balls must move freely between the lifters' tops and, in a periodic slice, must not meet their own
-/// images.
+/// The balls must move freely between the lifters' tops and, in a periodic mill, must not touch the same ball
+/// on both sides.
 Room room_of_ball(const Section& charge, const Geometry& geometry) {
   if (geometry.impeller) return room_in_stirred(charge, geometry);
   const double room = geometry.radius() - geometry.lifters.height;
+  const double half = geometry.length / fewest_diameters_of_period;
+  if (geometry.ends == Ends::periodic && half < room)
+    return {half, "half of the periodic mill's length", " m", true};
   if (geometry.length < room) return {geometry.length, "the mill's length", " m"};
   return {room, "the radius inside the lifters", " m"};
 }
 
 Rule ball_diameter(const Section& charge, const Geometry& geometry) {
   const Room room = room_of_ball(charge, geometry);
-  return positive_below("a ball's diameter", room.length, room.unit, room.of);
+  return {"a ball's diameter above 0 and " + room.words(), [=](double v) { return v > 0 && room.holds(v); }};
 }
 
 /// The shape of the balls of a class, or of a charge of one class.
 std::optional<Superquadric> read_shape(const Section& in, const Section& charge, const Geometry& geometry,
                                        double diameter) {
-  const Room room = room_of_ball(charge, geometry);
-  return read_ball_shape(in, diameter, room.length, room.of);
+  return read_ball_shape(in, diameter, room_of_ball(charge, geometry));
 }
 
 std::vector<Section> list_classes(const Section& in) {
@@ -121,8 +117,9 @@ std::vector<SizeClass> read_classes(const Section& in, const Geometry& geometry,
 /// Mass in kg of balls that fill the requested share of the mill in bulk.
 double read_fill_mass(const Section& in, const Geometry& geometry, double density, double packing) {
   if (in.has("reference_length")) in.refuse("reference_length", "this key with classes only, not with fill");
-  const double fill =
-      in.number("fill", positive_below("a share of the mill's volume (or the key classes)", 1, "", "1"));
+  const double fill = in.number(
+      "fill", {"a share of the mill's volume above 0 and below 1, 0.3 for 30 % (or the key classes)",
+               [](double v) { return v > 0 && v < 1; }});
   return fill * packing * density * analytic_volume(geometry);
 }
 
@@ -274,6 +271,24 @@ Charge read_stirred_charge(Section in, const Geometry& geometry, double density)
   return charge;
 }
 
+std::string key_of_class(const Mill& mill, std::size_t number) {
+  return mill.charge.classes.size() == 1 ? "charge" : "charge.classes[" + std::to_string(number) + "]";
+}
+
+void require_balls(const Mill& mill) {
+  const std::vector<BallCount> counted = count_charge(mill).classes;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    const BallCount& size = counted[i];
+    if (size.count > 0 || !size.simulated) continue;
+    throw KeyError(
+        key_of_class(mill, i),
+        shown(size.mass_asked) + " kg of balls of " + shown(size.diameter) +
+            " m in this mill, which rounds to 0 balls",
+        "at least half of one ball's mass, " + shown(ball_mass(mill, size.diameter)) + " kg: raise the mass" +
+            (counted.size() == 1 ? "" : ", or leave the class out (small ones by charge.fines_below)"));
+  }
+}
+
 std::vector<ClassShape> class_shapes(const ChargeNumbers& charge) {
   std::vector<ClassShape> shares;
   for (const BallCount& ball : charge.classes)
@@ -314,7 +329,8 @@ ChargeNumbers count_charge(const Mill& mill) {
     if (numbers.smallest_diameter == 0) numbers.smallest_diameter = ball.diameter;
     numbers.smallest_diameter = std::min(numbers.smallest_diameter, ball.diameter);
   }
-  // A charge that rounds to no ball at all, which the dry run refuses, is as large as its largest class
+  // A charge that rounds to no ball at all, which only a flow without balls may have, is as large as its
+  // largest class
   numbers.sauter_diameter =
       mass_over_diameter > 0 ? numbers.mass / mass_over_diameter : numbers.largest_diameter;
   if (numbers.mass > 0) numbers.sphericity = mass_times_sphericity / numbers.mass;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
@@ -9,6 +11,10 @@
 namespace millfoam::meshing {
 
 class Section;
+
+/// Length of a periodic mill over the longest way through its largest ball, at least: in a shorter one a ball
+/// could touch the same ball on both sides.
+inline constexpr double fewest_diameters_of_period = 2;
 
 /// The charge of the section `charge`, by classes or by fill.
 /// @param in  that section
@@ -57,6 +63,13 @@ struct ChargeNumbers {
 
 /// Counts the balls of a mill.
 ChargeNumbers count_charge(const Mill& mill);
+
+/// The key of a class, counted from 0. A charge of one class may be given without a list of classes.
+std::string key_of_class(const Mill& mill, std::size_t number);
+
+/// Throws KeyError for a class that is simulated and has no ball: it would still set the time-step and the
+/// softness of the balls that there are, and the sizes of voxels.
+void require_balls(const Mill& mill);
 
 /// Balls of one class, as their drag needs them.
 struct ClassShape {

@@ -59,14 +59,19 @@ void require_utf8(const std::string& file, const std::string& text) {
   }
 }
 
-/// Refuses a tab in a line's indentation, of which YAML's own message says nothing useful.
-void refuse_tabs(const std::string& file, const std::string& text) {
+/// The text with blanks for the tabs before comments and in blank lines, which YAML allows and the parser
+/// does not. Refuses other tabs in a line's indentation, of which the parser's message says nothing useful.
+std::string without_tabs(const std::string& file, std::string text) {
   for (std::size_t at = text.find('\t'); at != std::string::npos; at = text.find('\t', at + 1)) {
     const std::size_t begin = text.rfind('\n', at) + 1;  // npos + 1 is 0
-    if (text.find_first_not_of(" \t", begin) > at)
+    const std::size_t first = std::min(text.find_first_not_of(" \t", begin), text.size());
+    if (first < at) continue;
+    if (first < text.size() && std::string("#\r\n").find(text[first]) == std::string::npos)
       throw MillError(file + ":" + std::to_string(line_at(text, at)) +
                       ": a tab before the key: expected blanks, because YAML allows no tabs there");
+    text[at] = ' ';
   }
+  return text;
 }
 
 /// Values of a file with all aliases written out, and maps and lists within each other, above which it is
@@ -255,12 +260,13 @@ MillDocument::MillDocument(const std::filesystem::path& file, std::vector<std::s
     : file_(file.string()), set_(std::move(set)), keys_(std::make_unique<nlohmann::ordered_json>()) {
   const std::string text = read_bytes(file_);
   require_utf8(file_, text);
-  refuse_tabs(file_, text);
   source_ = file_;
   source_fingerprint_ = fingerprint(text);
-  root_ = load(file_, text);
+  root_ = load(file_, without_tabs(file_, text));
   if (root_["format"].IsDefined()) take_resolved();
   const YAML::Node variants = take_variants(file_, root_);
+  if (variants.IsDefined())
+    for (const auto& entry : variants) variants_.push_back(entry.first.Scalar());
   std::vector<std::string> own;
   for (const std::string& change : set_) {
     const std::size_t sign = change.find('=');
@@ -302,6 +308,8 @@ void MillDocument::apply(const std::string& change) {
       sign == std::string::npos ? std::vector<std::string>() : names_of(change.substr(0, sign));
   if (names.empty())
     throw MillError(place + ": expected PATH=VALUE, as in flow.law=Hill or charge.classes[0].mass=0.1");
+  if (names.front() == variants_key)
+    throw MillError(place + ": expected a key of the mill, or a variant by its name, as in variant=slow");
   YAML::Node value;
   try {
     value = YAML::Load(change.substr(sign + 1));
@@ -326,9 +334,9 @@ void MillDocument::apply_variant(const YAML::Node& variants, const std::string& 
     const std::string path = entry.first.Scalar();
     const std::string place = source_ + ":" + line_of(entry.first);
     const auto names = names_of(path);
-    if (names.empty())
-      throw MillError(place + ": key '" + path + "' of the variant " + name +
-                      ": expected a path, as in flow.law or charge.classes[0].mass");
+    if (names.empty() || names.front() == variants_key)
+      throw UnknownKey(place + ": key '" + path + "' of the variant " + name +
+                       ": expected a path, as in flow.law or charge.classes[0].mass");
     require_lists(place, root_, path);
     assign(place, root_, names, entry.second);
     variant_lines_[path] = entry.first.Mark().line + 1;

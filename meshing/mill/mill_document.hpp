@@ -34,6 +34,8 @@ class MillDocument {
   std::vector<std::string> changes() const;
   /// The map of all keys, changes made.
   const YAML::Node& root() const { return root_; }
+  /// The names of the file's variants, in its order.
+  const std::vector<std::string>& variants() const { return variants_; }
   /// The description that a person wrote: the file, or that of which the resolved mill was made.
   const std::string& source() const { return source_; }
   /// FNV-1a hash of the source's bytes, 16 hexadecimal digits.
@@ -69,6 +71,7 @@ class MillDocument {
   bool resolved_ = false;
   std::vector<std::string> set_;
   YAML::Node root_;
+  std::vector<std::string> variants_;
   std::map<std::string, int> lines_;
   std::map<std::string, int> variant_lines_;            ///< path -> line in the variant that set it
   std::map<std::string, std::string> changed_;          ///< path -> the change that set it

@@ -12,6 +12,11 @@ class MillError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A path in `mill.yaml` that is no key.
+class UnknownKey : public MillError {
+  using MillError::MillError;
+};
+
 /// A value of `mill.yaml` that is possible for a mill, but of which no mesh or no dry run can be made. The
 /// message is that of a MillError without file and line: "key 'a.b' = value: expected …".
 class KeyError : public std::runtime_error {

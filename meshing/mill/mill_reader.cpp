@@ -40,9 +40,19 @@ constexpr double usual_stirred_cells = 17;
 /// Largest radius of curvature of a superquadric's flat sides over the radius of the sphere of equal volume.
 constexpr double usual_curvature_limit = 10;
 
+/// LIGGGHTS takes coefficients of restitution above this.
+constexpr double least_restitution = 0.05;
+
 /// A mill that turns slower takes hours for a turn; a faster one throws its charge to the shell.
 constexpr double slowest_fraction = 0.001;
 constexpr double fastest_fraction = 3;
+
+double read_fraction(const Section& speed) {
+  return speed.number("fraction_of_critical",
+                      {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
+                           shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity or rpm)",
+                       [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+}
 
 double read_angular_velocity(Section& in, const Geometry& geometry) {
   const double critical = critical_speed(geometry);
@@ -50,49 +60,58 @@ double read_angular_velocity(Section& in, const Geometry& geometry) {
   const double fastest = fastest_fraction * critical;
   const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
                             " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
-                            " of the critical speed), negative for clockwise",
+                            " of the critical speed), negative for clockwise (or the key rpm)",
                         [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
-  // A fraction that --set gives turns the mill as the file's angular velocity does
+  // Another speed that --set gives turns the mill as the file's angular velocity does
   std::optional<std::string> usual_sense;
-  if (in.has("angular_velocity") && in.is_set("fraction_of_critical") && !in.is_set("angular_velocity"))
+  const bool other_is_set = in.is_set("fraction_of_critical") || in.is_set("rpm");
+  if (in.has("angular_velocity") && other_is_set && !in.is_set("angular_velocity"))
     usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
-  in.alternatives({"angular_velocity", "fraction_of_critical"});
+  in.alternatives({"angular_velocity", "fraction_of_critical", "rpm"});
   in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
-    for (const char* other : {"fraction_of_critical", "sense"}) {
-      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or fraction_of_critical and sense");
-    }
+    for (const char* other : {"fraction_of_critical", "rpm", "sense"})
+      if (in.has(other))
+        in.refuse(other, "either angular_velocity alone, or sense with fraction_of_critical or rpm");
     return in.number("angular_velocity", turning);
   }
-  const double fraction = in.number(
-      "fraction_of_critical", {"a fraction of the critical speed from " + shown(slowest_fraction) + " to " +
-                                   shown(fastest_fraction) + ", 0.75 for 75 % (or the key angular_velocity)",
-                               [](double v) { return v >= slowest_fraction && v <= fastest_fraction; }});
+  if (in.has("rpm") && in.has("fraction_of_critical"))
+    in.refuse("rpm", "either this key or fraction_of_critical");
+  const double speed = in.has("rpm") ? turn_per_minute * in.number("rpm", turns_per_minute(slowest, fastest))
+                                     : critical * read_fraction(in);
   const Section::Keys senses = {"clockwise", "anticlockwise"};
   const std::string sense =
       usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
   const double sign = sense == "clockwise" ? -1 : 1;
-  return sign * fraction * critical;
+  return sign * speed;
 }
 
 Material read_material(const Section& materials, const std::string& key) {
-  if (materials.is_text(key)) return named_material(materials.choice(key, material_names()));
-  const Section in = materials.section(key, {"density", "youngs_modulus", "poisson_ratio"});
+  const Section::Keys keys = {"density", "youngs_modulus", "poisson_ratio"};
+  if (!materials.has(key) || materials.is_text(key))
+    return named_material(materials.name(key, material_names(), keys));
+  const Section in = materials.section(key, keys);
   return {in.number("density", density()), in.number("youngs_modulus", youngs_modulus()),
           in.number("poisson_ratio", positive_below("Poisson's ratio", 0.5, "", "one half"))};
 }
 
 /// A contact by name, by its numbers, or, where the key is missing, by the names of its two materials.
 Contact read_contact(const Section& materials, const std::string& key, const std::string& partner) {
-  if (materials.is_text(key)) return named_contact(materials.choice(key, contact_names()));
-  if (!materials.has(key) && materials.is_text("ball") && materials.is_text(partner)) {
-    const std::string name = materials.text("ball", "") + "-" + materials.text(partner, "");
-    const auto names = contact_names();
+  const Section::Keys keys = {"restitution", "friction", "rolling_friction"};
+  const Section::Keys names = contact_names();
+  if (materials.is_text(key)) return named_contact(materials.name(key, names, keys));
+  if (!materials.has(key)) {
+    const bool named = materials.is_text("ball") && materials.is_text(partner);
+    const std::string name =
+        named ? materials.text("ball", "") + "-" + materials.text(partner, "") : std::string();
     if (std::find(names.begin(), names.end(), name) != names.end()) return named_contact(name);
+    materials.refuse(key, name_or_map(names, keys) + ", because no contact " +
+                              (named ? "'" + name + "'" : "of these materials") + " is known");
   }
-  const Section in = materials.section(key, {"restitution", "friction", "rolling_friction"});
-  return {in.number("restitution", {"a coefficient of restitution above 0 and up to 1",
-                                    [](double v) { return v > 0 && v <= 1; }}),
+  const Section in = materials.section(key, keys);
+  return {in.number("restitution",
+                    {"a coefficient of restitution above " + shown(least_restitution) + " and up to 1",
+                     [](double v) { return v > least_restitution && v <= 1; }}),
           in.number("friction", friction_coefficient("a friction coefficient")),
           in.number("rolling_friction", friction_coefficient("a rolling friction coefficient"))};
 }
@@ -197,10 +216,11 @@ void take_slice(const Section& in, Mill& mill) {
   for (const SizeClass& size : mill.charge.classes) longest = std::max(longest, longest_way(size));
   const std::string words = mill.charge.has_shapes() ? "a ball's longest way through its centre, "
                                                      : "the largest ball's diameter, ";
+  const double shortest = fewest_diameters_of_period * longest;
   const double whole = mill.geometry.length;
-  const double slice = in.number("slice", {"a length above " + words + shown(longest) +
+  const double slice = in.number("slice", {"a length in m of at least twice " + words + shown(shortest) +
                                                " m, and up to the mill's, " + shown(whole) + " m",
-                                           [&](double v) { return v > longest && v <= whole; }});
+                                           [&](double v) { return v >= shortest && v <= whole; }});
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
   mill.geometry.circles_of_whole = opening_circles(mill.geometry);
@@ -249,7 +269,7 @@ void read_tumbling(const Section& in, Mill& mill) {
   const Section geometry = in.section(
       "geometry", {"diameter", "length", "slice", "ends", "lifters", "inlet", "grates", "pulp_lifters"});
   mill.geometry = read_geometry(geometry);
-  Section speed = in.section("speed", {"fraction_of_critical", "sense", "angular_velocity"});
+  Section speed = in.section("speed", {"fraction_of_critical", "rpm", "sense", "angular_velocity"});
   mill.angular_velocity = read_angular_velocity(speed, mill.geometry);
   read_materials(in, mill);
   mill.charge = read_charge(in.section("charge", {"classes", "reference_length", "fill", "diameter", "shape",
@@ -294,7 +314,7 @@ void read_stirred(const Section& in, Mill& mill) {
   mill.geometry = read_stirred_geometry(in.section("geometry", {"diameter", "height", "impeller"}));
   mill.whole_length = mill.geometry.length;
   mill.whole_volume = flow_volume(mill.geometry);
-  Section speed = in.section("speed", {"angular_velocity", "tip_speed", "sense"});
+  Section speed = in.section("speed", {"angular_velocity", "tip_speed", "rpm", "sense"});
   mill.angular_velocity = read_stirred_speed(speed, mill.geometry);
   read_materials(in, mill);
   mill.charge = read_stirred_charge(in.section("charge", {"classes", "level", "share", "diameter", "shape",
@@ -316,14 +336,42 @@ Mill read_root(const Section& in, const std::string& usual_title) {
   return mill;
 }
 
+MillDescription describe_without_variants(const std::filesystem::path& file,
+                                          const std::vector<std::string>& set) {
+  const auto document = std::make_shared<MillDocument>(file, set);
+  // The document has taken the variants out of its root
+  const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
+                                "slurry", "air", "resolution", "flow", "machine", "variants"});
+  MillDescription description{read_root(root, file.stem().string()), document};
+  try {
+    if (description.mill.flow.balls) require_balls(description.mill);
+  } catch (const KeyError& error) {
+    throw MillError(document->place(error.key()) + ": " + error.what());
+  }
+  description.mill.fingerprint = fingerprints(document->keys(), description.mill);
+  return description;
+}
+
+/// Throws UnknownKey for variants with paths that are no keys. Values are only checked where a variant is
+/// used: some go with other changes only.
+void check_variants(const std::filesystem::path& file, const MillDocument& document) {
+  if (!std::filesystem::is_regular_file(file)) return;  // a pipe has no second reading
+  for (const std::string& name : document.variants()) {
+    try {
+      describe_without_variants(file, {"variant=" + name});
+    } catch (const UnknownKey&) {
+      throw;
+    } catch (const MillError&) {
+      continue;
+    }
+  }
+}
+
 }  // namespace
 
 MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
-  const auto document = std::make_shared<MillDocument>(file, set);
-  const Section root(document, {"title", "geometry", "speed", "charge", "materials", "dem", "averages",
-                                "slurry", "air", "resolution", "flow", "machine"});
-  MillDescription description{read_root(root, file.stem().string()), document};
-  description.mill.fingerprint = fingerprints(document->keys(), description.mill);
+  MillDescription description = describe_without_variants(file, set);
+  check_variants(file, *description.document);
   return description;
 }
 

@@ -19,7 +19,8 @@ struct MillDescription {
   std::shared_ptr<const MillDocument> document;  ///< its keys as they were read
 };
 
-/// Reads and checks a mill description. Every key is documented in meshing/README.md.
+/// Reads and checks a mill description. Every key is documented in meshing/README.md. The paths of variants
+/// that are not used are checked too.
 /// @param file  mill.yaml, or a resolved mill (mill.json)
 /// @param set   changes "path=value" (MillDocument)
 /// Throws MillError for a file that cannot be read, a missing or unknown key, a value of the wrong kind, or

@@ -252,7 +252,9 @@ Json resolution_numbers(const Mill& mill) {
   const Resolution& resolution = mill.resolution;
   const double last =
       resolution.last_layer > 0 ? resolution.last_layer : mill.geometry.length / resolution.layers;
-  return {{"cell_size_m", resolution.cell_size}, {"layers", resolution.layers}, {"last_layer_m", last}};
+  return {{"cell_size_m", resolution.counts ? Json() : Json(resolution.cell_size)},
+          {"layers", resolution.layers},
+          {"last_layer_m", last}};
 }
 
 Json derived_numbers(const Mill& mill) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "meshing/files/text_numbers.hpp"
+#include "meshing/mill/mill.hpp"
 #include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::meshing {
@@ -69,6 +70,11 @@ inline Rule positive_below(const std::string& what, double bound, const std::str
                            const std::string& of) {
   return {what + " above 0 and below " + of + ", " + shown(bound) + unit,
           [bound](double v) { return v > 0 && v < bound; }};
+}
+
+/// A number of turns in a minute, with angular speeds from `slowest` to `fastest`, rad/s.
+inline Rule turns_per_minute(double slowest, double fastest) {
+  return from_to("a speed in turns per minute", slowest / turn_per_minute, fastest / turn_per_minute);
 }
 
 /// A density of balls, walls or slurry, kg/m^3; osmium has 22590. The least refuses densities in g/cm^3.

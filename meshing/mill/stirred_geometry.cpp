@@ -173,6 +173,12 @@ double disc_volume(const Disc& disc, double shaft_radius, double height) {
   return pi * (outer * outer - shaft_radius * shaft_radius) * (std::clamp(height, low, high) - low);
 }
 
+double read_tip_speed(const Section& speed) {
+  return speed.number("tip_speed", {"a speed of the impeller's tips in m/s from " + shown(slowest_tip) +
+                                        " to " + shown(fastest_tip) + " (or the key angular_velocity or rpm)",
+                                    [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
+}
+
 }  // namespace
 
 Geometry read_stirred_geometry(const Section& in) {
@@ -188,26 +194,26 @@ double read_stirred_speed(Section& in, const Geometry& geometry) {
   const double reach = impeller_radius(*geometry.impeller);
   const double slowest = slowest_tip / reach, fastest = fastest_tip / reach;
   const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
-                            ", positive for anticlockwise seen from above",
+                            ", positive for anticlockwise seen from above (or the key rpm)",
                         [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
-  // A tip speed that --set gives turns the impeller as the file's angular velocity does
+  // Another speed that --set gives turns the impeller as the file's angular velocity does
   std::string usual_sense = "anticlockwise";
-  if (in.has("angular_velocity") && in.is_set("tip_speed") && !in.is_set("angular_velocity") &&
+  const bool other_is_set = in.is_set("tip_speed") || in.is_set("rpm");
+  if (in.has("angular_velocity") && other_is_set && !in.is_set("angular_velocity") &&
       in.number("angular_velocity", turning) < 0)
     usual_sense = "clockwise";
-  in.alternatives({"angular_velocity", "tip_speed"});
+  in.alternatives({"angular_velocity", "tip_speed", "rpm"});
   in.displace("angular_velocity", {"sense"});
   if (in.has("angular_velocity")) {
-    for (const char* other : {"tip_speed", "sense"})
-      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or tip_speed and sense");
+    for (const char* other : {"tip_speed", "rpm", "sense"})
+      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or sense with tip_speed or rpm");
     return in.number("angular_velocity", turning);
   }
-  const double tip =
-      in.number("tip_speed", {"a speed of the impeller's tips in m/s from " + shown(slowest_tip) + " to " +
-                                  shown(fastest_tip) + " (or the key angular_velocity)",
-                              [](double v) { return v >= slowest_tip && v <= fastest_tip; }});
+  if (in.has("rpm") && in.has("tip_speed")) in.refuse("rpm", "either this key or tip_speed");
+  const double speed = in.has("rpm") ? turn_per_minute * in.number("rpm", turns_per_minute(slowest, fastest))
+                                     : read_tip_speed(in) / reach;
   const double sign = in.choice("sense", {"clockwise", "anticlockwise"}, usual_sense) == "clockwise" ? -1 : 1;
-  return sign * tip / reach;
+  return sign * speed;
 }
 
 double impeller_volume(const Geometry& geometry, double height) {

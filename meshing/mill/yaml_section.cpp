@@ -5,6 +5,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -53,6 +54,14 @@ std::optional<Number> parse(std::string text) {
   return number;
 }
 
+/// A number without a fraction, also one written as 12.0.
+std::optional<int> parse_whole(const std::string& text) {
+  if (const auto digits = parse<int>(text)) return digits;
+  const auto number = parse<double>(text);
+  const bool fits = number && std::abs(*number) <= std::numeric_limits<int>::max();
+  return fits && *number == std::floor(*number) ? std::optional(static_cast<int>(*number)) : std::nullopt;
+}
+
 /// A scalar that was written without quotes: a quoted number is a text.
 bool is_plain_scalar(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() != "!";
@@ -66,6 +75,10 @@ std::string shown(const YAML::Node& node) {
 }
 
 }  // namespace
+
+std::string name_or_map(const Section::Keys& names, const Section::Keys& map_keys) {
+  return "one of " + joined(names) + ", or a map {" + joined(map_keys) + "}";
+}
 
 Section::Section(const std::shared_ptr<MillDocument>& document, const Keys& known)
     : Section(document->root(), document, "", known) {}
@@ -86,8 +99,8 @@ void Section::check_keys() const {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
       // {diameter: 0,6} is a diameter of 0 and a key 6
       const bool comma = parse<double>(key) && entry.second.IsNull();
-      fail(path, "key '" + path + "' is unknown: " +
-                     (comma ? "a decimal comma? expected a point, as in 0.6" : suggestion(key, known_)));
+      throw UnknownKey(document_->place(path) + ": key '" + path + "' is unknown: " +
+                       (comma ? "a decimal comma? expected a point, as in 0.6" : suggestion(key, known_)));
     }
     if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }
@@ -191,7 +204,7 @@ std::vector<double> Section::numbers(const std::string& key, std::size_t count, 
 
 int Section::integer(const std::string& key, const Rule& rule) const {
   const YAML::Node node = value(key, rule.expected);
-  const auto number = is_plain_scalar(node) ? parse<int>(node.Scalar()) : std::nullopt;
+  const auto number = is_plain_scalar(node) ? parse_whole(node.Scalar()) : std::nullopt;
   if (!number || !rule.holds(*number)) refuse(key, rule.expected);
   document_->record(path_of(key), *number);
   return *number;
@@ -227,11 +240,17 @@ std::string Section::text(const std::string& key, const std::string& fallback) c
 }
 
 std::string Section::choice(const std::string& key, const Keys& choices) const {
-  const std::string expected = "one of " + joined(choices);
+  return chosen(key, choices, "one of " + joined(choices));
+}
+
+std::string Section::name(const std::string& key, const Keys& names, const Keys& map_keys) const {
+  return chosen(key, names, name_or_map(names, map_keys));
+}
+
+std::string Section::chosen(const std::string& key, const Keys& choices, const std::string& expected) const {
   const YAML::Node node = value(key, expected);
-  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
+  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end())
     refuse(key, expected);
-  }
   document_->record(path_of(key), node.Scalar());
   return node.Scalar();
 }

@@ -62,7 +62,7 @@ class Section {
   double number(const std::string& key, const Rule& rule, double fallback) const;
   /// The list of `count` finite numbers under `key`, each of which must satisfy the rule.
   std::vector<double> numbers(const std::string& key, std::size_t count, const Rule& rule) const;
-  /// The whole number under `key`, in decimal digits.
+  /// The whole number under `key`, in decimal digits; a fraction of 0 is allowed, as in 12.0.
   int integer(const std::string& key, const Rule& rule) const;
   /// As above, or `fallback` where the key is not there.
   int integer(const std::string& key, const Rule& rule, int fallback) const;
@@ -74,6 +74,9 @@ class Section {
   std::string choice(const std::string& key, const Keys& choices) const;
   /// As above, or `fallback` where the key is not there.
   std::string choice(const std::string& key, const Keys& choices, const std::string& fallback) const;
+  /// The text under `key`, which must be one of the `names`. A message says that a map of `map_keys` may be
+  /// in its place.
+  std::string name(const std::string& key, const Keys& names, const Keys& map_keys) const;
 
   /// Throws the MillError for a key whose value is not what was expected, or which is missing.
   [[noreturn]] void refuse(const std::string& key, const std::string& expected) const;
@@ -82,6 +85,7 @@ class Section {
   Section(const YAML::Node& node, std::shared_ptr<MillDocument> document, std::string path,
           const Keys& known);
   void check_keys() const;
+  std::string chosen(const std::string& key, const Keys& choices, const std::string& expected) const;
   YAML::Node value(const std::string& key, const std::string& expected) const;
   YAML::Node find(const std::string& key) const;
   std::string path_of(const std::string& key) const;
@@ -92,5 +96,8 @@ class Section {
   std::string path_;  ///< dotted path from the root, empty at the root
   Keys known_;
 };
+
+/// What a key expects that takes a name or a map: "one of glass, HDPE, or a map {density, …}".
+std::string name_or_map(const Section::Keys& names, const Section::Keys& map_keys);
 
 }  // namespace millfoam::meshing

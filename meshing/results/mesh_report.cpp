@@ -23,6 +23,9 @@ constexpr double charge_solidity = 0.5;
 /// 2 to 10.
 constexpr double slowest_yield = 1;
 
+/// Slurries of mills have less, Pa s: a larger value may be in mPa s.
+constexpr double unusual_viscosity = 1;
+
 template <typename... Values>
 std::string line(const char* format, Values... values) {
   std::array<char, 400> text{};
@@ -100,6 +103,15 @@ std::string ball_lines(double ball, const std::vector<double>& volumes) {
              100 * below / static_cast<double>(volumes.size()), balls);
 }
 
+std::string viscosity_lines(const Slurry& slurry) {
+  if (slurry.plastic_viscosity <= unusual_viscosity) return "";
+  return line(
+      "advice: slurry.plastic_viscosity is %.4g Pa s, more than slurries of mills have (water has 0.001 Pa "
+      "s): "
+      "is the value in mPa s?",
+      slurry.plastic_viscosity);
+}
+
 }  // namespace
 
 std::string mill_lines(const MillDescription& description) {
@@ -108,10 +120,10 @@ std::string mill_lines(const MillDescription& description) {
   std::string text =
       line("mill                     %s", mill.title.c_str()) +
       line(
-          "speed                    %.4g rad/s, %.3g %% of the critical, %s seen with x to the right and y "
-          "up",
-          mill.angular_velocity, 100 * std::abs(mill.angular_velocity) / critical_speed(mill.geometry),
-          mill.sense()) +
+          "speed                    %.4g rad/s (%.4g rpm), %.3g %% of the critical, %s seen with x to the "
+          "right and y up",
+          mill.angular_velocity, std::abs(mill.angular_velocity) / turn_per_minute,
+          100 * std::abs(mill.angular_velocity) / critical_speed(mill.geometry), mill.sense()) +
       line("charge                   %ld balls, %.4g kg, load %.3g %%", charge.balls, charge.mass,
            100 * charge.load);
   if (charge.fines_mass > 0)
@@ -131,9 +143,9 @@ std::string stirred_lines(const MillDescription& description) {
          line("impeller                 %zu levels of pins, %zu discs, %.4g mm from tip to tip, gap %.3g mm",
               impeller.pins.size(), impeller.discs.size(), 2e3 * impeller_radius(impeller),
               1e3 * impeller_gap(mill.geometry)) +
-         line("speed                    %.4g rad/s, %.4g m/s at the tips, %s seen from above",
-              mill.angular_velocity, std::abs(mill.angular_velocity) * impeller_radius(impeller),
-              mill.sense()) +
+         line("speed                    %.4g rad/s (%.4g rpm), %.4g m/s at the tips, %s seen from above",
+              mill.angular_velocity, std::abs(mill.angular_velocity) / turn_per_minute,
+              std::abs(mill.angular_velocity) * impeller_radius(impeller), mill.sense()) +
          line("charge                   %ld balls, %.4g kg", charge.balls, charge.mass) +
          shape_lines(mill.charge) + (mill.has_flow() ? slurry_lines(mill.slurry) : "") +
          line("fingerprint              %s", description.mill.fingerprint.charge.c_str());
@@ -156,7 +168,8 @@ std::string mesh_report(const Mill& mill, const VolumeMesh& mesh, const MeshQual
          quality_line("max skewness", "%.2f", q.max_skewness, limits.skewness) +
          quality_line("max volume ratio", "%.2f", q.max_volume_ratio, limits.volume_ratio) +
          line("edges                    %.3g to %.3g mm", 1e3 * q.smallest_edge, 1e3 * q.largest_edge) +
-         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume);
+         openings_lines(mill.geometry, openings) + ball_lines(largest_ball, measure(mesh).cell_volume) +
+         viscosity_lines(mill.slurry);
 }
 
 std::string wall_report(const WallSurface& walls, double volume, double expected, double limit) {

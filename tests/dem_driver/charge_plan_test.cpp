@@ -112,6 +112,22 @@ TEST(ChargePlan, AChargeThatDoesNotFitTheStartCylinderIsRefused) {
   EXPECT_NE(message.find("left over"), std::string::npos) << message;
 }
 
+TEST(ChargePlan, AStartCylinderIsOnlyToBeRaisedWhereItCanBe) {
+  auto mill = small_mill();
+  mill.charge.classes.at(0).mass *= 50;
+  const auto says = [&](const std::string& words) {
+    return message_of([&] { plan_charge(mill); }).find(words) != std::string::npos;
+  };
+  // Balls of up to 3 mm in a smooth drum of 20 mm radius
+  EXPECT_TRUE(says("left over; take fewer balls (charge.fill or charge.classes), or raise it, up to 0.02 m"));
+  EXPECT_FALSE(says("start_length"));
+  mill.geometry.ends = meshing::Ends::plain;
+  EXPECT_TRUE(says("or charge.classes), or a longer charge.start_length, up to 0.012 m, or raise it"));
+  mill.charge.start_radius = 0.02 - 0.003 / 2;
+  EXPECT_TRUE(says("up to 0.012 m"));
+  EXPECT_FALSE(says("raise it"));
+}
+
 TEST(ChargePlan, ABallLargerThanTheStartCylinderIsRefusedWithItsDiameter) {
   auto mill = small_mill();
   mill.charge.classes = {{0.037, 1}};

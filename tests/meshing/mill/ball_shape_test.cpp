@@ -67,16 +67,26 @@ TEST(BallShape, MillsOfBeforeTheKeyHaveTheirFingerprints) {
       << stirred;
 }
 
-TEST(BallShape, ASliceIsLongerThanTheLongestWayOfABall) {
+TEST(BallShape, APeriodIsTwiceTheLongestWayOfABall) {
+  const std::string mill = with(example_mill, "length: 0.024", "length: 0.06");
   const std::string shape = "charge.classes[0].shape={half_axes: [3, 1, 1], blockiness: 2}";
-  const double longest = 2 * bounding_radius(*describe(example_mill, {shape}).mill.charge.classes[0].shape);
-  const double largest = 0.008;
-  ASSERT_GT(longest, 1.01 * largest);
+  const double longest = 2 * bounding_radius(*describe(mill, {shape}).mill.charge.classes[0].shape);
+  ASSERT_GT(longest, 1.01 * 0.008);
   const auto slice = [](double length) { return "geometry.slice=" + std::to_string(length); };
-  EXPECT_EQ(describe(example_mill, {shape, slice(1.01 * longest)}).mill.geometry.ends, Ends::periodic);
-  EXPECT_TRUE(
-      says(refusal(example_mill, {shape, slice(0.99 * longest)}), "a length above a ball's longest way"));
-  EXPECT_EQ(describe(example_mill, {slice(0.99 * longest)}).mill.geometry.ends, Ends::periodic);
+  const std::string longer = slice(2.01 * longest), shorter = slice(1.99 * longest);
+  EXPECT_EQ(describe(mill, {shape, longer}).mill.geometry.ends, Ends::periodic);
+  EXPECT_TRUE(says(refusal(mill, {shape, shorter}), "a length in m of at least twice a ball's longest way"));
+  EXPECT_EQ(describe(mill, {shorter}).mill.geometry.ends, Ends::periodic);
+  const auto period = [](double length) {
+    return std::vector<std::string>{"geometry.ends=periodic", "geometry.length=" + std::to_string(length)};
+  };
+  auto set = period(1.99 * longest);
+  EXPECT_EQ(refusal(mill, set), "");
+  set.push_back(shape);
+  EXPECT_TRUE(says(refusal(mill, set), "is up to half of the periodic mill's length, 0.01"));
+  set = period(2.01 * longest);
+  set.push_back(shape);
+  EXPECT_EQ(refusal(mill, set), "");
 }
 
 TEST(BallShape, BallsOfATumblingMillHaveThemToo) {

@@ -301,7 +301,7 @@ TEST(Set, takes_the_place_of_a_key_and_is_refused_like_one) {
 TEST(Set, takes_maps_and_removes_keys) {
   const Mill mill = mill_of(example_mill, {"charge={fill: 0.3, diameter: 0.005}"});
   EXPECT_EQ(mill.charge.classes.size(), 1U);
-  EXPECT_EQ(mill_of(example_mill, {"geometry.slice=0.012", "geometry.slice=~"}).geometry.length, 0.024);
+  EXPECT_EQ(mill_of(example_mill, {"geometry.slice=0.018", "geometry.slice=~"}).geometry.length, 0.024);
 }
 
 TEST(Set, of_one_alternative_takes_the_place_of_the_other) {
@@ -336,6 +336,7 @@ TEST(Set, of_a_fraction_of_the_critical_speed_keeps_the_sense_of_the_files_angul
   const double critical = std::sqrt(9.81 / 0.06);
   for (const double sign : {-1, 1}) {
     const std::string text = with(example_mill, speed, "angular_velocity: " + std::to_string(sign * 6.4));
+    EXPECT_NEAR(mill_of(text, {"speed.rpm=60"}).angular_velocity, sign * 2 * std::acos(-1.0), 1e-14);
     EXPECT_DOUBLE_EQ(mill_of(text, {"speed.fraction_of_critical=0.7"}).angular_velocity,
                      sign * 0.7 * critical);
   }
@@ -465,6 +466,30 @@ TEST(Variants, are_refused_by_line_and_name) {
   EXPECT_EQ(refusal_of(wrong), "accepted");
 }
 
+TEST(Variants, have_paths_of_keys_also_where_they_are_not_used) {
+  const auto refused = [](const std::string& variant) {
+    return refusal_of(bare_mill + "variants:\n  slow: {flow.turns: 2}\n  other: {" + variant + "}\n");
+  };
+  EXPECT_EQ(refused("flow.law: Hill"), "accepted");
+  EXPECT_EQ(refused("flow.lwa: Hill").rfind("mill.yaml:8: key 'flow.lwa' is unknown: did you mean 'law'?", 0),
+            0U)
+      << refused("flow.lwa: Hill");
+  EXPECT_EQ(refused("flow: {lwa: Hill}").rfind("mill.yaml:8: key 'flow.lwa' is unknown", 0), 0U);
+  EXPECT_EQ(refused("flwo.law: Hill").rfind("mill.yaml:8: key 'flwo' is unknown: did you mean 'flow'?", 0),
+            0U);
+  EXPECT_NE(refused("flow..law: Hill").find("expected a path, as in flow.law"), std::string::npos);
+  EXPECT_NE(refused("variants.slow.flow.turns: 3").find("expected a path"), std::string::npos);
+  // Values may go with other changes
+  EXPECT_EQ(refused("flow.averages.start: 1e4"), "accepted");
+}
+
+TEST(Variants, are_among_the_known_sections) {
+  EXPECT_NE(refusal_of(bare_mill + "variant: {slow: {flow.turns: 2}}\n").find("did you mean 'variants'?"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(bare_mill, {"variants.slow.flow.turns=2"}).find("as in variant=slow"),
+            std::string::npos);
+}
+
 TEST(Variants, are_refused_where_they_say_two_things) {
   const auto refused = [](const std::string& variants) { return refusal_of(bare_mill + variants); };
   EXPECT_EQ(refused("variants:\n  slow: {flow.law: Hill, flow.law: Beetstra}\n")
@@ -519,6 +544,17 @@ TEST(Numbers, with_a_comma_in_a_map_of_one_line_are_told) {
       std::string::npos);
 }
 
+TEST(Numbers, that_are_whole_may_have_a_point) {
+  const Mill mill = mill_of(example_mill, {"geometry.lifters.count=12.0", "dem.seed=2.0121e4"});
+  EXPECT_EQ(mill.geometry.lifters.count, 12);
+  EXPECT_EQ(mill.fingerprint.flow, mill_of(example_mill).fingerprint.flow);
+  for (const char* wrong : {"12.5", "1e300", ".nan", ".inf", "'12.0'", "3e9"})
+    EXPECT_NE(refusal_of(example_mill, {std::string("geometry.lifters.count=") + wrong})
+                  .find("expected a whole number of lifters from 0 to 1000"),
+              std::string::npos)
+        << wrong;
+}
+
 TEST(Materials, in_other_units_are_refused) {
   EXPECT_NE(refusal_of(example_mill, {"slurry.density=1.24"}).find("a density in kg/m^3 from 100 to 23000"),
             std::string::npos);
@@ -539,6 +575,13 @@ TEST(Encoding, is_named_when_it_is_not_utf8) {
 
 TEST(Encoding, tabs_before_keys_are_named) {
   EXPECT_EQ(refusal_of("speed:\n\tsense: clockwise\n").find("mill.yaml:2: a tab before the key"), 0U);
+}
+
+TEST(Encoding, tabs_in_blank_lines_and_before_comments_are_allowed) {
+  for (const char* line : {"\t\n", "  \t\r\n", "\t# comment\n", " \t # a:\tb\n"})
+    EXPECT_EQ(mill_of(with(example_mill, "  length", line + std::string("  length"))).geometry.length, 0.024);
+  EXPECT_EQ(refusal_of(example_mill + "\t"), "accepted");
+  EXPECT_EQ(refusal_of(example_mill + "\t# end"), "accepted");
 }
 
 TEST(Lengths, in_millimetres_are_refused) {
@@ -606,6 +649,29 @@ TEST(Charge, packing_is_that_of_bulk_and_pores) {
                                    "{packing: 0.5, classes: [{diameter: 0.025, mass: 5}]}");
   const ChargeNumbers loose = count_charge(mill_of(classes));
   EXPECT_DOUBLE_EQ(loose.pore_volume, loose.volume);
+}
+
+TEST(Charge, of_a_fill_in_percent_is_refused_with_an_example) {
+  EXPECT_EQ(refusal_of(bare_mill, {"charge.fill=30"}),
+            "--set charge.fill=30: key 'charge.fill' = 30: expected a share of the mill's volume above 0 and "
+            "below 1, 0.3 for 30 % (or the key classes)");
+}
+
+TEST(Charge, has_a_ball_of_each_class_that_is_computed) {
+  const std::string whole =
+      with(example_mill, "    - {diameter: 0.002, mass: 0.03}\n", "    - {diameter: 0.006, number: 1}\n");
+  EXPECT_EQ(refusal_of(whole), "accepted");
+  // 2700 pi/6 0.006^3 = 3.05363e-04 kg, of which a slice of 16 mm has two thirds, of 24 mm from 72 a third
+  EXPECT_EQ(refusal_of(whole, {"geometry.slice=0.016"}), "accepted");
+  const std::string third = with(whole, "length: 0.024", "length: 0.072");
+  EXPECT_EQ(
+      refusal_of(third, {"geometry.slice=0.024"}),
+      "mill.yaml:16: key 'charge.classes[1]' = 0.000101788 kg of balls of 0.006 m in this mill, which "
+      "rounds to 0 balls: expected at least half of one ball's mass, 0.000305363 kg: raise the mass, or "
+      "leave the class out (small ones by charge.fines_below)");
+  EXPECT_EQ(refusal_of(third, {"geometry.slice=0.024", "charge.fines_below=0.007"}), "accepted");
+  EXPECT_EQ(refusal_of(third, {"geometry.slice=0.024", "flow.balls=no"}), "accepted");
+  EXPECT_EQ(refusal_of(bare_mill, {"charge.fill=1e-6"}).rfind("mill.yaml:3: key 'charge' = ", 0), 0U);
 }
 
 TEST(Charge, counts_whole_balls_and_names_fines) {

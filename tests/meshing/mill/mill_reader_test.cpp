@@ -124,7 +124,24 @@ TEST(ReadMill, takes_a_signed_angular_velocity_instead_of_a_fraction) {
   EXPECT_EQ(
       refusal("  sense", "  angular_velocity: 1\n  sense"),
       "mill.yaml:11: key 'speed.fraction_of_critical' = 0.5: expected either angular_velocity alone, or "
-      "fraction_of_critical and sense");
+      "sense with fraction_of_critical or rpm");
+}
+
+TEST(ReadMill, takes_turns_per_minute_instead_of_a_fraction) {
+  const auto turning = [](const std::string& speed) {
+    return with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", speed);
+  };
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(read(turning("rpm: 60\n  sense: clockwise")).angular_velocity, -2 * pi, 1e-14);
+  EXPECT_NEAR(read(turning("rpm: 30\n  sense: anticlockwise")).angular_velocity, pi, 1e-14);
+  EXPECT_TRUE(says(refusal(turning("rpm: 60")), "key 'speed.sense' is missing"));
+  // 0.001 to 3 times sqrt(9.81/0.06) = 12.787 rad/s
+  EXPECT_TRUE(says(refusal(turning("rpm: -60\n  sense: clockwise")),
+                   "key 'speed.rpm' = -60: expected a speed in turns per minute from 0.122104 to 366.312"));
+  EXPECT_TRUE(says(refusal("  sense", "  rpm: 60\n  sense"),
+                   "key 'speed.rpm' = 60: expected either this key or fraction_of_critical"));
+  EXPECT_TRUE(says(refusal(turning("angular_velocity: 1\n  rpm: 60")),
+                   "key 'speed.rpm' = 60: expected either angular_velocity alone, or sense with"));
 }
 
 TEST(ReadMill, scales_the_masses_from_the_reference_length_to_the_mills) {
@@ -408,7 +425,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"poisson_ratio: 0.23", "poisson_ratio: 0.5", "'materials.ball.poisson_ratio' = 0.5"},
         Refused{"poisson_ratio: 0.23", "poisson_ratio: 0", "'materials.ball.poisson_ratio' = 0"},
         Refused{"restitution: 0.8", "restitution: 1.1", "'materials.ball_ball.restitution' = 1.1"},
-        Refused{"restitution: 0.8", "restitution: 0", "'materials.ball_ball.restitution' = 0"},
+        Refused{"restitution: 0.8", "restitution: 0.05",
+                "'materials.ball_ball.restitution' = 0.05: expected a coefficient of restitution above 0.05 "
+                "and up to 1"},
         Refused{"friction: 0.94", "friction: -0.1", "'materials.ball_ball.friction' = -0.1"},
         Refused{"rayleigh_fraction: 0.2", "rayleigh_fraction: 2", "'dem.rayleigh_fraction' = 2"},
         Refused{"record_interval: 0.002", "record_interval: 2", "'dem.record_interval' = 2"},
@@ -503,15 +522,28 @@ TEST(ReadMill, takes_a_contact_by_name_beside_materials_of_its_own) {
 }
 
 TEST(ReadMill, names_what_it_knows_when_a_material_or_contact_is_not) {
-  EXPECT_NE(refusal(with(with_named_materials(), "HDPE", "rubber")).find("HDPE"), std::string::npos);
-  EXPECT_NE(refusal(with(with_named_materials(), "wall: HDPE", "wall: HDPE\n  ball_wall: glass-rubber"))
-                .find("glass-perspex"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(refusal(with(with_named_materials(), "HDPE", "rubber")),
+           "key 'materials.wall' = rubber: expected one of HDPE, aluminium, glass, nylon, perspex, or a "
+           "map {density, youngs_modulus, poisson_ratio}"));
+  EXPECT_TRUE(says(refusal(with(with_named_materials(), "  wall: HDPE\n", "")),
+                   "key 'materials.wall' is missing: expected one of HDPE, aluminium"));
+  EXPECT_TRUE(
+      says(refusal(with(with_named_materials(), "wall: HDPE", "wall: HDPE\n  ball_wall: glass-rubber")),
+           "key 'materials.ball_wall' = glass-rubber: expected one of glass-HDPE, glass-aluminium, "
+           "glass-glass, glass-nylon, glass-perspex, or a map {restitution, friction, rolling_friction}"));
 }
 
 TEST(ReadMill, asks_for_a_contact_that_no_table_has) {
-  const std::string text = with(with_named_materials(), "ball: glass", "ball: aluminium");
-  EXPECT_NE(refusal(text).find("'materials.ball_ball' is missing"), std::string::npos) << refusal(text);
+  const auto missing = [](const std::string& ball) {
+    return refusal(with(with_named_materials(), "ball: glass", "ball: " + ball));
+  };
+  const std::string expected =
+      "key 'materials.ball_ball' is missing: expected one of glass-HDPE, glass-aluminium, glass-glass, "
+      "glass-nylon, glass-perspex, or a map {restitution, friction, rolling_friction}, because no contact ";
+  EXPECT_TRUE(says(missing("aluminium"), expected + "'aluminium-aluminium' is known"));
+  EXPECT_TRUE(says(missing("{density: 7800, youngs_modulus: 2e11, poisson_ratio: 0.3}"),
+                   expected + "of these materials is known"));
 }
 
 TEST(ReadMill, takes_an_overlap_instead_of_a_modulus) {
@@ -538,15 +570,29 @@ TEST(ReadMill, takes_fines_up_to_the_largest_ball) {
 
 TEST(ReadMill, takes_a_periodic_slice_of_a_whole_mill) {
   const Mill whole = read(example_mill);
-  const Mill slice = read(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"));
-  EXPECT_EQ(slice.geometry.length, 0.012);
+  const Mill slice = read(with(example_mill, "  ends: plain", "  slice: 0.018\n  ends: plain"));
+  EXPECT_EQ(slice.geometry.length, 0.018);
   EXPECT_EQ(slice.geometry.ends, Ends::periodic);
-  EXPECT_EQ(slice.resolution.layers, 4);
-  EXPECT_NEAR(slice.charge.classes[0].mass, whole.charge.classes[0].mass / 2, 1e-15);
-  EXPECT_NE(refusal("  ends: plain", "  slice: 0.007\n  ends: plain").find("largest ball's diameter, 0.008"),
-            std::string::npos);
+  EXPECT_EQ(slice.resolution.layers, 6);
+  EXPECT_NEAR(slice.charge.classes[0].mass, whole.charge.classes[0].mass * 0.75, 1e-15);
   EXPECT_NE(refusal("  ends: plain", "  slice: 0.03\n  ends: plain").find("'geometry.slice' = 0.03"),
             std::string::npos);
+}
+
+// In less than two diameters a ball could touch the same ball on both sides
+TEST(ReadMill, refuses_a_period_of_less_than_two_of_the_largest_balls) {
+  EXPECT_EQ(
+      refusal("  ends: plain", "  slice: 0.0159\n  ends: plain"),
+      "mill.yaml:5: key 'geometry.slice' = 0.0159: expected a length in m of at least twice the largest "
+      "ball's diameter, 0.016 m, and up to the mill's, 0.024 m");
+  EXPECT_EQ(refusal("  ends: plain", "  slice: 0.016\n  ends: plain"), "accepted");
+  const std::string periodic = with(example_mill, "ends: plain", "ends: periodic");
+  EXPECT_EQ(
+      refusal(with(periodic, "length: 0.024", "length: 0.0158")),
+      "mill.yaml:15: key 'charge.classes[0].diameter' = 0.008: expected a ball's diameter above 0 and up "
+      "to half of the periodic mill's length, 0.0079 m");
+  EXPECT_EQ(refusal(with(periodic, "length: 0.024", "length: 0.016")), "accepted");
+  EXPECT_EQ(refusal("length: 0.024", "length: 0.0158"), "accepted");
 }
 
 TEST(ReadMill, takes_the_last_of_layers_that_grow) {
@@ -564,14 +610,14 @@ TEST(ReadMill, takes_the_last_of_layers_that_grow) {
 
 TEST(ReadMill, has_equal_layers_where_the_ends_are_periodic) {
   const std::string graded = with(example_mill, "layers: 8", "layers: 8\n  last_layer: 0.001");
-  EXPECT_EQ(read(with(graded, "  ends: plain", "  slice: 0.012\n  ends: plain")).resolution.last_layer, 0);
+  EXPECT_EQ(read(with(graded, "  ends: plain", "  slice: 0.018\n  ends: plain")).resolution.last_layer, 0);
   EXPECT_NE(refusal(with(graded, "ends: plain", "ends: periodic"))
                 .find("'resolution.last_layer' = 0.001: expected this key with plain ends only"),
             std::string::npos);
 }
 
 TEST(ReadMill, takes_one_layer_where_the_ends_are_periodic) {
-  EXPECT_EQ(read(with(with(example_mill, "  ends: plain", "  slice: 0.012\n  ends: plain"), "layers: 8",
+  EXPECT_EQ(read(with(with(example_mill, "  ends: plain", "  slice: 0.016\n  ends: plain"), "layers: 8",
                       "layers: 2"))
                 .resolution.layers,
             1);

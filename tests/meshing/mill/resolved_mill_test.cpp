@@ -21,12 +21,12 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
                                 "  fill: 0.3\n  diameter: 0.005\n");
   for (const auto& [text, set] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {example_mill, {}},
-           {example_mill, {"geometry.slice=0.012", "flow.turns=2", "flow.law=Hill"}},
+           {example_mill, {"geometry.slice=0.018", "flow.turns=2", "flow.law=Hill"}},
            {with(example_mill, "  level: -0.012\n", ""),
             {"flow.start.fill=0.7", "averages.counts={across: 9, along: 2}"}},
            {example_mill, {"charge.fill=0.25", "speed.angular_velocity=3", "flow.duration=1"}},
            {with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", "angular_velocity: -6.4"),
-            {"speed.fraction_of_critical=0.6", "geometry.slice=0.012"}},
+            {"speed.fraction_of_critical=0.6", "geometry.slice=0.018"}},
            {fill, {"flow.balls=no", "geometry.inlet={radius: 0.02}", "flow.feed=1e-5"}}}) {
     const TemporaryFolder folder;
     const MillDescription first = describe(text, set);
@@ -109,6 +109,15 @@ TEST(Fingerprints, of_walls_and_charge_do_not_know_core_and_ring) {
   EXPECT_EQ(with_counts("gap: 11, lifter: 3, height: 5, ring: 9, core: 42").flow, usual.flow);
 }
 
+TEST(ResolvedMill, has_no_size_of_cells_that_are_counted) {
+  const auto cell_size = [](const std::string& resolution) {
+    return resolved_mill(describe(example_mill, {"resolution=" + resolution}),
+                         "test")["derived"]["resolution"]["cell_size_m"];
+  };
+  EXPECT_EQ(cell_size("{cell_size: 0.004}"), 0.004);
+  EXPECT_TRUE(cell_size("{counts: {gap: 11, lifter: 3, height: 5, ring: 9}}").is_null());
+}
+
 TEST(ResolvedMill, has_the_last_layers_thickness) {
   const auto last_layer = [](const std::vector<std::string>& changes) {
     return resolved_mill(describe(example_mill, changes), "test")["derived"]["resolution"]["last_layer_m"]
@@ -116,7 +125,7 @@ TEST(ResolvedMill, has_the_last_layers_thickness) {
   };
   EXPECT_DOUBLE_EQ(last_layer({}), 0.024 / 8);
   EXPECT_EQ(last_layer({"resolution.last_layer=0.002"}), 0.002);
-  EXPECT_DOUBLE_EQ(last_layer({"resolution.last_layer=0.002", "geometry.slice=0.012"}), 0.012 / 4);
+  EXPECT_DOUBLE_EQ(last_layer({"resolution.last_layer=0.002", "geometry.slice=0.018"}), 0.018 / 6);
 }
 
 TEST(Fingerprints, of_walls_and_charge_do_not_know_the_layers_of_the_pulp_lifters) {

@@ -42,6 +42,15 @@ TEST(StirredMill, speed_of_the_tips_is_that_of_the_pins) {
   EXPECT_NEAR(read(clockwise, {"speed.tip_speed=1.477"}).angular_velocity, -20.95, 0.01);
 }
 
+TEST(StirredMill, turns_so_many_times_a_minute) {
+  const std::string clockwise = with(stirred_mill, "31.416", "-31.416");
+  EXPECT_NEAR(read(clockwise, {"speed.rpm=300"}).angular_velocity, -10 * pi, 1e-12);
+  EXPECT_NEAR(read(stirred_mill, {"speed={rpm: 300}"}).angular_velocity, 10 * pi, 1e-12);
+  EXPECT_NEAR(read(stirred_mill, {"speed={rpm: 300, sense: clockwise}"}).angular_velocity, -10 * pi, 1e-12);
+  EXPECT_TRUE(says(refusal(stirred_mill, {"speed={rpm: 300, tip_speed: 1}"}),
+                   "key 'speed.rpm' = 300: expected either this key or tip_speed"));
+}
+
 // Volumes of balls: half of the space up to the highest pin. Published numbers of balls of 5 mm
 TEST(StirredMill, balls_of_the_published_mills) {
   struct Published {

@@ -14,7 +14,9 @@
 #include "meshing/mill_mesh/mill_mesh.hpp"
 #include "meshing/mill_mesh/section_blocks.hpp"
 #include "meshing/surface/pi.hpp"
+#include "tests/meshing/stirred_mill.hpp"
 #include "tests/meshing/test_geometry.hpp"
+#include "tests/meshing/test_mill.hpp"
 
 namespace millfoam::meshing {
 namespace {
@@ -101,6 +103,13 @@ TEST(MeshReport, says_below_which_shear_rate_a_slurry_has_no_yield_stress) {
   EXPECT_EQ(lines().find("slurry "), std::string::npos);
 }
 
+TEST(MillLines, have_the_speed_in_turns_per_minute_too) {
+  expect_lines(mill_lines(describe(example_mill, {"speed={angular_velocity: -6.2831853}"})),
+               {"speed                    -6.283 rad/s (60 rpm), 49.1 % of the critical, clockwise seen"});
+  expect_lines(stirred_lines(describe(stirred_mill)),
+               {"speed                    31.42 rad/s (300 rpm), 2.215 m/s at the tips, anticlockwise"});
+}
+
 TEST(MeshReport, says_which_value_is_too_large) {
   const Geometry geometry = mill_with_grates();
   const CrossSection section = make_cross_section(geometry, 0.012);
@@ -138,6 +147,21 @@ TEST(MeshReport, names_the_averages_to_use_where_the_smallest_cell_is_smaller_th
           "than the cells (millAverage --box), or on the mesh with --smooth; see averaging/README.md\n",
           100.0 * static_cast<double>(below) / static_cast<double>(sizes.size()), held)});
   EXPECT_EQ(report_of(mill_with_grates(), 0.002).find("advice"), std::string::npos);
+}
+
+TEST(MeshReport, asks_for_the_unit_of_a_viscosity_that_no_slurry_of_a_mill_has) {
+  const Geometry geometry = mill_with_grates();
+  const CrossSection section = make_cross_section(geometry, 0.012);
+  const VolumeMesh mesh = make_mill_mesh(section, geometry, 2);
+  const auto report_with = [&](double viscosity) {
+    Mill mill;
+    mill.geometry = geometry;
+    mill.slurry.plastic_viscosity = viscosity;
+    return mesh_report(mill, mesh, quality(mesh), find_openings(section, geometry));
+  };
+  expect_lines(report_with(14), {"advice: slurry.plastic_viscosity is 14 Pa s, more than slurries of mills "
+                                 "have (water has 0.001 Pa s): is the value in mPa s?\n"});
+  EXPECT_EQ(report_with(1).find("advice"), std::string::npos);
 }
 
 TEST(WallReport, has_triangles_the_flattest_and_the_difference_in_volume) {
