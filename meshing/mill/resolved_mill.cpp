@@ -218,12 +218,9 @@ Json flow_numbers(const Mill& mill) {
 }
 
 Json slurry_numbers(const Slurry& slurry) {
-  return {{"density_kg_m3", slurry.density},
-          {"plastic_viscosity_Pa_s", slurry.plastic_viscosity},
-          {"yield_stress_Pa", slurry.yield_stress},
-          {"surface_tension_N_m", slurry.surface_tension},
-          {"viscosity_ratio", slurry.viscosity_ratio},
-          {"liquid_below_1_s", slurry.liquid_below()}};
+  return {{"density_kg_m3", slurry.density},           {"plastic_viscosity_Pa_s", slurry.plastic_viscosity},
+          {"yield_stress_Pa", slurry.yield_stress},    {"surface_tension_N_m", slurry.surface_tension},
+          {"viscosity_ratio", slurry.viscosity_ratio}, {"liquid_below_1_s", slurry.liquid_below()}};
 }
 
 Json air_numbers(const Air& air) {
