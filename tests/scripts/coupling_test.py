@@ -35,7 +35,7 @@ def uniform(up, exchange=1e4, fluid=0.1, upper=UPPER, shape=SHAPE):
     pressure, drag, one = np.zeros((*shape, 3)), np.zeros((*shape, 3)), np.ones(shape)
     pressure[..., 1], drag[..., 0] = up, exchange * fluid
     return BallForces(LOWER, upper, one, 0.5 * one, pressure, exchange * one, drag, 0 * drag, 1000 * one, 5e-3 * one,
-                      1.0, 1.8, "Beetstra", False, 1500.0, 1.2, np.array([0, -9.81, 0]))
+                      1.0, 1.8, "Beetstra", False, np.array([0, -9.81, 0]))
 
 
 def add_forces(path, forces, mode="w"):
