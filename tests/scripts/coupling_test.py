@@ -24,7 +24,7 @@ from millfoam.report.build import report_case
 from millfoam.report.case_readings import Readings
 from millfoam.report.coupling_section import (coupling_checks, coupling_section, forces_exchanged, torques_balance,
                                               voxels_are_small)
-from report_cases import LENGTH, RADIUS, change_json, write_flow
+from report_cases import BALANCE, LENGTH, RADIUS, change_json, write_flow
 
 SHAPE = (2, 8, 8)
 LOWER, UPPER = np.array([-RADIUS, -RADIUS, 0]), np.array([RADIUS, RADIUS, LENGTH])
@@ -35,7 +35,7 @@ def uniform(up, exchange=1e4, fluid=0.1, upper=UPPER, shape=SHAPE):
     pressure, drag, one = np.zeros((*shape, 3)), np.zeros((*shape, 3)), np.ones(shape)
     pressure[..., 1], drag[..., 0] = up, exchange * fluid
     return BallForces(LOWER, upper, one, 0.5 * one, pressure, exchange * one, drag, 0 * drag, 1000 * one, 5e-3 * one,
-                      1.0, 1.8, "Beetstra", False, 1500.0, 1.2, np.array([0, -9.81, 0]))
+                      1.0, 1.8, "Beetstra", False, np.array([0, -9.81, 0]))
 
 
 def add_forces(path, forces, mode="w"):
@@ -289,6 +289,20 @@ class AtTheSameTime(unittest.TestCase):
     def test_the_torque_that_balls_take_is_compared_with_the_balance_of_the_slurry(self):
         # Of slurryBalance: 0.5 W in all, of which the walls give 0.06 and 0.42 W; the balls give 0.02 W
         self.assertAlmostEqual(self.judge()["torque_unbalanced"], (0.02 + 0.024 * 6) / (3.0 + 0.48), places=3)
+
+    def test_the_balance_counts_up_to_the_last_written_time_as_the_balls_do(self):
+        whole = self.judge()["torque_unbalanced"]
+        table = self.case / "direct" / "postProcessing" / "slurryBalance" / "0" / "slurryBalance.dat"
+        text = table.read_text()
+        self.addCleanup(table.write_text, text)
+        # A flow that was killed before it wrote these steps
+        last = float(MillCase(self.case / "direct").last)
+        after = np.loadtxt(table)[-40:]
+        after[:, 0] += last
+        after[:, BALANCE.index("power_W")] = 9.0
+        with open(table, "a") as file:
+            np.savetxt(file, after, "%.9g", "\t")
+        self.assertEqual(self.judge()["torque_unbalanced"], whole)
 
     def test_the_report_judges_both(self):
         self.judge()

@@ -18,7 +18,8 @@ from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
 from ..readings.means import Mean, time_mean, with_error
-from ..readings.mill_power import UNKNOWN, by_walls, charge_power, drive_power, known_balance, slurry_power
+from ..readings.mill_power import (UNKNOWN, by_walls, charge_power, drive_power, known_balance, slurry_power,
+                                   written_balance)
 from . import ball_forces
 
 FORCES = "forces.h5"  # in a pass's folder: what its balls felt
@@ -212,9 +213,9 @@ def exchanged_forces(folder: Path) -> Exchanged:
 def unbalanced(case: MillCase, felt: float, charge: float) -> float | None:
     """Exchanged.unbalanced of a case; felt: mean torque of the slurry on the balls about +z, N m; charge: mean power
     of the drive on the balls, W, both over the averaged time."""
-    if case.machine != MillCase.machine or case.balance is None:
+    columns = written_balance(case) if case.machine == MillCase.machine else None
+    if columns is None:
         return None
-    columns = case.balance
     whole, walls = (time_mean(columns["Time"], power, case.begin) for power in (columns["power"], by_walls(columns)))
     return (whole - walls + felt * case.omega) / (charge + walls)
 

@@ -76,7 +76,7 @@ class BallForces:
     share; pressure_force, drag_force [nz, ny, nx, 3] (N/m3); velocity [nz, ny, nx, 3] of the balls that the flow saw
     (m/s); exchange (kg/(m3 s)), without the factor of a mixture of sizes; fluid_density (kg/m3); diameter (m) [nz, ny,
     nx]; begin, end: DEM time (s); law: of the drag; polydispersity: whether the flow's drag had that factor;
-    slurry_density, air_density (kg/m3); gravity [3] (m/s2)."""
+    gravity [3] (m/s2)."""
     lower: np.ndarray
     upper: np.ndarray
     inside: np.ndarray
@@ -91,8 +91,6 @@ class BallForces:
     end: float
     law: str
     polydispersity: bool
-    slurry_density: float
-    air_density: float
     gravity: np.ndarray
 
     def volumes(self) -> np.ndarray:
@@ -163,8 +161,7 @@ def read_ball_forces(path: Path | str, begin: float | None = None, end: float | 
             np.asarray(file["grid"].attrs["lower"]), np.asarray(file["grid"].attrs["upper"]),
             room / np.sum(lengths), np.divide(balls, room, where=filled, out=np.zeros_like(balls)), **fields,
             begin=span[0], end=span[1], law=law.decode() if isinstance(law, bytes) else str(law),
-            polydispersity=bool(facts["polydispersity"]), slurry_density=float(facts["slurry_density"]),
-            air_density=float(facts["air_density"]), gravity=np.asarray(facts["gravity"]))
+            polydispersity=bool(facts["polydispersity"]), gravity=np.asarray(facts["gravity"]))
 
 
 def _refuse_unknown(path: Path | str, fields: dict[str, np.ndarray]) -> None:

@@ -25,14 +25,19 @@ def fluid_kind(case: MillCase) -> str | None:
     return ((case.results or {}).get("fluid") or {}).get("kind")
 
 
-def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
-    """Columns of slurryBalance up to the flow's last written time; None without it, or if fewer turns than TURNS are
-    averaged."""
+def written_balance(case: MillCase) -> dict[str, np.ndarray] | None:
+    """Columns of slurryBalance up to the flow's last written time, at which the averages of the balls end, too; None
+    without a row up to then."""
     if case.balance is None:
         return None
     until = int(np.searchsorted(case.balance["Time"], case.last * (1 + 1e-9), side="right"))
-    columns = {name: values[:until] for name, values in case.balance.items()}
-    return columns if until > 0 and whole_turns(columns["Time"][-1] - case.begin, case.turn) >= TURNS else None
+    return {name: values[:until] for name, values in case.balance.items()} if until > 0 else None
+
+
+def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
+    """written_balance; None, too, if fewer turns than TURNS are averaged."""
+    columns = written_balance(case)
+    return columns if columns and whole_turns(columns["Time"][-1] - case.begin, case.turn) >= TURNS else None
 
 
 def during_flow(case: MillCase, table: dict[str, np.ndarray] | None) -> tuple[np.ndarray, np.ndarray] | None:

@@ -16,12 +16,11 @@ POOR = 0.03  # of the radius that a fit may leave and still describe a surface
 class FreeSurface:
     """Free surface of a charge, lengths in units of the mill's radius, x to the right and y up.
 
-    internal, wall: coefficients mu_i and mu_w; number: Lambda; clockwise: the mill's sense; height: y at x = 0;
-    filling: share of the circle's area below the surface; x, y [n]: points from shell to shell."""
+    internal, wall: coefficients mu_i and mu_w; number: Lambda; height: y at x = 0; filling: share of the circle's
+    area below the surface; x, y [n]: points from shell to shell."""
     internal: float
     wall: float
     number: float
-    clockwise: bool
     height: float
     filling: float
     x: np.ndarray
@@ -57,7 +56,7 @@ def free_surface(internal: float, wall: float, number: float, filling: float | N
     y = np.where(x < 0, left.sol(np.minimum(x, 0))[0], right.sol(np.maximum(x, 0))[0])
     if clockwise:
         x, y = -x[::-1], y[::-1]
-    return FreeSurface(internal, wall, number, clockwise, float(height), float(share), x, y)
+    return FreeSurface(internal, wall, number, float(height), float(share), x, y)
 
 
 def _branches(internal: float, wall: float, number: float, height: float) -> tuple[Any, Any, float]:

@@ -22,16 +22,15 @@ SPARSE = 0.01  # of the tracer that left, by which rates times rows may differ f
 @dataclass(frozen=True)
 class TracerTable:
     """A slurryTracer's table: time [n] of the ends of its rows, and their lengths [n], s; tracer in the mill [n], m3;
-    tracer that came in and left in a row's time [n], m3; rates of slurry in and out [n], m3/s; whether the feed was a
-    pulse or a step; begin: of its tracer, s; missing: largest volume that the balance misses, over all tracer; lowest
-    and highest concentration, nan if no cell ever held slurry; skipped: by how much the rates at the rows' ends, times
+    tracer that came in and left in a row's time [n], m3; rate of slurry out [n], m3/s; whether the feed was a pulse or
+    a step; begin: of its tracer, s; missing: largest volume that the balance misses, over all tracer; lowest and
+    highest concentration, nan if no cell ever held slurry; skipped: by how much the rates at the rows' ends, times
     their lengths, differ from the tracer that left, over all of it: 0 if each time-step has a row."""
     time: np.ndarray
     length: np.ndarray
     tracer: np.ndarray
     into: np.ndarray
     out: np.ndarray
-    slurry_in: np.ndarray
     slurry_out: np.ndarray
     pulse: bool
     begin: float
@@ -122,9 +121,9 @@ def read_tracer(case: Path | str, name: str = "tracer") -> TracerTable:
     skipped = float(by_rates / out.sum()) if out.sum() > 0 else 0.0
     all_tracer = max(values["tracer"].max(), values["allIn"].max())
     missing = float(np.abs(values["missing"]).max() / all_tracer) if all_tracer > 0 else 0.0
-    return TracerTable(time, length, values["tracer"], into, out, values["slurryIn"], values["slurryOut"],
-                       bool(not fed[-1]), begin, missing, float(np.fmin.reduce(values["smallest"])),
-                       float(np.fmax.reduce(values["largest"])), skipped)
+    return TracerTable(time, length, values["tracer"], into, out, values["slurryOut"], bool(not fed[-1]), begin,
+                       missing, float(np.fmin.reduce(values["smallest"])), float(np.fmax.reduce(values["largest"])),
+                       skipped)
 
 
 def residence(table: TracerTable) -> Residence:
