@@ -46,26 +46,26 @@ void Foam::timeStep::watch(const scalar deltaT, const word& cause)
     const scalar median = watched_.median();
     switch (watched_.add(deltaT))
     {
-        // Not at the end of a run or before a written time: only Courant
-        // numbers that are beyond all bounds lead there
-        case StepLength::diverged:
-            FatalErrorInFunction
-                << "time-step " << deltaT << " s, median so far " << median
-                << " s, because of the " << cause << ": the flow has diverged"
-                << " at " << time_.value() << " s. Resume from an earlier"
-                << " written time with smaller maxCo and maxAlphaCo, and look"
-                << " at U there" << exit(FatalError);
-            break;
+    // Not at the end of a run or before a written time: only Courant
+    // numbers that are beyond all bounds lead there
+    case StepLength::diverged:
+        FatalErrorInFunction
+            << "time-step " << deltaT << " s, median so far " << median
+            << " s, because of the " << cause << ": the flow has diverged"
+            << " at " << time_.value() << " s. Resume from an earlier"
+            << " written time with smaller maxCo and maxAlphaCo, and look"
+            << " at U there" << exit(FatalError);
+        break;
 
-        case StepLength::begins_short:
-            WarningInFunction
-                << "time-step " << deltaT << " s is below a twentieth of its"
-                << " median so far, " << median << " s, because of the "
-                << cause << endl;
-            break;
+    case StepLength::begins_short:
+        WarningInFunction << "time-step " << deltaT
+                          << " s is below a twentieth of its"
+                          << " median so far, " << median
+                          << " s, because of the " << cause << endl;
+        break;
 
-        default:
-            break;
+    default:
+        break;
     }
 }
 
