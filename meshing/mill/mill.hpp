@@ -157,7 +157,6 @@ struct Dem {
   std::optional<double> pool_level;
 };
 
-/// Bingham slurry under air.
 /// A Bingham slurry. Below the shear rate tau0/((viscosity_ratio - 1) mu) it is a Newtonian liquid of its
 /// largest viscosity.
 struct Slurry {
