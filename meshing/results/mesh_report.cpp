@@ -55,7 +55,10 @@ std::string slurry_lines(const Slurry& slurry) {
   std::string text = line("slurry                   a liquid of %.3g Pa s below a shear rate of %.3g 1/s",
                           slurry.viscosity_ratio * slurry.plastic_viscosity, below);
   if (below <= slowest_yield) return text;
-  const double enough = slurry.yield_stress / (slowest_yield * slurry.plastic_viscosity) + 1;
+  // Rounded up to the two digits that are shown
+  const double least = slurry.yield_stress / (slowest_yield * slurry.plastic_viscosity) + 1;
+  const double digit = std::pow(10, std::floor(std::log10(least)) - 1);
+  const double enough = digit * std::ceil(least / digit);
   return text + line(
                     "advice: slurry that moves more slowly has no yield stress; with slurry.viscosity_ratio "
                     "%.2g it has one down to %g 1/s, in a flow that may need more time",
