@@ -82,11 +82,12 @@ double largest_diameter(const meshing::Mill& mill) {
                             "more room there, or fewer balls: " + balls + "; raise geometry.height");
   const double room = mill.geometry.radius() - mill.geometry.lifters.height;
   std::string remedies = "; take fewer balls (charge.fill or charge.classes)";
-  if (mill.geometry.ends == meshing::Ends::plain)
+  if (mill.geometry.ends == meshing::Ends::plain &&
+      mill.charge.start_length < mill.geometry.length * (1 - 1e-9))
     remedies += ", or a longer charge.start_length, up to " + shown(mill.geometry.length) + " m";
   // The default leaves the radius of the largest ball
   if (mill.charge.start_radius < room - largest_diameter(mill) / 2 * (1 + 1e-9))
-    remedies += ", or raise it, up to " + shown(room) + " m";
+    remedies += ", or a larger charge.start_radius, up to " + shown(room) + " m";
   throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
                           "a start cylinder (its volume is " + shown(cylinder) +
                               " m^3) in which all balls have room: " + balls + remedies);

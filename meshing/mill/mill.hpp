@@ -160,7 +160,8 @@ struct Dem {
 /// A Bingham slurry. Below the shear rate tau0/((viscosity_ratio - 1) mu) it is a Newtonian liquid of its
 /// largest viscosity.
 struct Slurry {
-  static constexpr double usual_viscosity_ratio = 1000;  ///< where the mill gives none
+  static constexpr double usual_viscosity_ratio = 1000;   ///< where the mill gives none
+  static constexpr double largest_viscosity_ratio = 1e9;  ///< that a mill may give
 
   double density = 0;                              ///< kg/m^3
   double plastic_viscosity = 0;                    ///< Pa s

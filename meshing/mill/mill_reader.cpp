@@ -195,12 +195,14 @@ std::optional<double> read_pool_level(Section& in, const Mill& mill) {
 
 /// Honey has 10 Pa s, fresh concrete a yield stress of 1e3 Pa, liquid iron a surface tension of 1.9 N/m.
 Slurry read_slurry(const Section& in) {
-  return {in.number("density", density()),
-          in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
-          in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
-          in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07),
-          in.number("viscosity_ratio", from_to("the largest viscosity over the plastic one,", 10, 1e9),
-                    Slurry::usual_viscosity_ratio)};
+  return {
+      in.number("density", density()),
+      in.number("plastic_viscosity", positive_up_to("a viscosity in Pa s", 1e4)),
+      in.number("yield_stress", zero_up_to("a stress in Pa", 1e6)),
+      in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07),
+      in.number("viscosity_ratio",
+                from_to("the largest viscosity over the plastic one,", 10, Slurry::largest_viscosity_ratio),
+                Slurry::usual_viscosity_ratio)};
 }
 
 /// Gases reach a liquid's density and viscosity at the critical point at most.
@@ -354,11 +356,17 @@ MillDescription describe_without_variants(const std::filesystem::path& file,
 
 /// Throws UnknownKey for variants with paths that are no keys. Values are only checked where a variant is
 /// used: some go with other changes only.
-void check_variants(const std::filesystem::path& file, const MillDocument& document) {
+/// @param set  the changes with which the file was read; those of its variant are left out
+void check_variants(const std::filesystem::path& file, const MillDocument& document,
+                    std::vector<std::string> set) {
   if (!std::filesystem::is_regular_file(file)) return;  // a pipe has no second reading
+  const auto is_variant = [](const std::string& change) { return change.rfind("variant=", 0) == 0; };
+  set.erase(std::remove_if(set.begin(), set.end(), is_variant), set.end());
   for (const std::string& name : document.variants()) {
+    std::vector<std::string> changes{"variant=" + name};
+    changes.insert(changes.end(), set.begin(), set.end());
     try {
-      describe_without_variants(file, {"variant=" + name});
+      describe_without_variants(file, changes);
     } catch (const UnknownKey&) {
       throw;
     } catch (const MillError&) {
@@ -371,7 +379,7 @@ void check_variants(const std::filesystem::path& file, const MillDocument& docum
 
 MillDescription describe_mill(const std::filesystem::path& file, const std::vector<std::string>& set) {
   MillDescription description = describe_without_variants(file, set);
-  check_variants(file, *description.document);
+  check_variants(file, *description.document, set);
   return description;
 }
 

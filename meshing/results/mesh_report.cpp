@@ -59,9 +59,11 @@ std::string slurry_lines(const Slurry& slurry) {
   const double least = slurry.yield_stress / (slowest_yield * slurry.plastic_viscosity) + 1;
   const double digit = std::pow(10, std::floor(std::log10(least)) - 1);
   const double enough = digit * std::ceil(least / digit);
+  text += "advice: slurry that moves more slowly has no yield stress";
+  if (enough > Slurry::largest_viscosity_ratio) return text + '\n';
   return text + line(
-                    "advice: slurry that moves more slowly has no yield stress; with slurry.viscosity_ratio "
-                    "%.2g it has one down to %g 1/s, in a flow that may need more time",
+                    "; with slurry.viscosity_ratio %.2g it has one down to %g 1/s, in a flow that may need "
+                    "more time",
                     enough, slowest_yield);
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes and runs OpenFOAM cases from a template, and prints which limits a verification case misses."""
 import argparse
+import math
 import os
 import shutil
 import subprocess
@@ -78,7 +79,7 @@ def limit_table(rows: Sequence[tuple[str, float, float]], limit: str = "allowed"
     the head calls the last column."""
     width = max((len(what) for what, *_ in rows), default=0)
     lines = [f"{'':<{width}} {'found':>10} {limit:>10}"]
-    beyond = [not found <= largest for _, found, largest in rows]
+    beyond = [not (math.isfinite(found) and found <= largest) for _, found, largest in rows]
     lines += [marked(f"{what:<{width}} {found:10.4g} {largest:10.3g}", bad, word)
               for (what, found, largest), bad in zip(rows, beyond)]
     return lines, sum(beyond)

@@ -119,13 +119,19 @@ TEST(ChargePlan, AStartCylinderIsOnlyToBeRaisedWhereItCanBe) {
     return message_of([&] { plan_charge(mill); }).find(words) != std::string::npos;
   };
   // Balls of up to 3 mm in a smooth drum of 20 mm radius
-  EXPECT_TRUE(says("left over; take fewer balls (charge.fill or charge.classes), or raise it, up to 0.02 m"));
+  EXPECT_TRUE(
+      says("left over; take fewer balls (charge.fill or charge.classes), or a larger charge.start_radius, "
+           "up to 0.02 m"));
   EXPECT_FALSE(says("start_length"));
   mill.geometry.ends = meshing::Ends::plain;
-  EXPECT_TRUE(says("or charge.classes), or a longer charge.start_length, up to 0.012 m, or raise it"));
+  EXPECT_TRUE(
+      says("or charge.classes), or a longer charge.start_length, up to 0.012 m, or a larger charge.start"));
   mill.charge.start_radius = 0.02 - 0.003 / 2;
   EXPECT_TRUE(says("up to 0.012 m"));
-  EXPECT_FALSE(says("raise it"));
+  EXPECT_FALSE(says("a larger charge.start_radius"));
+  mill.charge.start_length = 0.012;
+  EXPECT_FALSE(says("a longer charge.start_length"));
+  EXPECT_TRUE(says("take fewer balls (charge.fill or charge.classes)"));
 }
 
 TEST(ChargePlan, ABallLargerThanTheStartCylinderIsRefusedWithItsDiameter) {

@@ -42,6 +42,16 @@ TEST(Forecast, TheTrialOfASmallMillIsTheMillItself) {
   EXPECT_EQ(plan_charge(trial).balls(), 250);
 }
 
+TEST(Forecast, TheTrialOfAShortMillWithEndsIsAsLongAsAPeriodicMillMustBe) {
+  auto mill = small_mill();
+  mill.geometry.ends = meshing::Ends::plain;
+  mill.geometry.length = 0.004;
+  mill.charge.start_length = 0.0039;
+  for (auto& size : mill.charge.classes) size.mass /= 3;
+  // Balls of up to 3 mm
+  EXPECT_DOUBLE_EQ(trial_mill(mill, 1).geometry.length, 0.006);
+}
+
 TEST(Forecast, TheTrialIsLongEnoughToBeSplitAsTheMillIs) {
   const auto mill = long_mill();
   const auto trial = trial_mill(mill, 40);

@@ -339,33 +339,39 @@ class BallsInTheFlow(Verdicts):
             self.check(found, state)
             self.assertIn(f"below a shear rate of {stress / (0.01 * (ratio - 1)):.2g} 1/s", found.found)
             self.assertIn(f"a liquid of {0.01 * ratio:.2g} Pa s", found.found)
+        slurry = {"yield_stress_Pa": 0, "plastic_viscosity_Pa_s": 0.01}.get
+        found = checks.yield_stress(case(mill=SimpleNamespace(slurry=slurry, viscosity_ratio=1000)))
+        self.assertEqual((found.state, found.found), ("holds", "it has none"))
 
     def test_drag_by_the_plastic_viscosity_where_the_pores_shear_slowly(self):
-        # 12 slip/d is 240 1/s; the slip is known at written times
-        steps = {"slip_m_per_s": np.array([np.nan, 0.15, 0.05])}
+        # 12 slip/d is 240 1/s with the root mean square of the slip, which is known at written times
+        steps = {"slip_m_per_s": np.array([np.nan, 0.14, 0.02])}
         for stress, ratio, state in ((1.1, 1000, "holds"), (1.3, 1000, "look"), (4.9, 1000, "fails"),
                                      (4.9, 1.4, "holds")):
             slurry = {"yield_stress_Pa": stress, "plastic_viscosity_Pa_s": 0.01}.get
-            mill = SimpleNamespace(slurry=slurry, viscosity_ratio=ratio, sauter_diameter=0.005)
+            mill = SimpleNamespace(slurry=slurry, viscosity_ratio=ratio, sauter_diameter=0.005,
+                                   flow={"viscosity": "plastic"}.get)
             found = checks.drag_viscosity(case(mill=mill, steps=steps))
             self.check(found, state)
             self.assertIn("pores shear at 240 1/s", found.found)
             self.assertIn(f"{1 + min(stress / 2.4, ratio - 1):.3g} times as much", found.found)
         self.check(checks.drag_viscosity(case(mill=mill)), "unknown")
+        self.check(checks.drag_viscosity(case(mill=mill, steps={"slip_m_per_s": np.zeros(2)})), "unknown")
+        mill.flow = {"viscosity": "pore"}.get
+        self.check(checks.drag_viscosity(case(mill=mill)), "holds")
+        mill.flow, mill.slurry = {}.get, {"yield_stress_Pa": 0}.get
+        self.check(checks.drag_viscosity(case(mill=mill)), "holds")
 
-    def test_the_viscosity_is_checked_where_the_slurry_yields_and_the_drag_is_by_the_plastic_one(self):
-        def names(**derived):
-            folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
-            write_flow(folder)
-            for section, entries in derived.items():
-                for key, value in entries.items():
-                    change_json(folder / "mill.json", "derived", section, key, to=value)
-            return {check.name for check in checks.all_checks(MillCase(folder))}
-
-        both = {"Slow slurry keeps its yield stress", "The drag has the slurry's viscosity"}
-        self.assertEqual(names() & both, both)
-        self.assertEqual(names(flow={"viscosity": "pore"}) & both, {"Slow slurry keeps its yield stress"})
-        self.assertEqual(names(slurry={"yield_stress_Pa": 0}) & both, set())
+    def test_a_mill_without_a_number_of_its_slurry_is_named(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        write_flow(folder)
+        found = {check.name: check.state for check in checks.all_checks(MillCase(folder))}
+        self.assertEqual(found["Slow slurry keeps its yield stress"], "holds")
+        self.assertIn("The drag has the slurry's viscosity", found)
+        change_json(folder / "mill.json", "derived", "slurry", to={})
+        found = {check.name: check for check in checks.all_checks(MillCase(folder))}
+        self.assertEqual(found["All files can be used"].state, "fails")
+        self.assertIn("yield_stress_Pa", found["All files can be used"].found)
 
     def test_slurry_beyond_the_drag_laws_range_in_the_mean_over_time(self):
         for share, state in ((0.19, "holds"), (0.21, "look"), (0.51, "fails")):

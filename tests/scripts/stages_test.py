@@ -148,6 +148,23 @@ class Inputs(Stages):
             self.assertEqual(output, "")
 
 
+class Ratio(Stages):
+    """Of the slurry's viscosities, in a case whose files are older than the key."""
+
+    def require(self, ratio, entry):
+        self.write("constant/transportProperties", f"slurry {{ BinghamCoeffs {{ viscosityRatio {entry}; }} }}")
+        return self.bash(f"json_value() {{ echo {ratio}; }}\nrequire_viscosity_ratio constant/transportProperties")
+
+    def test_that_a_file_would_ignore_is_refused(self):
+        for ratio, entry in (("1000.0", "1000"), ("1000.0", "$slurryViscosityRatio"),
+                             ("5000.0", "$slurryViscosityRatio")):
+            self.assertEqual(self.require(ratio, entry), (0, "", ""))
+        code, _, errors = self.require("5000.0", "1000")
+        self.assertEqual(code, 1)
+        self.assertIn("constant/transportProperties does not take the mill's slurry.viscosity_ratio, 5000.0; expected "
+                      "$slurryViscosityRatio there", errors)
+
+
 class Waiting(Stages):
     """Two Allruns of a study that need the same dry run: the second waits."""
     HELD = ("(exec {held}> .stages/lock; flock -n $held; echo > held; until [ -e waits ]; do sleep 0.05; done; %s) &\n"

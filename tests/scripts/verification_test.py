@@ -287,7 +287,8 @@ class Rest(Printed):
             return self.report(lambda found, out: case.report(found, pool, out), {"slice": speeds})[0]
 
         self.assertEqual(missed(), 0)
-        for one in (dict(steps=case.FLUID_STEPS - 1), dict(records=20), dict(fluid=1e-13), dict(fluid=np.nan),
+        for one in (dict(steps=case.FLUID_STEPS - 1), dict(steps=case.FLUID_STEPS + 1), dict(records=20),
+                    dict(fluid=1e-13), dict(fluid=np.nan),
                     dict(air=3.0), dict(air=np.nan)):
             self.assertEqual(missed(**one), 1, one)
 

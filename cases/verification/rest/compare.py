@@ -84,9 +84,9 @@ def report(fluids, pool, out):
     rows = []
     for name, fluid in fluids.items():
         rows += [(f"slurry alone ({name}): largest m/s", fluid[:, 1].max(), STILL),
-                 (f"slurry alone ({name}): steps that are missing of {FLUID_STEPS}", FLUID_STEPS - len(fluid), 0)]
+                 (f"slurry alone ({name}): steps more or less than {FLUID_STEPS}", abs(FLUID_STEPS - len(fluid)), 0)]
     lines, missed = limit_table(rows + [
-        (f"pool: s that the run ended before {POOL_END:g} s", POOL_END - pool.time[-1], SHORT),
+        (f"pool: s that the run ended before or after {POOL_END:g} s", abs(POOL_END - pool.time[-1]), SHORT),
         ("pool: air, largest m/s", pool.air.max(), MOST_AIR),
         ("pool: slurry, largest m/s", pool.slurry.max(), MOST_SLURRY),
         ("pool: relative change of the slurry's volume", pool.volume_change, CONSERVED)])

@@ -115,7 +115,8 @@ def judge(histories, end):
     if not limits:
         return [], 0
     lines, missed = limit_table(limits)
-    return [f"{JUDGED}: limits", *lines, "", f"{JUDGED}: aims", *limit_table(aims, "aim", "above the aim")[0]], missed
+    aimed = ["", f"{JUDGED}: aims", *limit_table(aims, "aim", "above the aim")[0]] if aims else []
+    return [f"{JUDGED}: limits", *lines, *aimed], missed
 
 
 def report(histories, end, out):

@@ -17,12 +17,8 @@ def all_checks(case: MillCase) -> list[Check]:
     """The checks that a MillCase's parts allow; failed ones are first."""
     functions = [same_mill]
     if case.flow:
-        functions += [conservation, flow_steadiness, courant, mesh]
+        functions += [conservation, flow_steadiness, courant, mesh, yield_stress]
         functions += [slurry_torques] if "torque_balls" in (case.balance or {}) else []
-        yields = case.mill.slurry("yield_stress_Pa") > 0
-        functions += [yield_stress] if yields else []
-        plastic = case.mill.flow("viscosity", "plastic") == "plastic"
-        functions += [drag_viscosity] if yields and plastic and case.law else []
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]
         # Slurry that the balls feel takes a part of the torque
@@ -32,7 +28,7 @@ def all_checks(case: MillCase) -> list[Check]:
     if case.solids:
         functions += [follows_shell, ledger, averaging_volume, window_noise]
     if case.flow and case.law:
-        functions += [solids_on_mesh, continuity, drag_range]
+        functions += [solids_on_mesh, continuity, drag_range, drag_viscosity]
         functions += coupling_checks(case) if case.coupled else [one_way]
     checks, unusable = [], []
     for function in functions:

@@ -144,9 +144,11 @@ def drag_range(case: MillCase) -> Check:
 
 def yield_stress(case: MillCase) -> Check:
     """Whether slurry that hardly moves keeps its yield stress, although its viscosity has a largest value."""
-    slurry = case.mill.slurry
+    name, slurry = "Slow slurry keeps its yield stress", case.mill.slurry
+    if slurry("yield_stress_Pa") == 0:
+        return Check(name, "holds", "it has none")
     below = slurry("yield_stress_Pa") / ((case.mill.viscosity_ratio - 1) * slurry("plastic_viscosity_Pa_s"))
-    return judged("Slow slurry keeps its yield stress", below, SLOWEST_YIELD,
+    return judged(name, below, SLOWEST_YIELD,
                   f"below a shear rate of {below:.2g} 1/s (limit {SLOWEST_YIELD:g} 1/s) it is a liquid of "
                   f"{case.mill.viscosity_ratio * slurry('plastic_viscosity_Pa_s'):.2g} Pa s",
                   "Raise slurry.viscosity_ratio; the flow may need more time.", doubtful=10 * SLOWEST_YIELD,
@@ -156,19 +158,23 @@ def yield_stress(case: MillCase) -> Check:
 def drag_viscosity(case: MillCase) -> Check:
     """Whether drag by the plastic viscosity is near that by the apparent viscosity of the slurry in the pores.
 
-    The pores shear at 12 phi v/((1 - phi) d), with the mean slip v and a solidity phi of 0.5.
+    The pores shear at 12 phi v/((1 - phi) d), with the root mean square v of the slip and a solidity phi of 0.5.
     """
     name = "The drag has the slurry's viscosity"
+    if case.mill.slurry("yield_stress_Pa") == 0:
+        return Check(name, "holds", "the slurry has no yield stress, so its viscosity is the plastic one")
+    if case.mill.flow("viscosity") == "pore":
+        return Check(name, "holds", "the drag takes that in the pores (flow.viscosity)")
     slip = column(case, "slip_m_per_s")
-    if slip is None:
+    if slip is None or not np.nanmax(slip) > 0:
         return Check(name, "unknown", "steps.csv has no slip between slurry and balls", NO_STEPS)
-    speed = float(np.nanmean(slip))
+    speed = float(np.sqrt(np.nanmean(slip ** 2)))
     rate = 12 * speed / case.mill.sauter_diameter
     yields = case.mill.slurry("yield_stress_Pa") / case.mill.slurry("plastic_viscosity_Pa_s")
     apparent = 1 + min(yields / rate, case.mill.viscosity_ratio - 1)
-    return judged(name, apparent, APPARENT, f"the drag takes the plastic viscosity; with a slip of {speed:.2g} m/s the "
-                  f"pores shear at {rate:.3g} 1/s, where the slurry has {apparent:.3g} times as much (limit "
-                  f"{APPARENT:g})", "Compare with flow.viscosity: pore.", doubtful=3,
+    return judged(name, apparent, APPARENT, "the drag takes the plastic viscosity; with a slip of "
+                  f"{speed:.2g} m/s (rms) the pores shear at {rate:.3g} 1/s, where the slurry has {apparent:.3g} times "
+                  f"as much (limit {APPARENT:g})", "Compare with flow.viscosity: pore.", doubtful=3,
                   meaning="slurry passes slowly between the balls more easily than it should")
 
 

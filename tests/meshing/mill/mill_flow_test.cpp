@@ -479,6 +479,11 @@ TEST(Variants, have_paths_of_keys_also_where_they_are_not_used) {
             0U);
   EXPECT_NE(refused("flow..law: Hill").find("expected a path, as in flow.law"), std::string::npos);
   EXPECT_NE(refused("variants.slow.flow.turns: 3").find("expected a path"), std::string::npos);
+  // Changes of the call hold for the variants, too
+  const std::string old = bare_mill + "averaging: {start: 1}\nvariants:\n  slow: {flow.turns: 2}\n";
+  EXPECT_NE(refusal_of(old).find("key 'averaging' is unknown"), std::string::npos);
+  EXPECT_EQ(refusal_of(old, {"averaging=~"}), "accepted");
+  EXPECT_EQ(refusal_of(old, {"variant=slow", "averaging=~"}), "accepted");
   // Values may go with other changes
   EXPECT_EQ(refused("flow.averages.start: 1e4"), "accepted");
 }

@@ -99,6 +99,8 @@ TEST(MeshReport, says_below_which_shear_rate_a_slurry_has_no_yield_stress) {
        "it has one down to 1 1/s"});
   description.mill.slurry.viscosity_ratio = 11000;
   EXPECT_EQ(lines().find("advice"), std::string::npos);
+  description.mill.slurry = {1239, 1e-6, 1e6, 0.07};
+  expect_lines(lines(), {"advice: slurry that moves more slowly has no yield stress\n"});
   description.mill.slurry.yield_stress = 0;
   EXPECT_EQ(lines().find("slurry "), std::string::npos);
 }
