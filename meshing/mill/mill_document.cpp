@@ -359,9 +359,12 @@ std::string MillDocument::place(const std::string& path) const {
   for (std::string at = path; !at.empty(); at = section_around(at)) {
     const auto line = lines_.find(at);
     if (line != lines_.end()) return source_ + ":" + std::to_string(line->second);
-    // A section that only a change of one of its keys has made
+    // A section that only a change of one of its keys, or a variant's, has made
     const auto inside = changed_.lower_bound(at + '.');
     if (inside != changed_.end() && inside->first.rfind(at + '.', 0) == 0) return "--set " + inside->second;
+    const auto made = variant_lines_.lower_bound(at + '.');
+    if (made != variant_lines_.end() && made->first.rfind(at + '.', 0) == 0)
+      return source_ + ":" + std::to_string(made->second);
   }
   return source_ + ":1";
 }

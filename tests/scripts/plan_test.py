@@ -282,11 +282,11 @@ class Steps(unittest.TestCase):
 
 class SmallMill(Folder):
     def test_what_millDem_refuses_ends_the_plan(self):
-        (self.folder / "mill.yaml").write_text(SMALL.replace("fill: 0.3", "fill: 0.0001"))
+        (self.folder / "mill.yaml").write_text(SMALL.replace("fill: 0.3", "fill: 0.3, start_radius: 0.006"))
         subprocess.run(["millMesh", "mill.yaml", "--resolved", "mill.json"], cwd=self.folder, check=True)
         done = self.plan()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertRegex(done.stderr, r"^millDem: error: .*mill\.yaml:\d+: key 'charge' = .*rounds to 0 balls")
+        self.assertRegex(done.stderr, r"^millDem: error: .*mill\.yaml:\d+: key 'charge.start_radius' = 0.006: expected")
 
     def test_a_trial_that_takes_too_long_is_ended(self):
         finer = ("--set", "resolution.cell_size=0.003", "--set", "resolution.layers=6")

@@ -33,7 +33,7 @@ HERE = Path(__file__).parent.resolve()
 REPORT = HERE.parents[2] / "scripts" / "report"
 RADIUS = 0.06  # m
 PARTS = 8  # of the averaged time, for errors
-QUICK = 0.2, 0.012, 0.1, 0.01  # duration, s; slice, m; of the averages: left out, window, s
+QUICK = 0.2, 0.016, 0.1, 0.01  # duration, s; slice, m; of the averages: left out, window, s
 COLUMNS = ("run", "balls", "steady", "steady_from_s", "power_W", "power_error_W", "cubic_rmsd_m_s", "cubic_error_m_s",
            "cubic_published_m_s", "logistic_rmsd_mm", "logistic_error_mm", "logistic_published_mm", "centre_x_mm",
            "centre_y_mm", "centre_error_mm", "toe_deg", "toe_error_deg", "shoulder_deg", "shoulder_error_deg",
