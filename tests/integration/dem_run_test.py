@@ -88,7 +88,7 @@ class DemRun(unittest.TestCase):
             seen.add(self.last_restart(case))
             return len(seen - {before, None}) >= restarts_before
 
-        self.assertTrue(wait_for(enough, 120))
+        self.assertTrue(wait_for(enough, 300))
         children = descendants(process.pid)
         self.assertTrue(children)
         process.send_signal(signal.SIGKILL)
@@ -192,7 +192,7 @@ class DemRun(unittest.TestCase):
         process = subprocess.Popen(["millDem", "mill.yaml", "--case", "."], cwd=case, stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True, restore_signals=False)
         self.addCleanup(process.kill)
-        self.assertTrue(wait_for(lambda: self.last_restart(case), 120))
+        self.assertTrue(wait_for(lambda: self.last_restart(case), 300))
         for pid in descendants(process.pid):
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (20000, 20000))
         _, output = process.communicate(timeout=60)
