@@ -66,13 +66,6 @@ double room_below(const meshing::Mill& mill) {
          meshing::impeller_volume(mill.geometry, bottom);
 }
 
-/// Of a superquadric, the longest way through it.
-double largest_diameter(const meshing::Mill& mill) {
-  double largest = 0;
-  for (const auto& size : mill.charge.classes) largest = std::max(largest, meshing::longest_way(size));
-  return largest;
-}
-
 /// The start cylinder is too small for the balls that are left.
 [[noreturn]] void refuse_start(const meshing::Mill& mill, double cylinder, long left, double diameter) {
   const std::string balls =
@@ -86,7 +79,7 @@ double largest_diameter(const meshing::Mill& mill) {
       mill.charge.start_length < mill.geometry.length * (1 - 1e-9))
     remedies += ", or a longer charge.start_length, up to " + shown(mill.geometry.length) + " m";
   // The default leaves the radius of the largest ball
-  if (mill.charge.start_radius < room - largest_diameter(mill) / 2 * (1 + 1e-9))
+  if (mill.charge.start_radius < room - mill.charge.longest_way() / 2 * (1 + 1e-9))
     remedies += ", or a larger charge.start_radius, up to " + shown(room) + " m";
   throw meshing::KeyError("charge.start_radius", shown(mill.charge.start_radius),
                           "a start cylinder (its volume is " + shown(cylinder) +

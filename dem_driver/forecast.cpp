@@ -115,10 +115,8 @@ double work_of(const DemPlan& plan) {
 /// A periodic slice of the mill with some balls.
 void take_trial_slice(const meshing::Mill& mill, const DemPlan& whole, int ranks, meshing::Mill& trial) {
   const double largest = whole.charge.classes.front().diameter;
-  double longest = 0;
-  for (const auto& size : mill.charge.classes) longest = std::max(longest, meshing::longest_way(size));
   // A slice may be no shorter, also of a mill with ends that is
-  const double least = meshing::fewest_diameters_of_period * longest;
+  const double least = meshing::fewest_diameters_of_period * mill.charge.longest_way();
   const double shortest =
       std::max(least, std::min(mill.geometry.length, std::max(2.5, 1.6 * ranks) * largest));
   const double balls = whole.charge.has_shapes() ? trial_shaped_balls : trial_balls;

@@ -383,20 +383,4 @@ bool assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, con
   return has_mean;
 }
 
-std::optional<double> slurry_begin(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) return std::nullopt;
-  try {
-    return hdf5::naming_file<SlurryFileError>(path, [&]() -> std::optional<double> {
-      const hdf5::Handle file = hdf5::open_file(path);
-      if (hdf5::read_int_attribute(file.get(), "complete", 1)[0] != 1) return std::nullopt;
-      const hdf5::Handle windows = hdf5::open_group(file.get(), "window");
-      const std::vector<double> begins = hdf5::read_all(windows.get(), "begin");
-      if (begins.empty()) return std::nullopt;
-      return begins.front() - hdf5::read_double_attribute(file.get(), "time0", 1)[0];
-    });
-  } catch (const SlurryFileError&) {
-    return std::nullopt;
-  }
-}
-
 }  // namespace millfoam::averaging

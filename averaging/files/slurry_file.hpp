@@ -108,8 +108,4 @@ struct SlurryHeader {
 bool assemble_slurry(const std::filesystem::path& path, const BoxGrid& grid, const SlurryHeader& header,
                      const std::vector<std::filesystem::path>& segments);
 
-/// Flow time at which the first window of a slurry.h5 begins, s. None where the file does not exist, is not
-/// complete, or cannot be read.
-std::optional<double> slurry_begin(const std::filesystem::path& path);
-
 }  // namespace millfoam::averaging

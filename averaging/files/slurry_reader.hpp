@@ -72,4 +72,8 @@ class SlurryReader {
   std::unique_ptr<File> file_;
 };
 
+/// Flow time at which the first window of a slurry.h5 begins, s. None where the file does not exist, is not
+/// complete, or cannot be read.
+std::optional<double> slurry_begin(const std::filesystem::path& path);
+
 }  // namespace millfoam::averaging

@@ -24,6 +24,12 @@ double longest_way(const SizeClass& size) {
   return size.shape ? 2 * bounding_radius(*size.shape) : size.diameter;
 }
 
+double Charge::longest_way() const {
+  double way = 0;
+  for (const SizeClass& size : classes) way = std::max(way, meshing::longest_way(size));
+  return way;
+}
+
 bool Charge::has_shapes() const {
   return std::any_of(classes.begin(), classes.end(),
                      [](const SizeClass& size) { return size.shape.has_value(); });

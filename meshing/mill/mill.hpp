@@ -120,6 +120,8 @@ struct Charge {
   double start_bottom = 0;  ///< z of the cylinder's lower end, m; ignored for a periodic slice
   double start_core = 0;    ///< m, radius of the cylinder's core that is left out: the shaft; 0 for none
   bool has_shapes() const;  ///< whether not all balls are spheres
+  /// Largest longest_way of its classes, m; 0 without a class.
+  double longest_way() const;
 };
 
 /// Elastic solid. The modulus used by the simulation may be softer than the real one; see

@@ -214,8 +214,7 @@ Air read_air(const Section& in) {
 /// Makes a periodic slice of the mill: less length, no openings (but their circles in the mesh, without which
 /// the whole mill's layers of the ring would not fit), and as much less charge and layers, which are equal.
 void take_slice(const Section& in, Mill& mill) {
-  double longest = 0;
-  for (const SizeClass& size : mill.charge.classes) longest = std::max(longest, longest_way(size));
+  const double longest = mill.charge.longest_way();
   const std::string words = mill.charge.has_shapes() ? "a ball's longest way through its centre, "
                                                      : "the largest ball's diameter, ";
   const double shortest = fewest_diameters_of_period * longest;

@@ -9,6 +9,7 @@
 
 #include "averaging/files/hdf5_file.hpp"
 #include "averaging/files/hdf5_io.hpp"
+#include "averaging/files/slurry_reader.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
