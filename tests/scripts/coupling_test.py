@@ -8,6 +8,7 @@ import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import h5py
@@ -304,11 +305,38 @@ class AtTheSameTime(unittest.TestCase):
             np.savetxt(file, after, "%.9g", "\t")
         self.assertEqual(self.judge()["torque_unbalanced"], whole)
 
+    def test_its_error_is_that_of_the_sum_in_each_turn(self):
+        times = np.arange(1, 301) * 0.01  # three turns of 1 s
+        swing = np.repeat([-0.3, 0.1, 0.2], 100)
+        balance = {"Time": times, "power": 2.0 + swing, "power_shell": 0 * times + 1.0}
+        case = SimpleNamespace(machine=MillCase.machine, balance=balance, begin=0.0, last=3.0, turn=1.0, omega=-2.0,
+                               flow=SimpleNamespace(time0=self.TIME0))
+        # The balls take what the slurry gives, in every turn: only its mean is unbalanced
+        alike = passes.unbalanced(case, (times + self.TIME0, (1.0 + swing) / 2), 3.0)
+        self.assertAlmostEqual(alike.value, 0, places=9)
+        self.assertAlmostEqual(alike.error, 0, places=9)
+        apart = passes.unbalanced(case, (times + self.TIME0, (1.0 - swing) / 2), 3.0)
+        self.assertAlmostEqual(apart.error, 2 * np.std([-0.3, 0.1, 0.2], ddof=1) / np.sqrt(3) / 4, places=9)
+        self.assertEqual(apart.freedom, 2)
+        case.turn = 2.0
+        self.assertTrue(np.isnan(passes.unbalanced(case, (times + self.TIME0, swing), 3.0).error))
+
+    def test_an_error_that_hides_the_limit_leaves_it_undecided(self):
+        content = self.judge()
+        self.assertIsNone(content["torque_unbalanced_error"])
+        self.addCleanup(self.judge)
+        for reach, state, undecided in ((0.019, "holds", False), (0.021, "look", True)):
+            (self.case / "coupling.json").write_text(json.dumps(content | {
+                "torque_unbalanced": 0.004, "torque_unbalanced_error": 0.003, "torque_unbalanced_reach": reach}))
+            found = torques_balance(MillCase(self.case / "direct"))
+            self.assertEqual((found.state, found.undecided), (state, undecided))
+            self.assertIn("balance by 0.4 ± 0.3 % of the drive's torque", found.found)
+
     def test_the_report_judges_both(self):
         self.judge()
         case = passes.MillCase(self.case / "direct")
         checks = {check.name: check for check in (make(case) for make in coupling_checks(case))}
-        self.assertEqual(checks["The balls feel the slurry's force"].state, "holds")
+        self.assertEqual(checks["The balls feel the force that the flow gives"].state, "holds")
         torque = checks["The torque between balls and slurry balances"]
         self.assertEqual(torque.state, "look")
         self.assertIn("it differs by 0.8 % of the drive's torque", torque.found)
@@ -344,7 +372,8 @@ class AtTheSameTime(unittest.TestCase):
             del content[key]
         (self.case / "coupling.json").write_text(json.dumps(content))
         case = passes.MillCase(self.case / "direct")
-        self.assertEqual([make(case).name for make in coupling_checks(case)], ["The balls feel the slurry's force"])
+        self.assertEqual([make(case).name for make in coupling_checks(case)],
+                         ["The balls feel the force that the flow gives"])
 
 
 if __name__ == "__main__":

@@ -107,7 +107,8 @@ class APool(unittest.TestCase):
         xx, yy = np.meshgrid(*slurry.centres())
         solidity = np.where((xx > -0.11) & (xx < 0.04), 0.5, 0.05)
         found = pool(slurry, solidity)
-        self.assertAlmostEqual(found.area, 0.04 * 0.04 * 0.8, delta=1e-9)
+        # Without the few balls in it
+        self.assertAlmostEqual(found.area, 0.04 * 0.04 * 0.8 * 0.95, delta=1e-9)
         self.assertAlmostEqual(found.level, -0.05, delta=1e-9)
         self.assertTrue(np.all(xx[found.where] > 0.04))
 

@@ -204,6 +204,15 @@ class SteadyHoldUps(unittest.TestCase):
         held_worse = replace(self.one(65e-6), whole=Mean(4e-3, 5e-5))
         self.assertAlmostEqual(at_feed(held_worse, self.TRIALS).whole.error, 5e-5, places=12)
 
+    def test_have_the_degrees_of_freedom_of_what_they_are_made_of(self):
+        few = tuple(replace(one, discharge=replace(one.discharge, freedom=2)) for one in self.TRIALS)
+        # Both trials have the same error, of two degrees each: their difference has four
+        self.assertAlmostEqual(at_feed(self.one(35e-6), few).whole.freedom, 4)
+        worse = replace(self.one(65e-6), whole=Mean(4e-3, 5e-5, 5))
+        self.assertAlmostEqual(at_feed(worse, few).whole.freedom, 5)
+        flow = replace(self.one(65e-6), discharge=Mean(65e-6, 3e-6, 7))
+        self.assertAlmostEqual(at_feed(flow, few).whole.freedom, 7)
+
     def test_need_both_trials_of_their_mill_and_more_discharge_of_more_slurry(self):
         for trials in ((), self.TRIALS[:1], tuple(replace(one, kind=Kind(60, True)) for one in self.TRIALS),
                        (trial(5e-3, 4e-5), trial(3e-3, 4e-5)), (trial(5e-3, 42e-6), trial(3e-3, 4e-5))):

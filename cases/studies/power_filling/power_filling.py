@@ -44,7 +44,7 @@ class Run:
     """A complete run: way, a key of WAYS; fill: volume of slurry over that of the pores; its numbers; its map of the
     slurry; pooled: share of the slurry that is in the pool clear of the charge; unsteady: what the report does not call
     steady, `flow` or `charge`, and whether that is undecided; unbalanced: of a direct run, torque between balls and
-    slurry that is not the same for both, over the drive's, NaN if it is not known."""
+    slurry that is not the same for both, over the drive's, None if it is not known."""
     way: str
     fill: float
     case: MillCase
@@ -52,7 +52,7 @@ class Run:
     slurry: SlurryMap
     pooled: float
     unsteady: str
-    unbalanced: float
+    unbalanced: Mean | None
 
 
 @dataclass(frozen=True)
@@ -95,11 +95,12 @@ def read_run(folder: Path, charge: str) -> Run:
     area = pool(slurry, solidity_at_pixels(numbers.charge, slurry)).area
     whole = fill * case.mill.derived("charge", "pore_volume_m3")
     judged = {"flow": flow_steadiness(case), "charge": charge_steadiness(case)}
-    apart = read_json(folder / "coupling.json", "coupling").get("torque_unbalanced") if direct else None
+    exchanged = read_json(folder / "coupling.json", "coupling") if direct else {}
+    apart, error = (exchanged.get(f"torque_unbalanced{end}") for end in ("", "_error"))
     return Run(way, fill, case, numbers, slurry, area * case.length / whole,
                ", ".join(name + (" (undecided)" if check.undecided else "") for name, check in judged.items()
                          if check.state != "holds"),
-               np.nan if apart is None else apart)
+               None if apart is None else Mean(apart, np.nan if error is None else error))
 
 
 def read_study(folder: Path) -> Study:
@@ -156,7 +157,9 @@ def rows_of(study: Study):
         for key in (*POWERS, *READINGS):
             row |= dict(columns_of(key, run.numbers.quantities[key]))
         yield row | {"slurry_in_pool": run.pooled, "force_over_weight": run.numbers.load,
-                     "unbalanced": run.unbalanced, "not_steady": run.unsteady}
+                     "unbalanced": run.unbalanced.value if run.unbalanced else np.nan,
+                     "unbalanced_error": run.unbalanced.error if run.unbalanced else np.nan,
+                     "not_steady": run.unsteady}
 
 
 def write_csv(rows, path):
@@ -171,13 +174,14 @@ def lines_of(rows):
     """The table as text, a block for each mill."""
     for mill in dict.fromkeys(row["mill"] for row in rows):
         yield (f"{mill:<16}{'filling':>8}" + "".join(f"{f'{name}, W':>20}" for name in POWERS.values())
-               + f"{'pool':>8}{'unbalanced':>12}  not steady")
+               + f"{'pool':>8}{'unbalanced':>16}  not steady")
         for row in (row for row in rows if row["mill"] == mill):
             powers = "".join(f"{row[f'{key}_W']:11.4f} ± {row[f'{key}_error_W']:.4f}"
                              if np.isfinite(row.get(f"{key}_W", np.nan)) else f"{'–':>20}" for key in POWERS)
-            share, apart = row.get("slurry_in_pool"), row.get("unbalanced", np.nan)
-            yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}" + ("" if share is None else f"{share:8.2f}")
-                   + (f"{apart:+12.1%}" if np.isfinite(apart) else "" if share is None else f"{'–':>12}")
+            share, apart, error = (row.get(name, np.nan) for name in ("slurry_in_pool", "unbalanced",
+                                                                      "unbalanced_error"))
+            told = "–" if np.isnan(apart) else f"{apart:+.1%}" + (f" ± {error:.1%}" if np.isfinite(error) else "")
+            yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}" + ("" if np.isnan(share) else f"{share:8.2f}{told:>16}")
                    + f"  {row.get('not_steady', '')}").rstrip()
         yield ""
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
-from millfoam.readings.batches import batch_means, error_over_turns, whole_turns
+from millfoam.readings.batches import batch_means, mean_over_turns, whole_turns
 from millfoam.readings.means import Mean, mean_variance, time_mean, turns_mean
 from millfoam.readings.residence import Residence, read_tracer, residence
 from millstudies.own_mill import require_own_mill
@@ -188,8 +188,8 @@ def read_trial(folder: Path) -> Trial:
     columns = case.balance
     times = columns["Time"]
     begin = times[-1] / 2
-    discharge = Mean(time_mean(times, columns["discharge"], begin),
-                     error_over_turns(times, columns["discharge"], begin, case.turn))
+    of_turns = mean_over_turns(times, columns["discharge"], begin, case.turn) or Mean(np.nan, np.nan)
+    discharge = replace(of_turns, value=time_mean(times, columns["discharge"], begin))
     _, moments, slices = axial_holdup(case)
     return Trial(kind_of(case, change_of_trial(folder.name)), time_mean(times, columns["holdUp"], begin),
                  time_mean(moments, slices.sum(axis=1), begin), discharge)
@@ -255,7 +255,7 @@ def with_relaxation(one: Held, trials: Sequence[Trial]) -> Held:
 
 def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
     """Hold-ups of a flow, moved along the straight line through trials_of it to where its discharge is its feed. The
-    errors are from those of hold-up, discharge and slope. They are upper limits: where a flow discharges less by
+    errors are from those of hold-up, discharge and slope, with their degrees of freedom. They are upper limits: where a flow discharges less by
     chance, it holds more, and the line takes this back. For 12 to 48 turns and dV/dQ of 16 to 30 turns they are 1.2 to
     1.45 times the deviations if discharges of turns are independent or alike (correlation 0.4), and 1.6 to 1.85 times
     if they alternate (-0.3). None without these trials."""
@@ -268,8 +268,8 @@ def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
     def moved(held: Mean, way: float) -> Mean:
         of_lack = way / gain.value
         way_to_go = of_lack * lacking.value
-        errors = held.error, of_lack * lacking.error, way_to_go * gain.error / gain.value
-        return Mean(held.value + way_to_go, float(np.linalg.norm(errors)))
+        return (held + Mean(way_to_go, abs(of_lack) * lacking.error, lacking.freedom)
+                + Mean(0.0, abs(way_to_go / gain.value) * gain.error, gain.freedom))
     return HoldUps(moved(one.whole, more.volume - less.volume), moved(one.chamber, more.chamber - less.chamber))
 
 

@@ -90,7 +90,8 @@ def judge_direct(case: Path) -> None:
     if exchanged.added is not None:
         print(f"the balls got {exchanged.added:.2%} of the drive's torque because voxels spread them")
     if exchanged.unbalanced is not None:
-        print(f"by the slurry's own balance it differs by {exchanged.unbalanced:.2%} of the drive's torque")
+        print(f"by the slurry's own balance it differs by {table.cell(exchanged.unbalanced, 100)} % of the drive's "
+              "torque")
 
 
 def main() -> None:

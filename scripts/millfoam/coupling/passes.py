@@ -13,11 +13,11 @@ from ..files.mill_case import MillCase
 from ..files.slurry_file import read_ball_forces
 from ..files.solids_file import SolidsMap, mean_map
 from ..files.stirred_case import StirredCase
-from ..readings.batches import mean_over_turns
+from ..readings.batches import mean_over_turns, turn_means
 from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
-from ..readings.means import Mean, time_mean, with_error
+from ..readings.means import Mean, time_mean, turns_mean, with_error
 from ..readings.mill_power import (UNKNOWN, by_walls, charge_power, drive_power, known_balance, slurry_power,
                                    written_balance)
 from . import ball_forces
@@ -153,7 +153,8 @@ class Exchanged:
 
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
-    error of the drive's power. None of a stirred mill, or without torques."""
+    error of the drive's power. Its error is over whole turns, NaN for fewer than two. None of a stirred mill, or without
+    torques."""
     given: float
     taken: float
     disagreement: float
@@ -161,7 +162,7 @@ class Exchanged:
     taken_torque: float | None = None
     added: float | None = None
     torque_disagreement: float | None = None
-    unbalanced: float | None = None
+    unbalanced: Mean | None = None
 
 
 def given(case: MillCase) -> tuple[np.ndarray, float | None]:
@@ -207,17 +208,27 @@ def exchanged_forces(folder: Path) -> Exchanged:
     return replace(exchanged, given_torque=torque, taken_torque=felt,
                    added=None if balance is None else float(np.mean(np.abs(balance[within]))) / abs(driving),
                    torque_disagreement=abs((torque - felt) / driving),
-                   unbalanced=unbalanced(case, felt, float(np.mean(drive["power_W"][driven]))))
+                   unbalanced=unbalanced(case, (rows["time_s"][within], rows["torque_Nm"][within]),
+                                         float(np.mean(drive["power_W"][driven]))))
 
 
-def unbalanced(case: MillCase, felt: float, charge: float) -> float | None:
-    """Exchanged.unbalanced of a case; felt: mean torque of the slurry on the balls about +z, N m; charge: mean power
-    of the drive on the balls, W, both over the averaged time."""
+def unbalanced(case: MillCase, felt: tuple[np.ndarray, np.ndarray], charge: float) -> Mean | None:
+    """Exchanged.unbalanced of a case; felt: DEM times (s) and torque of the slurry on the balls about +z (N m) [n];
+    charge: mean power of the drive on the balls, W, both over the averaged time."""
     columns = written_balance(case) if case.machine == MillCase.machine else None
     if columns is None:
         return None
-    whole, walls = (time_mean(columns["Time"], power, case.begin) for power in (columns["power"], by_walls(columns)))
-    return (whole - walls + felt * case.omega) / (charge + walls)
+    assert case.flow is not None
+    times, walls = columns["Time"], by_walls(columns)
+    lacking, taken = columns["power"] - walls, felt[1] * case.omega
+    drive = charge + time_mean(times, walls, case.begin)
+    # Both scatter, and alike: the error is that of their sum in each turn
+    parts = (turn_means(times, lacking, case.begin, case.turn),
+             turn_means(felt[0] - case.flow.time0, taken, case.begin, case.turn))
+    count = min(map(len, parts))
+    of_turns = turns_mean(parts[0][-count:] + parts[1][-count:]) if count > 1 else UNKNOWN
+    return Mean((time_mean(times, lacking, case.begin) + float(np.mean(taken))) / drive, of_turns.error / abs(drive),
+                of_turns.freedom)
 
 
 def change(before: Pass, after: Pass) -> Change:

@@ -64,7 +64,9 @@ def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchan
             "torque_by_flow_Nm": known(exchanged.given_torque), "torque_by_balls_Nm": known(exchanged.taken_torque),
             "torque_added": known(exchanged.added),
             "torque_disagreement": known(exchanged.torque_disagreement),
-            "torque_unbalanced": known(exchanged.unbalanced)}
+            "torque_unbalanced": known(exchanged.unbalanced and exchanged.unbalanced.value),
+            "torque_unbalanced_error": known(exchanged.unbalanced and exchanged.unbalanced.error),
+            "torque_unbalanced_reach": known(exchanged.unbalanced and exchanged.unbalanced.reach)}
 
 
 def cell(mean: Mean, scale: float) -> str:

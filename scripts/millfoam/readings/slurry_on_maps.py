@@ -68,9 +68,11 @@ def pool(slurry: SlurryMap, solidity: np.ndarray) -> Pool:
     if solidity.shape != slurry.share.shape:
         raise ValueError(f"solidity of {solidity.shape} pixels, slurry of {slurry.share.shape}; expected the same")
     share = np.nan_to_num(slurry.share)
-    regions, _ = label((share > LEVEL) & ~(np.nan_to_num(solidity) > BED))
-    volumes = np.bincount(regions.ravel(), (share * slurry.room()).ravel())[1:]
-    least = SPLASH * (share * slurry.room() * (1 - np.nan_to_num(solidity))).sum()
+    solidity = np.nan_to_num(solidity)
+    regions, _ = label((share > LEVEL) & ~(solidity > BED))
+    volume = share * slurry.room() * (1 - solidity)
+    volumes = np.bincount(regions.ravel(), volume.ravel())[1:]
+    least = SPLASH * volume.sum()
     if volumes.max(initial=0.0) <= least:
         return Pool(np.zeros_like(share, bool), 0.0, np.nan, np.nan)
     where = regions == 1 + np.argmax(volumes)

@@ -33,7 +33,7 @@ def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
 
 def forces_exchanged(case: MillCase) -> Check:
     """Whether balls and flow that ran at the same time gave the same force to each other."""
-    name = "The balls feel the slurry's force"
+    name = "The balls feel the force that the flow gives"
     apart = coupling_of(case)["force_disagreement"]
     if apart is None:
         return Check(name, "unknown", "the mean force of the flow on the balls is 0 or not known")
@@ -44,18 +44,29 @@ def forces_exchanged(case: MillCase) -> Check:
 
 def torques_balance(case: MillCase) -> Check:
     """Whether balls and slurry have the same torque on each other, so that the drive's power is what both take."""
-    content = coupling_of(case)
+    name, content = "The torque between balls and slurry balances", coupling_of(case)
     apart, whole = content["torque_disagreement"], content.get("torque_unbalanced")
     found = f"by the flow and by the balls it differs by {100 * apart:.1f} % of the drive's torque on the balls"
     if whole is not None:
-        found += f"; by the balls and by the slurry's own balance by {100 * whole:+.1f} % of the drive's torque"
+        found += ("; by the balls and by the slurry's own balance by "
+                  f"{unbalanced_words(content, '+.1f')} of the drive's torque")
     advice = "Take smaller cells (resolution.cell_size)."
     if apart > abs(whole or 0):
         advice = ("Take shorter time-steps (flow.max_courant)." if content.get("torque_added") is not None else
                   "Compute it again: balls of this version get the torque that voxels take from them.")
-    return judged("The torque between balls and slurry balances", max(apart, abs(whole or 0)), TORQUES,
-                  f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size", advice,
-                  doubtful=5 * TORQUES)
+    words = f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size"
+    check = judged(name, max(apart, abs(whole or 0)), TORQUES, words, advice, doubtful=5 * TORQUES)
+    reach = content.get("torque_unbalanced_reach") or 0.0
+    if check.state == "holds" and reach > TORQUES:
+        return Check(name, "look", f"{words}; undecided: with 95 % confidence the last is known to ± {100 * reach:.1f} %"
+                     " only", "Average over more turns (flow.turns).", undecided=True)
+    return check
+
+
+def unbalanced_words(content: dict[str, Any], form: str) -> str:
+    """torque_unbalanced of a coupling.json in per cent, with its error if this is known; without, in a format."""
+    error = content.get("torque_unbalanced_error")
+    return uncertain(100 * content["torque_unbalanced"], np.nan if error is None else 100 * error, "%", form)
 
 
 def voxels_are_small(case: MillCase) -> Check:
@@ -111,7 +122,7 @@ def exchanged_table(case: MillCase) -> str:
                          shown("torque_added", ".2%")])
         if content.get("torque_unbalanced") is not None:
             rows.append(["difference to the slurry's own balance, over the drive's torque",
-                         shown("torque_unbalanced", "+.2%")])
+                         unbalanced_words(content, "+.2f")])
     rows.append(["slurry's force over the balls' weight", shown("force_over_weight", ".3f")])
     return page.table(["", ""], rows, title="Balls and slurry at the same time",
                       note="Means over the flow's averaged time. Balls and flow meet at every time-step of the flow.")

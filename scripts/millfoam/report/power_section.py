@@ -59,10 +59,10 @@ def torque_words(case: MillCase) -> str:
     """The error of the drive's power, in words, from the torques of balls and slurry on each other, which should
     balance; empty if these are not known."""
     content = coupling_of(case) if case.coupled is not None else {}
-    found = [f"{100 * abs(content[key]):.1f} % of {whole}" for key, whole in (
-        ("torque_disagreement", "the drive's torque on the balls (flow and balls)"),
-        ("torque_unbalanced", "the drive's torque (balls and the slurry's own balance)"))
-        if content.get(key) is not None]
+    found = [f"{uncertain(100 * abs(content[key]), 100 * (content.get(f'{key}_error') or 0.0), '%', '.1f')} of {whole}"
+             for key, whole in (("torque_disagreement", "the drive's torque on the balls (flow and balls)"),
+                                ("torque_unbalanced", "the drive's torque (balls and the slurry's own balance)"))
+             if content.get(key) is not None]
     return (f" Not in ±: the torque between balls and slurry does not balance, by {' and '.join(found)}; the drive's "
             "power has an error of this size." if found else "")
 
