@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -81,6 +82,17 @@ std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
   return text.str();
 }
 
+/// Step of the oldest restart file to keep when that of `step` is written: itself, or with a flow at the same
+/// time the one before. Such a flow may fail at its very end, after the balls: then both compute the last piece
+/// again.
+long oldest_to_keep(const CaseFolder& folder, const DemPlan& plan, long step) {
+  long oldest = step;
+  if (plan.fluid.kind == FluidKind::flow)
+    for (const NumberedFile& restart : find_restarts(folder))
+      if (restart.step < step) oldest = oldest == step ? restart.step : std::max(oldest, restart.step);
+  return oldest;
+}
+
 /// Reads the child's output to its end. Throws RunError without the log's name: the caller adds it.
 void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const CaseFolder& folder,
             const DemPlan& plan, int ranks, OutputCheck& check, ProgressOutput output) {
@@ -95,7 +107,7 @@ void follow(ChildProcess& child, LiggghtsLog& log, std::ofstream& file, const Ca
       if (log.restart_step() != last_restart) {
         last_restart = log.restart_step();
         check.restart(*last_restart);
-        remove_restarts_before(folder, *last_restart);
+        remove_restarts_before(folder, oldest_to_keep(folder, plan, *last_restart));
       }
     }
   } catch (const RunError&) {

@@ -7,6 +7,7 @@
 
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/output_check.hpp"
+#include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
@@ -27,7 +28,7 @@ class FailingRun : public ::testing::Test {
     const Variable program("MILLFOAM_LIGGGHTS", (temporary_.path() / "liggghts").string());
     prepare_folders(folder_);
     std::ostringstream progress;
-    return message_of([&] { run_liggghts(folder_, plan_dem(small_mill()), ranks, {progress, false}); });
+    return message_of([&] { run_liggghts(folder_, plan_, ranks, {progress, false}); });
   }
 
   bool complains(const std::string& script, const std::string& words) {
@@ -118,6 +119,22 @@ TEST_F(FailingRun, TheLastGoodRestartFileIsKeptWhenTheNextHadNoRoom) {
   EXPECT_NE(message.find("--resume continues from step 100"), std::string::npos) << message;
   EXPECT_TRUE(std::filesystem::exists(folder_.dem() / "restart.100"));
   EXPECT_EQ(last_good_restart(folder_, plan_), 100);
+}
+
+TEST_F(FailingRun, WithAFlowTheRestartFileBeforeTheLastIsKeptToo) {
+  tests::write_restart(temporary_.path() / "good", {250});
+  std::string script = turning;
+  for (const std::string step : {"100", "200", "300"})
+    script += "cp ../../good restart." + step + "\necho 'millFoam restart " + step + "'\n";
+  const auto kept = [&] {
+    complaint(script);
+    std::vector<long> steps;
+    for (const NumberedFile& restart : find_restarts(folder_)) steps.push_back(restart.step);
+    return steps;
+  };
+  EXPECT_EQ(kept(), (std::vector<long>{300}));
+  plan_.fluid.kind = FluidKind::flow;
+  EXPECT_EQ(kept(), (std::vector<long>{200, 300}));
 }
 
 TEST_F(FailingRun, MissingDumpsAreCounted) {

@@ -12,7 +12,7 @@ import numpy as np
 import solids
 from millfoam.files import foam
 from openfoam_case import require_environment, rotating_mesh
-from slurry_case import SlurryTest
+from slurry_case import AIR, SLURRY, SlurryTest
 
 MILL = Path(__file__).resolve().parents[2] / "scripts" / "mill_case"
 # Soft edges and a way that goes through the surface; it stays inside the box.
@@ -132,6 +132,60 @@ class Ranks(SlurryTest):
         for name in ("U", "p_rgh", "alpha.slurry", "phi"):
             scale = np.abs(one[name]).max()
             np.testing.assert_allclose(two[name], one[name], rtol=0, atol=1e-6 * scale, err_msg=name)
+
+
+class DividedCyclic(SlurryTest):
+    """Cyclic patches whose two sides are on different ranks: decomposePar writes there the values of each rank's own
+    cells. Slurry that is deeper on one side runs through a bed, without gravity."""
+    end = 0.01
+
+    def setUp(self):
+        super().setUp()
+        self.whole = self.slurry_case(periodic=True, level=lambda x: 0.05 + 0.2 * (x - 0.07))
+        self.whole.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        self.whole.bed("block { box (-9 -9 -9) (9 9 9); solidity 0.5; diameter 0.002; velocity (0.1 0 0); }")
+        self.whole.decompose_into(2, 1, 1)
+        self.whole.control(self.end, 0.001, write_interval=5)
+        self.begun = self.copy_of(self.whole)
+        self.assert_runs(self.whole, "slurryFoam")
+
+    def assert_same(self, split, start="0"):
+        self.assert_runs(split, "slurryFoam", ranks=2)
+        self.assert_runs(split, "reconstructPar", "-latestTime")
+        self.assertLess(split.steps(start)["alpha_max_minus_1"].max(), 1e-12)
+        np.testing.assert_allclose(split.steps(start)["slurry_m3"], self.whole.steps()["slurry_m3"][0], rtol=1e-13)
+        for name in ("U", "alpha.slurry"):
+            expected = self.whole.field(name, self.end)
+            np.testing.assert_allclose(split.field(name, self.end), expected, atol=1e-5 * np.abs(expected).max())
+
+    def test_begin_as_on_one_rank(self):
+        self.assert_runs(self.begun, "decomposePar")
+        self.assert_same(self.begun)
+
+    def test_resume_what_one_rank_has_computed(self):
+        split = self.copy_of(self.whole)
+        shutil.rmtree(split.folder(self.end))
+        split.control(self.end, 0.001, write_interval=5, start_time=0.005)
+        self.assert_runs(split, "decomposePar", "-latestTime")
+        self.assert_same(split, "0.005")
+
+
+class SurfaceTension(SlurryTest):
+    """A pool at rest: of the bounds of the time-step only that of the surface tension counts."""
+
+    def longest_step(self, thickness):
+        case = self.slurry_case(upper=(0.014, 0.01, thickness), cells=(14, 10, 1), level=lambda x: 0.0045 + 0 * x)
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(properties.read_text().replace("sigma 0;", "sigma 0.07;"))
+        case.adjusted(0.02, 0.02, delta_t=2e-4)
+        self.assert_runs(case, "slurryFoam")
+        return case.steps()["deltaT_s"].max()
+
+    def test_bounds_the_step_by_the_shortest_side_of_the_cells(self):
+        # Half of the step of Brackbill, Kothe & Zemach (1992) with cells of 1 mm
+        expected = 0.5 * np.sqrt((SLURRY + AIR) * 1e-9 / (4 * np.pi * 0.07))
+        for thickness in (0.001, 0.05):
+            self.assertAlmostEqual(self.longest_step(thickness) / expected, 1, delta=0.03)
 
 
 class VoidageRate(SlurryTest):

@@ -111,6 +111,19 @@ class Bed(RefusedTest):
         self.assert_bed_refused(f"block {{ {BLOCK} omega 5; axis (0 0 0); origin (0 0 0); }}", "axis is (0 0 0)",
                                 "a direction")
 
+    def test_a_block_and_blocks(self):
+        self.assert_bed_refused(f"{self.block()} blocks {{ one {{ {BLOCK} }} }}", "both of the entries 'block' and"
+                                " 'blocks'")
+
+    def test_blocks_without_one(self):
+        self.assert_bed_refused("blocks { }", "blocks is empty")
+
+    def test_a_ramp_that_is_no_dictionary(self):
+        self.assert_bed_refused(f"block {{ {BLOCK} ramp (0 1); }}", "ramp")
+
+    def test_an_end_of_the_motion_of_a_block_that_rests(self):
+        self.assert_bed_refused(f"block {{ {BLOCK} until 0.1; }}", "until is 0.1 s", "'moves yes;'")
+
     def test_a_block_of_no_volume(self):
         self.assert_bed_refused(f"block {{ {BLOCK} volume -1e-5; }}", "volume is -1e-05", "above 0 m3")
 
@@ -128,6 +141,15 @@ class Controls(RefusedTest):
         case = self.small()
         case.write("system/fvSolution", SOLUTION.format(non_orthogonal=0, surface="", pimple="momentumPredictor no;"))
         self.assert_says(case, "fvSolution", "momentumPredictor is no")
+
+    def test_no_correction(self):
+        for name in ("nCorrectors", "nOuterCorrectors"):
+            with self.subTest(name=name):
+                case = self.small()
+                solution = case.path / "system/fvSolution"
+                solution.write_text(solution.read_text().replace(f"{name} 1;", f"{name} 0;"))
+                result = self.assert_says(case, "fvSolution", f"{name} is 0", "1 or more")
+                self.assertNotIn("Time = ", result.log)
 
     def assert_control_refused(self, pattern, new, *words):
         case = self.small()
@@ -197,6 +219,35 @@ class Controls(RefusedTest):
     def test_a_misspelt_type_of_a_function_object(self):
         for entries in ("type slurryBallance; speed 1;", "type slurryBallance; speed 1; enabled yes;"):
             self.assert_object_refused(entries, "type is slurryBallance", "function object balance")
+
+    def test_an_interval_of_a_function_object_by_which_openfoam_would_divide(self):
+        for what in ("write", "execute"):
+            with self.subTest(what=what):
+                self.assert_object_refused(f"type slurryBalance; speed 1; {what}Control runTime; {what}Interval 0;",
+                                           f"{what}Interval is 0", "above 0")
+
+    def test_slices_beyond_the_mesh(self):
+        for ends in ("(1 2)", "(0 0.1)", "(-0.1 0.01)"):
+            self.assert_object_refused(f"type axialProfiles; slices 4; ends {ends};", "slices from", "some have no cells",
+                                       "from 0 to 0.01 m")
+
+    def test_an_entry_that_writeEnd_does_not_have(self):
+        self.assert_object_refused("type writeEnd; foo 1;", "foo")
+
+    def test_averages_in_a_folder_that_is_not_there(self):
+        self.assert_object_refused("type voxelAverages; lower (0 0 0); upper (0.04 0.04 0.01); shape (4 4 1); interval"
+                                   ' 0.001; window 0.002; file "missing/x.h5";', "no folder", "missing")
+
+    def test_windows_that_are_hardly_longer_than_an_instant(self):
+        self.assert_object_refused("type voxelAverages; lower (0 0 0); upper (0.04 0.04 0.01); shape (4 4 1); interval"
+                                   " 0.001; window 1e-12;", "window is 1e-12", "at least 1e-06 s")
+
+    def test_a_tracer_without_its_solver(self):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + 'functions { salt { type slurryTracer; libs ("libmillFoam.so"); } }')
+        result = self.assert_says(case, "fvSolution", "no entry for the tracer salt")
+        self.assertNotIn("Time = ", result.log)
 
     def test_a_misspelt_library_of_a_function_object(self):
         self.assert_object_refused('type scalarTransport; libs ("libsolverFunctionObject.so");',
@@ -446,6 +497,10 @@ class Suction(RefusedTest):
 
     def test_without_a_surface_tension(self):
         self.assert_suction_refused("contactAngle 30;", "sigma of transportProperties is 0", "above 0", sigma=0)
+
+    def test_balls_that_move_at_the_same_time(self):
+        self.assert_suction_refused('contactAngle 30; } exchange "exchange"; outOfRange hold; other {',
+                                    "poreSuction is there with exchange")
 
     def test_an_angle_that_is_none(self):
         self.assert_suction_refused("contactAngle -30;", "contactAngle is -30", "0 to 180")

@@ -21,7 +21,7 @@ from millstudies.statements import read
 
 from runs import Run
 
-TOP = 0.1  # share of the slurry, by height, that is the top of its shoulder
+TOP = 0.1  # share of the pixels with slurry, by height, that is the top of its shoulder
 NEAR = 2  # pixels about the centre of circulation
 
 
@@ -77,8 +77,8 @@ def net_rate(case: MillCase, turns: int) -> Mean:
 
 
 def top_velocity(slurry: SlurryMap) -> float:
-    """Mean velocity along the axis (m/s) of the highest TOP of a SlurryMap's slurry on the rising side, where its share
-    is above a half; NaN without slurry."""
+    """Mean velocity along the axis (m/s) of a SlurryMap's slurry in the highest TOP of its pixels on the rising side,
+    where its share is above a half; NaN without slurry."""
     velocity = axial_velocity(slurry)
     x, y = np.meshgrid(*slurry.centres())
     # The rising side is the left one of a mill that turns clockwise

@@ -181,7 +181,8 @@ def lines_of(rows):
             share, apart, error = (row.get(name, np.nan) for name in ("slurry_in_pool", "unbalanced",
                                                                       "unbalanced_error"))
             told = "–" if np.isnan(apart) else f"{apart:+.1%}" + (f" ± {error:.1%}" if np.isfinite(error) else "")
-            yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}" + ("" if np.isnan(share) else f"{share:8.2f}{told:>16}")
+            yield (f"{row['coupling']:<16}{row['filling']:8.2f}{powers}"
+                   + ("" if np.isnan(share) else f"{share:8.2f}{told:>16}")
                    + f"  {row.get('not_steady', '')}").rstrip()
         yield ""
 

@@ -255,10 +255,10 @@ def with_relaxation(one: Held, trials: Sequence[Trial]) -> Held:
 
 def at_feed(one: Held, trials: Sequence[Trial]) -> HoldUps | None:
     """Hold-ups of a flow, moved along the straight line through trials_of it to where its discharge is its feed. The
-    errors are from those of hold-up, discharge and slope, with their degrees of freedom. They are upper limits: where a flow discharges less by
-    chance, it holds more, and the line takes this back. For 12 to 48 turns and dV/dQ of 16 to 30 turns they are 1.2 to
-    1.45 times the deviations if discharges of turns are independent or alike (correlation 0.4), and 1.6 to 1.85 times
-    if they alternate (-0.3). None without these trials."""
+    errors are from those of hold-up, discharge and slope, with their degrees of freedom. They are upper limits: where a
+    flow discharges less by chance, it holds more, and the line takes this back. For 12 to 48 turns and dV/dQ of 16 to
+    30 turns they are 1.2 to 1.45 times the deviations if discharges of turns are independent or alike (correlation
+    0.4), and 1.6 to 1.85 times if they alternate (-0.3). None without these trials."""
     pair = trials_of(one, trials)
     if pair is None:
         return None

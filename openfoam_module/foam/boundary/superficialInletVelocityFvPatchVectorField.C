@@ -7,6 +7,17 @@
 #include "addToRunTimeSelectionTable.H"
 #include "volFields.H"
 
+// * * * * * * * * * * * * * * * * Local Data  * * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Field of the voidage in slurryFoam
+static const word usualVoidage_("flowVoidage");
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::superficialInletVelocityFvPatchVectorField::
@@ -14,7 +25,7 @@ Foam::superficialInletVelocityFvPatchVectorField::
         const fvPatch& patch, const DimensionedField<vector, volMesh>& field)
 : fixedValueFvPatchVectorField(patch, field),
   rate_(nullptr),
-  voidageName_("flowVoidage")
+  voidageName_(usualVoidage_)
 {
 }
 
@@ -25,7 +36,7 @@ Foam::superficialInletVelocityFvPatchVectorField::
         const dictionary& dict)
 : fixedValueFvPatchVectorField(patch, field, dict, false),
   rate_(Function1<scalar>::New("volumetricFlowRate", dict)),
-  voidageName_(dict.lookupOrDefault<word>("voidage", "flowVoidage"))
+  voidageName_(dict.lookupOrDefault<word>("voidage", usualVoidage_))
 {
     if (dict.found("value"))
     {
@@ -79,13 +90,33 @@ void Foam::superficialInletVelocityFvPatchVectorField::updateCoeffs()
     {
         return;
     }
-    const scalar superficial =
-        rate_->value(db().time().timeOutputValue()) / gSum(patch().magSf());
+    const scalar rate = rate_->value(db().time().timeOutputValue());
+    if (!(rate >= 0))
+    {
+        FatalErrorInFunction << "patch " << patch().name() << " of "
+                             << internalField().objectPath()
+                             << ": volumetricFlowRate is " << rate
+                             << " m3/s; expected what enters, 0 or more"
+                             << exit(FatalError);
+    }
+    const scalar superficial = rate / gSum(patch().magSf());
     scalarField voidage(size(), 1);
     if (db().foundObject<volScalarField>(voidageName_))
     {
         voidage =
             patch().lookupPatchField<volScalarField, scalar>(voidageName_);
+    }
+    // Without balls there is no such field; at its start a flow has not made it
+    else if (
+        voidageName_ != usualVoidage_ &&
+        db().time().timeIndex() > db().time().startTimeIndex())
+    {
+        FatalErrorInFunction
+            << "patch " << patch().name() << " of "
+            << internalField().objectPath() << ": voidage is " << voidageName_
+            << ", and there is no such field; expected " << usualVoidage_
+            << ", that of slurryFoam, or one of "
+            << db().names<volScalarField>() << exit(FatalError);
     }
     operator==(-patch().nf() * superficial / voidage);
     fixedValueFvPatchVectorField::updateCoeffs();
@@ -96,7 +127,7 @@ void Foam::superficialInletVelocityFvPatchVectorField::write(Ostream& os) const
 {
     fvPatchVectorField::write(os);
     rate_->writeData(os);
-    os.writeEntryIfDifferent<word>("voidage", "flowVoidage", voidageName_);
+    os.writeEntryIfDifferent<word>("voidage", usualVoidage_, voidageName_);
     writeEntry("value", os);
 }
 

@@ -28,6 +28,9 @@ namespace Foam
 //- Times closer than this are the same, s
 static constexpr scalar instant_ = 1e-9;
 
+//- A window that is not much longer would end at each of them, s
+static constexpr scalar shortest_ = 1e-6;
+
 
 //- The box of the entries lower, upper, shape and periodic
 static BoxGrid readGrid(const dictionary& dict)
@@ -75,6 +78,25 @@ static std::optional<BallsHeader> ballsHeader(const fluidOnBalls* balls)
 }
 
 
+//- The file that the averages are for, in a folder that is there
+static fileName fileOf(const dictionary& dict, const Time& time)
+{
+    fileName file(dict.lookupOrDefault<fileName>("file", "slurry.h5"));
+    if (!file.isAbsolute())
+    {
+        file = time.globalPath() / file;
+    }
+    if (Pstream::master() && !isDir(file.path()))
+    {
+        FatalIOErrorInFunction(dict)
+            << "file is " << file << ", and there is no folder " << file.path()
+            << "; expected a file's name in a folder that is there"
+            << exit(FatalIOError);
+    }
+    return file;
+}
+
+
 //- Times of windows and of the run, and the balls
 static SlurryHeader
 readHeader(const dictionary& dict, const Time& time, const fluidOnBalls* balls)
@@ -87,11 +109,12 @@ readHeader(const dictionary& dict, const Time& time, const fluidOnBalls* balls)
     header.program = std::string("voxelAverages ") + millfoam::version();
     header.balls = ballsHeader(balls);
     header.mill_flow = mill.lookupOrDefault<string>("flowFingerprint", "");
-    if (!(header.window > 0))
+    if (!(header.window >= shortest_))
     {
         FatalIOErrorInFunction(dict)
             << "window is " << header.window
-            << " s; expected a length of time above 0" << exit(FatalIOError);
+            << " s; expected a length of time above 0, at least " << shortest_
+            << " s" << exit(FatalIOError);
     }
     if (header.start >= time.endTime().value())
     {
@@ -237,8 +260,7 @@ Foam::averageSegments::averageSegments(
   grid_(readGrid(dict)),
   header_(readHeader(dict, time, balls)),
   folder_(time.globalPath() / "postProcessing" / name / "segments"),
-  file_(
-      time.globalPath() / dict.lookupOrDefault<fileName>("file", "slurry.h5")),
+  file_(fileOf(dict, time)),
   sums_(grid_.size(), withBalls()),
   covered_(time.value())
 {

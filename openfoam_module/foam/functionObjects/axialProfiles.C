@@ -74,6 +74,24 @@ void Foam::functionObjects::axialProfiles::open()
 }
 
 
+void Foam::functionObjects::axialProfiles::requireCells(
+    const dictionary& dict) const
+{
+    const scalarField z(mesh_.points().component(vector::Z));
+    const scalar low = gMin(z);
+    const scalar high = gMax(z);
+    const scalar end = begin_ + slices_ * thickness_;
+    if (low > begin_ + thickness_ || high < end - thickness_)
+    {
+        FatalIOErrorInFunction(dict)
+            << "slices from " << begin_ << " to " << end
+            << " m along z, but the mesh reaches from " << low << " to " << high
+            << " m, so that some have no cells; expected ends within the mesh"
+            << exit(FatalIOError);
+    }
+}
+
+
 Foam::FixedList<
     Foam::scalarField, Foam::functionObjects::axialProfiles::nQuantities>
 Foam::functionObjects::axialProfiles::sums() const
@@ -128,6 +146,7 @@ Foam::functionObjects::axialProfiles::axialProfiles(
     open();
     const scalar all = gSum(fields_.volumes()());
     const scalar sliced = returnReduce(sum(sums()[holdUp]), maxOp<scalar>());
+    requireCells(dict);
     Info << "axialProfiles: slices from " << begin_ << " to "
          << begin_ + slices_ * thickness_ << " m; " << all - sliced
          << " m3 of slurry lie beyond them now" << endl;

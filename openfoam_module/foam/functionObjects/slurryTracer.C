@@ -55,6 +55,12 @@ void Foam::functionObjects::slurryTracer::check(const dictionary& dict) const
     {
         refuse("D", tracer_.D(), "0 m2/s or more");
     }
+    if (!mesh_.solutionDict().subOrEmptyDict("solvers").found(name()))
+    {
+        FatalIOErrorInFunction(mesh_.solutionDict())
+            << "solvers has no entry for the tracer " << name()
+            << "; expected one, as for U" << exit(FatalIOError);
+    }
     fields_.requireWholeFlux();
     const auto* bed = mesh_.findObject<IOdictionary>("bedProperties");
     if (bed && !bed->lookupOrDefault<Switch>("voidageRate", true))

@@ -5,6 +5,7 @@
 
 #include "writeEnd.H"
 #include "addToRunTimeSelectionTable.H"
+#include "knownEntries.H"
 #include "Time.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -40,6 +41,9 @@ Foam::functionObjects::writeEnd::writeEnd(
     const word& name, const Time& runTime, const dictionary& dict)
 : timeFunctionObject(name, runTime)
 {
+    requireKnownEntries(
+        dict, {"type", "libs", "functionObjectLibs", "region", "enabled", "log",
+               "writeControl", "writeInterval", "errors"});
     read(dict);
 }
 

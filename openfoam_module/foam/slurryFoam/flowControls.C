@@ -5,6 +5,8 @@
 
 #include "flowControls.H"
 #include "fvMesh.H"
+#include "IOdictionary.H"
+#include "optionalDictionary.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -40,6 +42,34 @@ void checkPredictor(const dictionary& pimple)
 }
 
 
+void checkCorrectors(const dictionary& pimple)
+{
+    for (const word name : {"nOuterCorrectors", "nCorrectors"})
+    {
+        const label number = pimple.lookupOrDefault<label>(name, 1);
+        if (number < 1)
+        {
+            FatalIOErrorInFunction(pimple)
+                << name << " is " << number << "; expected 1 or more, because"
+                << " nothing moves without a correction" << exit(FatalIOError);
+        }
+    }
+}
+
+
+//- Before the balls of an exchange are waited for
+void checkSuction(const dictionary& bed)
+{
+    if (bed.found("poreSuction") && bed.found("exchange"))
+    {
+        FatalIOErrorInFunction(bed)
+            << "poreSuction is there with exchange, but balls do not feel the"
+            << " suction of their pores; expected one of them"
+            << exit(FatalIOError);
+    }
+}
+
+
 void checkPatches(const fvMesh& mesh)
 {
     for (const fvPatch& patch : mesh.boundary())
@@ -63,7 +93,11 @@ void checkPatches(const fvMesh& mesh)
 void Foam::checkFlowControls(const fvMesh& mesh)
 {
     checkTimeSchemes(mesh.schemesDict().subOrEmptyDict("ddtSchemes"));
-    checkPredictor(mesh.solutionDict().subOrEmptyDict("PIMPLE"));
+    const dictionary pimple(mesh.solutionDict().subOrEmptyDict("PIMPLE"));
+    checkPredictor(pimple);
+    checkCorrectors(pimple);
+    checkSuction(
+        IOdictionary(optionalDictionary("bedProperties", mesh.time(), false)));
     checkPatches(mesh);
 }
 

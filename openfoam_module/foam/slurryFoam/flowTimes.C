@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "flowTimes.H"
+#include "HashSet.H"
 #include "fileOperation.H"
 #include "IFstream.H"
 #include "OSspecific.H"
@@ -67,6 +68,29 @@ void refuseEarlierEnd(const Time& time)
     }
 }
 
+//- Refuse entries of a dictionary that are not above 0
+void requireAboveZero(const dictionary& dict, const wordList& names)
+{
+    for (const word& name : names)
+    {
+        scalar value;
+        if (dict.readIfPresent(name, value) && !(value > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << name << " is " << value << "; expected a number above 0"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+//- Whether this control of a function object divides a time by its interval
+bool dividesByInterval(const dictionary& dict, const word& control)
+{
+    static const wordHashSet inTime(
+        {"runTime", "adjustable", "adjustableRunTime", "cpuTime", "clockTime"});
+    return inTime.found(dict.lookupOrDefault<word>(control, "none"));
+}
+
 } // End anonymous namespace
 } // End namespace Foam
 
@@ -81,14 +105,17 @@ void Foam::checkIntervals(const fileName& folder)
         return;
     }
     const dictionary control(stream);
-    for (const word name : {"deltaT", "writeInterval"})
+    requireAboveZero(control, {"deltaT", "writeInterval"});
+    const dictionary functions(control.subOrEmptyDict("functions"));
+    for (const entry& one : functions)
     {
-        scalar value;
-        if (control.readIfPresent(name, value) && !(value > 0))
+        for (const word what : {"write", "execute"})
         {
-            FatalIOErrorInFunction(control)
-                << name << " is " << value << "; expected a number above 0"
-                << exit(FatalIOError);
+            if (one.isDict() &&
+                dividesByInterval(one.dict(), word(what + "Control")))
+            {
+                requireAboveZero(one.dict(), {word(what + "Interval")});
+            }
         }
     }
 }

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
+#include "coupledPatches.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "mathematicalConstants.H"
@@ -36,7 +37,7 @@ static dimensionedScalar surfaceTension(const dictionary& dict)
 static constexpr scalar beyond_ = 1e-3;
 
 
-//- The share of slurry at the start, checked to be one
+//- The share of slurry at the start, checked to be one, with its coupled patches
 static volScalarField& checkedShare(volScalarField& alpha)
 {
     forAll(alpha, celli)
@@ -49,7 +50,35 @@ static volScalarField& checkedShare(volScalarField& alpha)
                                  << " m; expected 0 to 1" << exit(FatalError);
         }
     }
-    return alpha;
+    return evaluateCoupled(alpha);
+}
+
+
+//- Distance of each cell to the nearest of its neighbours, m: to their middles,
+//  and twice to a patch. GREAT without neighbours
+static scalarField shortestDistances(const fvMesh& mesh)
+{
+    const surfaceScalarField& inverse = mesh.nonOrthDeltaCoeffs();
+    scalarField result(mesh.nCells(), GREAT);
+    const auto limit = [&result](const label celli, const scalar distance)
+    { result[celli] = min(result[celli], distance); };
+    forAll(mesh.neighbour(), facei)
+    {
+        limit(mesh.owner()[facei], 1 / inverse[facei]);
+        limit(mesh.neighbour()[facei], 1 / inverse[facei]);
+    }
+    forAll(inverse.boundaryField(), patchi)
+    {
+        const fvsPatchScalarField& patch = inverse.boundaryField()[patchi];
+        const scalar times = patch.patch().coupled() ? 1 : 2;
+        const labelUList& cells = mesh.boundary()[patchi].faceCells();
+        // An empty patch has no values
+        forAll(patch, i)
+        {
+            limit(cells[i], times / patch[i]);
+        }
+    }
+    return result;
 }
 
 
@@ -113,7 +142,7 @@ Foam::slurryFlow::slurryFlow(
   U_(fieldIO("U", mesh, IOobject::MUST_READ), mesh),
   phi_(
       fieldIO("phi", mesh, IOobject::READ_IF_PRESENT),
-      fvc::flux(bed_.voidage() * U_)),
+      fvc::flux(bed_.voidage() * evaluateCoupled(U_))),
   mixture_(U_, phi_),
   alpha_(checkedShare(mixture_.alpha1())),
   rho_("rho", alpha_ * mixture_.rho1() + (1.0 - alpha_) * mixture_.rho2()),
@@ -122,7 +151,7 @@ Foam::slurryFlow::slurryFlow(
   swept_(voidage_, bed_.inSpace() && !isA<staticFvMesh>(mesh)),
   contraction_(bed_, voidage_, U_),
   p_rgh_(fieldIO("p_rgh", mesh, IOobject::MUST_READ), mesh),
-  p_(fieldIO("p", mesh, IOobject::NO_READ), p_rgh_),
+  p_(fieldIO("p", mesh, IOobject::NO_READ), evaluateCoupled(p_rgh_)),
   surface_(alpha_, g_.value()),
   pressure_(
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
@@ -163,6 +192,8 @@ Foam::slurryFlow::slurryFlow(
     fluxDetail_.setOriented();
     massMoved_.setOriented();
     slurryFlux_.setOriented();
+    evaluateCoupled(forces_);
+    mixture_.correct();
     turbulence_->validate();
     voidage_.oldTime();
     pressure_.update(p_rgh_, rho_);
@@ -181,6 +212,7 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         0.5 * deltaT * fvc::surfaceSum(mag(phi_))().primitiveField() /
         (mesh_.V() * voidage_.primitiveField()));
 
+    const scalarField shortest(shortestDistances(mesh_));
     scalar smallest = GREAT;
     courantNumbers result;
     forAll(passed, celli)
@@ -190,7 +222,8 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result.surface = max(result.surface, passed[celli]);
-            smallest = min(smallest, mesh_.V()[celli]);
+            smallest =
+                min(smallest, min(mesh_.V()[celli], pow3(shortest[celli])));
         }
     }
     reduce(result.flow, maxOp<scalar>());

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "sweptFluid.H"
+#include "coupledPatches.H"
 #include "fvcDiv.H"
 #include "gaussLaplacianScheme.H"
 #include "surfaceInterpolate.H"
@@ -42,6 +43,7 @@ Foam::sweptFluid::sweptFluid(const volScalarField& voidage, const bool kept)
       mesh_, dimensionedScalar(dimArea / dimTime, Zero),
       zeroGradientFvPatchScalarField::typeName)
 {
+    evaluateCoupled(potential_);
     mesh_.setFluxRequired(potential_.name());
     flux_.setOriented();
 }

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "turningDerivative.H"
+#include "coupledPatches.H"
 #include "meshRotation.H"
 
 #include <cmath>
@@ -41,6 +42,7 @@ Foam::turningDerivative::turningDerivative(
                 "stepAcceleration", U.time().timeName(), U.mesh(),
                 IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE),
             U.mesh(), dimensionedVector(dimAcceleration, Zero)));
+        evaluateCoupled(last_.ref());
     }
 }
 

@@ -23,6 +23,12 @@ void Foam::solidsBlock::readMotion(const dictionary& dict)
 {
     moves_ = dict.lookupOrDefault<bool>("moves", false);
     until_ = dict.lookupOrDefault<scalar>("until", GREAT);
+    if (dict.found("until") && !moves_)
+    {
+        FatalIOErrorInFunction(dict)
+            << "until is " << until_ << " s, but the block rests; expected"
+            << " 'moves yes;' with it" << exit(FatalIOError);
+    }
 
     const scalar omega = dict.lookupOrDefault<scalar>("omega", 0);
     if (omega != 0)
@@ -45,7 +51,7 @@ void Foam::solidsBlock::readMotion(const dictionary& dict)
             << " balls move through it" << exit(FatalIOError);
     }
 
-    if (dict.isDict("ramp"))
+    if (dict.found("ramp"))
     {
         requireKnownEntries(dict.subDict("ramp"), {"time"});
         const Tuple2<scalar, scalar> times(dict.subDict("ramp").lookup("time"));

@@ -58,6 +58,12 @@ Foam::solidsBlocks::solidsBlocks(const dictionary& dict)
         return;
     }
     const dictionary& all = dict.subDict("blocks");
+    if (all.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "blocks is empty; expected one block or more, NAME { … }"
+            << exit(FatalIOError);
+    }
     for (const entry& one : all)
     {
         blocks_.append(new solidsBlock(all.subDict(one.keyword())));

@@ -24,6 +24,13 @@ Foam::solidsSource::New(const dictionary& dict, const fvMesh& mesh)
             << " them" << exit(FatalIOError);
     }
 
+    if (dict.isDict("block") && dict.isDict("blocks"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "both of the entries 'block' and 'blocks' are there; expected"
+            << " one of them" << exit(FatalIOError);
+    }
+
     if (dict.found("exchange"))
     {
         return autoPtr<solidsSource>(new solidsExchange(dict, mesh));

@@ -153,8 +153,8 @@ class Exchanged:
 
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
-    error of the drive's power. Its error is over whole turns, NaN for fewer than two. None of a stirred mill, or without
-    torques."""
+    error of the drive's power. Its error is over whole turns, NaN for fewer than two. None of a stirred mill, and
+    without torques."""
     given: float
     taken: float
     disagreement: float

@@ -58,8 +58,8 @@ def torques_balance(case: MillCase) -> Check:
     check = judged(name, max(apart, abs(whole or 0)), TORQUES, words, advice, doubtful=5 * TORQUES)
     reach = content.get("torque_unbalanced_reach") or 0.0
     if check.state == "holds" and reach > TORQUES:
-        return Check(name, "look", f"{words}; undecided: with 95 % confidence the last is known to ± {100 * reach:.1f} %"
-                     " only", "Average over more turns (flow.turns).", undecided=True)
+        return Check(name, "look", f"{words}; undecided: with 95 % confidence the last is known only to ± "
+                     f"{100 * reach:.1f} %", "Average over more turns (flow.turns).", undecided=True)
     return check
 
 
