@@ -228,8 +228,8 @@ class Controls(RefusedTest):
 
     def test_slices_beyond_the_mesh(self):
         for ends in ("(1 2)", "(0 0.1)", "(-0.1 0.01)"):
-            self.assert_object_refused(f"type axialProfiles; slices 4; ends {ends};", "slices from", "some have no cells",
-                                       "from 0 to 0.01 m")
+            self.assert_object_refused(f"type axialProfiles; slices 4; ends {ends};", "slices from",
+                                       "some have no cells", "from 0 to 0.01 m")
 
     def test_an_entry_that_writeEnd_does_not_have(self):
         self.assert_object_refused("type writeEnd; foo 1;", "foo")
