@@ -227,6 +227,7 @@ class FedMill(unittest.TestCase):
         replace(case / "system" / "controlDict", (pattern, new))
         with self.assertRaises(RunError) as caught:
             run(case, "slurryFoam")
+        self.assertNotIn("\nTime = ", (case / "log.slurryFoam").read_text())
         return str(caught.exception)
 
     def test_what_cannot_be_is_refused(self):
@@ -236,8 +237,8 @@ class FedMill(unittest.TestCase):
                 (r"interval 0.001;", "timeStart 0.005;", "timeStart"),
                 (r"window 0.008;", "window 0.004;", "lies in two windows"),
                 (r"window 0.008;", 'window 0.008; file "system/controlDict";', "is not a millfoam-slurry file"),
-                (r"window 0.008;", "window 0;", "above 0"),
-                (r"shape \(30 30 13\)", "shape (30 0 13)", "shape"),
+                (r"window 0.008;", "window 0;", "window is 0 s"),
+                (r"shape \(30 30 13\)", "shape (30 0 13)", "shape along y is 0"),
                 (r"slices 13;", "slices 0;", "one or more"),
                 (r"length 0.004;", "length -1;", "length is -1; expected more than 0 s"),
                 (r"length 0.004;", "length 0;", "length is 0; expected more than 0 s"),
