@@ -60,7 +60,8 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
     return parts;
   }
   if (!take("shell")) refuse("shell", "");
-  if (mill.geometry.lifters.count > 0 && !take("lifters")) refuse("lifters", "");
+  // From CAD they may be there without any in the mill
+  if (!take("lifters") && mill.geometry.lifters.count > 0) refuse("lifters", "");
   if (mill.geometry.ends == meshing::Ends::plain) {
     const bool has_feed = take("feedEnd"), has_discharge = take("dischargeEnd");
     const EndCover cover = cover_of_ends(walls, mill.geometry);

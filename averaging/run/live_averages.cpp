@@ -71,7 +71,7 @@ void leave_out_before(double time, double timestep, WindowPlan& plan) {
 
 struct LiveAverages::Series {
   EndlessWindows windows;
-  WindowRecorder recorder;
+  std::optional<WindowRecorder> recorder;  ///< of rank 0
 };
 
 fs::path LiveFiles::journal(std::size_t number) const {
@@ -99,12 +99,13 @@ LiveAverages::LiveAverages(const AverageRequest& request, const LiveRun& run, Li
       communicator_(communicator),
       setup_(set_up(request, run.settings, ignore)),
       last_(resumed.value_or(run.begin - run.interval)) {
+  for (const WindowsRequest& windows : request.windows)
+    series_.push_back({{request, windows, run.settings.timestep, run.begin}, std::nullopt});
   if (communicator.rank() != 0) return;
   std::optional<Checkpoint> state;
   if (resumed) state = state_at(files_, id_, *resumed);
-  for (std::size_t s = 0; s < request.windows.size(); ++s)
-    series_.push_back({{request, request.windows[s], run.settings.timestep, run.begin},
-                       recorder_at(files_, s, setup_, id_, state ? &*state : nullptr)});
+  for (std::size_t s = 0; s < series_.size(); ++s)
+    series_[s].recorder.emplace(recorder_at(files_, s, setup_, id_, state ? &*state : nullptr));
 }
 
 LiveAverages::~LiveAverages() = default;
@@ -131,10 +132,33 @@ void LiveAverages::sum_over_ranks(const ParticleRecord& own, double time) {
   if (communicator_.rank() == 0) require_balls(balls, own.step);
 }
 
+/// Whether the cells are known at a time, s: those that move may have a table of a part of the run alone.
+bool LiveAverages::has_cells_at(double time) {
+  try {
+    setup_.deposition->begin_record(time);
+    return true;
+  } catch (const std::out_of_range&) {
+    return false;
+  }
+}
+
+void LiveAverages::count(const ParticleRecord& own) {
+  std::vector<double> balls{static_cast<double>(own.particles.size())};
+  communicator_.sum(balls);
+  if (communicator_.rank() == 0) require_balls(balls[0], own.step);
+}
+
 void LiveAverages::add(const ParticleRecord& own) {
   assert(own.step == last_ + run_.interval);
   last_ = own.step;
   const double time = static_cast<double>(own.step) * run_.settings.timestep;
+  const bool held = std::any_of(series_.begin(), series_.end(),
+                                [&](const Series& series) { return series.windows.hold(own.step); });
+  // The first one is compared with the cells
+  if (!held && (own.step != run_.begin || !has_cells_at(time))) {
+    count(own);
+    return;
+  }
   sum_over_ranks(own, time);
   if (communicator_.rank() != 0) return;
   if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
@@ -145,7 +169,7 @@ void LiveAverages::add(const ParticleRecord& own) {
   if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
   for (Series& series : series_) {
     if (!series.windows.hold(own.step)) continue;
-    WindowRecorder& recorder = series.recorder;
+    WindowRecorder& recorder = *series.recorder;
     if (series.windows.window_of(own.step) > recorder.finished())
       recorder.close(series.windows.time_of(recorder.finished()));
     recorder.open().add(sums_);
@@ -156,9 +180,9 @@ void LiveAverages::checkpoint() {
   if (communicator_.rank() != 0) return;
   Checkpoint state{id_, static_cast<std::size_t>(last_), {}, {}};
   for (Series& series : series_) {
-    series.recorder.sync();
-    state.rows.push_back(series.recorder.finished());
-    state.open.push_back(series.recorder.open().packed());
+    series.recorder->sync();
+    state.rows.push_back(series.recorder->finished());
+    state.open.push_back(series.recorder->open().packed());
   }
   write_checkpoint(files_.checkpoint(last_), state);
 }

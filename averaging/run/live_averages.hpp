@@ -62,7 +62,7 @@ class LiveAverages {
   LiveAverages(const LiveAverages&) = delete;
   LiveAverages& operator=(const LiveAverages&) = delete;
 
-  /// Adds a record. All ranks must call it, in order of time.
+  /// Adds a record. All ranks must call it, in order of time. Of records in no window the balls are counted.
   /// @param own  the balls of this rank; z may lie outside the period
   /// Throws on rank 0 std::runtime_error when balls are missing, std::invalid_argument when the grid of the
   /// run's first record cannot be meant for the balls, SolidsFileError when the disk is full, and as
@@ -76,6 +76,8 @@ class LiveAverages {
   struct Series;
 
   void sum_over_ranks(const ParticleRecord& own, double time);
+  bool has_cells_at(double time);
+  void count(const ParticleRecord& own);
   void require_balls(double found, long long step) const;
 
   AverageRequest request_;
@@ -85,7 +87,7 @@ class LiveAverages {
   Communicator& communicator_;
   CellSetup setup_;
   RecordSums sums_;
-  std::vector<Series> series_;  ///< of rank 0
+  std::vector<Series> series_;
   long long last_ = 0;          ///< time-step of the last record
 };
 

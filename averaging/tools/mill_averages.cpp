@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -35,16 +36,6 @@ void require_dumps_of(const RunMetadata& run, const std::string& part, const std
                               ", this mill's are " + fingerprint + "): run millDem again");
 }
 
-double steady_start(const fs::path& file) {
-  std::ifstream in(file);
-  const nlohmann::json results = nlohmann::json::parse(in, nullptr, false);
-  if (!results.is_object() || !results.contains("steady_from_s") || !results["steady_from_s"].is_number())
-    throw std::invalid_argument(file.string() +
-                                ": no number steady_from_s, which 'averages.start: steady' needs; "
-                                "give averages.start a time, or run millDem again");
-  return results["steady_from_s"].get<double>();
-}
-
 /// The values of an option in words.
 template <typename Values>
 std::string words_of(const Values& values) {
@@ -70,6 +61,20 @@ void refuse_without_grid(const Options& options) {
 }
 
 }  // namespace
+
+SteadyStart steady_start(const fs::path& results) {
+  std::ifstream in(results);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.contains("steady_from_s") || !json["steady_from_s"].is_number())
+    throw std::invalid_argument(results.string() +
+                                ": no number steady_from_s, which 'averages.start: steady' needs; "
+                                "give averages.start a time, or run millDem again");
+  SteadyStart start{json["steady_from_s"].get<double>(), ""};
+  if (!json.value("steady", true))
+    start.warning = results.string() + ": the dry run is not steady; its last part is averaged, from " +
+                    exact(start.time) + " s on. Raise dem.duration";
+  return start;
+}
 
 double last_whole_window(double start, double end, double duration, double window, double timestep) {
   const auto steps = [&](double time, const char* what) { return whole_steps(time, timestep, what); };
@@ -116,6 +121,12 @@ void take_grid(const meshing::Mill& mill, Options& options) {
 
 namespace {
 
+/// Its time, s; prints its warning.
+double warned(const SteadyStart& start) {
+  if (!start.warning.empty()) std::cerr << "millAverage: warning: " << start.warning << '\n';
+  return start.time;
+}
+
 /// Start, window and end: whole windows up to the end of the dry run, or one with all records. A run that
 /// continues another begins at its end, and averages.start counts from there.
 void take_windows(const meshing::Mill& mill, const fs::path& dumps, const RunMetadata& run,
@@ -123,7 +134,7 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, const RunMet
   const double window = mill.averages.window;
   const double begin = run.begin.value_or(0), duration = run.duration.value_or(mill.dem.duration);
   const double start =
-      mill.averages.start ? begin + *mill.averages.start : steady_start(dumps / "results.json");
+      mill.averages.start ? begin + *mill.averages.start : warned(steady_start(dumps / "results.json"));
   if (!mill.averages.whole_run)
     options.end =
         last_whole_window(start, begin + duration, duration, window, agreed_timestep(options.timestep, run));

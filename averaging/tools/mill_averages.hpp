@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "averaging/tools/options.hpp"
@@ -31,6 +32,16 @@ bool has_windows(const Options& options);
 /// std::invalid_argument that names
 /// `--shape`, `--frame`, `--components` or `--periodic`, which say nothing about a mill's grid.
 void take_grid(const meshing::Mill& mill, Options& options);
+
+/// When a dry run becomes steady.
+struct SteadyStart {
+  double time = 0;      ///< DEM time, s
+  std::string warning;  ///< a sentence where the run did not become steady; otherwise empty
+};
+
+/// From the `results.json` of a dry run: `steady_from_s` and `steady`. Throws std::invalid_argument that
+/// names the file where it has no such number.
+SteadyStart steady_start(const std::filesystem::path& results);
 
 /// DEM time at which the last whole window of a dry run ends, s. Times are rounded to whole time-steps, as
 /// plan_windows does. Throws std::invalid_argument where there is none, WindowError.

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "averaging/dumps/text_lines.hpp"
 #include "averaging/run/program.hpp"
+#include "meshing/mill/mill_averages.hpp"
 
 namespace millfoam::averaging {
 
@@ -58,9 +60,16 @@ std::array<bool, 3> periodic_axes(const Options& options) {
   return periodic;
 }
 
+/// Throws without three numbers, or where they give more voxels than a mill's own may have.
 void require_shape(const Options& options, const char* meaning) {
-  if (options.shape.size() == 3) return;
-  throw std::invalid_argument(std::string("--shape is missing, expected ") + meaning);
+  if (options.shape.size() != 3)
+    throw std::invalid_argument(std::string("--shape is missing, expected ") + meaning);
+  double voxels = 1;
+  for (const int along : options.shape) voxels *= std::abs(static_cast<double>(along));
+  if (voxels <= meshing::most_voxels) return;
+  std::ostringstream message;
+  message << "--shape gives " << voxels << " voxels, expected at most " << meshing::most_voxels;
+  throw std::invalid_argument(message.str());
 }
 
 BoxGrid box_grid(const Options& options) {

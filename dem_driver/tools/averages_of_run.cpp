@@ -11,6 +11,7 @@
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/xdmf.hpp"
 #include "averaging/run/solids_output.hpp"
+#include "averaging/tools/mill_averages.hpp"
 #include "meshing/mill/mill_error.hpp"
 #include "millfoam_version.hpp"
 
@@ -49,13 +50,13 @@ void require_different_outputs(const std::vector<averaging::LiveRequest>& reques
                                     " would be written twice, expected another file for each: give -o FILE");
 }
 
-double steady_from(const fs::path& results) {
-  std::ifstream in(results);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.value("steady_from_s", nlohmann::json()).is_number())
-    throw std::runtime_error(results.string() +
-                             ": no number steady_from_s, which averages.start 'steady' needs");
-  return json["steady_from_s"];
+/// Throws as Deposition where cells are not known at the first or the last record of a window: cells that
+/// move may have a table of a part of the run alone.
+void require_cells(averaging::Deposition& deposition, const std::vector<averaging::WindowPlan>& plans,
+                   const averaging::LiveRun& run) {
+  for (const averaging::WindowPlan& plan : plans)
+    for (const long long step : {plan.windows.front().begin, plan.windows.back().end - run.interval})
+      deposition.begin_record(static_cast<double>(step) * run.settings.timestep);
 }
 
 /// Prints what is wrong with a ledger; returns whether it is within the tolerance.
@@ -87,7 +88,9 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
     averaging::lock_outputs(request);
     const auto setup = averaging::set_up(request, order_.run.settings,
                                          [&](const std::string& sentence) { out << sentence << '\n'; });
-    plan.averages_bytes += averaging::journal_bytes(setup, plan_live(request, order_.run, plan.end_step()));
+    const auto plans = plan_live(request, order_.run, plan.end_step());
+    require_cells(*setup.deposition, plans, order_.run);
+    plan.averages_bytes += averaging::journal_bytes(setup, plans);
     plan.averages.push_back(averages_id(request));
     order_.averages.push_back({plan.averages.back(), request});
   }
@@ -115,7 +118,11 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
       passes = judge(averaging::read_ledgers(windows.output), averages.tolerance, out) && passes;
     return passes;
   }
-  if (averages.steady) end.steady_from = steady_from(folder_.results());
+  if (averages.steady) {
+    const averaging::SteadyStart steady = averaging::steady_start(folder_.results());
+    end.steady_from = steady.time;
+    if (!steady.warning.empty()) out << steady.warning << '\n';
+  }
   for (const averaging::SolidsSummary& summary : averaging::finish_live(
            request, order_.run, averages_files(folder_.dem(), number), plan_.averages[number], end,
            [&](const std::string& sentence) { out << sentence << '\n'; })) {

@@ -107,9 +107,14 @@ Averages read_averages(const Section& root, const Mill& mill) {
     averages.voxels = read_voxels(in, mill.geometry, usual_size, 0);
   read_window(in, mill, averages);
   const double duration = mill.dem.duration;
+  const bool whole_run = averages.whole_run;
+  const double room = whole_run ? duration : duration - averages.window;
   const Rule time = {
-      "'steady', or a DEM time in s of 0 or more and below dem.duration, " + shown(duration) + " s",
-      [=](double v) { return v >= 0 && v < duration; }};
+      "'steady', or a DEM time in s of 0 or more and " +
+          (whole_run ? "below dem.duration, " + shown(duration)
+                     : "at most dem.duration less averages.window, " + shown(std::max(room, 0.0))) +
+          " s",
+      [=](double v) { return v >= 0 && (whole_run ? v < room : v <= room + 1e-9 * duration); }};
   if (!in.has("start") || in.is("start", "steady"))
     in.choice("start", {"steady"}, "steady");
   else

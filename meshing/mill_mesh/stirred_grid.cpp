@@ -153,13 +153,15 @@ StirredGrid::Place StirredGrid::rounded(const Arm& arm, int ring, const Place& a
   const PinLevel& pins = level_of(arm);
   const double line_radius = lines_.radii[line_index(ring)];
   const double from_axis = std::remainder(at_line.angle - arm.angle, 2 * pi);
-  if (std::abs(from_axis) > pi / 3) return at_line;
+  const double widest = std::min(pi / 3, pi / pins.arms);
+  if (std::abs(from_axis) > widest) return at_line;
   const double half = pins.thickness / 2;
   const Vector2d at(line_radius * std::sin(from_axis), at_line.z - pins.height);
   const double width = half * pin_half_width(lines_), height = half * pin_half_height(lines_);
   const double inner = std::max(std::abs(at.x()) / width, std::abs(at.y()) / height);
   const auto [below, above] = space_of(arm.level);
-  const double aside = std::min(reach_of_circle * half, 0.9 * line_radius);
+  // A little less than where the circle of the next arm begins
+  const double aside = std::min(reach_of_circle * half, 0.999 * line_radius * std::sin(widest));
   const double outer = std::max(std::abs(at.x()) / aside, at.y() > 0 ? at.y() / above : -at.y() / below);
   if (outer >= 1) return at_line;
   double share = inner;

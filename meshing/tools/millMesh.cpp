@@ -86,11 +86,17 @@ double mesh_time(const Options& options, const Mill& mill) {
   return start.value_or(0);
 }
 
-/// Writes what the dry run needs: the walls, which enclose a volume (m^3), and the resolved mill.
+/// Writes what the dry run needs: the walls, which enclose a volume (m^3), and the resolved mill. Walls from
+/// CAD, with which a dry run may have been made, are replaced only where walls alone are wanted.
 void write_for_dry_run(const MillDescription& description, const WallSurface& surface, double volume,
-                       const fs::path& folder) {
-  replace_walls(surface, description.mill.geometry.ends, folder / "walls");
-  write_wall_results(description, surface, volume, folder / "walls");
+                       const fs::path& folder, bool walls_only) {
+  const fs::path walls = folder / "walls";
+  if (!walls_only && has_cad_walls(walls)) {
+    std::cout << "note: " << walls.string() << " is from CAD and stays; --walls replaces it\n";
+  } else {
+    replace_walls(surface, description.mill.geometry.ends, walls);
+    write_wall_results(description, surface, volume, walls);
+  }
   write_resolved_mill(description, "millMesh", folder / resolved_mill_name);
 }
 
@@ -125,7 +131,8 @@ void run_stirred(const Options& options, const MillDescription& description) {
   require_no_needles(surface);
   // A mesh that is refused shall not cost a dry run
   if (mill.has_flow()) mesh_stirred(options, description);
-  if (!options.case_folder.empty()) write_for_dry_run(description, surface, volume, options.case_folder);
+  if (!options.case_folder.empty())
+    write_for_dry_run(description, surface, volume, options.case_folder, options.walls_only);
 }
 
 void run(const Options& options, const MillDescription& description) {
@@ -150,7 +157,7 @@ void run(const Options& options, const MillDescription& description) {
   if (options.case_folder.empty()) return;
 
   const fs::path folder = options.case_folder;
-  write_for_dry_run(description, surface, of_walls, folder);
+  write_for_dry_run(description, surface, of_walls, folder, options.walls_only);
   if (options.walls_only) return;
   const double time = mesh_time(options, mill);
   write_poly_mesh(turned(mesh, mill.angular_velocity * time), folder);
@@ -169,7 +176,9 @@ int main(int argc, char** argv) {
                  "folder that receives walls/, constant/, mill.json (the resolved mill) and mesh.json");
   auto* quality =
       app.add_flag("--quality", "print the mesh's quality against its limits; writes with --case only");
-  app.add_flag("--walls", options.walls_only, "write walls/ and mill.json only, which the dry run needs");
+  app.add_flag("--walls", options.walls_only,
+               "write walls/ and mill.json only, which the dry run needs; replaces walls from CAD, which "
+               "stay otherwise");
   app.add_option(
          "--at-time", options.time,
          "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "

@@ -44,7 +44,8 @@ std::string counted(std::size_t number, const std::string& thing, const std::str
 }
 
 PolygonSet read_parts(const std::vector<PartFile>& parts, double scale, Ends ends) {
-  if (!(scale > 0)) throw std::runtime_error(sentence("scale ", scale, ": expected a factor above 0"));
+  if (!(scale > 0 && std::isfinite(scale)))
+    throw std::runtime_error(sentence("scale ", scale, ": expected a factor above 0"));
   PolygonSet set;
   for (const PartFile& part : parts) {
     if (std::find(wall_parts.begin(), wall_parts.end(), part.part) == wall_parts.end())

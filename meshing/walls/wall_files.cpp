@@ -65,6 +65,11 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
   return files;
 }
 
+bool has_cad_walls(const std::filesystem::path& folder) {
+  const auto json = read_results(folder);
+  return json && json->value("source", Json()) == "cad";
+}
+
 void require_walls_of(const std::filesystem::path& folder, const Mill& mill) {
   const auto json = read_results(folder);
   if (!json) return;

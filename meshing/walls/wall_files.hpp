@@ -23,6 +23,10 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
 /// complete. Walls from CAD, and walls without walls.json, belong to any mill.
 void require_walls_of(const std::filesystem::path& folder, const Mill& mill);
 
+/// Whether walls.json of a folder says that its walls are from CAD. Throws std::runtime_error where it cannot
+/// be read.
+bool has_cad_walls(const std::filesystem::path& folder);
+
 /// Throws std::runtime_error where walls.json of a folder, whose walls are complete, names other files than
 /// those next to it.
 void require_written_walls(const std::filesystem::path& folder);

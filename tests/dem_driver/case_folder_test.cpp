@@ -125,6 +125,16 @@ TEST(CaseFolder, APeriodicSliceHasNoEndsEvenIfTheirFilesLieThere) {
   EXPECT_EQ(find_walls(folder, small_mill()), std::vector<std::string>{"shell"});
 }
 
+TEST(CaseFolder, LiftersFromCadAreThereWithoutAnyInTheMill) {
+  const TemporaryFolder temporary;
+  const CaseFolder folder{temporary.path()};
+  const auto mill = small_mill();
+  ASSERT_EQ(mill.geometry.lifters.count, 0);
+  tests::write_drum(folder, mill.geometry);
+  std::filesystem::copy_file(folder.walls() / "shell.stl", folder.walls() / "lifters.stl");
+  EXPECT_EQ(find_walls(folder, mill), (std::vector<std::string>{"shell", "lifters"}));
+}
+
 TEST(CaseFolder, AWallThatIsCutIsNamed) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};

@@ -33,6 +33,7 @@ resolution: {cell_size: 0.003, layers: 4}
 """
 LIVE = ("--set", "averages.live=yes")
 NO_DUMPS = (*LIVE, "--set", "dem.dumps=no")
+TURNED = "--mesh mesh.h5 --motion 'rotation table turning.txt' --period 0.03 --window 0.02 --start 0.06 --end 0.1"
 RINGS = "--cylinder 0 0.03 0 0.03 --shape 5 12 2 --periodic z --window 0.04 whole -o rings.h5"
 CELLS = "--mesh mesh.h5 --period 0.03 --window 0.05 --start 0.02 -o cells.h5 --smooth"
 FILES = ("solids.h5", "rings_0.04.h5", "rings_whole.h5", "cells.h5")
@@ -55,12 +56,14 @@ def read_solids(path):
 
 
 class LiveAverages(unittest.TestCase):
-    def make_case(self, text=MILL, folder="."):
+    def make_case(self, text=MILL, folder=".", table=0.09):
+        """A case with walls, a mesh, and the speed of its turning from 0.05 s to a time (s) within the run."""
         case = Path(tempfile.mkdtemp(prefix="live-"))
         self.addCleanup(shutil.rmtree, case)
         (case / "mill.yaml").write_text(text)
         run(case, "millMesh", "mill.yaml", "--case", folder, "--walls")
         mesh.write(case / "mesh.h5", mesh.drum((6, 6, 3)) * 0.03)
+        (case / "turning.txt").write_text(f"0.05 -10\n{table} -10\n")
         return case
 
     def run_mill(self, case, *options):
@@ -227,6 +230,12 @@ class LiveAverages(unittest.TestCase):
         self.assertLess(begins[0] - 0.03, steady["steady_from_s"])
         self.assertGreater(steady["steady_from_s"], 0)
 
+    def test_records_in_no_window_need_no_cells(self):
+        case = self.make_case(table=0.12)
+        self.run_mill(case, "--average", f"{TURNED} -o live_turned.h5")
+        run(case, "millAverage", "--dumps", "dumps/dump.*.txt", *TURNED.replace("'", "").split(), "-o", "turned.h5")
+        self.assert_same(case / "live_turned.h5", case / "turned.h5", 1e-7)
+
     def test_what_cannot_be_averaged_is_refused_before_anything_is_made(self):
         case = self.make_case()
         (case / "notes.h5").write_text("mine")
@@ -238,7 +247,8 @@ class LiveAverages(unittest.TestCase):
                 (("--average", "--window 0.001"), "0.001 s is less than the 0.005"),
                 (("--average", "-o notes.h5"), "notes.h5: this file exists and is not a millfoam-solids file"),
                 ((*LIVE, "--average", "--window whole"), "solids.h5 would be written twice"),
-                ((*LIVE, "--set", "averages.window=0.2"), "has only .* from .* on: raise dem.duration")):
+                ((*LIVE, "--set", "averages.window=0.2"), "key 'averages.start' = 0.05: .*less averages.window, 0 s"),
+                (("--average", f"{TURNED} -o turned.h5"), "time 0.1 s is outside the table of the motion")):
             with self.subTest(options), self.assertRaisesRegex(RunError, message):
                 self.run_mill(case, *options)
         self.assertFalse((case / "dumps").exists())

@@ -368,7 +368,12 @@ class Again(unittest.TestCase):
         made, kept = self.allrun("--until", "charge")
         self.assertEqual((made, kept), (["charge"], ["walls"]))
         self.assertEqual(read_json(self.case / "walls" / "walls.json", "walls")["source"], "cad")
-        self.assertEqual(self.allrun("--until", "charge"), ([], ["walls", "charge"]))
+        # The mesh is that of the mill, and leaves these walls
+        made, _ = self.allrun("--until", "mesh")
+        self.assertEqual(made, ["average", "mesh"])
+        self.assertIn("is from CAD and stays", (self.case / "log.mesh").read_text())
+        self.assertEqual(read_json(self.case / "walls" / "walls.json", "walls")["source"], "cad")
+        self.assertEqual(self.allrun("--until", "mesh"), ([], ["walls", "charge", "average", "mesh"]))
 
     def test_statistics_of_the_contacts_make_the_charge_again(self):
         made, _ = self.allrun("--until", "charge", "--set", "dem.contact_statistics=true")

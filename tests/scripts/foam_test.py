@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fields and points of an OpenFOAM case: text and binary give the same numbers; a damaged file is refused."""
+import gzip
 import tempfile
 import unittest
 from pathlib import Path
@@ -58,6 +59,17 @@ class Fields(unittest.TestCase):
         head = HEAD.format(form="binary", scalar=64, kind="volScalarField", name="p")
         content = (head + "internalField uniform 2.5;\n").encode()
         np.testing.assert_array_equal(foam.read_field(self.written(content), 3), [2.5] * 3)
+
+    def test_compressed_files_are_read(self):
+        packed = gzip.compress(binary_field(VECTORS))
+        place = self.path.with_name("U.gz")
+        self.assertFalse(foam.is_there(self.path))
+        place.write_bytes(packed)
+        self.assertTrue(foam.is_there(self.path))
+        np.testing.assert_array_equal(foam.read_field(self.path), VECTORS)
+        place.write_bytes(packed[:-20])
+        with self.assertRaisesRegex(foam.FoamError, r"U.gz: cannot be decompressed, or is cut short"):
+            foam.read_field(self.path)
 
     def test_damaged_binary_is_refused(self):
         whole = binary_field(VECTORS)

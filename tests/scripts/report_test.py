@@ -31,7 +31,7 @@ from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.case_readings import Readings, humps_words, key_numbers
 from millfoam.report.power_section import net_note
-from millfoam.report.sections import spans
+from millfoam.report.sections import spans, stage_costs
 from millfoam.report.words import uncertain
 from report_cases import (OMEGA, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only, write_mill,
                           write_slurry, write_solids, write_steps)
@@ -532,6 +532,13 @@ class Several(Case):
         finer.charge.x = np.linspace(-0.15, 0.15, 50)
         self.assertEqual(comparison.not_compared(finer, one, finer.charge, one.charge), "different voxels")
         self.assertIsNone(comparison.not_compared(one, one, one.charge, one.charge))
+        mirrored = SimpleNamespace(radius=one.radius, omega=-one.omega)
+        self.assertEqual(comparison.not_compared(mirrored, one, one.charge, one.charge), "turns the other way")
+
+    def test_costs_of_a_stage_that_is_being_made_again_are_left_out(self):
+        flow = write_flow(self.folder / "flow")
+        (flow / "log.costs").write_text("charge,30\n~flow,12\nflow,3\n")
+        self.assertEqual(dict(stage_costs(MillCase(flow))), {"charge": 30.0, "flow": 3.0})
 
     def test_measurements_are_compared_with_one_case_only(self):
         ended = self.command(self.folder, self.folder, "--measured", "map.csv")

@@ -44,6 +44,37 @@ class Dictionaries(Stages):
         self.assertNotEqual(self.bash("dictionaries"), before)
 
 
+class Solvers(Stages):
+    def test_a_change_that_was_killed_loses_no_dictionary(self):
+        names = [path.relative_to(SCRIPTS / "mill_case" / "interFoam")
+                 for path in (SCRIPTS / "mill_case" / "interFoam").rglob("*") if path.is_file()]
+        for name in names:
+            self.write(name, "own slurryFoam")
+            self.write(f"{name}.interFoam", "own interFoam")
+        first = names[0]
+        moves = (f"mv {first} {first}.slurryFoam", f"mv {first}.interFoam {first}")
+        for killed_after in range(3):
+            with self.subTest(killed_after=killed_after):
+                before = "; ".join(moves[:killed_after]) or "true"
+                code, _, errors = self.bash(f"mill_template={SCRIPTS}/mill_case; {before}; change_solver interFoam")
+                self.assertEqual(code, 0, errors)
+                self.assertEqual({(self.folder / name).read_text() for name in names}, {"own interFoam"})
+                self.bash(f"mill_template={SCRIPTS}/mill_case; change_solver slurryFoam")
+                self.assertEqual({(self.folder / name).read_text() for name in names}, {"own slurryFoam"})
+
+
+class Removal(Stages):
+    def test_folders_in_which_an_allrun_works_stay(self):
+        for name in ("runs/a", "runs/b"):
+            self.write(f"{name}/.stages/lock", "")
+        code, _, errors = self.bash("exec 8> runs/b/.stages/lock; flock -n 8; remove_runs runs quick")
+        self.assertEqual(code, 1)
+        self.assertIn("an Allrun works in runs/b; nothing was removed", errors)
+        self.assertTrue((self.folder / "runs" / "a").is_dir())
+        self.assertEqual(self.bash("remove_runs runs quick")[0], 0)
+        self.assertFalse((self.folder / "runs").exists())
+
+
 class HalfWritten(Stages):
     LIST = ("foamListTimes() { local last=no; [ $# -lt 3 ] || last=yes; cd \"$2\"; "
             "if [ $last = yes ]; then written_times | tail -n 1; else written_times; fi; }\n")

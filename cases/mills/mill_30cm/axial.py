@@ -12,6 +12,7 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.files.mill import read_mill
+from millfoam.files.mill_case import MillCase
 from millfoam.files.written_times import MillFlow
 from millfoam.plots import mill_plots
 from millfoam.readings.axial import (Humps, axial_profile, discharge, fit_gaussians, humps_at_ends, slice_thickness,
@@ -114,11 +115,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("case", type=Path)
     parser.add_argument("--begin", type=float,
-                        help="flow time from which averages are taken, s [2, or half of a shorter run]")
+                        help="flow time from which averages are taken, s [that of the mill's averages]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]
-    begin = (2.0 if last > 3 else last / 2) if options.begin is None else options.begin
+    begin = MillCase(options.case).begin if options.begin is None else options.begin
     folder = options.case / "pictures"
     folder.mkdir(exist_ok=True)
 

@@ -7,10 +7,12 @@ in the run's folder, and its fingerprints show what was made from the same input
     charge_FINGERPRINT/      a dry run
     averages_FINGERPRINT/    solids.h5 of a charge, a window and a voxel size
     flows/NAME/              a case of slurryFoam"""
+import fcntl
 import json
 import os
 import shutil
 import subprocess
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -63,6 +65,15 @@ def is_of(path, kind, part, mill):
         return False
 
 
+@contextmanager
+def alone(folder):
+    """Waits until no other study makes this folder, and lets others wait meanwhile."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with open(folder.with_name(f"{folder.name}.lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
 def make_charge(folder, mill, ranks=2):
     """The dry run of a Mill in a folder: walls/ and dumps/. A complete one is kept, an interrupted one is resumed."""
     write_mill(mill, folder)
@@ -73,11 +84,13 @@ def make_charge(folder, mill, ranks=2):
 def make_averages(mill, runs):
     """Folder, in `runs`, of a Mill's solids.h5."""
     folder = runs / f"averages_{mill.fingerprint['averages']}"
-    if not is_of(folder / "solids.json", "averages", "averages", mill):
-        charge = runs / f"charge_{mill.fingerprint['charge']}"
-        make_charge(charge, mill)
-        write_mill(mill, folder)
-        run(folder, "millAverage", "mill.json", "--case", Path("..") / charge.name, "-o", "solids.h5")
+    with alone(folder):
+        if not is_of(folder / "solids.json", "averages", "averages", mill):
+            charge = runs / f"charge_{mill.fingerprint['charge']}"
+            with alone(charge):
+                make_charge(charge, mill)
+            write_mill(mill, folder)
+            run(folder, "millAverage", "mill.json", "--case", Path("..") / charge.name, "-o", "solids.h5")
     return folder
 
 
@@ -131,8 +144,9 @@ def make_run(setting, runs):
     averages = make_averages(balls, runs)
     files = case_files(mill.fingerprint["averages"] == balls.fingerprint["averages"])
     case = runs / "flows" / setting.name
-    if not is_whole(case, mill, averages, files):
-        make_flow(case, mill, averages, files)
+    with alone(case):
+        if not is_whole(case, mill, averages, files):
+            make_flow(case, mill, averages, files)
     return case
 
 

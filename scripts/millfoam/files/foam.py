@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads OpenFOAM cases: times, fields and points as text or binary, the other lists of a mesh as text."""
+import gzip
 import re
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,10 +28,20 @@ def times(case: Path | str) -> list[tuple[float, Path]]:
     return sorted(found)
 
 
+def is_there(path: Path | str) -> bool:
+    """Whether OpenFOAM's file is there, as it is or compressed (writeCompression)."""
+    return Path(path).is_file() or Path(f"{path}.gz").is_file()
+
+
 def _read(path: Path | str) -> bytes:
-    if not Path(path).is_file():
+    if Path(path).is_file():
+        return Path(path).read_bytes()
+    if not is_there(path):
         raise FoamError(f"{path}: no such file")
-    return Path(path).read_bytes()
+    try:
+        return gzip.decompress(Path(f"{path}.gz").read_bytes())
+    except (EOFError, OSError, zlib.error) as error:
+        raise FoamError(f"{path}.gz: cannot be decompressed, or is cut short: {error}") from None
 
 
 def _head(content: bytes) -> bytes:
@@ -182,7 +194,7 @@ def read_mesh(case: Path | str, time: Path | str | None = None) -> Mesh:
     """Mesh of a case; with the moved points of time directory `time` (a Path) where it has them."""
     folder = Path(case) / "constant" / "polyMesh"
     moved = Path(time) / "polyMesh" / "points" if time else None
-    points = _points(moved if moved and moved.is_file() else folder / "points")
+    points = _points(moved if moved and is_there(moved) else folder / "points")
     count, text = _list(folder / "faces")
     faces = [np.array(found.split(), dtype=int) for found in re.findall(r"\d+\(([\d\s]*)\)", text)]
     if len(faces) != count:

@@ -28,7 +28,7 @@ class MillFlow:
             raise RuntimeError(f"{path}: {error}; {expected}") from None
         # Balls of constant/bedProperties displace slurry; those of an fvOption do not
         self.displaced = (self.case / "constant" / "bedProperties").is_file()
-        self.frames = [(time, path) for time, path in foam.times(self.case) if (path / "alpha.slurry").is_file()]
+        self.frames = [(time, path) for time, path in foam.times(self.case) if foam.is_there(path / "alpha.slurry")]
         if len(self.frames) < 2:
             apart = " in this folder (those of processor* are joined by reconstructPar, or by Allrun once more)" \
                 if any(self.case.glob("processor*")) else ""
@@ -117,7 +117,7 @@ class MillFlow:
     def frames_with_slurry(self, begin: float) -> list[tuple[float, Path]]:
         """The written times (s) and their folders from `begin` (s) on at which the volume of slurry is known."""
         return [(time, path) for time, path in self.frames
-                if time >= begin - 1e-9 and (not self.displaced or (path / "solidity").is_file())]
+                if time >= begin - 1e-9 and (not self.displaced or foam.is_there(path / "solidity"))]
 
     def slurry_volumes(self) -> tuple[float, float]:
         """Volume of slurry at the first and the last written time at which it is known, m^3."""
@@ -128,7 +128,7 @@ class MillFlow:
         """Force of the fluid on the balls over their weight, at the written times from `begin` (s) on: its mean and its
         95th percentile over the balls' volume, or None if the flow did not write it."""
         paths = [path for time, path in self.frames
-                 if time >= begin - 1e-9 and (path / "forceOverWeight").is_file()]
+                 if time >= begin - 1e-9 and foam.is_there(path / "forceOverWeight")]
         if not paths:
             return None
         ratios = np.concatenate([self.field("forceOverWeight", path) for path in paths])

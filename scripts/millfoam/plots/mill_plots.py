@@ -13,6 +13,7 @@ from matplotlib.collections import PolyCollection, QuadMesh
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ..files import foam
 from ..files.outline import circle
 from ..files.solids_file import SolidsMap
 from ..files.written_times import MillFlow
@@ -122,7 +123,7 @@ def draw_frame(axis: Axes, flow: MillFlow, time: float, path: Path, quads: np.nd
     patches = PolyCollection(turned, array=np.clip(alpha[columns], 0, 1), cmap=SLURRY, edgecolors="face", lw=0.2)
     patches.set_clim(0, 1)
     axis.add_collection(patches)
-    if (path / "solidity").is_file():
+    if foam.is_there(path / "solidity"):
         phi = flow.over_axis(flow.field("solidity", path))
         x = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
         grid = flow.on_grid(phi, time, x, x)
@@ -144,7 +145,7 @@ def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
         patches = draw_frame(axis, flow, time, path, quads, columns)
     for axis in axes.flat[len(numbers):]:
         axis.set_visible(False)
-    charge = any((path / "solidity").is_file() for _, path in (flow.frames[number] for number in numbers))
+    charge = any(foam.is_there(path / "solidity") for _, path in (flow.frames[number] for number in numbers))
     figure.colorbar(patches, ax=axes, shrink=0.6,
                     label="slurry share over the axis, –" + ("  (orange: charge, solidity 0.2)" if charge else ""))
     figure.savefig(out, dpi=100)

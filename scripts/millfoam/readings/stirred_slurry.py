@@ -72,7 +72,7 @@ def read_slurry_flow(case: Path, mill: Mill, begin: float) -> SlurryFlow:
         velocity = along_cylinder(centre, foam.read_field(folder / "U", mesh.cells), omega * time)
         share += alpha
         moved += alpha[:, None] * velocity
-        if not (folder / "solidity").is_file():
+        if not foam.is_there(folder / "solidity"):
             continue
         solidity = foam.read_field(folder / "solidity", mesh.cells)
         balls = along_cylinder(centre, foam.read_field(folder / "solidsVelocity", mesh.cells), omega * time)

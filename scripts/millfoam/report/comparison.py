@@ -73,6 +73,8 @@ def not_compared(case: MillCase, first: MillCase, one: SolidsMap | SlurryMap,
     """Why maps of a case are not compared with those of the first; None if they are."""
     if not np.isclose(case.radius, first.radius):
         return f"another diameter, {2e3 * case.radius:.4g} mm instead of {2e3 * first.radius:.4g} mm"
+    if case.omega * first.omega < 0:
+        return "turns the other way"
     return None if same_pixels(one, other) else "different voxels"
 
 
@@ -120,10 +122,13 @@ def charge_differences(compared: Sequence[Compared]) -> list[str]:
 
 
 def charge_curves(compared: Sequence[Compared]) -> list[str]:
-    """Free surfaces and tangential velocities of the cases with the first one's radius that have these readings."""
-    radius = compared[0][0].radius
+    """Free surfaces and tangential velocities of the cases with the first one's radius and sense of rotation that have
+    these readings."""
+    first = compared[0][0]
+    radius = first.radius
     read = [(case, name, reading.charge) for case, reading, name in compared
-            if isinstance(reading.charge, charge.Charge) and np.isclose(case.radius, radius)]
+            if isinstance(reading.charge, charge.Charge) and np.isclose(case.radius, radius)
+            and case.omega * first.omega > 0]
     if len(read) < 2:
         return []
     case = read[0][0]

@@ -207,6 +207,8 @@ def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
     for path in (folder / "log.costs" for folder in case.charge_folders):
         for line in read_text(path).splitlines() if path.is_file() else ():
             name, _, seconds = line.rpartition(",")
+            if name.startswith("~"):
+                continue  # of a stage that is being made again
             try:
                 costs[name] = costs.get(name, 0) + float(seconds)
             except ValueError:

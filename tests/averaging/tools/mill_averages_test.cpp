@@ -132,6 +132,22 @@ TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) 
   expect_named(message_of<std::runtime_error>([&] { taken(""); }), {"walls.json", "run millMesh again"});
 }
 
+TEST_F(MillAverages, MoreVoxelsThanAMillMayHaveAreRefused) {
+  expect_named(message_of<std::invalid_argument>(
+                   [&] { live("--box 0 0 0 1 1 1 --shape 2000000000 2000000000 2 --window 0.1 -o a.h5"); }),
+               {"--shape gives 8e+18 voxels", "at most 1.7e+08"});
+}
+
+TEST_F(MillAverages, TheStartOfARunThatIsNotSteadyHasAWarning) {
+  const auto results = folder_.write("results.json", R"({"steady_from_s": 0.1, "steady": true})");
+  EXPECT_EQ(steady_start(results).time, 0.1);
+  EXPECT_EQ(steady_start(results).warning, "");
+  folder_.write("results.json", R"({"steady_from_s": 0.2, "steady": false})");
+  EXPECT_EQ(steady_start(results).warning,
+            path("results.json") +
+                ": the dry run is not steady; its last part is averaged, from 0.2 s on. Raise dem.duration");
+}
+
 TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {
   expect_refused("--shape 4 5 6", "--shape is 4 5 6");
   expect_refused("--frame turning", "--frame is turning");

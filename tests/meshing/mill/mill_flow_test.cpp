@@ -139,6 +139,19 @@ TEST(Flow, laws_are_those_of_the_table) {
   EXPECT_EQ(message.find("mill.yaml:6: key 'flow.law' = Stokes: expected one of Ergun, "), 0U) << message;
 }
 
+TEST(Averages, have_a_whole_window_within_the_dry_run) {
+  const auto changes = [](const std::string& start, const std::string& window) {
+    return std::vector<std::string>{"dem.duration=2", "averages.start=" + start, "averages.window=" + window};
+  };
+  EXPECT_EQ(mill_of(bare_mill, changes("1.5", "0.5")).averages.start, 1.5);
+  EXPECT_EQ(mill_of(bare_mill, changes("1.9", "whole")).averages.start, 1.9);
+  EXPECT_NE(
+      refusal_of(bare_mill, changes("1.6", "0.5"))
+          .find("'averages.start' = 1.6: expected 'steady', or a DEM time in s of 0 or more and at most "
+                "dem.duration less averages.window, 1.5 s"),
+      std::string::npos);
+}
+
 TEST(Flow, averages_begin_after_the_first_half_of_a_short_one) {
   EXPECT_DOUBLE_EQ(mill_of(bare_mill, {"flow.duration=0.5"}).flow.averages.start, 0.25);
 }

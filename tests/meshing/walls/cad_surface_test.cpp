@@ -358,6 +358,7 @@ TEST(Examine, refuses_unknown_and_doubled_parts_and_impossible_scales) {
   EXPECT_THROW(examine({{"lid", file}}), std::runtime_error);
   EXPECT_THROW(examine({{"shell", file}, {"shell", file}}), std::runtime_error);
   EXPECT_THROW(examine({{"shell", file}}, 0), std::runtime_error);
+  EXPECT_THROW(examine({{"shell", file}}, std::numeric_limits<double>::infinity()), std::runtime_error);
   EXPECT_THROW(examine({{"shell", folder.path() / "none.stl"}}), PolygonError);
 }
 
