@@ -83,8 +83,8 @@ std::string phase(const LiggghtsLog& log, const DemPlan& plan) {
 }
 
 /// Step of the oldest restart file to keep when that of `step` is written: itself, or with a flow at the same
-/// time the one before. Such a flow may fail at its very end, after the balls: then both compute the last piece
-/// again.
+/// time the one before. Such a flow may fail at its very end, after the balls: then both compute the last
+/// piece again.
 long oldest_to_keep(const CaseFolder& folder, const DemPlan& plan, long step) {
   long oldest = step;
   if (plan.fluid.kind == FluidKind::flow)
