@@ -88,7 +88,7 @@ class LiveAverages {
   CellSetup setup_;
   RecordSums sums_;
   std::vector<Series> series_;
-  long long last_ = 0;          ///< time-step of the last record
+  long long last_ = 0;  ///< time-step of the last record
 };
 
 /// What `finish_live` writes.

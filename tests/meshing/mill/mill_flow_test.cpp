@@ -144,7 +144,6 @@ TEST(Averages, have_a_whole_window_within_the_dry_run) {
     return std::vector<std::string>{"dem.duration=2", "averages.start=" + start, "averages.window=" + window};
   };
   EXPECT_EQ(mill_of(bare_mill, changes("1.5", "0.5")).averages.start, 1.5);
-  EXPECT_EQ(mill_of(bare_mill, changes("1.9", "whole")).averages.start, 1.9);
   EXPECT_NE(
       refusal_of(bare_mill, changes("1.6", "0.5"))
           .find("'averages.start' = 1.6: expected 'steady', or a DEM time in s of 0 or more and at most "
