@@ -60,7 +60,7 @@ class StirredDirect(unittest.TestCase):
 
     def test_its_report_and_numbers_are_of_balls_that_feel_it(self):
         page = (self.case / "report.html").read_text()
-        for words in ("The balls feel the slurry", "power of the impeller to the balls", "Vortex"):
+        for words in ("The balls feel the force that the flow gives", "power of the impeller to the balls", "Vortex"):
             self.assertTrue(words in page, words)
         for words in ("The slurry would not move the balls", "balls of the dry run",
                       "Walls at rest take the impeller"):
