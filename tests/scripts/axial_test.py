@@ -172,7 +172,7 @@ class Printed(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stderr(errors), \
                 mock.patch.multiple(self.script, MillFlow=lambda _: flow,
                                     axial_profile=lambda *_: AxialProfile(one, one, one, one, one)), \
-                mock.patch.object(sys, "argv", ["axial.py", folder]), self.assertRaises(SystemExit):
+                mock.patch.object(sys, "argv", ["axial.py", folder, "--begin", "0.5"]), self.assertRaises(SystemExit):
             self.script.main()
         self.assertRegex(errors.getvalue(), "one layer of cells along the axis; expected two or more$")
 

@@ -69,7 +69,7 @@ def is_of(path, kind, part, mill):
 def alone(folder):
     """Waits until no other study makes this folder, and lets others wait meanwhile."""
     folder.parent.mkdir(parents=True, exist_ok=True)
-    with open(folder.with_name(f"{folder.name}.lock"), "w", encoding="utf-8") as lock:
+    with open(folder.with_name(f".{folder.name}.lock"), "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
 

@@ -43,7 +43,8 @@ Foam::functionObjects::writeEnd::writeEnd(
 {
     requireKnownEntries(
         dict, {"type", "libs", "functionObjectLibs", "region", "enabled", "log",
-               "writeControl", "writeInterval", "errors"});
+               "writeControl", "writeInterval", "executeControl",
+               "executeInterval", "useUserTime", "errors"});
     read(dict);
 }
 

@@ -54,6 +54,12 @@ static volScalarField& checkedShare(volScalarField& alpha)
 }
 
 
+//- Cells are judged by their volume up to this ratio of it to the cube of their
+//  shortest distance. Beyond, half of what is stable by the volume would be more
+//  than what is stable by this distance
+static constexpr scalar flat_ = 4;
+
+
 //- Distance of each cell to the nearest of its neighbours, m: to their middles,
 //  and twice to a patch. GREAT without neighbours
 static scalarField shortestDistances(const fvMesh& mesh)
@@ -222,8 +228,8 @@ Foam::courantNumbers Foam::slurryFlow::bounds() const
         if (alpha_[celli] > 0.01 && alpha_[celli] < 0.99)
         {
             result.surface = max(result.surface, passed[celli]);
-            smallest =
-                min(smallest, min(mesh_.V()[celli], pow3(shortest[celli])));
+            smallest = min(
+                smallest, min(mesh_.V()[celli], flat_ * pow3(shortest[celli])));
         }
     }
     reduce(result.flow, maxOp<scalar>());
