@@ -88,4 +88,19 @@ void Foam::refuseMisspelt(const dictionary& dict, const wordList& known)
 }
 
 
+void Foam::requireAboveZero(const dictionary& dict, const wordList& names)
+{
+    for (const word& name : names)
+    {
+        scalar value;
+        if (dict.readIfPresent(name, value) && !(value > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << name << " is " << value << "; expected a number above 0"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
 // ************************************************************************* //

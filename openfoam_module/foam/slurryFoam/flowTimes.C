@@ -7,6 +7,7 @@
 #include "HashSet.H"
 #include "fileOperation.H"
 #include "IFstream.H"
+#include "knownEntries.H"
 #include "OSspecific.H"
 #include "polyMesh.H"
 #include "Pstream.H"
@@ -65,21 +66,6 @@ void refuseEarlierEnd(const Time& time)
             << "endTime is " << end << " s, but the flow has reached "
             << time.value() << " s; expected this time or a later one"
             << exit(FatalIOError);
-    }
-}
-
-//- Refuse entries of a dictionary that are not above 0
-void requireAboveZero(const dictionary& dict, const wordList& names)
-{
-    for (const word& name : names)
-    {
-        scalar value;
-        if (dict.readIfPresent(name, value) && !(value > 0))
-        {
-            FatalIOErrorInFunction(dict)
-                << name << " is " << value << "; expected a number above 0"
-                << exit(FatalIOError);
-        }
     }
 }
 

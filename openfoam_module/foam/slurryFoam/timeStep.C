@@ -22,16 +22,7 @@ static void checkBounds(const dictionary& control)
     wordList known(bounds_);
     known.append("adjustTimeStep");
     refuseMisspelt(control, known);
-    for (const word& name : bounds_)
-    {
-        scalar bound;
-        if (control.readIfPresent(name, bound) && !(bound > 0))
-        {
-            FatalIOErrorInFunction(control)
-                << name << " is " << bound << "; expected a number above 0"
-                << exit(FatalIOError);
-        }
-    }
+    requireAboveZero(control, bounds_);
 }
 
 } // End namespace Foam
