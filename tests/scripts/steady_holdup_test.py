@@ -231,17 +231,18 @@ class SteadyHoldUps(unittest.TestCase):
     def test_are_in_the_table_the_exponent_and_the_comparisons(self):
         flows = [replace(one, steady=HoldUps(one.whole, Mean(2e-3 * (one.feed / 65e-6)**0.3, 1e-5)))
                  for one in (held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3) for feed in FEEDS)]
-        high = held("high", 65e-6, 2.2e-3)
+        high = held("Beetstra_75_65_high", 65e-6, 2.2e-3)
         flows.append(replace(high, steady=HoldUps(Mean(2.2e-3, 1e-5), high.chamber)))
         text = "\n".join(study.lines_of(flows))
         self.assertIn("~ feed^0.300", text)
-        self.assertIn("coarse/high: hold-up +0.00 ", text)
+        self.assertIn("coarse/Beetstra_75_65_high: hold-up +0.00 ", text)
         self.assertEqual([row["steady, in front of the grates, l"] for row in study.rows_of(flows)][1], 2.0)
 
 
 class Names(unittest.TestCase):
     def test_say_what_is_changed(self):
-        for name, change in (("Beetstra_75_65", ""), ("fluid_75_65_layers_17", "layers_17"), ("low", "")):
+        for name, change in (("Beetstra_75_65", ""), ("fluid_75_65_layers_17", "layers_17"),
+                             ("fluid_75_65_low", ""), ("Beetstra_75_65_high", "")):
             self.assertEqual(change_of_flow(name), change)
         for name, change in (("Beetstra_75_level", ""), ("fluid_75_layers_17_less", "layers_17")):
             self.assertEqual(change_of_trial(name), change)
@@ -294,12 +295,21 @@ class OtherMills(unittest.TestCase):
 class Table(unittest.TestCase):
     def test_groups_have_their_exponent_and_starts_are_compared(self):
         flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (feed / 65e-6)**0.5) for feed in FEEDS]
-        flows += [held("high", 65e-6, 2.002e-3), held("fluid_75_65", 65e-6, 5e-3, law=None)]
+        flows += [held("Beetstra_75_65_high", 65e-6, 2.002e-3), held("fluid_75_65", 65e-6, 5e-3, law=None)]
         text = "\n".join(study.lines_of(flows))
         self.assertIn("coarse, 75 %, with balls: hold-up in front of the grates ~ feed^0.500", text)
         self.assertIn("(3 feeds)", text)
         self.assertNotIn("without balls: hold-up", text)  # a single feed
-        self.assertRegex(text, r"coarse/high: hold-up over the late turns \+0\.10 ± 0\.\d\d % from Beetstra_75_65's")
+        self.assertRegex(text, r"coarse/Beetstra_75_65_high: hold-up over the late turns \+0\.10 ± 0\.\d\d % from "
+                         "Beetstra_75_65's")
+
+    def test_a_high_start_is_compared_with_a_low_one(self):
+        flows = [held("fluid_75_65_low", 65e-6, 4e-3, law=None), held("fluid_75_65_high", 65e-6, 4.04e-3, law=None)]
+        lines = list(study.comparisons(flows))
+        self.assertEqual(lines[0], "coarse/fluid_75_65_low: no flow to compare it with is complete")
+        self.assertTrue(lines[1].startswith("coarse/fluid_75_65_high: hold-up over the late turns +1.00 ± 0.35 % from "
+                                            "fluid_75_65_low's"), lines)
+        self.assertEqual(len(lines), 2)
 
     def test_an_exponent_names_few_degrees_of_freedom_and_flows_that_were_not_steady(self):
         flows = [held(f"Beetstra_75_{1e6 * feed:.0f}", feed, 2e-3 * (1 + 0.2 * (feed == 65e-6))) for feed in FEEDS]
@@ -329,7 +339,7 @@ class Table(unittest.TestCase):
 
     def test_a_flow_without_its_base_says_so(self):
         text = "\n".join(study.lines_of([held("fluid_75_65_wide_lifters", 65e-6, 4e-3, law=None)]))
-        self.assertIn("coarse/fluid_75_65_wide_lifters: the flow to compare it with is not complete", text)
+        self.assertIn("coarse/fluid_75_65_wide_lifters: no flow to compare it with is complete", text)
 
     def test_flows_that_have_not_ended_are_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

@@ -16,7 +16,7 @@ from millfoam.readings.residence import Residence, read_tracer, residence
 from millstudies.own_mill import require_own_mill
 
 MESHES = ("coarse", "own")
-STARTS = ("low", "high")
+STARTS = ("low", "high")  # ends of names of flows with less or more slurry at the start
 Found = TypeVar("Found")
 
 
@@ -39,8 +39,10 @@ def kind_of(case: MillCase, change: str) -> Kind:
 
 
 def change_of_flow(name: str) -> str:
-    """Change of the mill of a flow BALLS_SPEED_FEED_CHANGE; nothing in other names."""
-    return "_".join(name.split("_")[3:])
+    """Change of the mill of a flow BALLS_SPEED_FEED_CHANGE; nothing in other names, among them those of flows from
+    other STARTS."""
+    change = "_".join(name.split("_")[3:])
+    return "" if change in STARTS else change
 
 
 def change_of_trial(name: str) -> str:
@@ -87,7 +89,7 @@ class Held:
     @property
     def is_base(self) -> bool:
         """Whether its mill is not changed and it has no other start."""
-        return self.name not in STARTS and not self.kind.change
+        return not self.name.endswith(STARTS) and not self.kind.change
 
     @property
     def ended_steady(self) -> bool:

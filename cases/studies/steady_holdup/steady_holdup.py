@@ -149,24 +149,31 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
                f"the tail; {100 * found.left:.0f} % had not left")
 
 
+def difference_line(one: Held, base: Held) -> str:
+    """By how much the hold-up of a flow differs from another one's, as for comparisons."""
+    both_steady = one.steady and base.steady
+    found_of_both = (flow.holdups if both_steady else flow.measured for flow in (one, base))
+    ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
+    words = ("" if both_steady else "over the late turns ") + ("in front of the grates " if one.kind.change else "")
+    apart, share = ours - theirs, 100 / theirs.value
+    return (f"{one.mesh}/{one.name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from "
+            f"{base.name}'s, after {one.end:.1f} s")
+
+
 def comparisons(found: Sequence[Held]) -> Iterator[str]:
     """What flows from other starts and of changed mills hold, compared with the flow that they belong to: by their
     steady hold-ups if both have them, otherwise by those over their late turns. A changed mill may have no pulp
-    lifters, so it is compared by what it holds in front of the grates."""
+    lifters, so it is compared by what it holds in front of the grates. Flows from a low and a high start are compared
+    with each other, too."""
     for one in (one for one in found if not one.is_base):
-        name = f"{one.mesh}/{one.name}"
-        base = next((flow for flow in found if flow.is_base and flow.mesh == one.mesh
-                     and flow.kind == replace(one.kind, change="") and np.isclose(flow.feed, one.feed)), None)
-        if base is None:
-            yield f"{name}: the flow to compare it with is not complete"
-            continue
-        steady = one.steady and base.steady
-        found_of_both = (flow.holdups if steady else flow.measured for flow in (one, base))
-        ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
-        words = ("" if steady else "over the late turns ") + ("in front of the grates " if one.kind.change else "")
-        apart, share = ours - theirs, 100 / theirs.value
-        yield (f"{name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from {base.name}'s, "
-               f"after {one.end:.1f} s")
+        alike = [flow for flow in found if flow.mesh == one.mesh and flow.kind == replace(one.kind, change="")
+                 and np.isclose(flow.feed, one.feed)]
+        bases = [flow for flow in alike if flow.is_base]
+        if one.name.endswith("high"):
+            bases += [flow for flow in alike if flow.name.endswith("low")]
+        if not bases:
+            yield f"{one.mesh}/{one.name}: no flow to compare it with is complete"
+        yield from (difference_line(one, base) for base in bases)
 
 
 def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial]) -> None:
