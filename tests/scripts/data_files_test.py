@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.files.data_files import DataError, number, read_csv, read_json
+from millfoam.files.data_files import DataError, number, read_csv, read_json, write_csv
 from millfoam.files.flow_record import read_flow_record
 from millfoam.files.mill import fnv1a, read_mill
 from millfoam.readings.axial import discharge, slurry_volumes
@@ -61,6 +61,24 @@ class Csv(Folder):
             self.file.write_text(text)
             with self.assertRaisesRegex(DataError, words):
                 read_csv(self.file)
+
+    def test_written_rows_are_read_again(self):
+        write_csv(self.file, [{"a": 1 / 3, "b_m": 2}, {"a": np.nan, "b_m": 3}])
+        columns = read_csv(self.file)
+        self.assertEqual(list(columns), ["a", "b_m"])
+        np.testing.assert_array_equal(columns["a"], [1 / 3, np.nan])
+        np.testing.assert_array_equal(columns["b_m"], [2, 3])
+        self.assertEqual([one.name for one in self.folder.iterdir()], ["file"])
+
+    def test_a_row_without_a_column_has_an_empty_place(self):
+        write_csv(self.file, [{"a": 1 / 3, "b": "x, y"}, {"c": None, "a": np.float64(2e6)}], digits=3)
+        self.assertEqual(self.file.read_text(), 'a,b,c\n0.333,"x, y",\n2e+06,,\n')
+
+    def test_a_table_that_cannot_be_written_keeps_the_older_one(self):
+        self.file.write_text("a\n1\n")
+        with self.assertRaises(UnicodeEncodeError):
+            write_csv(self.file, [{"a": 1}, {"a": "\ud800"}])
+        self.assertEqual(self.file.read_text(), "a\n1\n")
 
 
 class Mill(Folder):

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import h5py
 import numpy as np
 
-from millfoam.files.data_files import read_csv
+from millfoam.files.data_files import read_csv, write_csv
 from millfoam.files.mill import Mill
 from millfoam.readings import power_models
 from millfoam.readings.means import Mean
@@ -75,7 +75,7 @@ class Table(unittest.TestCase):
     def test_columns_have_units_and_are_read_by_the_projects_reader(self):
         rows = self.rows()
         path = Path(self.enterContext(tempfile.TemporaryDirectory())) / "power_filling.csv"
-        study.write_csv(rows, path)
+        write_csv(path, rows)
         head = path.read_text().splitlines()[0].split(",")
         for name in ("drive_power_W", "drive_power_error_W", "toe_deg", "slurry_x_error_m", "slurry_in_pool"):
             self.assertIn(name, head)

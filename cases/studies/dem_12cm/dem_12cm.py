@@ -17,6 +17,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from millfoam.files.data_files import write_csv
 from millfoam.files.solids_file import read_windows
 from millfoam.plots.charge_plots import draw_charge
 from millfoam.readings.charge import Charge, charge_with_errors, read_charge
@@ -142,13 +143,6 @@ def row(result):
         dry.number("wall_time_s"))))
 
 
-def write_csv(path, columns, rows):
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns)
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def value_text(value, error, digits):
     return f"{value:.{digits}f} ± {error:.{digits}f}"
 
@@ -246,13 +240,13 @@ def report(results, options):
     """Tables, picture and reports of complete runs."""
     name = "dem_12cm_quick" if options.quick else "dem_12cm"
     rows = [row(result) for result in results]
-    write_csv(HERE / f"{name}.csv", COLUMNS, rows)
+    write_csv(HERE / f"{name}.csv", rows)
     print_table(rows)
     print(warning(results))
     plot(results, rows, HERE / f"{name}.png")
     if options.readings:
         lines = [line for result in results for line in readings(result)]
-        write_csv(HERE / f"{name}_readings.csv", tuple(lines[0]), lines)
+        write_csv(HERE / f"{name}_readings.csv", lines)
         print_readings(lines)
     for result in results:
         # A run of dem_matrix has its report here

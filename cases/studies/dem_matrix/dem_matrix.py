@@ -6,13 +6,13 @@ Every run has a folder runs/NAME with its mill.json, walls, dumps/results.json, 
 averages on 65 x 65 voxels over the mill's length, without the first second, in windows of 0.1 s). Complete runs are
 kept, interrupted ones are resumed. Dumps are removed after they are averaged."""
 import argparse
-import csv
 import sys
 from pathlib import Path
 
 import matplotlib
 import matplotlib.pyplot as plt
 
+from millfoam.files.data_files import write_csv
 from millstudies.dry_run_options import add_options, chosen
 from millstudies.dry_runs import is_whole, make_dry_run
 from millstudies.published_mills import matrix, mill, run_name
@@ -48,10 +48,7 @@ def row(setting, dry):
 
 
 def write_table(rows):
-    with open(HERE / "dem_matrix.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(HERE / "dem_matrix.csv", rows)
     print(f"{'run':<32}{'balls':>7}{'power W':>18}{'steady from s':>15}{'centroid mm':>17}{'wall time s':>13}")
     for r in rows:
         power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"

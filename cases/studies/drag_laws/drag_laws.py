@@ -14,6 +14,8 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.files.data_files import write_csv
+
 matplotlib.use("Agg")
 
 SOLIDITIES = (0.0, 0.15, 0.3, 0.5, 0.6)
@@ -72,13 +74,6 @@ def inside(limits, solidity, reynolds):
 def marked(rows, limits):
     """The rows with `in_range` added."""
     return [{**row, "in_range": inside(limits[row["law"]], row["phi"], row["Re"])} for row in rows]
-
-
-def write(rows, out):
-    with open(out, "w", newline="") as file:
-        table = csv.DictWriter(file, rows[0].keys())
-        table.writeheader()
-        table.writerows(rows)
 
 
 def sign_changes(reynolds):
@@ -163,7 +158,7 @@ def finish(figure, out, title):
 
 def study_reynolds(limits, found, folder):
     rows = marked(mill_drag(phi=SOLIDITIES, re=REYNOLDS_AXIS), limits)
-    write(rows, folder / "factor_reynolds.csv")
+    write_csv(folder / "factor_reynolds.csv", rows)
     panels = [(f"φ = {phi:g}", [row for row in rows if row["phi"] == phi], found if phi == CROSSING_SOLIDITY else None)
               for phi in SOLIDITIES]
     draw_panels(panels, "Re", folder / "factor_reynolds.png",
@@ -172,7 +167,7 @@ def study_reynolds(limits, found, folder):
 
 def study_solidity(limits, folder):
     rows = marked(mill_drag(phi=SOLIDITY_AXIS, re=REYNOLDS), limits)
-    write(rows, folder / "factor_solidity.csv")
+    write_csv(folder / "factor_solidity.csv", rows)
     panels = [(f"Re = {re:g}", [row for row in rows if row["Re"] == re], None) for re in REYNOLDS]
     draw_panels(panels, "phi", folder / "factor_solidity.png",
                 "Force on a ball of a bed over Stokes's, F, against solidity")
@@ -182,7 +177,7 @@ def study_gradient(limits, folder):
     """Pressure gradient in fixed beds of three fluids."""
     rows = [{"fluid": fluid, **row} for fluid, options in FLUIDS.items()
             for row in marked(mill_drag(phi=BED_SOLIDITIES, superficial=VELOCITY_AXIS, d=DIAMETER, **options), limits)]
-    write(rows, folder / "pressure_gradient.csv")
+    write_csv(folder / "pressure_gradient.csv", rows)
     figure, axes = plt.subplots(len(BED_SOLIDITIES), len(FLUIDS), figsize=(16, 11), sharex=True, sharey=True,
                                 constrained_layout=True)
     for line, phi in zip(axes, BED_SOLIDITIES):

@@ -4,7 +4,6 @@
 statements.csv, costs.csv, mill_30cm_published.txt with all of them, profiles.png, axial_flow.png, holdup.png, and
 comparison.html, one page of all runs. Runs that are not complete, or cannot be read, are listed."""
 import argparse
-import csv
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -13,7 +12,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 
-from millfoam.files.data_files import read_json
+from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.charge import charge_with_errors
 from millfoam.readings.means import Mean
@@ -114,13 +113,6 @@ def cost_row(run: Run, root: Path) -> Row:
     return row
 
 
-def write_csv(rows: Sequence[Row], path: Path) -> None:
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def cell(row: Row, key: str) -> str:
     """A row's entry in the printed table, with its error."""
     value = row.get(key)
@@ -175,7 +167,7 @@ def write_all(root: Path, dry: dict[str, MillCase], flows: dict[str, Flow], miss
     for name, table in (("charges", charges), ("flows", rows), ("costs", costs),
                         ("statements", [asdict(one) for one in found])):
         if table:
-            write_csv(table, root / f"{name}.csv")
+            write_csv(root / f"{name}.csv", table)
     drawings.draw_all(root, flows)
     cases = {**dry, **{name: flow.case for name, flow in flows.items()}}
     names = sorted(cases, key=lambda name: (RUNS[name].speed != REFERENCE.speed, name != REFERENCE.name))

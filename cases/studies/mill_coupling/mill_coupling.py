@@ -3,14 +3,13 @@
 """Compares one-way, buoyant, iterated and direct coupling of mills: a table on the screen,
 mill_coupling.txt, mill_coupling.csv and mill_coupling.png."""
 import argparse
-import csv
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 
 from millfoam.coupling.passes import QUANTITIES, Pass, change, read_pass
-from millfoam.files.data_files import read_json
+from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.plots.mill_plots import draw_outline
 from millfoam.readings.means import Mean
@@ -96,10 +95,7 @@ def main():
     parser.add_argument("mills", nargs="+", metavar="MILL")
     mills = {mill: passes_of(mill) for mill in parser.parse_args().mills}
     rows = [row for mill, ways in mills.items() for row in rows_of(mill, ways)]
-    with open(HERE / "mill_coupling.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(HERE / "mill_coupling.csv", rows)
     text = "\n".join(lines_of(rows))
     (HERE / "mill_coupling.txt").write_text(text + "\n")
     print(text)

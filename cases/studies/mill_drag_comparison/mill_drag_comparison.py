@@ -16,11 +16,12 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.files.data_files import write_csv
 from millfoam.files.written_times import MillFlow
 from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
 from millstudies.mill_runs import FINE, MILL, Setting, make_runs
-from millstudies.steady_flows import NUMBERS, read_all, title_of, write_csv
+from millstudies.steady_flows import NUMBERS, read_all, title_of
 
 matplotlib.use("Agg")
 
@@ -92,13 +93,13 @@ def write_tables(readings, failures, title):
     rows = [row_of(name, one) for name, one in readings.items()]
     lines = [title, *run_lines(rows)]
     lines += [f"NOT STEADY: {name}: {one.drift}" for name, one in readings.items() if one.drift]
-    write_csv(HERE / "mill_drag_comparison.csv", rows)
+    write_csv(HERE / "mill_drag_comparison.csv", rows, digits=6)
     if REFERENCE in readings:
         apart = [row_of_differences(name, one, readings[REFERENCE])
                  for name, one in readings.items() if name != REFERENCE]
         lines += ["", *difference_lines(apart)]
         if apart:
-            write_csv(HERE / "mill_drag_differences.csv", apart)
+            write_csv(HERE / "mill_drag_differences.csv", apart, digits=6)
     lines += [f"FAILED: {failure}" for failure in failures]
     print("\n".join(lines))
     (HERE / "mill_drag_comparison.txt").write_text("\n".join(lines) + "\n")

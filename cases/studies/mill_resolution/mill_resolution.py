@@ -15,9 +15,10 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.files.data_files import write_csv
 from millstudies.convergence import judge
 from millstudies.mill_runs import MILL, SLICES, Setting, make_runs, time_step_limits
-from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of, write_csv
+from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of
 
 matplotlib.use("Agg")
 
@@ -245,8 +246,8 @@ def write_tables(families, variants, readings, layers, found, failures, title):
               *cited_lines(cited), *(f"FAILED: {failure}" for failure in failures)]
     print("\n".join(lines))
     (HERE / "mill_resolution.txt").write_text("\n".join(lines) + "\n")
-    write_csv(HERE / "mill_resolution.csv", list(csv_rows([*families, *variants], readings)))
-    write_csv(HERE / "mill_resolution_to_cite.csv", cited)
+    write_csv(HERE / "mill_resolution.csv", list(csv_rows([*families, *variants], readings)), digits=6)
+    write_csv(HERE / "mill_resolution_to_cite.csv", cited, digits=6)
 
 
 def plot(families, variants, readings, found, title):

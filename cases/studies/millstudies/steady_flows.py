@@ -3,7 +3,6 @@
 
 Each whole turn of the averaged time is one batch: a mean is that of the turns, its error the turns' standard deviation
 over the root of their number. Angles: see shell_angles."""
-import csv
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -236,16 +235,6 @@ def read_layers(folder):
     spread, (by_chance, limit) = spread_of(by_turn), chance_of(by_turn)
     momentary = values[times >= begin].std(axis=1, ddof=1).mean()
     return Layers(by_turn.mean(axis=0), spread, by_chance, float(momentary), spread.value > limit)
-
-
-def write_csv(path, rows):
-    """Writes rows, a list of dicts column -> value that all have the first one's columns, as csv; floats with six
-    digits."""
-    with open(path, "w", newline="") as file:
-        table = csv.DictWriter(file, rows[0])
-        table.writeheader()
-        table.writerows({key: f"{value:.6g}" if isinstance(value, float) else value for key, value in row.items()}
-                        for row in rows)
 
 
 def title_of(folder):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of dry runs of stirred mills: a line for each run in a CSV, and a column for each run in a text."""
-import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -8,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from millfoam.files.data_files import write_csv
 from millfoam.readings.means import Mean
 from millstudies.compared_runs import NOT_TESTED, Verdict
 from millstudies.stirred_runs import Numbers
@@ -34,14 +34,6 @@ def drive_columns(one: Numbers) -> Row:
     return row | pair("at rest over impeller", "1", one.at_rest)
 
 
-def write_csv(rows: Sequence[Row], path: Path) -> None:
-    """Writes rows of the same columns."""
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def cell(row: Row, key: str) -> str:
     """A row's entry in the printed table, with its error; a dash for a number that is not known."""
     value, error = row[key], row.get(f"{key} ±")
@@ -64,8 +56,8 @@ def lines_of(rows: Sequence[Row]) -> Iterator[str]:
 def write_study(root: Path, name: str, rows: Sequence[Row], judged: Sequence[Verdict], missing: Sequence[str]) -> str:
     """Writes runs.csv, statements.csv and NAME.txt, with both and the runs that are missing, into a folder. Returns
     this text."""
-    write_csv(rows, root / "runs.csv")
-    write_csv([asdict(one) for one in judged], root / "statements.csv")
+    write_csv(root / "runs.csv", rows)
+    write_csv(root / "statements.csv", [asdict(one) for one in judged])
     known = [one for one in judged if one.verdict != NOT_TESTED]
     lines = [*lines_of(rows), *(f"{one.verdict:<13} {one.statement}; {one.runs}: {one.figure}" for one in known), "",
              f"not tested, because a run is not finished: {len(judged) - len(known)} statements",

@@ -5,7 +5,6 @@ folder of the runs, power_filling.txt, power_filling.csv, power_filling.png (pow
 power_filling_relative.png (direct: the drive's power over that of the dry mill) and power_filling_maps.png (charge and
 slurry). Runs that are not complete are listed."""
 import argparse
-import csv
 import itertools
 import re
 from collections.abc import Callable
@@ -17,7 +16,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from millfoam.coupling.passes import Pass, read_pass
-from millfoam.files.data_files import read_json
+from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill import Mill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import SlurryMap
@@ -162,14 +161,6 @@ def rows_of(study: Study):
                      "not_steady": run.unsteady}
 
 
-def write_csv(rows, path):
-    """Writes the rows; a run without a reading has an empty place."""
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)))
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def lines_of(rows):
     """The table as text, a block for each mill."""
     for mill in dict.fromkeys(row["mill"] for row in rows):
@@ -289,7 +280,7 @@ def main():
     if not studies:
         parser.exit(1, "\n".join(failures) + "\n")
     rows = [row for study in studies for row in rows_of(study)]
-    write_csv(rows, options.runs / "power_filling.csv")
+    write_csv(options.runs / "power_filling.csv", rows)
     lines = [*lines_of(rows), *(f"not complete: {study.name}/{text}" for study in studies for text in study.missing),
              *failures]
     (options.runs / "power_filling.txt").write_text("\n".join(lines) + "\n")

@@ -4,7 +4,6 @@
 power, overlap and cost. The same mill with another seed shows the difference of two equal mills. Complete runs are
 kept."""
 import argparse
-import csv
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.files.data_files import write_csv
 from millfoam.readings.compare import difference
 from millstudies.dry_runs import make_dry_run
 from millstudies.mill_runs import MILL, resolved
@@ -70,10 +70,7 @@ def chance_rows(runs, chosen):
 
 
 def write_table(rows, chance, path):
-    with open(path.with_suffix(".csv"), "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows([*rows, *chance])
+    write_csv(path.with_suffix(".csv"), [*rows, *chance])
     lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}"
              f"{'vel. y':>8}{'centroid mm':>17}"]
     for r in rows:

@@ -4,7 +4,6 @@
 steady_holdup.txt, steady_holdup.csv and steady_holdup.png, with fitted exponents and with the models of Moys and of
 Morrell & Stephenson. Runs that are not complete are listed."""
 import argparse
-import csv
 import itertools
 import sys
 from collections.abc import Iterator, Sequence
@@ -15,6 +14,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.files.data_files import write_csv
 from millfoam.files.mill import Mill
 from millfoam.readings import models
 from millfoam.readings.means import Mean
@@ -280,10 +280,7 @@ def main() -> None:
     if not found:
         parser.exit(1, "\n".join([f"{options.folder}: no flow is complete", *missing]) + "\n")
     rows = list(rows_of(found))
-    with open(options.folder / "steady_holdup.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
-        writer.writeheader()
-        writer.writerows(rows)
+    write_csv(options.folder / "steady_holdup.csv", rows)
     lines = [*lines_of(found), "", *trial_lines(trials), *scatter_lines(found, trials), *stay_lines(stays),
              *(f"not finished: {text}" for text in missing)]
     (options.folder / "steady_holdup.txt").write_text("\n".join(lines) + "\n")

@@ -3,13 +3,12 @@
 """Compares the thesis' statements about slurry with runs of the 30 cm mill and of the 12 cm mill's slice: a table on
 the screen, statements.csv and statements.md."""
 import argparse
-import csv
 import sys
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 
+from millfoam.files.data_files import write_csv
 from millfoam.files.mill_case import MillCase
-from millstudies.compared_runs import Verdict
 from millstudies.mill_runs import summary_of_whole
 from millstudies.own_mill import require_own_mill
 from millstudies.statements import read, verdicts
@@ -86,11 +85,7 @@ def read_cases(folders):
 
 
 def write(found, messages, folder):
-    columns = [field.name for field in fields(Verdict)]
-    with open(folder / "statements.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, columns)
-        writer.writeheader()
-        writer.writerows(map(asdict, found))
+    write_csv(folder / "statements.csv", [asdict(one) for one in found])
     lines = ["| statement | runs | verdict | number |", "|---|---|---|---|"]
     lines += [f"| {one.statement} | {one.runs} | {one.verdict} | {one.figure} |" for one in found]
     (folder / "statements.md").write_text("\n".join(lines + [""] + [f"- {text}" for text in messages]) + "\n")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spurious speeds of a pool that should be at rest, read from a run's written times and kept in its folder."""
-import csv
 import math
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np
 
 from millfoam.files import foam
+from millfoam.files.data_files import read_csv, write_csv
 
 
 BED = 0.05  # solidity from which on slurry is between balls
@@ -105,15 +105,11 @@ def measure(case):
 
 
 def write_history(history, case):
-    with open(case / "history.csv", "w", newline="") as out:
-        writer = csv.writer(out)
-        writer.writerow(field.name for field in fields(History))
-        writer.writerows(zip(*(map(repr, map(float, column)) for column in astuple(history))))
+    names = [field.name for field in fields(History)]
+    write_csv(case / "history.csv", [dict(zip(names, map(float, row))) for row in zip(*astuple(history))])
 
 
 def read_history(case):
     """History that write_history wrote, or None if another version wrote it."""
-    with open(case / "history.csv", newline="") as lines:
-        rows = list(csv.reader(lines))
-    known = rows[0] == [field.name for field in fields(History)]
-    return History(*np.array(rows[1:], dtype=float).T) if known else None
+    columns = read_csv(case / "history.csv")
+    return History(**columns) if list(columns) == [field.name for field in fields(History)] else None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table of the pools at rest, and slurryFoam's limits."""
-import csv
 import math
 from dataclasses import dataclass
 
+from millfoam.files.data_files import write_csv
 from millfoam.run import limit_table, write_table
 
 AT = (0.25, 0.5, 0.75, 1.0)  # shares of the run at which the table shows it
@@ -124,9 +124,5 @@ def report(histories, end, out):
     number of values beyond their limit."""
     judged, missed = judge(histories, end)
     write_table([*table(histories, end), "", *judged], out / "pool.txt")
-    lines = [figures(run, history, end) for run, history in histories.items()]
-    with open(out / "pool.csv", "w", newline="") as stream:
-        writer = csv.DictWriter(stream, lines[0])
-        writer.writeheader()
-        writer.writerows(lines)
+    write_csv(out / "pool.csv", [figures(run, history, end) for run, history in histories.items()])
     return missed

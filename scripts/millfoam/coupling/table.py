@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Table, file of results and picture of the passes of a coupled mill."""
-import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
+from ..files import data_files
 from ..files.mill import Mill
 from ..readings.means import Mean
 from .passes import LIMIT, NOISE, QUANTITIES, Change, Exchanged, Pass
@@ -25,17 +25,17 @@ def known(value: float | None) -> float | None:
 
 def write_csv(path: Path, passes: Sequence[Pass], changes: Sequence[Change]) -> None:
     """A row per pass: coupling.csv (FORMATS.md)."""
-    names = [name for column in COLUMNS.values() for name in (column, error_column(column))]
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["pass", *names, "solidity_change", "solidity_change_over_limit", "force_over_weight",
-                         "force_disagreement"])
-        for index, one in enumerate(passes):
-            step = changes[index - 1] if index else None
-            numbers = [number for key in COLUMNS for number in (one.quantities[key].value, one.quantities[key].error)]
-            writer.writerow([one.number, *(f"{number:.8g}" for number in (
-                *numbers, step.solidity if step else np.nan, step.solidity_over_limit if step else np.nan, one.load,
-                np.nan if one.disagreement is None else one.disagreement))])
+    rows = []
+    for index, one in enumerate(passes):
+        row: dict[str, float] = {"pass": one.number}
+        for key, column in COLUMNS.items():
+            row |= {column: one.quantities[key].value, error_column(column): one.quantities[key].error}
+        step = changes[index - 1] if index else None
+        rows.append(row | {"solidity_change": step.solidity if step else np.nan,
+                           "solidity_change_over_limit": step.solidity_over_limit if step else np.nan,
+                           "force_over_weight": one.load,
+                           "force_disagreement": np.nan if one.disagreement is None else one.disagreement})
+    data_files.write_csv(path, rows, digits=8)
 
 
 def error_column(column: str) -> str:

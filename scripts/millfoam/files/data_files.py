@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The stages' files of numbers: JSON with a format's name, and CSV with a unit in each column's name."""
+import csv
 import json
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +43,20 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
     """Writes a JSON file, under another name until it is whole."""
     part = path.with_name(path.name + ".part")
     part.write_text(json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+    part.replace(path)
+
+
+def write_csv(path: Path, rows: Sequence[Mapping[str, object]], digits: int | None = None) -> None:
+    """Writes rows, column -> text or number, as a CSV file, under another name until it is whole. It has the columns of
+    all rows, in the order in which they first appear; None, or a column that a row does not have, is an empty place.
+    digits: significant digits of floats, by default all of them."""
+    def text(value: object) -> object:
+        return f"{value:.{digits}g}" if digits and isinstance(value, float) else value
+    part = path.with_name(path.name + ".part")
+    with open(part, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: text(value) for name, value in row.items()} for row in rows)
     part.replace(path)
 
 
