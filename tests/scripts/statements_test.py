@@ -369,17 +369,17 @@ class Reading(unittest.TestCase):
         slope = np.tan(np.radians(25))
         for sign in (1, -1):
             level = slurry_map(lambda x, y, sign=sign: np.where(y < -sign * slope * x - 0.02, 1.0, 0.0))
-            tilt, deviation, _ = surface_line(level, RADIUS, RADIUS - WALL)
+            tilt, deviation, _ = surface_line(level, RADIUS - WALL)
             self.assertAlmostEqual(tilt, sign * 25, delta=0.5)
             self.assertLess(deviation, 0.001)
 
     def test_a_wavy_surface_deviates(self):
         wavy = slurry_map(lambda x, y: np.where(y < 0.01 * np.sin(100 * x), 1.0, 0.0))
-        self.assertAlmostEqual(surface_line(wavy, RADIUS, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
+        self.assertAlmostEqual(surface_line(wavy, RADIUS - WALL)[1], 0.01 / np.sqrt(2), delta=0.001)
 
     def test_without_slurry_there_is_no_surface(self):
         with self.assertRaisesRegex(RuntimeError, "no free surface of the slurry"):
-            surface_line(slurry_map(lambda x, y: 0 * x), RADIUS, RADIUS - WALL)
+            surface_line(slurry_map(lambda x, y: 0 * x), RADIUS - WALL)
 
     def test_errors_are_those_of_block_means(self):
         value, error = series_mean(np.repeat([1.0, 2.0, 3.0, 4.0, 5.0], 4))

@@ -23,10 +23,10 @@ from millfoam.readings.slurry_over_time import RING, ring_depth
 matplotlib.use("Agg")
 
 
-def fit_profile(profile, counts=(2, 3)):
-    """Humps of an AxialProfile by their number, or the text of why there are none."""
+def fit_profile(profile):
+    """Humps of an AxialProfile by their number, two or three, or the text of why there are none."""
     fits = {}
-    for count in counts:
+    for count in (2, 3):
         try:
             fits[count] = fit_gaussians(profile.z, profile.height, count)
         except RuntimeError as error:

@@ -53,7 +53,7 @@ class RunReadings:
     failures: list = field(default_factory=list)
 
 
-def surface_line(slurry, radius, inner):
+def surface_line(slurry, inner):
     """Tilt (degrees, the left side up positive), RMSD (m) and range of x (m) of the straight line through the free
     surface of a slurry_on_maps.SlurryMap, read within `inner` (m) of the axis, without the slurry that lifters carry.
     RuntimeError if there is none.
@@ -90,7 +90,7 @@ def read_maps(case, found):
     """Surface and way along the axis, into RunReadings."""
     inner = case.radius - ring_depth(case.lifter_height)
     maps = list(slurry_blocks(case))
-    lines = [surface_line(one, case.radius, inner) for one in maps]
+    lines = [surface_line(one, inner) for one in maps]
     tilt, deviation = (block_mean([line[k] for line in lines]) for k in (0, 1))
     span = max(line[2][0] for line in lines), min(line[2][1] for line in lines)
     found.surface = Surface(tilt, deviation, charge_tilt(case.charge, case.radius, span) if found.law else None)

@@ -53,9 +53,9 @@ class MillFlow:
         """A field of a written time as [cells] or [cells, components]."""
         return foam.read_field(path / name, self.mesh.cells)
 
-    def over_axis(self, values: np.ndarray, weights: np.ndarray | float = 1.0) -> np.ndarray:
-        """Mean over each column of `values` [cells], weighted by volume and `weights`; NaN where these are zero."""
-        weight = self.volumes * self.chamber * weights
+    def over_axis(self, values: np.ndarray) -> np.ndarray:
+        """Mean over each column of `values` [cells], weighted by volume; NaN where none of it is in the chamber."""
+        weight = self.volumes * self.chamber
         total = np.bincount(self.column, weight)
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(total > 1e-9 * self.column_volume, np.bincount(self.column, weight * values) / total,

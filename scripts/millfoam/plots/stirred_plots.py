@@ -98,7 +98,7 @@ def _values(mean: Means, quantity: str) -> np.ndarray:
     return np.where(mean.solidity > CLEAR, values, np.nan)
 
 
-def _colours(values: np.ndarray, quantity: str, largest: float | None) -> dict[str, object]:
+def _colours(values: np.ndarray, quantity: str, largest: float | None = None) -> dict[str, object]:
     """Colour map and limits: of signed velocities the same on both sides of 0."""
     known = values[np.isfinite(values)]
     if largest is None:
@@ -160,8 +160,7 @@ def meridian_figure(mill: Mill, rings: Rings,
     return figure
 
 
-def draw_slice(axis: Axes, mill: Mill, rings: Rings, pins: dict, quantity: str,
-               largest: float | None = None) -> QuadMesh:
+def draw_slice(axis: Axes, mill: Mill, rings: Rings, pins: dict, quantity: str) -> QuadMesh:
     """A slice around the axis, PIN_SLICE thicknesses high, at the height of a level of pins, seen from above, with x to
     the right and y up at the grid's DEM time 0; x and y over R. Returns its image. Arrows are the velocity in the
     plane."""
@@ -170,7 +169,7 @@ def draw_slice(axis: Axes, mill: Mill, rings: Rings, pins: dict, quantity: str,
     values = _values(mean, quantity)
     r, theta = np.meshgrid(rings.r / mill.radius, rings.theta)
     axis.set_facecolor(EMPTY)
-    image = axis.pcolormesh(r * np.cos(theta), r * np.sin(theta), values, **_colours(values, quantity, largest))
+    image = axis.pcolormesh(r * np.cos(theta), r * np.sin(theta), values, **_colours(values, quantity))
     _slice_arrows(axis, mill, rings, mean)
     if rings.angular_velocity != 0:
         for arm in range(int(pins["arms"])):
