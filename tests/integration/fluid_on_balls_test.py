@@ -86,6 +86,17 @@ class FluidOnBalls(SlurryTest):
         self.assertEqual(np.abs(found.solidity[:, 3:]).max(), 0)
         np.testing.assert_allclose(found.diameter, DIAMETER, rtol=1e-12)
 
+    def test_slurry_carries_balls_that_its_surface_cuts_by_its_share(self):
+        for share in (0.2, 0.51, 0.75, 0.99):
+            with self.subTest(share):
+                case = self.pool(lambda x: 0.04 + 0.01 * share + 0 * x, window=0.002, end_time=0.006)
+                case.bed(EVERYWHERE, "law Darcy; multiplier 0;")
+                found = self.forces(case)
+                density = share * SLURRY + (1 - share) * AIR
+                np.testing.assert_allclose(found.fluid_density[:, 4], density, rtol=1e-9)
+                np.testing.assert_allclose(found.pressure_force[:, 4],
+                                           np.broadcast_to(-density * GRAVITY, (2, 14, 3)), atol=1e-6 * SLURRY)
+
     def test_the_bed_takes_what_the_pressure_drops(self):
         """Balls drawn through a fluid at rest: F = beta/e u_s on each volume of them and of fluid, and buoyancy."""
         for entries, factor in (("", 1.0), ("polydispersity yes;", 1 + 0.064 * (1 - SOLIDITY))):

@@ -94,6 +94,17 @@ class HalfWritten(Stages):
             self.write(f"{time}/U", "U" + (END if time != "0.2" else ""))
         self.assertEqual(self.dropped(), (0, "time 0.2 is not complete and is computed again\n", ["0", "0.1"]))
 
+    def test_a_first_time_without_the_state_of_the_functions_is_computed_again(self):
+        """There is no time before it that shows which files it should have; the state is written last."""
+        self.write("system/controlDict", "functions\n{\n}\n")
+        state = "uniform/functionObjects/functionObjectProperties"
+        for time in ("0", "0.1"):
+            self.write(f"{time}/U", "U" + END)
+        self.assertEqual(self.dropped(), (0, "time 0.1 is not complete and is computed again\n", ["0", "system"]))
+        for name in ("U", state):
+            self.write(f"0.1/{name}", "U" + END)
+        self.assertEqual(self.dropped(), (0, "", ["0", "0.1", "system"]))
+
     def test_files_of_another_form_do_not_cost_the_whole_flow(self):
         for time in ("0", "0.1", "0.2", "0.3", "0.4"):
             self.write(f"{time}/U", "U without an end")
@@ -127,6 +138,17 @@ class HalfWrittenByRanks(Stages):
         self.write_time(0, "0.15")
         self.write_time(1, "0.15", end="")
         self.assertEqual(self.left(), [["0", "0.05", "0.1"]] * 2)
+
+    def test_a_first_time_without_the_state_of_a_rank_s_functions_goes(self):
+        with open(self.folder / "system" / "controlDict", "a") as file:
+            file.write("functions\n{\n}\n")
+        names = ("U", "uniform/functionObjects/functionObjectProperties")
+        for second, left in ((names[:1], ["0"]), (names, ["0", "0.05"])):
+            self.write_time(0, "0.05", names=names)
+            self.write_time(1, "0.05", names=second)
+            for rank in (0, 1):
+                self.write_time(rank, "0")
+            self.assertEqual(self.left(), [left] * 2)
 
     def test_a_time_without_all_fields_goes(self):
         for rank in (0, 1):

@@ -171,9 +171,9 @@ Foam::slurryFlow::slurryFlow(
       continued<volVectorField>("forceAcceleration", mesh, dimAcceleration)),
   turning_(U_, g_.value()),
   carryingForce_(),
-  projectedInertia_(
-      IOobject("projectedInertia", mesh.time().timeName(), mesh),
-      pressure_.inertia().internalField()),
+  projectedDensity_(
+      IOobject("projectedDensity", mesh.time().timeName(), mesh),
+      rho_.internalField()),
   contractionFlux_(zeroFaces(mesh, "contractionFlux", dimVolume / dimTime)),
   fluxDetail_(
       continued<surfaceScalarField>("fluxDetail", mesh, dimVolume / dimTime)),

@@ -80,7 +80,7 @@ Foam::tmp<Foam::vectorField> Foam::slurryFlow::pressureForce() const
         pressure_.reconstruct(contractionFlux_) /
         (mesh_.time().deltaT() * voidage_));
     tmp<vectorField> tresult =
-        projectedInertia_.field() *
+        projectedDensity_.field() *
             (forces_.primitiveField() - contraction.primitiveField() -
              g_.value()) +
         force.primitiveField() *
@@ -281,7 +281,7 @@ void Foam::slurryFlow::project(pimpleControl& pimple)
     addPlates(drag, before, faceVoidage);
     contractionFlux_ = contraction_.contractionFlux(
         massMoved_ / deltaT, pressure_.faceDensity());
-    projectedInertia_ = pressure_.inertia().internalField();
+    projectedDensity_ = rho_.internalField();
     surfaceScalarField free(
         (seen + contractionFlux_ + fall(faceVoidage) + drag.flux +
          drag.r * before) /
