@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::filesystem::path> matches(const std::string& pattern) {
   glob_t found{};
-  const int status = glob(pattern.c_str(), GLOB_TILDE, nullptr, &found);
+  const int status = glob(pattern.c_str(), GLOB_TILDE | GLOB_BRACE, nullptr, &found);
   std::vector<std::filesystem::path> paths(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   globfree(&found);
   if (status == GLOB_NOMATCH || (status == 0 && paths.empty())) {

@@ -22,8 +22,9 @@ struct DumpFile {
 /// `DumpInput`.
 DumpHeader read_dump_header(const std::filesystem::path& file);
 
-/// The dumps that a pattern matches (glob(3): * ? [ ] and ~), in order of their time-steps, read from their
-/// headers. Throws DumpError when none matches, a header cannot be read, or two have the same time-step.
+/// The dumps that a pattern matches (glob(3): * ? [ ] {a,b} and ~), in order of their time-steps, read from
+/// their headers. Throws DumpError when none matches, a header cannot be read, or two have the same
+/// time-step.
 std::vector<DumpFile> find_dumps(const std::string& pattern);
 
 }  // namespace millfoam::averaging

@@ -118,6 +118,14 @@ void require_dumps(const RunMetadata& metadata) {
                   ": the run wrote no dumps (dem.dumps: no): its averages were made while it ran");
 }
 
+void require_all_dumps(const RunMetadata& metadata, std::size_t found) {
+  const long long written = metadata.dumps.value_or(0);
+  if (static_cast<long long>(found) >= written) return;
+  throw DumpError(metadata.file.parent_path().string() + ": " + std::to_string(found) + " dumps, " +
+                  metadata.file.filename().string() + " says " + std::to_string(written) +
+                  "; expected all of them, or --window and --start for a part of the run");
+}
+
 double agreed_timestep(std::optional<double> given, const std::optional<RunMetadata>& metadata) {
   std::ostringstream message;
   message.precision(12);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,10 @@ std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder
 
 /// Throws DumpError, naming the file, for a run that wrote no dumps.
 void require_dumps(const RunMetadata& metadata);
+
+/// Throws DumpError, naming the file and both numbers, where fewer dumps are there than the run wrote.
+/// @param found  number of dumps in its folder
+void require_all_dumps(const RunMetadata& metadata, std::size_t found);
 
 /// The DEM time-step, s: `given`, or else the metadata's.
 /// Throws DumpError when both are there and differ by more than 1e-9 of each other, when neither is, or when

@@ -73,6 +73,7 @@ struct AverageRequest {
   std::vector<WindowsRequest> windows;       ///< all are averaged in one pass over the dumps
   std::optional<double> start;               ///< DEM time, s
   std::optional<double> end;                 ///< DEM time, s
+  bool whole_run_dumped = false;             ///< fewer dumps than run.json says, or up to `end`, are refused
   /// Deposit of the balls' volume that may lie outside the grid in the first record and in the last one. A
   /// grid that misses more cannot be meant for these balls.
   double largest_outside = 0.5;

@@ -43,14 +43,15 @@ RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress)
   plan.dumps = find_dumps(request.dumps);
   plan.metadata = read_run_metadata(plan.dumps.front().path.parent_path());
   if (plan.metadata) require_dumps(*plan.metadata);
+  if (plan.metadata && request.whole_run_dumped) require_all_dumps(*plan.metadata, plan.dumps.size());
   plan.settings.timestep = agreed_timestep(request.timestep, plan.metadata);
   plan.settings.angular_velocity = agreed_angular_velocity(request.angular_velocity, plan.metadata);
   const std::optional<long long> interval = plan.metadata ? plan.metadata->interval : std::nullopt;
   std::vector<long long> steps;
   for (const DumpFile& dump : plan.dumps) steps.push_back(dump.step);
   for (const WindowsRequest& windows : request.windows) {
-    plan.series.push_back(
-        plan_windows(steps, {plan.settings.timestep, interval, windows.length, request.start, request.end}));
+    plan.series.push_back(plan_windows(steps, {plan.settings.timestep, interval, windows.length,
+                                               request.start, request.end, request.whole_run_dumped}));
     for (const std::string& sentence : plan.series.back().notes) progress.note(sentence);
   }
   plan.blocks = plan_blocks(plan.series, block_size(plan.series));

@@ -67,6 +67,19 @@ Range used_range(const std::vector<long long>& steps, const WindowRequest& reque
   return range;
 }
 
+/// Records after the last one are missing up to the requested end.
+void check_end(const std::vector<long long>& steps, const Range& range, long long interval,
+               const WindowRequest& request, WindowPlan& plan) {
+  if (!request.end || steps.back() + interval >= range.end) return;
+  const double dt = request.timestep;
+  const std::string sentence = "the dumps end at " + seconds(steps.back(), dt) + ", " +
+                               seconds(range.end - steps.back(), dt) + " before the end " +
+                               seconds(range.end, dt);
+  if (request.up_to_end)
+    throw WindowError(sentence + ": expected those of the whole run, or --window, --start and --end");
+  plan.notes.push_back("warning: " + sentence);
+}
+
 void note_unused(const std::vector<long long>& steps, const Range& range, WindowPlan& plan) {
   if (range.first > 0)
     plan.notes.push_back(std::to_string(range.first) + " records before the start are not used");
@@ -163,6 +176,7 @@ WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest
   const long long length = request.length ? window_length(request, interval) : range.end - range.start;
 
   WindowPlan plan;
+  check_end(steps, range, interval, request, plan);
   note_unused(steps, range, plan);
   cut(steps, range, length, request.timestep, plan);
   drop_closing_record(steps, interval, request.timestep, plan);

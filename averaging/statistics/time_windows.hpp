@@ -22,6 +22,7 @@ struct WindowRequest {
   std::optional<double> length;       ///< s; unless given, one window over the whole run
   std::optional<double> start;        ///< DEM time, s; unless given, that of the first record
   std::optional<double> end;          ///< DEM time, s, not included; unless given, all records are used
+  bool up_to_end = false;             ///< refuse records that end before `end`
 };
 
 /// One window [begin, end) in time-steps and the records in it, as numbers into the list of records.
@@ -58,6 +59,7 @@ struct WindowPlan {
 /// Only a last one that holds nothing but the record at its very beginning is left out, with a note: that
 /// record closes the window before. The last window and a whole run end at most one record interval after
 /// their last record, since each record stands for one interval: no time is claimed that was not recorded.
+/// Records that end before the requested end have a note, or are refused (`up_to_end`).
 ///
 /// @param steps  time-steps of the records, rising
 /// @param request  length, start and end

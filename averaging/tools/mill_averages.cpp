@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "averaging/dumps/run_metadata.hpp"
@@ -34,6 +35,16 @@ void require_dumps_of(const RunMetadata& run, const std::string& part, const std
   if (found.empty() || found == fingerprint) return;
   throw std::invalid_argument(run.file.string() + ": the dumps are of another mill (" + part + " " + found +
                               ", this mill's are " + fingerprint + "): run millDem again");
+}
+
+/// The pattern of files in a folder, whose own name may have characters that patterns give a meaning.
+std::string pattern_in(const fs::path& folder, const std::string& files) {
+  std::string pattern;
+  for (const char letter : folder.string()) {
+    if (std::string_view("*?[]{}\\~").find(letter) != std::string_view::npos) pattern += '\\';
+    pattern += letter;
+  }
+  return pattern + '/' + files;
 }
 
 /// The values of an option in words.
@@ -114,7 +125,7 @@ void take_grid(const meshing::Mill& mill, Options& options) {
     options.box.insert(options.box.end(), voxels.upper.begin(), voxels.upper.end());
   }
   if (mill.geometry.ends == meshing::Ends::periodic) options.periodic = {"z"};
-  if (options.walls.empty()) options.walls = {(fs::path(options.case_folder) / "walls" / "*.stl").string()};
+  if (options.walls.empty()) options.walls = {pattern_in(fs::path(options.case_folder) / "walls", "*.stl")};
   if (!options.method) options.method = mill.averages.method;
   if (!options.template_points) options.template_points = mill.averages.template_points;
 }
@@ -154,7 +165,8 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     require_dumps_of(run, "charge", run.mill_charge, of.charge);
     require_dumps_of(run, "walls", run.mill_walls, of.walls);
     require_dumps(run);
-    options.dumps = (dumps / "dump.*.txt").string();
+    options.dumps = pattern_in(dumps, "dump.*.txt{,.gz}");
+    options.whole_run_dumped = !own_windows;
     if (!own_windows) take_windows(mill, dumps, run, options);
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");

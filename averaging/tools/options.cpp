@@ -303,6 +303,7 @@ AverageRequest as_request(const Options& options) {
   }
   AverageRequest request(grid(options));
   request.dumps = options.dumps;
+  request.whole_run_dumped = options.whole_run_dumped;
   request.timestep = options.timestep;
   request.angular_velocity = options.speed;
   request.method =

@@ -17,6 +17,7 @@ struct Options {
   meshing::MillOptions mill;             ///< no file: without a mill
   std::string case_folder = ".";         ///< of the mill
   std::string dumps;                     ///< pattern of their names
+  bool whole_run_dumped = false;         ///< set by `take_from_mill`: all dumps of the run are expected
   std::optional<double> timestep;        ///< of the DEM run, s
   std::optional<double> speed;           ///< of the mill about z, rad/s
   std::vector<double> box;               ///< [6] two corners, m

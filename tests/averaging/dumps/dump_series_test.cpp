@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -29,6 +31,15 @@ TEST(DumpSeries, KnowsTheNumbersOfBallsWhereTheyCanBeRead) {
   ASSERT_EQ(dumps.size(), 3U);
   EXPECT_EQ(dumps[0].count, 2);
   EXPECT_FALSE(dumps[1].count || dumps[2].count);
+}
+
+TEST(DumpSeries, AlternativesInBracesAreOneSeries) {
+  const TemporaryFolder folder;
+  for (const char* name : {"dump.0.txt", "dump.200.txt.gz", "dump.400.txt.part"})
+    folder.write(name, dump_text(std::atoi(name + 5), {}));
+  const std::vector<DumpFile> dumps = find_dumps((folder / "dump.*.txt{,.gz}").string());
+  ASSERT_EQ(dumps.size(), 2U);
+  EXPECT_EQ(dumps[1].path.filename(), "dump.200.txt.gz");
 }
 
 TEST(DumpSeries, APatternThatMatchesNothingIsRefusedByItsName) {

@@ -432,6 +432,23 @@ TEST_F(AverageRun, TheFirstDumpWithAnotherNumberOfBallsIsTold) {
   expect_named(*std::find_if(notes.begin(), notes.end(), is_told), {"warning: ", "the dump before it has 2"});
 }
 
+TEST_F(AverageRun, OfAWholeRunExpectsAllItsDumps) {
+  folder.write("run.json", R"({"timestep_s": 1e-4, "interval": 100, "duration_s": 1.5, "dumps": 151})");
+  request.end = 1.5;
+  request.whole_run_dumped = true;
+  run();
+  for (int r = 120; r <= 150; ++r)
+    std::filesystem::remove(folder / ("dump" + std::to_string(100 * r) + ".txt"));
+  expect_named(message_of<DumpError>([&] { run(); }),
+               {(folder / "").parent_path().string() + ": 120 dumps, run.json says 151; expected all"});
+  folder.write("run.json", R"({"timestep_s": 1e-4, "interval": 100, "duration_s": 1.5})");
+  expect_named(message_of<WindowError>([&] { run(); }),
+               {"the dumps end at 1.19 s, 0.31 s before the end 1.5 s", "expected those of the whole run"});
+  request.whole_run_dumped = false;
+  run();
+  expect_named(all_notes(), {"warning: the dumps end at 1.19 s"});
+}
+
 TEST_F(AverageRun, ADumpWithoutBallsBetweenOthersIsRefused) {
   for (const long long step : {0, 100, 15000})
     folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, {}));

@@ -111,6 +111,21 @@ TEST(TimeWindows, StartAndEndChooseTheRecords) {
   expect_named(plan.notes[1], {"26 records from the end on"});
 }
 
+TEST(TimeWindows, DumpsThatEndBeforeTheRequestedEndAreTold) {
+  WindowRequest request = windows_of(0.05);
+  request.end = 0.2;
+  // The last record is one interval before the end
+  EXPECT_TRUE(plan_windows(every(200, 19800), request).notes.empty());
+  const WindowPlan plan = plan_windows(every(200, 9800), request);
+  EXPECT_EQ(plan.windows.size(), 2U);
+  EXPECT_EQ(plan.notes,
+            std::vector<std::string>{"warning: the dumps end at 0.098 s, 0.102 s before the end 0.2 s"});
+  request.up_to_end = true;
+  plan_windows(every(200, 19800), request);
+  expect_named(message_of<WindowError>([&] { plan_windows(every(200, 9800), request); }),
+               {"the dumps end at 0.098 s, 0.102 s before the end 0.2 s", "expected those of the whole run"});
+}
+
 TEST(TimeWindows, AWholeRunIsOneWindowWithAllRecords) {
   WindowRequest request;
   request.timestep = 1e-5;

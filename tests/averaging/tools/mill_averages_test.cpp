@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
+
+#include "averaging/dumps/dump_series.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "averaging/tools/live_options.hpp"
 #include "tests/averaging/test_support.hpp"
@@ -176,6 +180,29 @@ TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
   EXPECT_EQ(live_request(mill_, "", path(""), 0, 0.2, 1.8e-5).end, taken("").end);
   folder_.write("dumps/run.json", R"({"duration_s": 0.2})");
   expect_named(message_of<DumpError>([&] { taken(""); }), {"run.json", "timestep_s"});
+}
+
+TEST_F(MillAverages, WithTheirWindowsAllDumpsOfTheRunAreExpected) {
+  const Options options = taken("");
+  EXPECT_EQ(options.dumps, path("dumps/dump.*.txt{,.gz}"));
+  EXPECT_TRUE(as_request(options).whole_run_dumped);
+  EXPECT_FALSE(taken("--window 0.03 --start 0.05").whole_run_dumped);
+  EXPECT_FALSE(live("").request.whole_run_dumped);
+}
+
+TEST_F(MillAverages, TheFoldersNameMayHaveCharactersOfPatterns) {
+  const auto folder = folder_ / "case {a,b} [1] ~*";
+  std::filesystem::create_directories(folder / "walls");
+  std::filesystem::create_directories(folder / "dumps");
+  for (const char* name : {"dump.0.txt", "dump.500.txt"})
+    std::ofstream(folder / "dumps" / name) << dump_text(std::atoi(name + 5), {});
+  std::ofstream(folder / "dumps" / "run.json") << run_text;
+  std::ofstream(folder / "walls" / "shell.stl") << "";
+  Options options;
+  options.case_folder = folder.string();
+  take_from_mill(mill_, options);
+  EXPECT_EQ(find_dumps(options.dumps).size(), 2U);
+  EXPECT_EQ(as_request(options).walls, std::vector<std::filesystem::path>{folder / "walls" / "shell.stl"});
 }
 
 TEST_F(MillAverages, DumpsOfAPatternWithoutQuotesAreToldShortly) {
