@@ -34,6 +34,7 @@ class Collector {
         progress_(progress),
         plan_(plan),
         setup_(setup),
+        volumes_(plan.dumps, progress.note),
         resume_(request.windows.front().output.string() + ".resume"),
         signature_(signature(request, plan.settings, plan.series, plan.dumps)) {
     const std::size_t cells = cell_count(setup.grid);
@@ -60,9 +61,10 @@ class Collector {
 
   std::size_t next_block() const { return next_block_; }
 
-  void add(const WindowMoments& moments) {
+  void add(const BlockResult& result) {
     const RecordBlock& block = plan_.blocks[next_block_++];
-    for (WindowSeries& series : series_) series.add(block, moments);
+    for (std::size_t r = block.first; r < block.last; ++r) volumes_.add(r, result.volumes[r - block.first]);
+    for (WindowSeries& series : series_) series.add(block, result.moments);
     done_ += block.last - block.first;
     const auto now = std::chrono::steady_clock::now();
     if (std::chrono::duration<double>(now - last_checkpoint_).count() >= request_.checkpoint_interval) {
@@ -140,6 +142,7 @@ class Collector {
   const AverageProgress& progress_;
   const RunPlan& plan_;
   const CellSetup& setup_;
+  VolumeCheck volumes_;
   std::filesystem::path resume_;
   std::string signature_;
   std::vector<WindowSeries> series_;
@@ -159,9 +162,9 @@ class BlockLoop {
         threads_(threads > 0 ? threads : omp_get_max_threads()),
         run_length_(static_cast<std::size_t>(communicator.broadcast(threads_))) {}
 
-  /// @param collect  called on rank 0 with the moments of each block from `first` on, in order
+  /// @param collect  called on rank 0 with the result of each block from `first` on, in order
   /// Throws what reading, averaging or `collect` threw first.
-  void run(std::size_t first, const std::function<void(const WindowMoments&)>& collect) {
+  void run(std::size_t first, const std::function<void(const BlockResult&)>& collect) {
     const std::size_t blocks = plan_.blocks.size();
 #pragma omp parallel num_threads(threads_)
     {
@@ -169,10 +172,10 @@ class BlockLoop {
       guarded([&] { worker = std::make_unique<RecordWorker>(setup_, plan_.dumps, plan_.settings.timestep); });
 #pragma omp for ordered schedule(dynamic, 1)
       for (std::size_t b = first; b < blocks; ++b) {
-        const WindowMoments* moments = nullptr;
-        if (owner(b) == communicator_.rank()) guarded([&] { moments = &worker->process(plan_.blocks[b]); });
+        const BlockResult* result = nullptr;
+        if (owner(b) == communicator_.rank()) guarded([&] { result = &worker->process(plan_.blocks[b]); });
 #pragma omp ordered
-        guarded([&] { deliver(b, moments, collect); });
+        guarded([&] { deliver(b, result, collect); });
       }
     }
     if (failure_) std::rethrow_exception(failure_);
@@ -184,18 +187,24 @@ class BlockLoop {
     return static_cast<int>(block / run_length_ % static_cast<std::size_t>(communicator_.size()));
   }
 
-  void deliver(std::size_t block, const WindowMoments* moments,
-               const std::function<void(const WindowMoments&)>& collect) {
-    if (communicator_.rank() == 0 && moments != nullptr) {
-      collect(*moments);
+  /// Ranks send the numbers of the moments, and the volumes behind them.
+  void deliver(std::size_t block, const BlockResult* result,
+               const std::function<void(const BlockResult&)>& collect) {
+    if (communicator_.rank() == 0 && result != nullptr) {
+      collect(*result);
     } else if (communicator_.rank() == 0) {
-      std::vector<double> numbers(WindowMoments::packed_size(cell_count(setup_.grid)));
+      const std::size_t cells = cell_count(setup_.grid), packed = WindowMoments::packed_size(cells);
+      std::vector<double> numbers(packed + plan_.blocks[block].last - plan_.blocks[block].first);
       communicator_.receive(owner(block), numbers);
-      WindowMoments received(cell_count(setup_.grid));
-      received.unpack(numbers);
+      const auto volumes = numbers.begin() + static_cast<std::ptrdiff_t>(packed);
+      BlockResult received{WindowMoments(cells), {volumes, numbers.end()}};
+      numbers.resize(packed);
+      received.moments.unpack(numbers);
       collect(received);
-    } else if (moments != nullptr) {
-      communicator_.send(moments->packed());
+    } else if (result != nullptr) {
+      std::vector<double> numbers = result->moments.packed();
+      numbers.insert(numbers.end(), result->volumes.begin(), result->volumes.end());
+      communicator_.send(numbers);
     }
   }
 
@@ -247,7 +256,7 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
       communicator.broadcast(collector ? static_cast<long long>(collector->next_block()) : 0);
   BlockLoop loop(plan, setup, communicator, request.threads);
   try {
-    loop.run(static_cast<std::size_t>(first), [&](const WindowMoments& moments) { collector->add(moments); });
+    loop.run(static_cast<std::size_t>(first), [&](const BlockResult& result) { collector->add(result); });
   } catch (const NoRoomError&) {
     // The same run would stop there again
     if (collector) collector->forget();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 namespace millfoam::averaging {
@@ -84,6 +85,23 @@ void check_numbers_of_balls(const std::vector<DumpFile>& dumps, std::size_t firs
                       ": the dump has no balls, expected some as in the dumps before and after it");
     last_with_balls = r;
   }
+}
+
+void VolumeCheck::add(std::size_t number, double volume) {
+  const double before = std::exchange(volume_before_, volume);
+  const std::optional<std::size_t> last = std::exchange(before_, number);
+  if (!last || *last + 1 != number) return;
+  const DumpFile &dump = dumps_[number], &earlier = dumps_[*last];
+  if (!dump.count || dump.count != earlier.count || !(volume > 0 && before > 0)) return;
+  const double ratio = std::max(volume / before, before / volume);
+  if (ratio <= 1 + noted_volume_change || (noted_ && ratio <= largest_volume_ratio)) return;
+  std::ostringstream sentence;
+  sentence << dump.path.string() << ": the volume of the balls is " << volume
+           << " m3, that of as many balls in " << earlier.path.string() << " is " << before << " m3";
+  if (ratio > largest_volume_ratio)
+    throw DumpError(sentence.str() + "; expected about the same: is one of them in another unit than m?");
+  noted_ = true;
+  note_("warning: " + sentence.str());
 }
 
 void require_period_of(const AverageRequest& request, const DumpBox& box, const std::string& name) {

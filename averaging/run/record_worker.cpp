@@ -10,19 +10,21 @@ RecordWorker::RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& 
       dumps_(dumps),
       timestep_(timestep),
       deposition_(setup.deposition->clone()),
-      moments_(cell_count(setup.grid)) {}
+      result_{WindowMoments(cell_count(setup.grid)), {}} {}
 
-const WindowMoments& RecordWorker::process(const RecordBlock& block) {
-  moments_.clear();
+const BlockResult& RecordWorker::process(const RecordBlock& block) {
+  result_.moments.clear();
+  result_.volumes.clear();
   for (std::size_t r = block.first; r < block.last; ++r) {
     const ParticleRecord record = read_dump(dumps_[r].path);
     const double time = static_cast<double>(record.step) * timestep_;
     sum_record(*deposition_, record, time, sums_);
     if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
     if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
-    moments_.add(sums_);
+    result_.moments.add(sums_);
+    result_.volumes.push_back(sums_.ledger.volume_in);
   }
-  return moments_;
+  return result_;
 }
 
 }  // namespace millfoam::averaging

@@ -11,6 +11,12 @@
 
 namespace millfoam::averaging {
 
+/// What the records of a block give.
+struct BlockResult {
+  WindowMoments moments;        ///< of all its records
+  std::vector<double> volumes;  ///< [records] of the balls, m^3
+};
+
 /// Averages blocks of records in one thread.
 class RecordWorker {
  public:
@@ -19,8 +25,9 @@ class RecordWorker {
   /// @param timestep  of the DEM run, s
   RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& dumps, double timestep);
 
-  /// Reads the block's dumps and takes their moments; valid until the next call.
-  const WindowMoments& process(const RecordBlock& block);
+  /// Reads the block's dumps and takes their moments; valid until the next call. Throws DumpError, and as
+  /// `sum_dump`.
+  const BlockResult& process(const RecordBlock& block);
 
  private:
   const CellSetup& setup_;
@@ -28,7 +35,7 @@ class RecordWorker {
   double timestep_;
   std::unique_ptr<Deposition> deposition_;
   RecordSums sums_;
-  WindowMoments moments_;
+  BlockResult result_;
 };
 
 }  // namespace millfoam::averaging
