@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include "averaging/run/named_record.hpp"
 #include "averaging/statistics/window_average.hpp"
 
 namespace millfoam::averaging {
@@ -106,7 +107,7 @@ Ledger within_walls(const CellSetup& setup, const RecordSums& sums) {
 std::string misfit(const CellSetup& setup, const ParticleRecord& record, double time, const std::string& name,
                    double largest_outside) {
   RecordSums sums;
-  sum_record(*setup.deposition->clone(), record, time, sums);
+  naming_record(name, [&] { sum_record(*setup.deposition->clone(), record, time, sums); });
   if (setup.walls) sums.cell_volumes = setup.walls->inside_volumes(time);
   return misfit_in_words(setup, within_walls(setup, sums), extents(record), name, largest_outside);
 }

@@ -13,7 +13,7 @@ inline constexpr double smallest_fill = 1e-6;
 
 /// Why a grid cannot be meant for the balls of a record: more than `largest_outside` of their volume lies
 /// outside of it or of its walls, or they fill less than `smallest_fill` of it. Empty when neither, and for a
-/// record without balls. The sentence has the extents of both.
+/// record without balls. The sentence has the extents of both. Throws as `sum_record`, naming the record.
 /// @param setup  the grid or mesh
 /// @param record  the balls
 /// @param time  of the record, s

@@ -2,6 +2,7 @@
 #include "averaging/run/record_worker.hpp"
 
 #include "averaging/dumps/dump_reader.hpp"
+#include "averaging/run/named_record.hpp"
 
 namespace millfoam::averaging {
 
@@ -18,7 +19,7 @@ const BlockResult& RecordWorker::process(const RecordBlock& block) {
   for (std::size_t r = block.first; r < block.last; ++r) {
     const ParticleRecord record = read_dump(dumps_[r].path);
     const double time = static_cast<double>(record.step) * timestep_;
-    sum_record(*deposition_, record, time, sums_);
+    naming_record(dumps_[r].path.string(), [&] { sum_record(*deposition_, record, time, sums_); });
     if (setup_.walls) sums_.cell_volumes = setup_.walls->inside_volumes(time);
     if (setup_.diffusion) setup_.diffusion->apply(sums_.values, RecordSums::columns);
     result_.moments.add(sums_);

@@ -26,7 +26,7 @@ class RecordWorker {
   RecordWorker(const CellSetup& setup, const std::vector<DumpFile>& dumps, double timestep);
 
   /// Reads the block's dumps and takes their moments; valid until the next call. Throws DumpError, and as
-  /// `sum_dump`.
+  /// `sum_record` with the dump's name.
   const BlockResult& process(const RecordBlock& block);
 
  private:

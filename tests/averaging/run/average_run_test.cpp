@@ -466,6 +466,26 @@ TEST_F(AverageRun, ADumpInAnotherUnitIsRefusedByItsName) {
                 "dump8900.txt is 0.0047", "expected about the same: is one of them in another unit than m?"});
 }
 
+TEST_F(AverageRun, ABallThatCannotBeDepositedIsNamedWithItsDump) {
+  // 1e-5 m along x in each voxel
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {200000, 1, 1});
+  const auto expect_refused = [&](const std::string& name) {
+    expect_named(message_of<std::invalid_argument>([&] { run(); }),
+                 {name + ": ball 1: its radius of 0.1 m spans more than 10000 cells along x"});
+  };
+  expect_refused((folder / "dump0.txt").string());  // the first is read before the work
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {40000, 1, 1});
+  request.start = 0.85;
+  request.end = 0.95;
+  for (int r = 0; r <= 150; ++r) {
+    const double radius = r == 90 ? 0.3 : 0.2;
+    folder.write("dump" + std::to_string(100 * r) + ".txt",
+                 dump_text(100 * r, {{1, {1, 0.5, 0.5}, {1, 0, 0}, radius}}));
+  }
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {(folder / "dump9000.txt").string() + ": ball 1: its radius of 0.3 m"});
+}
+
 TEST_F(AverageRun, ASmallChangeOfTheBallsVolumeIsNotedOnce) {
   // Of wear, by 3.7 % of the volume; the ball of the other tests has 89 % of it
   for (int r = 80; r <= 150; ++r) {
