@@ -87,12 +87,13 @@ class SolidsReader {
   SolidsReader(SolidsReader&&) noexcept;
   SolidsReader& operator=(SolidsReader&&) noexcept;
 
-  const Grid& grid() const;                        ///< that the fields live on
-  const std::vector<TimeWindow>& windows() const;  ///< at least one, in order of time
-  double time0() const;                            ///< DEM time at which the first window begins, s
-  double timestep() const;                         ///< of the DEM run, s
-  bool whole_run() const;                          ///< one window over the whole run, which a flow holds
-  const SolidsHeader& header() const;              ///< all that holds for the whole file
+  const Grid& grid() const;  ///< that the fields live on
+  /// At least one, in order of time. Files of millFoam 0.2 do not know `expected`.
+  const std::vector<TimeWindow>& windows() const;
+  double time0() const;                ///< DEM time at which the first window begins, s
+  double timestep() const;             ///< of the DEM run, s
+  bool whole_run() const;              ///< one window over the whole run, which a flow holds
+  const SolidsHeader& header() const;  ///< all that holds for the whole file
 
   /// Fields of window `number`, from 0. Throws SolidsFileError for a number beyond the last, a value that is
   /// not finite, a negative diameter, or a solidity outside [0, 1); the message says in which cell.

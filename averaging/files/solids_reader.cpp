@@ -45,13 +45,18 @@ std::vector<TimeWindow> read_windows(hid_t root) {
   const auto records = hdf5::read_all(group.get(), "records");
   const auto late = hdf5::read_all(group.get(), "starts_late");
   const auto cut = hdf5::read_all(group.get(), "ends_short");
+  // Files of millFoam before 0.3 lack it
+  const std::vector<double> expected = hdf5::has(group.get(), "expected")
+                                           ? hdf5::read_all(group.get(), "expected")
+                                           : std::vector<double>(begin.size(), 0.0);
   if (begin.empty()) throw hdf5::Error("there is no window in it");
-  for (const auto* other : {&end, &records, &late, &cut}) {
+  for (const auto* other : {&end, &records, &late, &cut, &expected}) {
     if (other->size() != begin.size()) throw hdf5::Error("the data sets of /window differ in length");
   }
   std::vector<TimeWindow> windows;
   for (std::size_t w = 0; w < begin.size(); ++w) {
-    windows.push_back({begin[w], end[w], std::llround(records[w]), late[w] != 0, cut[w] != 0});
+    windows.push_back(
+        {begin[w], end[w], std::llround(records[w]), late[w] != 0, cut[w] != 0, std::llround(expected[w])});
   }
   check_order(windows);
   return windows;

@@ -88,6 +88,7 @@ struct SolidsWriter::Open {
       times.push_back(hdf5::create_rows(group.get(), name, {}, H5T_NATIVE_LLONG, "1"));
     }
     times.push_back(hdf5::create_rows(group.get(), "balls_per_cell", {}, H5T_NATIVE_DOUBLE, "1"));
+    times.push_back(hdf5::create_rows(group.get(), "expected", {}, H5T_NATIVE_LLONG, "1"));
   }
 
   void append(const WindowAverage& window) {
@@ -106,6 +107,7 @@ struct SolidsWriter::Open {
     hdf5::append_row(times[3], window.time.starts_late ? 1LL : 0LL);
     hdf5::append_row(times[4], window.time.ends_short ? 1LL : 0LL);
     hdf5::append_row(times[5], &window.balls_per_cell);
+    hdf5::append_row(times[6], window.time.expected);
     hdf5::flush(file.get());
     ++windows;
   }

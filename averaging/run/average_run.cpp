@@ -94,8 +94,12 @@ class Collector {
       const SolidsHeader header =
           solids_header(request_, windows, plan_.settings, setup_, plan_.metadata, time0, program());
       const WindowRecorder& recorder = series_[s].recorder();
-      summaries.push_back(write_solids(windows.output, setup_.grid, header, recorder.finished(),
-                                       [&](std::size_t row) { return recorder.read(row); }));
+      const auto window = [&](std::size_t row) {
+        WindowAverage average = recorder.read(row);
+        average.time.expected = static_cast<long long>(plan_.series[s].windows[row].expected);
+        return average;
+      };
+      summaries.push_back(write_solids(windows.output, setup_.grid, header, recorder.finished(), window));
     }
     if (plan_.box) {
       const std::string sentence = missing_period(request_, setup_.grid, *plan_.box,

@@ -111,6 +111,32 @@ void remark_on_walls(const SolidsSummary& summary, std::size_t cut_cells, std::v
                        wider)});
 }
 
+/// A window in words where records are missing in it; otherwise empty.
+std::string missing_in_words(std::size_t number, const TimeWindow& time) {
+  const bool fewer = time.records < time.expected;
+  if (!fewer && !time.starts_late && !time.ends_short) return {};
+  std::string words =
+      formatted("window %zu from %g to %g s has %lld", number, time.begin, time.end, time.records);
+  if (time.expected > 0) words += formatted(" of %lld", time.expected);
+  words += " records";
+  if (time.starts_late) words += ", starts late";
+  if (time.ends_short) words += ", ends short";
+  return words;
+}
+
+void remark_on_records(const SolidsSummary& summary, std::vector<Remark>& found) {
+  std::size_t windows = 0;
+  std::string first;
+  for (std::size_t w = 0; w < summary.windows.size(); ++w) {
+    const std::string words = missing_in_words(w, summary.windows[w].time);
+    if (!words.empty() && windows++ == 0) first = words;
+  }
+  if (windows == 0) return;
+  found.push_back(
+      {true, formatted("records are missing in %zu of %zu windows: ", windows, summary.windows.size()) +
+                 first + (windows > 1 ? ", …" : "")});
+}
+
 const char* kind_of(const BoxGrid&) {
   return "box";
 }
@@ -217,6 +243,7 @@ std::vector<Remark> remarks(const SolidsSummary& summary) {
   remark_on_outside(summary, found);
   remark_on_clipped(summary, found);
   remark_on_walls(summary, all.cut_cells, found);
+  remark_on_records(summary, found);
   if (summary.header.fines_share.value_or(0) > 0) {
     found.push_back(
         {false, formatted("%.1f %% of the charge's mass are fines, which are not simulated: they are in "

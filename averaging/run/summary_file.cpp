@@ -46,6 +46,10 @@ Json columns(const SolidsSummary& summary) {
   return {{"begin_s", column(summary, [](const WindowSummary& w) { return w.time.begin; })},
           {"end_s", column(summary, [](const WindowSummary& w) { return w.time.end; })},
           {"records", column(summary, [](const WindowSummary& w) { return w.time.records; })},
+          {"expected_records", column(summary,
+                                      [](const WindowSummary& w) {
+                                        return w.time.expected > 0 ? Json(w.time.expected) : Json();
+                                      })},
           {"starts_late", column(summary, [](const WindowSummary& w) { return w.time.starts_late; })},
           {"ends_short", column(summary, [](const WindowSummary& w) { return w.time.ends_short; })},
           {"volume_in_m3", of_ledger(&Ledger::volume_in)},

@@ -114,13 +114,18 @@ void drop_closing_record(const std::vector<long long>& steps, long long interval
   plan.windows.pop_back();
 }
 
+/// How many records fill the windows, before the last one is shortened.
+void expect_records(long long interval, WindowPlan& plan) {
+  for (WindowSpan& span : plan.windows)
+    span.expected = static_cast<std::size_t>(std::max(1LL, (span.end - span.begin) / interval));
+}
+
 /// Windows with fewer or more records than fit.
 void note_odd_numbers(long long interval, double timestep, WindowPlan& plan) {
   for (std::size_t w = 0; w < plan.windows.size(); ++w) {
     const WindowSpan& span = plan.windows[w];
-    const long long length = span.end - span.begin, full = length / interval;
-    const long long most = (length + interval - 1) / interval;
-    const auto records = static_cast<long long>(span.records);
+    const auto records = static_cast<long long>(span.records), full = static_cast<long long>(span.expected);
+    const long long most = (span.end - span.begin + interval - 1) / interval;
     if (records >= full && records <= most) continue;
     std::string sentence = "warning: window " + std::to_string(w) + " from " + seconds(span.begin, timestep) +
                            " to " + seconds(span.end, timestep) + " holds " + std::to_string(records) +
@@ -165,6 +170,7 @@ TimeWindow time_of(const WindowSpan& span, double timestep) {
   time.end = static_cast<double>(span.end) * timestep;
   time.starts_late = span.starts_late;
   time.ends_short = span.ends_short;
+  time.expected = static_cast<long long>(span.expected);
   return time;
 }
 
@@ -180,6 +186,7 @@ WindowPlan plan_windows(const std::vector<long long>& steps, const WindowRequest
   note_unused(steps, range, plan);
   cut(steps, range, length, request.timestep, plan);
   drop_closing_record(steps, interval, request.timestep, plan);
+  expect_records(interval, plan);
   note_odd_numbers(interval, request.timestep, plan);
   mark_late_and_short(steps, interval, plan);
   end_with_the_dumps(steps, interval, plan);

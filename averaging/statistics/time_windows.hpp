@@ -33,6 +33,7 @@ struct WindowSpan {
   std::size_t records = 0;       ///< how many from there on
   bool starts_late = false;      ///< a record or more is missing at its beginning
   bool ends_short = false;       ///< or at its requested end
+  std::size_t expected = 0;      ///< how many records would fill it, at least 1
 };
 
 /// A time in whole time-steps. Throws WindowError that names it as `what` where it cannot be counted.

@@ -14,6 +14,7 @@ struct TimeWindow {
   long long records = 0;     ///< averaged in it
   bool starts_late = false;  ///< records are missing at its beginning
   bool ends_short = false;   ///< or at the requested end
+  long long expected = 0;    ///< records that would fill it; 0: not known
 };
 
 /// A cell of less solidity is not occupied: the tails of smoothing reach cells far from any ball.

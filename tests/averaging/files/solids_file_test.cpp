@@ -19,7 +19,8 @@ const BoxGrid grid({-1, -2, 0}, {1, 2, 3}, {2, 3, 4}, {false, false, true});
 WindowAverage window_number(int number) {
   const std::size_t n = grid.size();
   WindowAverage window;
-  window.time = {0.5 + 0.05 * number, 0.55 + 0.05 * number, 25 - number, number == 0, number == 2};
+  window.time = {0.5 + 0.05 * number, 0.55 + 0.05 * number, 25 - number,
+                 number == 0,         number == 2,          26 + number};
   window.balls_per_cell = 3.5 + number;
   window.ledger = {4.0, 2.5, 1.5, 0};
   window.mean = {std::vector<double>(n), std::vector<double>(3 * n), std::vector<double>(n, 0.004),
@@ -130,6 +131,7 @@ TEST_F(SolidsFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].records, written.time.records);
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].starts_late, written.time.starts_late);
     EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].ends_short, written.time.ends_short);
+    EXPECT_EQ(reader.windows()[static_cast<std::size_t>(w)].expected, written.time.expected);
     EXPECT_EQ(reader.read_ledgers()[static_cast<std::size_t>(w)].outside, written.ledger.outside);
     EXPECT_EQ(read.solidity, written.mean.solidity);
     EXPECT_EQ(read.velocity, written.mean.velocity);
@@ -155,6 +157,13 @@ TEST_F(SolidsFile, HoldsWhatOtherProgramsReadOfIt) {
   EXPECT_EQ(values("solidity_deviation"), solidity);
   EXPECT_EQ(values("velocity_deviation"), velocity);
   EXPECT_EQ(values("granular_temperature"), temperature);
+}
+
+TEST_F(SolidsFile, OfMillFoam02DoesNotKnowHowManyRecordsWouldFillItsWindows) {
+  remove("window/expected");
+  const SolidsReader reader(path);
+  EXPECT_EQ(reader.windows()[1].records, 24);
+  EXPECT_EQ(reader.windows()[1].expected, 0);
 }
 
 TEST_F(SolidsFile, MayBeReadSeveralTimesAtOnce) {

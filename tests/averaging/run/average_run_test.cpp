@@ -449,6 +449,19 @@ TEST_F(AverageRun, OfAWholeRunExpectsAllItsDumps) {
   expect_named(all_notes(), {"warning: the dumps end at 1.19 s"});
 }
 
+TEST_F(AverageRun, AGapInsideAWindowIsInTheFileAndTheSummary) {
+  for (const char* name : {"dump5200.txt", "dump5300.txt"}) std::filesystem::remove(folder / name);
+  const SolidsSummary summary = run();
+  const std::string sentence =
+      "records are missing in 1 of 30 windows: window 10 from 0.5 to 0.55 s has 3 of 5 records";
+  expect_named(report(summary), {"warning: " + sentence});
+  EXPECT_EQ(report(summarise(output())), report(summary));
+  expect_named(bytes(folder / "solids.json"), {sentence});
+  const TimeWindow window = SolidsReader(output()).windows()[10];
+  EXPECT_EQ(window.records, 3);
+  EXPECT_EQ(window.expected, 5);
+}
+
 TEST_F(AverageRun, ADumpWithoutBallsBetweenOthersIsRefused) {
   for (const long long step : {0, 100, 15000})
     folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, {}));

@@ -100,6 +100,7 @@ void expect_same(const fs::path& one, const fs::path& other) {
     EXPECT_EQ(time.begin, expected_time.begin);
     EXPECT_EQ(time.end, expected_time.end);
     EXPECT_EQ(time.records, expected_time.records);
+    EXPECT_EQ(time.expected, expected_time.expected);
     EXPECT_EQ(time.starts_late, expected_time.starts_late);
     EXPECT_EQ(time.ends_short, expected_time.ends_short);
     const SolidsWindow mine = found.read_window(w), theirs = expected.read_window(w);

@@ -24,7 +24,7 @@ struct Summary : ::testing::Test {
     summary.header.timestep = 1e-4;
     summary.header.method = "exact";
     WindowSummary window;
-    window.time = {1, 1.5, 1, true, false};
+    window.time = {1, 1.5, 1, false, false};
     window.ledger = {8, 6, 2, 1};
     window.balls_per_cell = 10;
     window.occupied_cells = 4;
@@ -33,7 +33,7 @@ struct Summary : ::testing::Test {
     window.mean_solidity = 0.3;
     window.largest_solidity = 0.5;
     summary.windows.push_back(window);
-    window.time = {1.5, 2, 3, false, false};
+    window.time = {1.5, 2, 3, false, false, 3};
     window.ledger = {4, 4, 0, 1};
     window.balls_per_cell = 20;
     window.largest_solidity = 0.6;
@@ -48,7 +48,8 @@ TEST_F(Summary, HoldsTheLedgerWindowByWindow) {
   EXPECT_EQ(windows["begin_s"], Json({1.0, 1.5}));
   EXPECT_EQ(windows["end_s"], Json({1.5, 2.0}));
   EXPECT_EQ(windows["records"], Json({1, 3}));
-  EXPECT_EQ(windows["starts_late"], Json({true, false}));
+  EXPECT_EQ(windows["expected_records"], Json({nullptr, 3}));
+  EXPECT_EQ(windows["starts_late"], Json({false, false}));
   EXPECT_EQ(windows["ends_short"], Json({false, false}));
   EXPECT_EQ(windows["volume_in_m3"], Json({8.0, 4.0}));
   EXPECT_EQ(windows["deposited_m3"], Json({6.0, 4.0}));
@@ -118,6 +119,20 @@ TEST_F(Summary, WarnsOfWallsThatCutBallsOffFromOnePercentOnUnlessACapMovesThem) 
   }
   summary.header.solidity_cap = 0.6;
   EXPECT_EQ(json()["warnings"].size(), 0U);
+}
+
+TEST_F(Summary, WarnsOfRecordsThatAreMissingInWindows) {
+  for (WindowSummary& window : summary.windows) window.ledger = {4, 4, 0, 0};
+  EXPECT_EQ(json()["warnings"], Json::array());
+  summary.windows[1].time.expected = 5;
+  EXPECT_EQ(json()["warnings"],
+            Json({"records are missing in 1 of 2 windows: window 1 from 1.5 to 2 s has 3 of 5 "
+                  "records"}));
+  summary.windows[0].time.starts_late = summary.windows[0].time.ends_short = true;
+  EXPECT_EQ(json()["per_window"]["starts_late"], Json({true, false}));
+  expect_named(report(summary),
+               {"warning: records are missing in 2 of 2 windows: window 0 from 1 to 1.5 s has 1 "
+                "records, starts late, ends short, …"});
 }
 
 TEST_F(Summary, KeepsAdviceAndWarningsApart) {

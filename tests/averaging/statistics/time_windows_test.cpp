@@ -56,6 +56,7 @@ TEST(TimeWindows, ALastWindowThatTheDumpsDoNotFillIsKeptWithAWarning) {
   ASSERT_EQ(plan.windows.size(), 4U);
   EXPECT_EQ(plan.windows[3].records, 6U);
   EXPECT_EQ(plan.windows[3].end, 16200) << "one interval after the last record";
+  EXPECT_EQ(plan.windows[3].expected, 25U) << "of the window that was requested";
   ASSERT_EQ(plan.notes.size(), 1U);
   expect_named(plan.notes[0], {"window 3", "0.15 s", "0.2 s", "6 records", "25"});
 }
@@ -72,6 +73,9 @@ TEST(TimeWindows, AMissingDumpIsTold) {
   const WindowPlan plan = plan_windows(steps, windows_of(0.05));
   ASSERT_EQ(plan.notes.size(), 1U);
   expect_named(plan.notes[0], {"window 1", "24 records", "25"});
+  EXPECT_EQ(plan.windows[1].records, 24U);
+  for (const WindowSpan& span : plan.windows) EXPECT_EQ(span.expected, 25U);
+  EXPECT_FALSE(plan.windows[1].starts_late || plan.windows[1].ends_short) << "the gap is inside";
 }
 
 TEST(TimeWindows, RecordsOffTheIntervalAreTold) {
