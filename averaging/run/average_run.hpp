@@ -67,6 +67,8 @@ struct AverageRequest {
   std::optional<double> angular_velocity;  ///< of the mill about z, rad/s; unless given, as above
   GridRequest grid;                        ///< where balls are deposited
   DepositionMethod method = DepositionMethod::exact;  ///< of spheres; superquadrics are always sampled
+  /// The records have spheres of equal volume in place of superquadrics, as those of LiveAverages.
+  bool superquadrics_as_spheres = false;
   int template_points = 12;  ///< along a sphere's diameter; for sampling and for superquadrics
   std::vector<std::filesystem::path> walls;  ///< STL files, or a mesh file, within which voxels count
   std::optional<double> solidity_cap;        ///< largest solidity that may stay in a cell

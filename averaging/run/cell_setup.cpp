@@ -30,7 +30,10 @@ using Note = std::function<void(const std::string&)>;
 
 std::string method_in_words(const AverageRequest& request) {
   const std::string points = std::to_string(request.template_points) + " points along a diameter";
-  return request.method == DepositionMethod::exact ? "exact; superquadrics: " + points : "sample, " + points;
+  const bool exact = request.method == DepositionMethod::exact;
+  const std::string method = exact ? "exact" : "sample, " + points;
+  if (request.superquadrics_as_spheres) return method + "; superquadrics as spheres of equal volume";
+  return exact ? method + "; superquadrics: " + points : method;
 }
 
 std::string rotation(double angular_velocity) {

@@ -44,6 +44,7 @@ LiveRequest live_request(const meshing::MillDescription& description, const std:
   if (!has_grid(options)) take_grid(mill, options);
   if (options.output.empty()) options.output = (std::filesystem::path(case_folder) / "solids.h5").string();
   LiveRequest result{as_request(options), end, !own_windows && !mill.averages.start, tolerance(options, 1)};
+  result.request.superquadrics_as_spheres = mill.charge.has_shapes();
   if (!others) result.request.mill_averages = mill.fingerprint.averages;
   return result;
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "averaging/dumps/dump_series.hpp"
+#include "averaging/run/cell_setup.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "averaging/tools/live_options.hpp"
 #include "tests/averaging/test_support.hpp"
@@ -94,6 +95,20 @@ TEST_F(MillAverages, AMethodOfTheOptionsReplacesTheMills) {
   EXPECT_EQ(request.method, DepositionMethod::exact);
   EXPECT_EQ(request.template_points, 20);
   EXPECT_EQ(request.mill_averages, "");
+}
+
+TEST_F(MillAverages, LiveOnesOfSuperquadricsNameTheirMethod) {
+  const auto method = [&](const meshing::MillDescription& mill, const std::string& text) {
+    const AverageRequest request =
+        live_request(mill, text + " --box 0 0 0 1 1 1 --shape 2 2 2", path(""), 0, 0.2, 1e-5).request;
+    return set_up(request, {1e-5, std::nullopt, 0.004}, [](const std::string&) {}).method;
+  };
+  EXPECT_EQ(method(mill_, ""), "exact; superquadrics: 12 points along a diameter");
+  const meshing::MillDescription shaped = meshing::describe_mill(
+      folder_ / "mill.yaml", {"charge.classes[0].shape={half_axes: [3, 2, 2], blockiness: 3}"});
+  EXPECT_EQ(method(shaped, ""), "exact; superquadrics as spheres of equal volume");
+  EXPECT_EQ(method(shaped, "--method sample"),
+            "sample, 12 points along a diameter; superquadrics as spheres of equal volume");
 }
 
 TEST_F(MillAverages, WallsOfTheOptionsReplaceTheMills) {
