@@ -25,8 +25,9 @@ std::size_t interval(const TimeTable& table, double time) {
   const double slack = time_slack * std::max(std::abs(table.times.front()), std::abs(table.times.back()));
   if (!(time >= table.times.front() - slack && time <= table.times.back() + slack)) {
     std::ostringstream message;
-    message << "time " << time << " s is outside the table of the motion, which goes from "
-            << table.times.front() << " to " << table.times.back() << " s";
+    message << (table.file.empty() ? "" : table.file + ": ") << "time " << time
+            << " s is outside the table of the motion, which goes from " << table.times.front() << " to "
+            << table.times.back() << " s";
     throw std::out_of_range(message.str());
   }
   const auto above = std::upper_bound(table.times.begin(), table.times.end(), time);
@@ -120,7 +121,7 @@ double table_number(const std::string& word, const std::string& place) {
 std::vector<TimeTable> read_tables(const std::string& path, std::size_t columns) {
   std::ifstream in(path);
   if (!in) throw std::invalid_argument(path + ": cannot read this table of a motion");
-  std::vector<TimeTable> tables(columns);
+  std::vector<TimeTable> tables(columns, TimeTable{{}, {}, path});
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
     const std::string place = path + ":" + std::to_string(number) + ": ";

@@ -12,9 +12,10 @@ namespace millfoam::averaging {
 struct TimeTable {
   std::vector<double> times;   ///< s
   std::vector<double> values;  ///< [times]
+  std::string file = {};       ///< of which it was read, for messages
 };
 
-/// The value at a time, s. Throws std::out_of_range with the time when it is outside the table.
+/// The value at a time, s. Throws std::out_of_range, naming the file and the time, outside the table.
 double value_at(const TimeTable& table, double time);
 
 /// The exact integral of the value from the first time to `time`. Throws as `value_at`.
@@ -27,7 +28,7 @@ class Motion {
 
   /// The body's place at a DEM time, s: maps a point of the body, m, to where it is then. The places of two
   /// times together say how the body moves between them; what the body's points are numbered by is up to the
-  /// caller. Throws std::out_of_range with the time where the motion is not known.
+  /// caller. Throws std::out_of_range with the table's file and the time where the motion is not known.
   virtual Eigen::Isometry3d place(double time) const = 0;
 };
 

@@ -253,6 +253,7 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
 
   std::unique_ptr<Collector> collector;
   if (communicator.rank() == 0) {
+    require_cells(plan, setup);
     require_fitting_grid(request, plan, setup);
     collector = std::make_unique<Collector>(request, progress, plan, setup);
   }

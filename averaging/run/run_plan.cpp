@@ -2,12 +2,14 @@
 #include "averaging/run/run_plan.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 
 #include "averaging/dumps/dump_reader.hpp"
 #include "averaging/overlap/superquadric.hpp"
 #include "averaging/run/dump_checks.hpp"
 #include "averaging/run/grid_check.hpp"
+#include "averaging/run/named_record.hpp"
 
 namespace millfoam::averaging {
 
@@ -63,6 +65,15 @@ RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress)
   plan.settings.sauter_diameter =
       sauter_diameter(read_dump(plan.dumps[plan.series[0].windows[0].first_record].path));
   return plan;
+}
+
+void require_cells(const RunPlan& plan, const CellSetup& setup) {
+  const std::unique_ptr<Deposition> deposition = setup.deposition->clone();
+  for (const std::size_t r : {plan.blocks.front().first, plan.blocks.back().last - 1}) {
+    const DumpFile& dump = plan.dumps[r];
+    naming_record(dump.path.string(),
+                  [&] { deposition->begin_record(static_cast<double>(dump.step) * plan.settings.timestep); });
+  }
 }
 
 void require_fitting_grid(const AverageRequest& request, const RunPlan& plan, const CellSetup& setup) {

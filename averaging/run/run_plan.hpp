@@ -28,6 +28,10 @@ struct RunPlan {
 /// DumpError, WindowError, and std::invalid_argument as `require_period_of`.
 RunPlan plan_run(const AverageRequest& request, const AverageProgress& progress);
 
+/// Throws std::out_of_range, naming the dump and the file, where cells that move are not known at the first
+/// or the last record: a table of a motion, or a mesh of several times, may be of a part of the run alone.
+void require_cells(const RunPlan& plan, const CellSetup& setup);
+
 /// Throws std::invalid_argument when the grid cannot be meant for the balls. A first record that does not fit
 /// is forgiven where the last one does: the charge may be filled in during the run.
 void require_fitting_grid(const AverageRequest& request, const RunPlan& plan, const CellSetup& setup);

@@ -72,7 +72,8 @@ TEST(Motion, OutsideATableIsRefusedWithTheTime) {
   EXPECT_NO_THROW(motion->place(2 * (1 + 1e-15)));
   EXPECT_NO_THROW(motion->place(-1e-15));
   for (const double time : {-0.1, 2.5, std::nan("")}) {
-    expect_named(message_of<std::out_of_range>([&] { motion->place(time); }), {"outside", "from 0 to 2 s"});
+    expect_named(message_of<std::out_of_range>([&] { motion->place(time); }),
+                 {(folder / "speed.txt").string() + ": time ", "outside", "from 0 to 2 s"});
   }
 }
 

@@ -10,10 +10,12 @@
 
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/output_lock.hpp"
+#include "averaging/mesh/mesh_file.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/summary_file.hpp"
 #include "averaging/statistics/redistribution.hpp"
 #include "averaging/statistics/time_windows.hpp"
+#include "tests/averaging/mesh_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -497,6 +499,42 @@ TEST_F(AverageRun, ABallThatCannotBeDepositedIsNamedWithItsDump) {
   }
   expect_named(message_of<std::invalid_argument>([&] { run(); }),
                {(folder / "dump9000.txt").string() + ": ball 1: its radius of 0.3 m"});
+}
+
+/// The balls of AverageRun on the cells of a mesh, of a box of their size.
+struct MeshRun : AverageRun {
+  TestMesh mesh = box_mesh({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  MeshRequest cells;
+
+  MeshRun() {
+    MeshWriter writer(folder / "mesh.h5", mesh.topology, 0);
+    writer.append(0, mesh.points);
+    writer.finish();
+    cells.file = folder / "mesh.h5";
+  }
+  void request_cells() { request.grid = cells; }
+};
+
+TEST_F(MeshRun, ATableThatEndsBeforeTheLastDumpIsRefusedBeforeTheWork) {
+  cells.motion = {"translation table " + folder.write("table.txt", "0 0 0 0\n1.2 0 0 0\n").string()};
+  request_cells();
+  // Nothing is averaged: the first dump that cannot be read is not reached
+  folder.write("dump9000.txt", "ITEM: TIMESTEP\n9000\nITEM: NUMBER OF ATOMS\n2\n");
+  expect_named(message_of<std::out_of_range>([&] { run(); }),
+               {(folder / "dump14900.txt").string() + ": " + (folder / "table.txt").string() +
+                ": time 1.49 s is outside the table of the motion, which goes from 0 to 1.2 s"});
+}
+
+TEST_F(MeshRun, AMeshOfSeveralTimesThatEndBeforeTheLastDumpIsRefusedBeforeTheWork) {
+  MeshWriter writer(folder / "mesh.h5", mesh.topology, 0);
+  writer.append(0, mesh.points);
+  writer.append(1.2, mesh.points);
+  writer.finish();
+  request_cells();
+  folder.write("dump9000.txt", "ITEM: TIMESTEP\n9000\nITEM: NUMBER OF ATOMS\n2\n");
+  expect_named(
+      message_of<std::out_of_range>([&] { run(); }),
+      {"dump14900.txt: ", "mesh.h5: DEM time 1.49 s is outside the mesh's times, which go from 0 to 1.2"});
 }
 
 TEST_F(AverageRun, ASmallChangeOfTheBallsVolumeIsNotedOnce) {
