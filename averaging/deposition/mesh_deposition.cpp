@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include "averaging/mesh/periodic_faces.hpp"
 
 namespace millfoam::averaging {
 
@@ -12,22 +12,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-void check_period(const Eigen::AlignedBox3d& box, double period) {
-  const double extent = box.sizes().z();
-  if (std::abs(extent - period) <= 1e-6 * extent) return;
-  std::ostringstream message;
-  message << "the mesh reaches over " << extent << " m along z, expected exactly one period of " << period
-          << " m";
-  throw std::invalid_argument(message.str());
-}
-
 }  // namespace
 
 MeshDeposition::MeshDeposition(std::unique_ptr<MovingMesh> mesh, int points_per_diameter,
                                std::optional<double> period_z)
     : mesh_(std::move(mesh)), period_z_(period_z), superquadrics_(points_per_diameter) {
   const MeshGeometry& geometry = mesh_->geometry();
-  if (period_z_) check_period(geometry.box(), *period_z_);
+  if (period_z_) require_period(geometry, *period_z_);
   begin_z_ = geometry.box().min().z();
   met_place_.assign(geometry.cells(), 0);
   met_by_.assign(geometry.cells(), 0);

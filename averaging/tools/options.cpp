@@ -113,6 +113,11 @@ MeshRequest mesh_request(const Options& options) {
     throw std::invalid_argument(
         "--shape and --periodic are for --box and --cylinder; a mesh has its own cells, and --period LENGTH");
   }
+  if (options.period && !(*options.period > 0 && std::isfinite(*options.period))) {
+    std::ostringstream message;
+    message << "--period is " << *options.period << ", expected a length above 0 in m";
+    throw std::invalid_argument(message.str());
+  }
   MeshRequest mesh;
   mesh.file = options.mesh;
   mesh.at_rest = options.motion == std::vector<std::string>{"none"};

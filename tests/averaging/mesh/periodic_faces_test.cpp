@@ -24,6 +24,17 @@ TEST(PeriodicFaces, PairTheFacesOfTheTwoEnds) {
   }
 }
 
+TEST(PeriodicFaces, APeriodThatDiffersInTheSeventhDigitIsRefusedWithItsDigits) {
+  // 1e-6 of the length, not of the diagonal of a flat mesh
+  const MeshGeometry mesh = geometry_of(drum_mesh(1, 0.5, 4, 3, 2));
+  require_period(mesh, 0.5 * (1 + 5e-7));
+  const std::string sentence =
+      "the period is 0.500001 m, expected the mesh's length along z, 0.5 m, to 1e-6 of it";
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { require_period(mesh, 0.500001); }), sentence);
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { periodic_faces(mesh, 0.500001); }), sentence);
+  expect_named(message_of<std::invalid_argument>([&] { require_period(mesh, 0.5000006); }), {"0.5000006 m"});
+}
+
 TEST(PeriodicFaces, EndsThatDifferAreRefused) {
   TestMesh cone = box_mesh({0, 0, 0}, {1, 1, 1}, {2, 2, 1});
   for (Eigen::Vector3d& p : cone.points) p.x() *= 1 + p.z();

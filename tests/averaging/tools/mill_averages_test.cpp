@@ -157,6 +157,14 @@ TEST_F(MillAverages, MoreVoxelsThanAMillMayHaveAreRefused) {
                {"--shape gives 8e+18 voxels", "at most 1.7e+08"});
 }
 
+TEST_F(MillAverages, APeriodThatIsNoLengthIsRefusedByItsOption) {
+  for (const auto& [period, shown] :
+       {std::pair{"0", "0"}, {"-0.024", "-0.024"}, {"nan", "nan"}, {"inf", "inf"}})
+    expect_named(message_of<std::invalid_argument>(
+                     [&] { live(std::string("--mesh a.h5 --window 0.1 -o b.h5 --period=") + period); }),
+                 {std::string("--period is ") + shown + ", expected a length above 0 in m"});
+}
+
 TEST_F(MillAverages, TheStartOfARunThatIsNotSteadyHasAWarning) {
   const auto results = folder_.write("results.json", R"({"steady_from_s": 0.1, "steady": true})");
   EXPECT_EQ(steady_start(results).time, 0.1);
