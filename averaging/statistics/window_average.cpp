@@ -60,10 +60,12 @@ void redistribute(const CellLimits& limits, Means& mean, Ledger& ledger) {
     ledger.clipped += redistribute_excess(mean.values, Columns::columns, capacities, limits.neighbours);
   } catch (const NoRoomError& error) {
     if (!limits.place) throw;
+    constexpr double full = 1 - 1e-9;  // to round-off
+    const double solidity = error.excess * *limits.solidity_cap;
     std::ostringstream message;
-    message << "the solidity " << error.excess * *limits.solidity_cap << " of " << limits.place(error.cell)
-            << " is above the cap of " << *limits.solidity_cap
-            << ", and no cell that its solids can reach has room for them; expected a larger --cap";
+    message << "the solidity " << solidity << " of " << limits.place(error.cell) << " is above the cap of "
+            << *limits.solidity_cap << ", and no cell that its solids can reach has room for them; expected "
+            << (solidity < full ? "a larger --cap" : "coarser cells, or balls that do not overlap");
     throw NoRoomError(message.str(), error.cell, error.excess);
   }
 }

@@ -47,7 +47,7 @@ struct CellLimits {
 /// the ledger's `clipped`. Deviations are those before anything moved.
 ///
 /// The moments must hold a record. `time.records` is filled in, the window's times are the caller's.
-/// Throws NoRoomError that names the cell by `CellLimits::place` and its solidity.
+/// Throws NoRoomError that names the cell by `CellLimits::place`, its solidity and what helps.
 WindowAverage average(const WindowMoments& moments, const CellLimits& limits);
 
 }  // namespace millfoam::averaging

@@ -561,6 +561,24 @@ TEST_F(AverageRun, ACapThatLeavesNoRoomNamesThePlaceAndLeavesNoFile) {
     EXPECT_FALSE(std::filesystem::exists(folder / left)) << left;
 }
 
+TEST_F(AverageRun, WhereNoCapGivesRoomCoarserCellsAreExpected) {
+  // One voxel in the middle of the ball
+  request.grid = BoxGrid({0.49, 0.49, 0.49}, {0.51, 0.51, 0.51}, {1, 1, 1});
+  request.largest_outside = 1;
+  request.solidity_cap = 0.9;
+  request.start = 0.3;
+  request.end = 0.31;
+  request.windows[0].length.reset();
+  for (const int balls : {1, 2}) {
+    std::vector<Particle> all;
+    for (int b = 0; b < balls; ++b) all.push_back({b + 1, {0.5, 0.5, 0.5}, {1, 0, 0}, 0.1});
+    folder.write("dump3000.txt", dump_text(3000, all));
+    expect_named(message_of<NoRoomError>([&] { run(); }),
+                 {"the solidity " + std::to_string(balls) + " of voxel (0 0 0)",
+                  "expected coarser cells, or balls that do not overlap"});
+  }
+}
+
 TEST_F(AverageRun, WallsInMillimetresAreRefusedOrTold) {
   request.walls = {folder.write("box.stl", stl_box({-600, -600, 0}, {600, 600, 30}))};
   expect_named(message_of<std::invalid_argument>([&] { run(); }),
