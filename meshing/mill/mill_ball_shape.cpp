@@ -37,7 +37,7 @@ std::optional<Superquadric> read_ball_shape(Section in, double diameter, const R
   }
   if (in.is_text("shape")) in.refuse("shape", "sphere, or a map with half_axes and blockiness or roundness");
   Section map = in.section("shape", {"half_axes", "blockiness", "roundness"});
-  const auto axes = map.numbers("half_axes", 3, positive_up_to("a length", 1e6));
+  const auto axes = map.numbers("half_axes", 3, from_to("a length", 1e-6, 1e6));
   const Superquadric shape = scaled_to({{axes[0], axes[1], axes[2]}, read_blockiness(map)}, diameter);
   const double longest_way = 2 * bounding_radius(shape);
   if (!room.holds(longest_way))

@@ -105,7 +105,9 @@ TEST(BallShape, ImpossibleShapesAreRefused) {
   EXPECT_TRUE(says(with_shape("{half_axes: [3, 2], blockiness: 3}"),
                    "key 'charge.shape.half_axes' = […]: expected a list of 3 numbers, each a length"));
   EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, -2], blockiness: 3}"),
-                   "key 'charge.shape.half_axes[2]' = -2: expected a length above 0"));
+                   "key 'charge.shape.half_axes[2]' = -2: expected a length from 1e-06 to 1e+06"));
+  EXPECT_TRUE(says(with_shape("{half_axes: [1e-200, 1e-200, 1e-200], blockiness: 3}"),
+                   "key 'charge.shape.half_axes[0]' = 1e-200: expected a length from 1e-06 to 1e+06"));
   EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2], blockiness: 1.5}"),
                    "key 'charge.shape.blockiness' = 1.5: expected a blockiness from 2, which is that of an"));
   EXPECT_TRUE(says(with_shape("{half_axes: [3, 2, 2]}"), "key 'charge.shape.blockiness' is missing"));
