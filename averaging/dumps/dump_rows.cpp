@@ -14,6 +14,9 @@ namespace millfoam::averaging {
 
 namespace {
 
+/// m/s. A ball that is faster is not one of a mill: its square and those of sums must stay numbers.
+constexpr double largest_velocity = 1e6;
+
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -149,6 +152,11 @@ void DumpRows::append(std::size_t line, ParticleRecord& record) const {
     particle.position[axis] =
         columns_.scaled ? box_.lower[axis] + position * (box_.upper[axis] - box_.lower[axis]) : position;
     particle.velocity[axis] = values[quantity_velocity + axis];
+    if (std::abs(particle.velocity[axis]) > largest_velocity) {
+      refuse(line, "column '" + columns_.name[quantity_velocity + axis] + "' is " +
+                       exact(particle.velocity[axis]) + ", expected a velocity of at most " +
+                       exact(largest_velocity) + " m/s");
+    }
     if (!std::isfinite(particle.position[axis])) {
       refuse(line, "column '" + columns_.name[quantity_position + axis] + "' is " + exact(position) +
                        ", too large for the box");

@@ -132,6 +132,17 @@ TEST(DumpReader, ARadiusThatIsNotPositiveIsRefused) {
                {"dump7.txt:10", "radius", "positive"});
 }
 
+TEST(DumpReader, AVelocityThatNoBallHasIsRefusedWithItsColumn) {
+  const Particle ball{1, {0, 0, 0}, {1, -1e6, 1}, 0.1};
+  EXPECT_EQ(parse_dump(dump_text(5, {ball}), "dump").particles[0].velocity[1], -1e6);
+  for (const double velocity : {1e200, -1.1e6}) {
+    Particle fast = ball;
+    fast.velocity[2] = velocity;
+    expect_named(refusal_of_dump(dump_text(5, {ball, fast})),
+                 {"dump7.txt:11", "column 'vz' is ", "expected a velocity of at most 1e+06 m/s"});
+  }
+}
+
 TEST(DumpReader, RowsOfTheWrongLengthAreRefused) {
   const std::string text = dump_text(1200, two_balls);
   expect_named(refusal_of_dump(replaced(text, "-0.125 0.75", "-0.125")),
