@@ -24,12 +24,7 @@ CylinderDeposition::CylinderDeposition(const CylinderGrid& grid, int template_po
 
 void CylinderDeposition::deposit(const Particle& particle, const Superquadric& shape,
                                  std::vector<Deposit>& deposits) {
-  const auto locate = [this](const Vector3& point) -> std::optional<std::size_t> {
-    const std::optional<VoxelIndex> voxel = grid_.locate(point);
-    if (!voxel) return std::nullopt;
-    return grid_.offset(*voxel);
-  };
-  superquadrics_.deposit(particle, shape, locate, deposits);
+  superquadrics_.deposit_in(grid_, particle, shape, deposits);
 }
 
 }  // namespace millfoam::averaging

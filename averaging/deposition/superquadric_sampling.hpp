@@ -48,6 +48,18 @@ class SuperquadricSampling {
     for (Deposit& part : deposits) part.volume = volume * (part.volume / count);
   }
 
+  /// Deposits one ball in the voxels of a grid. Throws as above.
+  template <typename Voxels>
+  void deposit_in(const Voxels& grid, const Particle& particle, const Superquadric& shape,
+                  std::vector<Deposit>& deposits) {
+    const auto locate = [&grid](const Vector3& point) -> std::optional<std::size_t> {
+      const auto voxel = grid.locate(point);
+      if (!voxel) return std::nullopt;
+      return grid.offset(*voxel);
+    };
+    deposit(particle, shape, locate, deposits);
+  }
+
  private:
   static Eigen::Matrix3d turn_and_stretch(const Superquadric& shape) {
     const auto& [w, x, y, z] = shape.quaternion;
