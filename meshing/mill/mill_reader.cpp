@@ -16,6 +16,7 @@
 #include "meshing/mill/opening_circles.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
+#include "meshing/mill/turning_speed.hpp"
 #include "meshing/mill/yaml_section.hpp"
 
 namespace millfoam::meshing {
@@ -62,28 +63,8 @@ double read_angular_velocity(Section& in, const Geometry& geometry) {
                             " (" + shown(slowest_fraction) + " to " + shown(fastest_fraction) +
                             " of the critical speed), negative for clockwise (or the key rpm)",
                         [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
-  // Another speed that --set gives turns the mill as the file's angular velocity does
-  std::optional<std::string> usual_sense;
-  const bool other_is_set = in.is_set("fraction_of_critical") || in.is_set("rpm");
-  if (in.has("angular_velocity") && other_is_set && !in.is_set("angular_velocity"))
-    usual_sense = in.number("angular_velocity", turning) < 0 ? "clockwise" : "anticlockwise";
-  in.alternatives({"angular_velocity", "fraction_of_critical", "rpm"});
-  in.displace("angular_velocity", {"sense"});
-  if (in.has("angular_velocity")) {
-    for (const char* other : {"fraction_of_critical", "rpm", "sense"})
-      if (in.has(other))
-        in.refuse(other, "either angular_velocity alone, or sense with fraction_of_critical or rpm");
-    return in.number("angular_velocity", turning);
-  }
-  if (in.has("rpm") && in.has("fraction_of_critical"))
-    in.refuse("rpm", "either this key or fraction_of_critical");
-  const double speed = in.has("rpm") ? turn_per_minute * in.number("rpm", turns_per_minute(slowest, fastest))
-                                     : critical * read_fraction(in);
-  const Section::Keys senses = {"clockwise", "anticlockwise"};
-  const std::string sense =
-      usual_sense ? in.choice("sense", senses, *usual_sense) : in.choice("sense", senses);
-  const double sign = sense == "clockwise" ? -1 : 1;
-  return sign * speed;
+  return read_turning_speed(in, {slowest, fastest, turning, "fraction_of_critical",
+                                 [&] { return critical * read_fraction(in); }, std::nullopt});
 }
 
 Material read_material(const Section& materials, const std::string& key) {

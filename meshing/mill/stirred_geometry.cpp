@@ -6,6 +6,7 @@
 
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/rules.hpp"
+#include "meshing/mill/turning_speed.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::meshing {
@@ -196,24 +197,8 @@ double read_stirred_speed(Section& in, const Geometry& geometry) {
   const Rule turning = {"an angular velocity in rad/s from " + shown(slowest) + " to " + shown(fastest) +
                             ", positive for anticlockwise seen from above (or the key rpm)",
                         [=](double v) { return std::abs(v) >= slowest && std::abs(v) <= fastest; }};
-  // Another speed that --set gives turns the impeller as the file's angular velocity does
-  std::string usual_sense = "anticlockwise";
-  const bool other_is_set = in.is_set("tip_speed") || in.is_set("rpm");
-  if (in.has("angular_velocity") && other_is_set && !in.is_set("angular_velocity") &&
-      in.number("angular_velocity", turning) < 0)
-    usual_sense = "clockwise";
-  in.alternatives({"angular_velocity", "tip_speed", "rpm"});
-  in.displace("angular_velocity", {"sense"});
-  if (in.has("angular_velocity")) {
-    for (const char* other : {"tip_speed", "rpm", "sense"})
-      if (in.has(other)) in.refuse(other, "either angular_velocity alone, or sense with tip_speed or rpm");
-    return in.number("angular_velocity", turning);
-  }
-  if (in.has("rpm") && in.has("tip_speed")) in.refuse("rpm", "either this key or tip_speed");
-  const double speed = in.has("rpm") ? turn_per_minute * in.number("rpm", turns_per_minute(slowest, fastest))
-                                     : read_tip_speed(in) / reach;
-  const double sign = in.choice("sense", {"clockwise", "anticlockwise"}, usual_sense) == "clockwise" ? -1 : 1;
-  return sign * speed;
+  return read_turning_speed(in, {slowest, fastest, turning, "tip_speed",
+                                 [&] { return read_tip_speed(in) / reach; }, "anticlockwise"});
 }
 
 double impeller_volume(const Geometry& geometry, double height) {
