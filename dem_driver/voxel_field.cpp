@@ -54,26 +54,45 @@ VoxelField::Neighbours VoxelField::around(double coordinate, std::size_t axis) c
   return {{wrapped(below, axis), wrapped(below + 1, axis)}, {1 - (place - below), place - below}};
 }
 
+/// A mean over voxels that have fluid.
+class VoxelField::Mean {
+ public:
+  explicit Mean(const VoxelField& field) : field_(field) {}
+
+  /// Adds a voxel; an index below 0 is beyond the grid.
+  void add(double weight, const averaging::VoxelIndex& index) {
+    if (index[0] < 0 || index[1] < 0 || index[2] < 0) return;
+    const FeltFluid& voxel = field_.voxels_[field_.grid_.offset(index)];
+    if (!voxel.known) return;
+    sum_.add(weight, voxel);
+    weights_ += weight;
+  }
+
+  /// Not known where no voxel has fluid.
+  FeltFluid result() const {
+    if (!(weights_ > 0)) return {};
+    FeltFluid mean;
+    mean.add(1 / weights_, sum_);
+    mean.known = true;
+    return mean;
+  }
+
+ private:
+  const VoxelField& field_;
+  FeltFluid sum_;
+  double weights_ = 0;
+};
+
 FeltFluid VoxelField::at(const Vector& point) const {
   const std::array<Neighbours, 3> places{around(point[0], 0), around(point[1], 1), around(point[2], 2)};
-  FeltFluid sum;
-  double weights = 0;
+  Mean mean(*this);
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t j = 0; j < 2; ++j)
       for (std::size_t i = 0; i < 2; ++i) {
-        const averaging::VoxelIndex index{places[0].voxel[i], places[1].voxel[j], places[2].voxel[k]};
-        if (index[0] < 0 || index[1] < 0 || index[2] < 0) continue;
-        const FeltFluid& voxel = voxels_[grid_.offset(index)];
-        if (!voxel.known) continue;
         const double weight = places[0].weight[i] * places[1].weight[j] * places[2].weight[k];
-        sum.add(weight, voxel);
-        weights += weight;
+        mean.add(weight, {places[0].voxel[i], places[1].voxel[j], places[2].voxel[k]});
       }
-  if (!(weights > 0)) return {};
-  FeltFluid mean;
-  mean.add(1 / weights, sum);
-  mean.known = true;
-  return mean;
+  return mean.result();
 }
 
 FeltFluid VoxelField::over(const Vector& centre, double diameter) const {
@@ -89,24 +108,14 @@ FeltFluid VoxelField::over(const Vector& centre, double diameter) const {
   };
   const auto from = [&](std::size_t axis) { return static_cast<int>(std::floor(first[axis])); };
   const auto to = [&](std::size_t axis) { return static_cast<int>(std::ceil(last[axis])); };
-  FeltFluid sum;
-  double weights = 0;
+  Mean mean(*this);
   for (int z = from(2); z < to(2); ++z)
     for (int y = from(1); y < to(1); ++y)
       for (int x = from(0); x < to(0); ++x) {
-        const averaging::VoxelIndex index{wrapped(x, 0), wrapped(y, 1), wrapped(z, 2)};
-        if (index[0] < 0 || index[1] < 0 || index[2] < 0) continue;
-        const FeltFluid& voxel = voxels_[grid_.offset(index)];
-        if (!voxel.known) continue;
         const double weight = share(x, 0) * share(y, 1) * share(z, 2);
-        sum.add(weight, voxel);
-        weights += weight;
+        mean.add(weight, {wrapped(x, 0), wrapped(y, 1), wrapped(z, 2)});
       }
-  if (!(weights > 0)) return {};
-  FeltFluid mean;
-  mean.add(1 / weights, sum);
-  mean.known = true;
-  return mean;
+  return mean.result();
 }
 
 }  // namespace millfoam::dem_driver

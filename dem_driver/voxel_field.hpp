@@ -43,6 +43,7 @@ class VoxelField {
   FeltFluid over(const Vector& centre, double diameter) const;
 
  private:
+  class Mean;
   /// The voxels around a point along an axis; -1: beyond the box.
   struct Neighbours {
     std::array<int, 2> voxel;
