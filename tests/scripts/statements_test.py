@@ -201,6 +201,18 @@ class WithBalls(unittest.TestCase):
             with self.subTest(f"{beetstra} {ergun}"):
                 self.assertEqual(verdicts_of(statements.pressure_drops, *runs(beetstra, ergun)), [verdict])
 
+    def test_a_pressure_drop_is_judged_by_its_error(self):
+        # Of two turns each. Each is clearly more than the other one: is it a drop, and 1.1 times as much?
+        for less, more, verdict in ((Mean(-150, 1, 1), Mean(-25, 7, 1), UNDECIDED),
+                                    (Mean(-150, 1, 1), Mean(-25, 1, 1), CONTRADICTED),
+                                    (Mean(100, 0.1, 1), Mean(109, 0.5, 1), UNDECIDED),
+                                    (Mean(100, 0.1, 1), Mean(111, 0.5, 1), UNDECIDED),
+                                    (Mean(100, 0.1, 1), Mean(105, 0.1, 1), CONTRADICTED),
+                                    (Mean(100, 0.1, 1), Mean(130, 1, 1), CONFIRMED)):
+            with self.subTest(f"{less} {more}"):
+                self.assertEqual((more - less).sign, 1)
+                self.assertEqual(statements.larger_drop(less, more), verdict)
+
     def test_a_drop_is_that_of_the_line(self):
         found = statements.drop(run(series=series(pressure=-200 * Z, noise=0)))
         self.assertAlmostEqual(found.value, 200 * (Z[-1] - Z[0]))

@@ -222,13 +222,14 @@ def drop(run):
 
 
 def larger_drop(less, more):
-    """The verdict on whether a drop of the pressure (Mean) is a drop and clearly larger than another."""
+    """The verdict on whether a drop of the pressure (Mean) is a drop and clearly larger than another: whether it is
+    above zero and above CLEARLY times the other one, by their errors."""
     verdict = by_sign(more - less)
     if verdict != CONFIRMED:
         return verdict
-    if more.value < max(0.0, CLEARLY * less.value):
-        return CONTRADICTED
-    return CONFIRMED if more.sign > 0 else UNDECIDED
+    floor = max(Mean(0.0), Mean(CLEARLY * less.value, CLEARLY * less.error, less.freedom), key=lambda one: one.value)
+    verdict = by_sign(more - floor)
+    return UNDECIDED if verdict == CONFIRMED and more.sign <= 0 else verdict
 
 
 def pressure_drops(runs):
