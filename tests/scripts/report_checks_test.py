@@ -14,7 +14,7 @@ from millfoam.files.flow_record import FlowRecord
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.batches import batches_of, error_over_turns
 from millfoam.report import checks
-from millfoam.report.steadiness import halves
+from millfoam.report.steadiness import gap_of_feed, halves
 from millfoam.report.verdict import judged
 from report_cases import PRINTS, change_json, write_dry, write_flow
 
@@ -234,6 +234,13 @@ class Flow(Verdicts):
         self.assertLess(error_over_turns(time, np.sin(2 * np.pi * time), 0.5, 1.0), 1e-9)
         self.assertTrue(np.isnan(error_over_turns(time, time, 5.0, 1.0)))
 
+    def test_a_discharge_that_is_more_than_the_feed_is_said_so(self):
+        time = np.arange(1, 601) * 0.01
+        for out, words in ((2.9, "-190 % of the feed (discharges 2.9 times its feed)"), (0.4, "+60 % of the feed")):
+            columns = {"Time": time, "fed": time, "discharged": out * time, "discharge": out + 0 * time}
+            found = gap_of_feed(columns, 1.0, 4.0).text
+            self.assertEqual(found, f"feed minus discharge is {words}")
+
     def courant(self, steps, limits=None):
         columns = dict(zip(("courant", "courant_surface", "courant_air", "voidage_change"), np.transpose(steps)))
         return checks.courant(case(steps={"time_s": np.arange(len(steps)), **columns}, limits=limits or LIMITS))
@@ -249,9 +256,9 @@ class Flow(Verdicts):
     def test_steps_are_judged_by_the_limits_that_are_known(self):
         found = self.courant([(0.55, 0.4, 2, 0.1)] * 100,
                              {"maxCo": 0.5, "maxAlphaCo": 0.4, "maxAirCo": 3, "maxVoidageChange": None}).found
-        self.assertEqual(found, "0.0 % of the steps are beyond 2 times their limits (limit 1 %); 95 % of the steps "
-                                "are below: Courant number 0.55 (limit 0.5), at the surface 0.4 (limit 0.4), in air 2 "
-                                "(limit 3), change of voidage 0.1")
+        self.assertEqual(found, "0.0 % of the steps are beyond 2 times their aim (holds up to 1 %, fails above 5 %); "
+                                "95 % of the steps are below: Courant number 0.55 (aim 0.5), at the surface 0.4 (aim "
+                                "0.4), in air 2 (aim 3), change of voidage 0.1")
 
     def test_steps_or_limits_that_are_missing_are_unknown(self):
         self.check(checks.courant(case(limits=LIMITS)), "unknown")

@@ -213,7 +213,7 @@ class OneCase(Case):
     def test_a_flow_without_balls_has_no_words_on_the_charge(self):
         self.undrawn()
         found = self.assert_whole(report_case(write_fluid_only(self.folder / "flow")))
-        self.assertNotRegex(found.text, "orange|clear of the charge|batch means|balls give")
+        self.assertNotRegex(found.text, "orange|clear of the charge|batch means|balls give|load of balls")
         self.assertIn("drop of p_rgh", found.text)
 
     def test_power_by_wall_and_slip_are_shown_if_the_table_has_them(self):
@@ -273,6 +273,15 @@ class OneCase(Case):
         for words in ("the slurry carries the balls", "Power and energies of the balls", "LIGGGHTS of the balls"):
             self.assertIn(words, direct)
 
+    def test_every_flow_explains_the_errors_of_its_numbers(self):
+        for flow in (write_flow(self.folder / "flow"), write_fluid_only(self.folder / "fluid")):
+            case = self.short_turns(flow)
+            self.assertIn("± of the slurry: standard errors of the means of 4 whole turns. With 95 % confidence a mean "
+                          "is known within 3.2 of them (two turns: 12.7, three: 4.3", spans(case, Readings(case)))
+            case.turn = 0.3
+            self.assertIn("no ±: it needs two whole turns of the flow, and this one was averaged over 1",
+                          spans(case, Readings(case)))
+
     def test_the_power_names_its_begin_and_the_figure_marks_it(self):
         flow = write_flow(self.folder / "flow")
         self.assertIn("power from DEM time 0.4 s on", spans(MillCase(flow), Readings(MillCase(flow))))
@@ -287,8 +296,11 @@ class OneCase(Case):
 
     def test_the_drives_power_names_its_turns_and_what_its_torques_miss(self):
         case = self.short_turns(write_flow(self.folder / "flow"))
-        self.assertIn("fewer than three turns of the flow is not shown; it has 4. ±", net_note(case))
+        self.assertIn("Both are means over 4 whole turns of the flow. ±", net_note(case))
         self.assertNotIn("does not balance", net_note(case))
+        case.turn = 0.3
+        self.assertIn("The power of slurry and drive needs three whole turns; this flow has 1. ±", net_note(case))
+        case.turn = 0.1
         (self.folder / "coupling.json").write_text(json.dumps({"format": "millfoam-coupling", "coupling": "direct",
                                                                "torque_disagreement": 0.0143,
                                                                "torque_unbalanced": -0.0252}))

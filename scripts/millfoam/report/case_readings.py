@@ -106,7 +106,8 @@ def key_numbers(case: MillCase, readings: Readings) -> Rows:
         power = charge_power(case)
         name = "power of the charge in the slurry" if feels_slurry(case) else "power of the dry charge"
         rows.append((name, uncertain(power.value, power.error, "W")))
-    rows += load_numbers(case.mill)
+    if case.has_balls:
+        rows += load_numbers(case.mill)
     if isinstance(readings.charge, charge.Charge):
         rows += charge_numbers(readings)
     if case.balance is not None:

@@ -51,7 +51,8 @@ def net_note(case: MillCase) -> str:
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
                      "both together; the balls do not feel the slurry, and keep what they give to it.")
-                  + f" A mean over fewer than three turns of the flow is not shown; it has {turns}.")
+                  + (f" Both are means over {turns} whole turns of the flow." if turns >= 3 else
+                     f" The power of slurry and drive needs three whole turns; this flow has {turns}."))
     return f"{words} ±: standard errors over time.{torque_words(case)}"
 
 

@@ -10,6 +10,8 @@ from ..files import solids_file
 from ..files.data_files import read_text
 from ..files.mill_case import MillCase
 from ..plots import charge_plots, mill_plots
+from ..readings.batches import whole_turns
+from ..readings.means import Mean
 from ..readings.mill_power import power_begin
 from . import figures, maps, page
 from .case_readings import FRAME, Readings, key_numbers
@@ -43,10 +45,20 @@ def spans(case: MillCase, readings: Readings) -> str:
     text = "Averages: " + ", ".join(words) + "."
     if case.solids or case.results:
         text += " ±: standard errors of batch means over time."
-        if case.flow:
-            text += " Those of the slurry are of whole turns; a mean over fewer than two turns has none."
-        text += f" Angles are counted from straight down, positive where the shell rises. {FRAME}"
-    return text + readings.short_blocks(slurry=False)
+    if case.flow:
+        text += errors_of_flow(whole_turns(case.last - case.begin, case.turn))
+    if case.solids or case.results:
+        text += " Angles are counted from straight down, positive where the shell rises."
+    return f"{text} {FRAME}{readings.short_blocks(slurry=False)}"
+
+
+def errors_of_flow(turns: int) -> str:
+    """In words, what ± is of the slurry's means over so many whole turns."""
+    if turns < 2:
+        return (f" The slurry's means have no ±: it needs two whole turns of the flow, and this one was averaged over "
+                f"{turns}.")
+    return (f" ± of the slurry: standard errors of the means of {turns} whole turns. With 95 % confidence a mean is "
+            f"known within {Mean(0.0, 1.0, turns - 1).reach:.1f} of them (two turns: 12.7, three: 4.3, many: 2.0).")
 
 
 def animation(case: MillCase) -> str:

@@ -134,7 +134,9 @@ def drifts(columns: dict[str, np.ndarray], begin: float, turn: float, radius: fl
 def gap_of_feed(columns: dict[str, np.ndarray], begin: float, turn: float) -> Difference:
     """Difference of feed and discharge from `begin` (s) on, over the feed."""
     share, error = discharge_gap(columns, begin, turn)
-    text = f"{difference_with_error(100 * share, 100 * error)} % of the feed stays"
+    text = f"feed minus discharge is {difference_with_error(100 * share, 100 * error)} % of the feed"
+    if share < 0:
+        text += f" (discharges {1 - share:.3g} times its feed)"
     return Difference("feed less discharge over the feed", share, error, OF_FEED,
                       text if np.isfinite(share) else "nothing was fed in this time")
 
