@@ -90,7 +90,8 @@ class Relative(unittest.TestCase):
     def mill(self, name, *runs):
         made = [study.Run(way, fill, None, SimpleNamespace(quantities={"drive_power": power}), None, 0.0, "", np.nan)
                 for way, fill, power in runs]
-        return study.Study(name, None, Mean(0.2, 0.006), made, [])
+        box = {"lower_m": [-0.06, -0.06, 0], "upper_m": [0.06, 0.06, 0.024], "shape": [20, 20, 4]}
+        return study.Study(name, SimpleNamespace(content={"derived": {"averages": box}}), Mean(0.2, 0.006), made, [])
 
     def test_has_the_direct_runs_with_the_errors_of_both(self):
         (fill, ratio), = study.relative_power(self.mill(
@@ -103,7 +104,8 @@ class Relative(unittest.TestCase):
     def test_picture_has_all_mills_that_have_direct_runs(self):
         mills = [self.mill(f"mill{k}", ("direct", 0.5, Mean(0.25, 0.01))) for k in range(10)]
         axis, = study.draw_relative([*mills, self.mill("none")]).axes
-        self.assertEqual(axis.get_legend_handles_labels()[1], ["dry", *(f"mill{k}" for k in range(10))])
+        self.assertEqual(axis.get_legend_handles_labels()[1],
+                         ["dry", *(f"mill{k}, voxels of 6 mm" for k in range(10))])
 
 
 class Loads(unittest.TestCase):

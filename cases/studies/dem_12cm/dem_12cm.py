@@ -214,11 +214,15 @@ def plot(results, rows, path):
         axis.yaxis.set_minor_formatter(NullFormatter())
         axis.grid(alpha=0.3)
         axis.legend(fontsize=8)
+    maps, image = [], None
     for k, result in enumerate(results):
         axis = figure.add_subplot(grid[1 + k // across, 2 * (k % across):2 * (k % across) + 2])
+        maps.append(axis)
         if result.charge:
-            draw_charge(axis, result.dry.charge, result.charge, RADIUS)
+            image = draw_charge(axis, result.dry.charge, result.charge, RADIUS)
         axis.set_title(result.dry.name + ("" if result.charge else ": nothing to read"), fontsize=9, loc="left")
+    if image:
+        figure.colorbar(image, ax=maps, label="solidity, –", shrink=min(1.0, 1.0 / lines), aspect=25)
     figure.savefig(path, dpi=90)
     plt.close(figure)
 

@@ -29,7 +29,7 @@ def profiles(flows: Sequence[Flow]) -> Figure:
                 if is_published(one.run) and one.run.speed == speed and bool(one.run.law) == balls]
     groups = [(f"{speed} % of critical, {words}", of(speed, balls), True)
               for balls, words in ((False, "without balls"), (True, "with balls")) for speed in (60, 75)]
-    groups.append(("75 %, 20 % slurry, without balls: unknown parts", [
+    groups.append(("75 %, 20 % slurry, without balls: other layers and lifters", [
         one for one in flows if one.run.law is None and (not is_published(one.run) or one.run.name == "fluid_75_20")],
         False))
     groups.append(("75 %, 20 % slurry, with balls: other runs", [
@@ -77,7 +77,8 @@ def axial_flow_maps(flows: Sequence[Flow]) -> Figure:
         draw_outline(axis, one.case.outline, one.case.radius, one.case.omega)
         axis.set_aspect("equal")
         axis.set_title(one.run.name, fontsize=9)
-    figure.colorbar(image, ax=axes, extend="both", label="velocity along the axis, mm/s\n(red: to the discharge)")
+    figure.colorbar(image, ax=axes, extend="both", shrink=min(1.0, 1.5 / rows), aspect=25,
+                    label="velocity along the axis, mm/s\n(red: to the discharge)")
     return figure
 
 

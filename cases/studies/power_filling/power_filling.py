@@ -223,6 +223,12 @@ def relative_power(study: Study) -> list[tuple[float, Mean]]:
     return found
 
 
+def voxel_size(mill: Mill) -> float:
+    """Width of a Mill's voxels across its axis, m."""
+    box = mill.content["derived"]["averages"]
+    return (box["upper_m"][0] - box["lower_m"][0]) / box["shape"][0]
+
+
 def draw_relative(studies):
     """Figure with a curve for each mill: drive's power with balls that feel the slurry, over that of the dry mill."""
     figure, axis = plt.subplots(figsize=(7, 4.5), layout="constrained")
@@ -230,7 +236,8 @@ def draw_relative(studies):
     for study, marker in zip(studies, itertools.cycle("osD^v<>P")):
         found = [(fill, one.value, one.error) for fill, one in relative_power(study)]
         if found:
-            axis.errorbar(*zip(*found), marker=marker, capsize=2, label=study.name)
+            axis.errorbar(*zip(*found), marker=marker, capsize=2,
+                          label=f"{study.name}, voxels of {1e3 * voxel_size(study.mill):.2g} mm")
     axis.set(xlabel="volume of slurry over that of the resting charge's pores",
              ylabel="power of the drive over that of the dry mill", title="Balls and slurry at the same time")
     axis.grid(alpha=0.3)

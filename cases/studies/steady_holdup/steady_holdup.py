@@ -188,7 +188,7 @@ def draw_discharge(axis: plt.Axes, found: Sequence[Held], trials: Sequence[Trial
         if one.mesh == "coarse" and one.reason == "steady" and not one.kind.change:
             axis.errorbar(1e3 * one.whole.value, 1e6 * one.discharge.value, 1e6 * one.discharge.error, capsize=2,
                           fmt="s" if one.kind.balls else "o", color=COLOURS[one.kind.speed])
-    axis.set(title="discharge against hold-up; filled: flows at their end", ylabel="discharge, ml/s", ylim=(0, None),
+    axis.set(title="discharge against hold-up; filled: over the late turns", ylabel="discharge, ml/s", ylim=(0, None),
              xlabel="hold-up with the pulp lifters, l")
     axis.grid(alpha=0.3)
     if trials:
