@@ -14,6 +14,7 @@ from PIL import Image
 from charge_test import RADIUS, below, charge_map, turning
 from millfoam.files.outline import circle
 from millfoam.plots.charge_plots import charge_figure, tangential_figure
+from millfoam.plots.drawing import drawn
 from millfoam.plots.mill_plots import save
 from millfoam.readings.charge import charge_with_errors, read_charge
 
@@ -63,6 +64,16 @@ class Pictures(unittest.TestCase):
         picture = io.BytesIO()
         save(tangential_figure(self.readings.tangential), picture)
         self.assertEqual(Image.open(picture).format, "PNG")
+
+    def test_are_drawn_once_as_matplotlib_writes_them(self):
+        figure, axis = plt.subplots(layout="constrained")
+        figure.colorbar(axis.pcolormesh([[0, 1], [2, 3]]), label="of a layout that is computed")
+        written = io.BytesIO()
+        figure.savefig(written, dpi=60)
+        for _ in range(2):  # the second time as redrawn_figures', without a layout engine
+            np.testing.assert_array_equal(np.asarray(drawn(figure, 60)), np.asarray(Image.open(written)))
+        self.assertEqual(figure.dpi, plt.rcParams["figure.dpi"])
+        plt.close(figure)
 
     def test_show_the_outline_that_is_given_or_the_circle(self):
         square = RADIUS * np.array([[1, 0], [0, 1], [-1, 0], [0, -1], [1, 0]])

@@ -14,6 +14,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ..plots.drawing import drawn
 from .verdict import Check
 from .words import typeset
 
@@ -44,10 +45,9 @@ def text(words: str) -> str:
 
 def encode(figure: Figure, dpi: int = 140, colours: int = 256) -> str:
     """A matplotlib figure, which is closed, as a data URL of a PNG with a palette of `colours` colours."""
-    drawn, buffer = io.BytesIO(), io.BytesIO()
-    figure.savefig(drawn, dpi=dpi, format="png")
+    image = drawn(figure, dpi).convert("RGB").quantize(colours, dither=Image.Dither.NONE)
     plt.close(figure)
-    image = Image.open(drawn).convert("RGB").quantize(colours, dither=Image.Dither.NONE)
+    buffer = io.BytesIO()
     image.save(buffer, format="png", optimize=True)
     return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
 
