@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of a mill: maps of charge and slurry, a strip of frames, an animation."""
-import io
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TypeVar
@@ -11,13 +10,14 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection, QuadMesh
 from matplotlib.figure import Figure
-from PIL import Image
+from PIL.Image import Palette
 
 from ..files import foam
 from ..files.outline import circle
 from ..files.solids_file import SolidsMap
 from ..files.written_times import MillFlow
 from ..readings.maps_of_times import PIXELS, mean_flow, mean_load
+from .drawing import drawn
 
 Thing = TypeVar("Thing")
 SLURRY, SPEED, SOLIDITY = "Blues", "viridis", "YlOrBr"
@@ -86,8 +86,7 @@ def plot_maps(flow: MillFlow, solids: SolidsMap, begin: float, out: Path | str) 
         draw_mill(axis, flow, last)
     figure.suptitle(f"Averages over the axis; charge: DEM time {solids.begin:.3g} to {solids.end:.3g} s, "
                     f"slurry: flow time {begin:.3g} to {last:.3g} s; mill outline at the end")
-    figure.savefig(out, dpi=110)
-    plt.close(figure)
+    save(figure, out)
 
 
 def load_figure(flow: MillFlow, begin: float) -> Figure:
@@ -110,8 +109,8 @@ def load_figure(flow: MillFlow, begin: float) -> Figure:
 
 
 def save(figure: Figure, out: Path | str, dpi: int = 110) -> None:
-    """Writes a figure to a file and closes it."""
-    figure.savefig(out, dpi=dpi)
+    """Writes a figure to a PNG file and closes it."""
+    drawn(figure, dpi).save(out, format="png", dpi=(dpi, dpi))
     plt.close(figure)
 
 
@@ -148,8 +147,7 @@ def plot_strip(flow: MillFlow, out: Path | str, count: int = 6) -> None:
     charge = any(foam.is_there(path / "solidity") for _, path in (flow.frames[number] for number in numbers))
     figure.colorbar(patches, ax=axes, shrink=0.6,
                     label="slurry share over the axis, –" + ("  (orange: charge, solidity 0.2)" if charge else ""))
-    figure.savefig(out, dpi=100)
-    plt.close(figure)
+    save(figure, out, dpi=100)
 
 
 def frame_figures(flow: MillFlow, frames: Iterable[tuple[float, Path]]) -> Iterator[Figure]:
@@ -197,9 +195,6 @@ def redrawn_figures(things: Iterable[Thing], draw: Callable[[Axes, Thing], Scala
 def animate(flow: MillFlow, out: Path | str, most: int = 60) -> None:
     """Writes at most `most` of the frames, equally spaced, as an endless GIF."""
     frames = [flow.frames[k] for k in np.unique(np.linspace(0, len(flow.frames) - 1, most).astype(int))]
-    pictures = []
-    for figure in frame_figures(flow, frames):
-        buffer = io.BytesIO()
-        figure.savefig(buffer, dpi=80)
-        pictures.append(Image.open(buffer).convert("P", palette=Image.ADAPTIVE, colors=128))
+    pictures = [drawn(figure, 80).convert("P", palette=Palette.ADAPTIVE, colors=128)
+                for figure in frame_figures(flow, frames)]
     pictures[0].save(out, save_all=True, append_images=pictures[1:], duration=100, loop=0)
