@@ -11,7 +11,7 @@ import numpy as np
 from contourpy import contour_generator
 from numpy.typing import ArrayLike
 from scipy.ndimage import gaussian_filter, map_coordinates
-from scipy.optimize import curve_fit
+from scipy.optimize import least_squares
 
 from ..files.solids_file import SolidsMap
 from .shell_angles import shell_angle
@@ -23,6 +23,7 @@ WALL = 0.008  # m from the shell; the space closer to it is between or at lifter
 FEWEST = 0.05  # largest smoothed solidity of a map that has a charge
 POINTS = 100  # along the free surface
 ALL_ROUND = 0.95  # share of the shell that a centrifuging charge covers
+LARGEST = 10.0  # |a| and |d| of a logistic, of the mill's radius
 KNOWN = 0.5  # length of the free surface that must be known if a map lacks voxels, of the mill's radius
 
 
@@ -191,29 +192,37 @@ def fit_logistic(x: np.ndarray, y: np.ndarray, scale: float) -> tuple[tuple[floa
     least-squares fits, with the step within two `scale` (m) of the axis and at least `scale`/100 wide, |a| and |d| up
     to ten of them.
 
-    They begin at the best three of a table of places and widths of the step; a and d of each are linear least squares.
-    RuntimeError if no fit converges."""
+    For a place and a width of the step, a and d are linear least squares, so that only these two are sought. The fits
+    begin at the best three of a table of both. RuntimeError if no fit converges."""
     x, y = x / scale, y / scale
 
-    def step(x: np.ndarray, a: float, place: float, c: float, d: float) -> np.ndarray:
-        return logistic(x, a, np.exp(c * place), c, d)
+    def linear(place: float, steepness: float) -> tuple[float, float, np.ndarray]:
+        """Best a and d, within their bounds, of a step at `place` with c = exp(steepness); and the step [n]."""
+        step = logistic(x, 1, np.exp(np.exp(steepness) * place), np.exp(steepness), 0)
+        centred = step - step.mean()
+        variance = centred @ centred
+        a = np.clip(centred @ y / variance if variance > 1e-14 else 0.0, -LARGEST, LARGEST)
+        d = y.mean() - a * step.mean()
+        if abs(d) > LARGEST:
+            d = np.clip(d, -LARGEST, LARGEST)
+            a = np.clip(step @ (y - d) / (step @ step), -LARGEST, LARGEST)
+        return a, d, step
 
-    starts = []
-    for place in np.linspace(x.min() - 0.3, x.max() + 0.3, 12).clip(-1.9, 1.9):
-        for c in (1, 2, 4, 8, 16):
-            terms = np.column_stack([step(x, 1, place, c, 0), np.ones(len(x))])
-            a, d = np.linalg.lstsq(terms, y, rcond=None)[0].clip(-9.9, 9.9)
-            starts.append((np.mean((terms @ (a, d) - y) ** 2), (a, place, c, d)))
+    def apart(found: np.ndarray) -> np.ndarray:
+        a, d, step = linear(*found)
+        return a * step + d - y
+
+    starts = [(place, np.log(c)) for place in np.linspace(x.min() - 0.3, x.max() + 0.3, 12).clip(-1.9, 1.9)
+              for c in (1, 2, 4, 8, 16)]
     fits = []
-    for _, start in sorted(starts)[:3]:
-        try:
-            found, _ = curve_fit(step, x, y, start, bounds=([-10, -2, 0.01, -10], [10, 2, 100, 10]), maxfev=500)
-        except RuntimeError:
-            continue
-        fits.append((np.sqrt(np.mean((step(x, *found) - y) ** 2)), *found))
+    for start in sorted(starts, key=lambda start: np.mean(apart(np.array(start)) ** 2))[:3]:
+        fit = least_squares(apart, start, bounds=([-2, np.log(0.01)], [2, np.log(100)]), max_nfev=200)
+        if fit.success:
+            fits.append((np.sqrt(np.mean(fit.fun ** 2)), *fit.x))
     if not fits:
         raise RuntimeError(f"no logistic was found through the {len(x)} points of the free surface")
-    rmsd, a, place, c, d = min(fits)
+    rmsd, place, steepness = min(fits)
+    (a, d, _), c = linear(place, steepness), np.exp(steepness)
     return (float(a * scale), float(np.exp(c * place)), float(c / scale), float(d * scale)), float(rmsd * scale)
 
 
