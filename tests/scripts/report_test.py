@@ -20,6 +20,7 @@ from millfoam.files.mill import NoMill
 from millfoam.files.mill_case import MillCase
 from millfoam.files.outline import circle, lifter_outline
 from millfoam.plots.mill_plots import plot_strip
+from millfoam.readings import free_surface, models
 from millfoam.readings.axial import Humps, drop, drop_error, mean_profile
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
 from millfoam.readings.means import Mean, angle_mean, time_mean
@@ -77,12 +78,32 @@ def undrawn(figure, **_):
     return "data:image/png;base64,"
 
 
+def keep(function, kept):
+    """The function, which computes what it returns only once for the same arguments."""
+    def found(*arguments, **options):
+        key = (*(value.tobytes() if isinstance(value, np.ndarray) else value for value in arguments),
+               *sorted(options.items()))
+        if key not in kept:
+            kept[key] = function(*arguments, **options)
+        return kept[key]
+
+    return found
+
+
+# The cases of these tests have few surfaces, which are fitted in every report
+FITS = {"free_surface.fit_logistic": keep(free_surface.fit_logistic, {}),
+        "models.fit_free_surface": keep(models.fit_free_surface, {})}
+
+
 class Case(unittest.TestCase):
     def setUp(self):
         self.folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="report-")))
+        for name, fit in FITS.items():
+            self.enterContext(mock.patch(f"millfoam.readings.{name}", fit))
 
     def undrawn(self):
         self.enterContext(mock.patch("millfoam.report.page.encode", undrawn))
+        self.enterContext(mock.patch("millfoam.report.sections.FRAMES", 2))
 
     def assert_whole(self, text):
         """A page that is balanced, has its links' goals within it and its images in it; returns it."""
