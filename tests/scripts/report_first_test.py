@@ -9,7 +9,7 @@ import numpy as np
 
 from millfoam.files.mill_case import MillCase
 from millfoam.report.build import compare_cases, report_case
-from millfoam.report.case_readings import Readings, key_numbers
+from millfoam.report.case_readings import Readings, key_numbers, load_numbers
 from millfoam.report.checks import all_checks
 from millfoam.report.headline import first_lines, summary
 from millfoam.report.stages import programs
@@ -131,8 +131,9 @@ class TheMill(Case):
         self.assertIn("left out: balls of 3 mm and less 52 % of the mass", words)
 
     def test_all_balls_that_are_simulated_have_one_load(self):
-        case = MillCase(write_dry(self.folder / "dry"))
-        self.assertIn(("load of balls", "30 %"), key_numbers(case, Readings(case)))
+        mill = MillCase(write_dry(self.folder / "dry")).mill
+        self.assertIsNone(mill.asked("charge", "classes"))  # of one size by fill, as in all reports here
+        self.assertEqual(load_numbers(mill), [("load of balls", "30 %")])
 
     def test_that_was_run_is_shown_with_its_fingerprint_and_settings(self):
         self.undrawn()
@@ -168,13 +169,6 @@ class TheMill(Case):
         self.assertAlmostEqual(there.charge.centroid()[0], -here.charge.centroid()[0])
         self.assertIn(", clockwise at 74.2 %", summary(here))
         self.assertIn(", anticlockwise at 74.2 %", summary(there))
-
-    def test_of_one_size_by_fill_is_reported_as_any_other(self):
-        # mill.yaml without classes
-        case = MillCase(write_dry(self.folder / "dry"))
-        self.assertIsNone(case.mill.asked("charge", "classes"))
-        self.undrawn()
-        self.assert_whole(report_case(case.folder))
 
     def test_has_the_time_at_which_the_averages_of_its_flow_begin(self):
         flow = write_flow(self.folder / "flow")
