@@ -3,6 +3,7 @@
 """Functions of scripts/case_functions and scripts/mill_stages on folders of a few files."""
 import gzip
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -11,6 +12,7 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 FUNCTIONS = (SCRIPTS / "case_functions").read_text()
 # What follows the setup of the machine
 FUNCTIONS = FUNCTIONS[FUNCTIONS.index("# Programs say in many ways"):]
+PYTHON = f"MILLFOAM_PYTHON={sys.executable}\n"
 END = "\n// ************************************************************************* //\n"
 
 
@@ -191,14 +193,34 @@ class Starting(Stages):
 
 class Inputs(Stages):
     def test_a_value_that_cannot_be_read_is_no_input(self):
-        values = "case $2 in source) echo mill ;; *.live) echo false ;; *.dumps) echo true ;; *) echo false ;; esac"
-        code, output, _ = self.bash(f"json_value() {{ {values}; }}\ninputs=$(charge_inputs ABC)\necho \"$inputs\"")
-        self.assertEqual((code, output), (0, "ABC\n"))
-        for key in ("source", "mill.averages.live", "mill.dem.dumps"):
-            code, output, _ = self.bash(f"json_value() {{ [ $2 != {key} ] || return 137; {values}; }}\n"
-                                        "inputs=$(charge_inputs ABC)\necho \"$inputs\"")
+        usual = {"source": "mill", "mill.averages.live": "false", "fingerprint.averages": "123",
+                 "mill.dem.dumps": "true", "mill.dem.contact_statistics": "false"}
+        for values, inputs in ((usual, "ABC\n"), (usual | {"mill.averages.live": "true"}, "ABC with averages 123\n"),
+                               (usual | {"mill.dem.dumps": "false"}, "ABC without dumps\n"),
+                               (usual | {"mill.dem.contact_statistics": "true"}, "ABC with contact statistics\n")):
+            self.assertEqual(self.charge_inputs(values), (0, inputs))
+        for key in usual:
+            known = {name: value for name, value in usual.items() if name != key}
+            code, output = self.charge_inputs(known)
             self.assertNotEqual(code, 0, key)
             self.assertEqual(output, "")
+
+    def charge_inputs(self, values):
+        """Exit code and output of it where only these values can be read."""
+        cases = " ".join(f"{key}) echo {value} ;;" for key, value in values.items())
+        return self.bash(f"json_value() {{ local key; for key in \"${{@:2}}\"; do\n"
+                         f"case $key in {cases} *) return 137 ;; esac; done; }}\n"
+                         "inputs=$(charge_inputs ABC)\necho \"$inputs\"")[:2]
+
+    def test_values_of_a_file_are_a_line_each_or_none(self):
+        self.write("mill.json", '{"mill": {"live": true, "title": "two words", "window": 0.05}, "flow": null}')
+        keys = "mill.live mill.title flow mill.window"
+        self.assertEqual(self.bash(f"{PYTHON}json_value mill.json {keys}"), (0, "true\ntwo words\nNone\n0.05\n", ""))
+        for more, named in (("mill.layers", "mill.layers"), ("flow.law", "flow.law"), ("mill.title.x", "mill.title.x")):
+            code, output, errors = self.bash(f"{PYTHON}json_value mill.json {keys} {more} mill.live")
+            self.assertEqual((code, output), (1, ""))
+            self.assertIn(f"Allrun: mill.json: no '{named}'", errors)
+        self.assertIn("Allrun: none.json: no 'a'", self.bash(f"{PYTHON}json_value none.json a b")[2])
 
 
 class Ratio(Stages):
