@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """millDem killed, without room on the disk and resumed, on a drum of a few hundred balls; and what it predicts against
 what the run then takes."""
-import fcntl
 import json
 import os
 import re
@@ -314,9 +313,10 @@ class DemRun(unittest.TestCase):
                                  stderr=subprocess.DEVNULL)
         self.addCleanup(first.kill)
         self.assertTrue(wait_for(lambda: (case / "dem" / "log.liggghts").is_file(), 30))
-        with open(case / "dem" / "lock") as lock:
-            with self.assertRaises(BlockingIOError):
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        # It holds the folder; the second waits for programs that a killed run would have left behind
+        first.send_signal(signal.SIGSTOP)
+        with self.assertRaisesRegex(RunError, "another millDem runs in this folder, expected one at a time"):
+            run(case, "millDem", "mill.yaml", "--case", ".")
         first.send_signal(signal.SIGKILL)
         first.wait()
 
