@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The slurry in a small stirred mill: its mesh, start and flow between the balls of the dry run, from one mill.yaml."""
+"""The slurry in a small stirred mill: its mesh, start and flow between the balls of the dry run, from one mill.yaml.
+`StirredFlow`, `TwoRanks`: ctest runs each on as many cores as it uses."""
 import os
 import shutil
 import sys
@@ -30,17 +31,21 @@ ROOT = Path(__file__).resolve().parents[2]
 os.environ["MILLFOAM_NP"] = "1"
 
 
-class StirredFlow(unittest.TestCase):
+class StirredCase(unittest.TestCase):
+    UNTIL = None  # the last stage
+
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(tempfile.mkdtemp(prefix="stirred-flow-"))
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         (cls.folder / "mill.yaml").write_text(MILL)
         cls.case = cls.folder / "case"
-        run_mill(cls.case, cls.folder / "mill.yaml")
+        run_mill(cls.case, cls.folder / "mill.yaml", until=cls.UNTIL)
         cls.mill = read_mill(cls.case, "stirred")
         cls.balance = read_columns(cls.case, "slurryBalance")
 
+
+class StirredFlow(StirredCase):
     def test_mesh_turns_with_the_impeller_and_is_good(self):
         mesh = read_json(self.case / "mesh.json", "mesh")
         self.assertEqual(mesh["time0_s"], 0.1)
@@ -90,17 +95,6 @@ class StirredFlow(unittest.TestCase):
         self.assertLess(mean["balls"], -1e-3)
         rest = mean["all"] - sum(value for name, value in mean.items() if name != "all")
         self.assertLess(abs(rest), 0.35 * abs(mean["balls"]))
-
-    def test_two_ranks_give_the_same(self):
-        with patch.dict(os.environ, MILLFOAM_NP="2"):
-            run_mill(self.folder / "two", self.folder / "mill.yaml", charge=self.case, until="flow")
-        other = read_columns(self.folder / "two", "slurryBalance")
-        self.assertAlmostEqual(other["Time"][-1], self.balance["Time"][-1], delta=1e-9)
-        for name, limit in (("holdUp", 1e-12), ("z", 1e-4), ("torque_shell", 0.01), ("torque_balls", 0.01)):
-            late = [columns[name][columns["Time"] > 0.02].mean() for columns in (other, self.balance)]
-            self.assertLess(abs(late[0] / late[1] - 1), limit, name)
-        share = [read_field(times(folder)[-1][1] / "alpha.slurry") for folder in (self.folder / "two", self.case)]
-        self.assertLess(np.abs(share[0] - share[1]).mean(), 1e-3)
 
     def test_a_killed_flow_resumes_to_the_same_numbers(self):
         case = self.folder / "killed"
@@ -162,6 +156,21 @@ class StirredFlow(unittest.TestCase):
         for stage in ("charge", "average", "mesh", "start", "flow"):
             self.assertIn(f"Keeping {stage}", text)
         self.assertTrue((self.case / "report.html").is_file())
+
+
+class TwoRanks(StirredCase):
+    UNTIL = "flow"
+
+    def test_give_the_same_as_one(self):
+        with patch.dict(os.environ, MILLFOAM_NP="2"):
+            run_mill(self.folder / "two", self.folder / "mill.yaml", charge=self.case, until="flow")
+        other = read_columns(self.folder / "two", "slurryBalance")
+        self.assertAlmostEqual(other["Time"][-1], self.balance["Time"][-1], delta=1e-9)
+        for name, limit in (("holdUp", 1e-12), ("z", 1e-4), ("torque_shell", 0.01), ("torque_balls", 0.01)):
+            late = [columns[name][columns["Time"] > 0.02].mean() for columns in (other, self.balance)]
+            self.assertLess(abs(late[0] / late[1] - 1), limit, name)
+        share = [read_field(times(folder)[-1][1] / "alpha.slurry") for folder in (self.folder / "two", self.case)]
+        self.assertLess(np.abs(share[0] - share[1]).mean(), 1e-3)
 
 
 if __name__ == "__main__":
