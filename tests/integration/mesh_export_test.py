@@ -104,6 +104,43 @@ class Content(ExportTest):
                                    options=("-time0", "0.75"))
 
 
+    def test_a_time0_that_is_no_number_is_refused(self):
+        for word in ("nan", "soon", "1s"):
+            self.assert_refused_export(self.skewed(), f"-time0 is '{word}'; expected a finite number",
+                                       options=("-time0", word))
+
+    def refined(self, *options):
+        """A box whose middle cell is cut into eight, which are the last ones: the last one owns no face."""
+        case = self.box(lower=(0, 0, 0), upper=(1, 1, 1), cells=(5, 5, 5))
+        case.write("system/topoSetDict", """
+            actions ( { name middle; type cellSet; action new; source boxToCell; box (0.45 0.45 0.45) (0.55 0.55 0.55); }
+            );""")
+        self.assert_runs(case, "topoSet")
+        self.assert_runs(case, "refineHexMesh", "middle", *options)
+        return case
+
+    def test_a_last_cell_that_owns_no_face_counts(self):
+        case = self.refined("-overwrite")
+        mesh = foam.read_mesh(case.path)
+        self.assertEqual((mesh.owner.max(), mesh.neighbour.max(), mesh.cells), (130, 131, 132))
+        self.assertAlmostEqual(mesh.centres_and_volumes()[1].sum(), 1, places=12)
+        found, attributes = self.export(case)
+        self.assertEqual(attributes["cells"], 132)
+        case.decompose_into(2, 2, 1)
+        self.assert_runs(case, "decomposePar")
+        self.assert_same_mesh(self.export(case, "-decomposed")[0], found)
+
+    def test_a_mesh_that_was_refined_at_a_later_time_is_refused(self):
+        self.assert_refused_export(self.refined(), "topology changes at time 0.001")
+
+    def test_a_cell_with_too_few_faces_is_refused(self):
+        case = self.skewed()
+        path = case.path / "constant/polyMesh/neighbour"
+        path.write_text(path.read_text().replace("\n71\n", "\n80\n", 1))
+        self.assert_refused_export(case, "cell 72 has 0 faces", "polyMesh/owner and neighbour, whose largest label is 80",
+                                   "expected 4 faces or more")
+
+
 class Formats(ExportTest):
     def assert_format_changes_nothing(self, binary, compressed):
         expected, _ = self.export(self.skewed())
@@ -204,7 +241,10 @@ class Times(ExportTest):
         np.testing.assert_array_equal(found["points"], [self.points[time] for time in times])
 
     def test_without_times_the_points_are_those_of_constant(self):
-        self.assert_times(self.export(self.moving())[0], 0)
+        case = self.moving()
+        result = self.assert_runs(case, "foamMeshToH5")
+        self.assertIn("not of 3 later times that have polyMesh/points (-times)", result.log)
+        self.assert_times(read(case.path / "mesh.h5")[0], 0)
 
     def test_all_times_begin_with_the_points_of_constant(self):
         self.assert_times(self.export(self.moving(), "-times", "all")[0], 0, 0.1, 0.25, 0.5)

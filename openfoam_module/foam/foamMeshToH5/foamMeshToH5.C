@@ -21,7 +21,8 @@ Usage
       - \par -times all|RANGES
         For a mesh whose points move: those of all times, or of ranges such as
         0.1:0.5,0.8, that have polyMesh/points; flow time 0 is that of constant.
-        Without it only the points of constant are written
+        Without it only the points of constant are written. A mesh whose faces
+        or cells change is refused
 
       - \par -time0 T
         DEM time, s, at flow time 0, where constant/millProperties has no
@@ -116,6 +117,22 @@ static PtrList<meshPart> openParts(const argList& args, const Time& time)
 }
 
 
+//- Number that an option gives
+static scalar numberOf(const argList& args, const word& option)
+{
+    const std::string text(args[option]);
+    char* end = nullptr;
+    const scalar value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+    {
+        FatalErrorInFunction << "-" << option << " is '" << text.c_str()
+                             << "'; expected a finite number"
+                             << exit(FatalError);
+    }
+    return value;
+}
+
+
 //- DEM time at flow time 0
 static scalar findTime0(const argList& args, const Time& time)
 {
@@ -123,7 +140,7 @@ static scalar findTime0(const argList& args, const Time& time)
 
     scalar time0 = 0;
     const bool known = mill.readIfPresent("time0", time0);
-    const scalar asked = args.lookupOrDefault<scalar>("time0", time0);
+    const scalar asked = args.found("time0") ? numberOf(args, "time0") : time0;
     if (known && asked != time0)
     {
         FatalErrorInFunction
@@ -141,7 +158,20 @@ static instantList chooseTimes(const argList& args, const meshAssembly& mesh)
     instantList times(mesh.times());
     if (!args.found("times"))
     {
-        return instantList(1, instant(0, "constant"));
+        const instant constant(0, "constant");
+        label others = 0;
+        for (const instant& time : times)
+        {
+            mesh.checkTopology(time);
+            others += time.value() == 0 ? 0 : 1;
+        }
+        if (others > 0)
+        {
+            Info << "The points are those of " << constant.name() << ", not of "
+                 << others << " later times that have polyMesh/points"
+                 << " (-times)" << endl;
+        }
+        return instantList(1, constant);
     }
 
     const string ranges(args["times"]);

@@ -126,7 +126,9 @@ Foam::meshAssembly::meshAssembly(PtrList<meshPart>&& parts)
 
 millfoam::averaging::MeshTopology Foam::meshAssembly::topology() const
 {
-    const label nCells = owner_.empty() ? 0 : max(owner_) + 1;
+    // The last cell may own no face, and faces of the boundary have neighbour -1
+    const label nCells =
+        owner_.empty() ? 0 : max(max(owner_), max(neighbour_)) + 1;
     millfoam::averaging::MeshTopology result = averagingTopology(
         nPoints_, nCells, faces_, owner_,
         SubList<label>(neighbour_, nInternal()));

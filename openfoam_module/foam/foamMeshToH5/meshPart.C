@@ -74,19 +74,19 @@ void Foam::meshPart::numberLabels()
 
     pointLabels_ = identity(pointIOField(listIO("points", constant)).size());
     faceLabels_ = identity(faces_.size(), 1);
-    cellLabels_ = identity(owner_.empty() ? 0 : max(owner_) + 1);
+    cellLabels_ = identity(nCells());
 }
 
 
 void Foam::meshPart::check() const
 {
-    const label nCells = owner_.empty() ? 0 : max(owner_) + 1;
-
     checkSize("owner", owner_, faces_.size());
-    checkRange("owner", owner_, labelMax);
-    checkRange("neighbour", neighbour_, nCells);
+    // There are fewer cells than faces
+    checkRange("owner", owner_, faces_.size());
+    checkRange("neighbour", neighbour_, faces_.size());
+    checkCells();
     checkSize("faceProcAddressing", faceLabels_, faces_.size());
-    checkSize("cellProcAddressing", cellLabels_, nCells);
+    checkSize("cellProcAddressing", cellLabels_, nCells());
     checkRange("pointProcAddressing", pointLabels_, labelMax);
     checkRange("cellProcAddressing", cellLabels_, labelMax);
     if (faceLabels_.found(0))
@@ -104,6 +104,32 @@ void Foam::meshPart::check() const
     {
         const labelList ends({p.start, p.start + p.size});
         checkRange("boundary", ends, faces_.size() + 1);
+    }
+}
+
+
+void Foam::meshPart::checkCells() const
+{
+    const label fewest = 4;
+    labelList count(nCells(), 0);
+    for (const labelList* cells : {&owner_, &neighbour_})
+    {
+        for (const label celli : *cells)
+        {
+            ++count[celli];
+        }
+    }
+    forAll(count, celli)
+    {
+        if (count[celli] < fewest)
+        {
+            FatalErrorInFunction
+                << "cell " << celli << " has " << count[celli] << " faces in "
+                << listIO("owner", time_->constant()).objectPath() << " and "
+                << "neighbour, whose largest label is " << nCells() - 1
+                << "; expected " << fewest << " faces or more"
+                << exit(FatalError);
+        }
     }
 }
 
@@ -159,6 +185,20 @@ Foam::meshPart::meshPart(autoPtr<Time> time, const bool decomposed)
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::label Foam::meshPart::nCells() const
+{
+    label last = -1;
+    for (const labelList* cells : {&owner_, &neighbour_})
+    {
+        for (const label celli : *cells)
+        {
+            last = max(last, celli);
+        }
+    }
+    return last + 1;
+}
+
 
 bool Foam::meshPart::hasPoints(const word& instance) const
 {

@@ -151,8 +151,8 @@ class Mesh:
 
     @property
     def cells(self) -> int:
-        """Number of cells."""
-        return int(self.owner.max()) + 1
+        """Number of cells. The last one may own no face: the owner of a face is the cell of the lower number."""
+        return int(max(self.owner.max(), self.neighbour.max(initial=-1))) + 1
 
     def centres_and_volumes(self) -> tuple[np.ndarray, np.ndarray]:
         """Cell centres [cells, 3] (m) and volumes [cells] (m^3), by the pyramids over each cell's faces."""
