@@ -299,6 +299,21 @@ class InABox(SlurryTest):
         weight = SLURRY * columns["holdUp"] * 9.81 * columns["x"]
         self.assertGreater(np.abs(columns["torque_all"][late] / weight[late] - 1).max(), 0.01)
 
+    def forces_on_balls(self, **options):
+        """Forces on a bed that is drawn through a box, as the balls feel it and by the fluid's balance of momentum
+        [2, steps, 3], N."""
+        case = self.slurry_case(delta_t=0.001, end_time=0.04, **options)
+        case.bed("block { box (0.03 0 0) (0.11 0.06 0.02); edge 0.02; edgeAxes (1 1 0); solidity 0.5; diameter 0.005; "
+                 "velocity (0.1 0 0); } ledgerCorrection no;")
+        columns = self.columns_of(case)
+        return np.array([[columns[f"{name}_{axis}"] for axis in "xyz"] for name in ("force_balls", "force_balance")]
+                        ).transpose(0, 2, 1)
+
+    def test_balls_feel_the_force_that_the_fluid_s_momentum_lacks(self):
+        for level, apart in ((lambda x: 1 + 0 * x, 1e-3), (lambda x: 0.0475 + 0 * x, 5e-3)):
+            felt, balance = self.forces_on_balls(level=level)
+            print(np.abs(felt - balance)[1:].max(axis=0) / np.abs(felt).max(), felt[1:].mean(axis=0), balance[1:].mean(axis=0))
+
     def voxels(self, lower, upper, entries="window 0.002;", end_time=0.004):
         """A case with voxels in a box, and its run; the pool lies below 6 cm in 14 x 10 x 2 cm."""
         case = self.slurry_case(end_time=end_time)

@@ -225,11 +225,13 @@ TEST(slurryTorque, ballsBetweenWallsAtRestGiveTheOppositeOfWhatTheyFeel)
     EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
     {
         const fluidOnBalls mixed(
-            box.mesh(), {"Hill", true, density, 1.2, gravity, water()}, feel);
+            box.mesh(), {"Hill", true, density, 1.2, gravity, water(), false},
+            feel);
         EXPECT_FALSE(slurryTorque(fields, resting).knowsBalls());
     }
     const fluidOnBalls onBalls(
-        box.mesh(), {"Hill", false, density, 1.2, gravity, water()}, feel);
+        box.mesh(), {"Hill", false, density, 1.2, gravity, water(), false},
+        feel);
     EXPECT_FALSE(slurryTorque(fields, entriesOf("speed 2;")).knowsBalls());
 
     const slurryTorque torque(fields, resting);
@@ -355,7 +357,7 @@ TEST(voxelAverages, voxelsGiveTheBallsWhatTheCellsGiveThem)
     const scalarField exchange(1e3 + 1e5 * C.component(vector::Y));
     const vectorField balls(2 * box.U.primitiveField());
     const fluidOnBalls onBalls(
-        box.mesh(), {"Hill", true, density, 1.2, gravity, water()},
+        box.mesh(), {"Hill", true, density, 1.2, gravity, water(), false},
         [&]
         {
             ++computed;

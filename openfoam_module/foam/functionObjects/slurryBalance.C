@@ -56,6 +56,14 @@ void Foam::functionObjects::slurryBalance::begin()
         writeTabbed(file(), "power_" + patch + "_W");
     }
     writeTabbed(file(), "power_W");
+    if (force_.known())
+    {
+        writeNames("balance");
+    }
+    if (force_.knowsFelt())
+    {
+        writeNames("balls");
+    }
     if (fields_.bed<volScalarField>("solidity"))
     {
         for (const char* column : {"Re_mean", "Re_95", "slip_max_m/s"})
@@ -72,6 +80,21 @@ Foam::vector Foam::functionObjects::slurryBalance::centre() const
     const scalarField volumes(fields_.volumes());
     return gSum((volumes * mesh_.C().primitiveField())()) /
            max(gSum(volumes), VSMALL);
+}
+
+
+void Foam::functionObjects::slurryBalance::writeNames(const word& force)
+{
+    for (const char* axis : {"x", "y", "z"})
+    {
+        writeTabbed(file(), "force_" + force + "_" + axis + "_N");
+    }
+}
+
+
+void Foam::functionObjects::slurryBalance::writeVector(const vector& value)
+{
+    file() << tab << value.x() << tab << value.y() << tab << value.z();
 }
 
 
@@ -118,6 +141,7 @@ Foam::functionObjects::slurryBalance::slurryBalance(
   writeFile(mesh_, name, typeName, dict),
   fields_(mesh_, dict),
   torque_(fields_, dict),
+  force_(fields_, torque_),
   holdUp_(gSum(fields_.volumes()())),
   feed_(0),
   discharge_(0),
@@ -171,6 +195,7 @@ bool Foam::functionObjects::slurryBalance::execute()
     const scalar momentum = torque_.momentum();
     torqueAll_ = (momentum - momentum_) / deltaT + torque_.drain();
     momentum_ = momentum;
+    force_.update();
 
     setProperty("firstHoldUp", firstHoldUp_);
     setProperty("fed", fed_);
@@ -206,6 +231,14 @@ bool Foam::functionObjects::slurryBalance::write()
         file() << tab << value;
     }
     file() << tab << torque_.power(torqueAll_, walls);
+    if (force_.known())
+    {
+        writeVector(force_.byBalance());
+    }
+    if (force_.knowsFelt())
+    {
+        writeVector(force_.felt());
+    }
     if (fields_.bed<volScalarField>("solidity"))
     {
         writeSlip();

@@ -6,7 +6,7 @@
 #include "slurryTorque.H"
 #include "gravityMeshObject.H"
 #include "optionalDictionary.H"
-#include "turbulentTransportModel.H"
+#include "wallFriction.H"
 #include "wallPolyPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -66,7 +66,7 @@ static List<bool> restingOf(
 
 
 //- Angular speed of the mill about z, rad/s
-static scalar speedOf(const fvMesh& mesh, const dictionary& dict)
+static scalar millSpeed(const fvMesh& mesh, const dictionary& dict)
 {
     const IOdictionary mill(
         optionalDictionary("millProperties", mesh.time(), false));
@@ -98,36 +98,6 @@ static scalar moment(const vectorField& places, const vectorField& forces)
 } // End namespace Foam
 
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::tmp<Foam::vectorField>
-Foam::slurryTorque::friction(const label wall) const
-{
-    const fvMesh& mesh = fields_.mesh();
-    const label patchi = walls_[wall];
-    const fvPatch& patch = mesh.boundary()[patchi];
-    const auto& turbulence = mesh.lookupObject<incompressible::turbulenceModel>(
-        turbulenceModel::propertiesName);
-    const scalarField voidage(
-        fields_.displaced() ? mesh.lookupObject<volScalarField>("flowVoidage")
-                                  .boundaryField()[patchi]
-                                  .patchInternalField()
-                            : tmp<scalarField>::New(patch.size(), 1.0));
-    const scalarField density(
-        mesh.lookupObject<volScalarField>("rho").boundaryField()[patchi]);
-
-    const vectorField normal(patch.nf());
-    vectorField gradient(fields_.U().boundaryField()[patchi].snGrad());
-    gradient -= normal * (normal & gradient);
-    if (!resting_[wall])
-    {
-        gradient += normal ^ vector(0, 0, speed_);
-    }
-    return voidage * density * turbulence.nuEff(patchi) * patch.magSf() *
-           gradient;
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::slurryTorque::slurryTorque(
@@ -135,7 +105,7 @@ Foam::slurryTorque::slurryTorque(
 : fields_(fields),
   walls_(wallsOf(fields.mesh().boundaryMesh(), dict)),
   resting_(restingOf(fields.mesh().boundaryMesh(), walls_, dict)),
-  speed_(speedOf(fields.mesh(), dict)),
+  speed_(millSpeed(fields.mesh(), dict)),
   balls_(ballsOf(fields.mesh(), resting_.found(true)))
 {
 }
@@ -154,6 +124,13 @@ Foam::wordList Foam::slurryTorque::names() const
 }
 
 
+Foam::scalar Foam::slurryTorque::speedOf(const label patchi) const
+{
+    const label wall = walls_.find(patchi);
+    return wall >= 0 && resting_[wall] ? 0 : speed_;
+}
+
+
 Foam::scalarField Foam::slurryTorque::ofWalls() const
 {
     scalarField result(walls_.size(), Zero);
@@ -161,7 +138,9 @@ Foam::scalarField Foam::slurryTorque::ofWalls() const
     {
         const fvPatch& patch = fields_.mesh().boundary()[walls_[i]];
         const scalarField& p = fields_.p().boundaryField()[walls_[i]];
-        const vectorField force(friction(i) - p * patch.Sf());
+        const vectorField force(
+            wallFriction(fields_, walls_[i], speedOf(walls_[i])) -
+            p * patch.Sf());
         result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
     }
     return result;

@@ -42,7 +42,9 @@ void Foam::slurryFlow::readBed()
         onBalls_.reset(new fluidOnBalls(
             mesh_,
             {drag_->law(), drag_->polydispersity(), mixture_.rho1().value(),
-             mixture_.rho2().value(), g_.value(), drag_->viscosity()},
+             mixture_.rho2().value(), g_.value(), drag_->viscosity(),
+             !grates_.empty() || bedDict_.found("poreSuction") ||
+                 !fvOptions_.optionList::empty()},
             [this] { return forcesOnBalls(); }));
     }
     if (bedDict_.found("poreSuction"))

@@ -42,6 +42,7 @@ EXCHANGED = 0.01  # by which mean forces of balls and flow at the same time may 
 # were added with voxels of 11 mm, and the drive's power was 1.9 ± 0.9 % above that with 6 mm. More was not measured
 ADDED = 0.1
 TORQUES = 0.02  # by which the torque between balls and slurry may differ by both, over the drive's torque
+MOMENTUM = 0.02  # by which the flow's force on the balls may differ from that by its balance of momentum
 
 
 @dataclass
@@ -154,7 +155,11 @@ class Exchanged:
     unbalanced: torque that the balls of a tumbling mill take from the slurry, plus the one that the slurry takes from
     them by its own balance (slurryBalance), over the drive's torque. It is 0 without errors of voxels and mesh, and an
     error of the drive's power. Its error is over whole turns, NaN for fewer than two. None of a stirred mill, and
-    without torques."""
+    without torques.
+
+    force_unbalanced: size of the difference between the force that the flow gives and the one that its own balance of
+    momentum leaves for the balls (force_balance of slurryBalance), over the former. The error is that of the difference
+    along its own direction, as above. None where slurryBalance has no such force."""
     given: float
     taken: float
     disagreement: float
@@ -163,6 +168,7 @@ class Exchanged:
     added: float | None = None
     torque_disagreement: float | None = None
     unbalanced: Mean | None = None
+    force_unbalanced: Mean | None = None
 
 
 def given(case: MillCase) -> tuple[np.ndarray, float | None]:
@@ -200,7 +206,8 @@ def exchanged_forces(folder: Path) -> Exchanged:
     within, driven = ((table["time_s"] > begin) & (table["time_s"] <= end) for table in (rows, drive))
     taken = np.array([np.mean(rows[f"force_{axis}_N"][within]) for axis in "xyz"])
     sizes = [float(np.linalg.norm(one)) for one in (force, taken, force - taken)]
-    exchanged = Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0] if sizes[0] > 0 else np.nan)
+    exchanged = Exchanged(sizes[0], sizes[1], sizes[2] / sizes[0] if sizes[0] > 0 else np.nan,
+                          force_unbalanced=unbalanced_force(case, force))
     if torque is None or "torque_Nm" not in rows:
         return exchanged
     felt, driving = float(np.mean(rows["torque_Nm"][within])), float(np.mean(drive["torque_Nm"][driven]))
@@ -222,13 +229,33 @@ def unbalanced(case: MillCase, felt: tuple[np.ndarray, np.ndarray], charge: floa
     times, walls = columns["Time"], by_walls(columns)
     lacking, taken = columns["power"] - walls, felt[1] * case.omega
     drive = charge + time_mean(times, walls, case.begin)
-    # Both scatter, and alike: the error is that of their sum in each turn
-    parts = (turn_means(times, lacking, case.begin, case.turn),
-             turn_means(felt[0] - case.flow.time0, taken, case.begin, case.turn))
-    count = min(map(len, parts))
-    of_turns = turns_mean(parts[0][-count:] + parts[1][-count:]) if count > 1 else UNKNOWN
+    of_turns = mean_of_sums(case, (times, lacking), (felt[0] - case.flow.time0, taken))
     return Mean((time_mean(times, lacking, case.begin) + float(np.mean(taken))) / drive, of_turns.error / abs(drive),
                 of_turns.freedom)
+
+
+def mean_of_sums(case: MillCase, *series: tuple[np.ndarray, np.ndarray]) -> Mean:
+    """Mean, over the whole turns that are averaged, of the sum of two series, each of flow times (s) and values [n].
+    They scatter alike, so the error is that of their sum in each turn; NaN for fewer than two turns."""
+    parts = [turn_means(times, values, case.begin, case.turn) for times, values in series]
+    count = min(map(len, parts))
+    return turns_mean(parts[0][-count:] + parts[1][-count:]) if count > 1 else UNKNOWN
+
+
+def unbalanced_force(case: MillCase, force: np.ndarray) -> Mean | None:
+    """Exchanged.force_unbalanced of a case; force [3]: mean that the flow gives to the balls, N."""
+    columns, steps, size = written_balance(case), case.record.steps, float(np.linalg.norm(force))
+    if columns is None or steps is None or "force_balance_x" not in columns or size == 0:
+        return None
+    times = columns["Time"]
+    apart = np.array([time_mean(times, columns[f"force_balance_{axis}"], case.begin) for axis in "xyz"]) - force
+    way = apart / (np.linalg.norm(apart) or 1.0)
+
+    def along(name: str, table: dict[str, np.ndarray]) -> np.ndarray:
+        return np.sum([part * table[name.format(axis)] for part, axis in zip(way, "xyz")], axis=0)
+    of_turns = mean_of_sums(case, (times, along("force_balance_{}", columns)),
+                            (steps["time_s"], -along("given_force_{}_N", steps)))
+    return Mean(float(np.linalg.norm(apart)) / size, of_turns.error / size, of_turns.freedom)
 
 
 def change(before: Pass, after: Pass) -> Change:

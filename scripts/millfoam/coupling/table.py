@@ -57,7 +57,6 @@ def result(mill: Mill, passes: Sequence[Pass], changes: Sequence[Change], settle
 def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchanged) -> dict[str, Any]:
     """Content of coupling.json (FORMATS.md) of balls and flow that ran at the same time, in a folder of the case; load:
     force of the fluid on the balls over their weight, None if it is not known."""
-    apart = exchanged.unbalanced
     return {"format": "millfoam-coupling", "program": mill.content.get("program"), "mill": mill.fingerprint,
             "coupling": "direct", "folders": [".", folder], "force_over_weight": known(load),
             "force_by_flow_N": known(exchanged.given), "force_by_balls_N": known(exchanged.taken),
@@ -65,9 +64,14 @@ def direct_result(mill: Mill, folder: str, load: float | None, exchanged: Exchan
             "torque_by_flow_Nm": known(exchanged.given_torque), "torque_by_balls_Nm": known(exchanged.taken_torque),
             "torque_added": known(exchanged.added),
             "torque_disagreement": known(exchanged.torque_disagreement),
-            "torque_unbalanced": known(apart.value) if apart else None,
-            "torque_unbalanced_error": known(apart.error) if apart else None,
-            "torque_unbalanced_reach": known(apart.reach) if apart else None}
+            **with_error("torque_unbalanced", exchanged.unbalanced),
+            **with_error("force_unbalanced", exchanged.force_unbalanced)}
+
+
+def with_error(name: str, mean: Mean | None) -> dict[str, float | None]:
+    """A mean for JSON with its error and reach, null where they are not known."""
+    return {name: known(mean.value) if mean else None, f"{name}_error": known(mean.error) if mean else None,
+            f"{name}_reach": known(mean.reach) if mean else None}
 
 
 def cell(mean: Mean, scale: float) -> str:

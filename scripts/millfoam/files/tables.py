@@ -56,4 +56,4 @@ def read_table(case: Path | str, name: str, file: str | None = None) -> tuple[li
 def read_columns(case: Path | str, name: str) -> dict[str, np.ndarray]:
     """The same as a dictionary: column name -> values [times]; names without their units, `holdUp` for `holdUp_m3`."""
     names, rows = read_table(case, name)
-    return {re.sub(r"_(s|m|m3|m3/s|m/s|Nm|W|Pa)$", "", column): rows[:, k] for k, column in enumerate(names)}
+    return {re.sub(r"_(s|m|m3|m3/s|m/s|N|Nm|W|Pa)$", "", column): rows[:, k] for k, column in enumerate(names)}

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..coupling.passes import ADDED, AGREE, EXCHANGED, LIMIT, NOISE, QUANTITIES, TORQUES, forces_apart
+from ..coupling.passes import ADDED, AGREE, EXCHANGED, LIMIT, MOMENTUM, NOISE, QUANTITIES, TORQUES, forces_apart
 from ..coupling.table import COLUMNS, error_column, passes_figure
 from ..files.data_files import read_csv, read_json
 from ..files.mill_case import MillCase
@@ -27,7 +27,9 @@ def coupling_checks(case: MillCase) -> list[Callable[..., Check]]:
     content = coupling_of(case)
     if content["coupling"] != "direct":
         return [has_settled, forces_agree]
-    return [forces_exchanged, *([torques_balance] if content.get("torque_disagreement") is not None else []),
+    return [forces_exchanged,
+            *([momentum_balances] if content.get("force_unbalanced") is not None else []),
+            *([torques_balance] if content.get("torque_disagreement") is not None else []),
             *([voxels_are_small] if content.get("torque_added") is not None else [])]
 
 
@@ -40,6 +42,17 @@ def forces_exchanged(case: MillCase) -> Check:
     return judged(name, apart, EXCHANGED, "balls and flow ran at the same time; the "
                   f"mean force on all balls by the flow and by the balls differ by {100 * apart:.2f} % (limit "
                   f"{100 * EXCHANGED:g} %)", "Average over more turns (flow.turns).", doubtful=5 * EXCHANGED)
+
+
+def momentum_balances(case: MillCase) -> Check:
+    """Whether the flow gives the force to the balls that its own momentum lacks."""
+    name, content = "The flow's momentum balances", coupling_of(case)
+    found = ("the flow's mean force on all balls differs from what its own balance of momentum leaves for them by "
+             f"{unbalanced_words(content, '.1f', 'force')} (limit {100 * MOMENTUM:g} %): "
+             "the slurry's force on the balls has an error of this size")
+    check = judged(name, content["force_unbalanced"], MOMENTUM, found,
+                   "Take smaller cells (resolution.cell_size).", doubtful=5 * MOMENTUM)
+    return undecided_by(content.get("force_unbalanced_reach"), MOMENTUM, check, found)
 
 
 def torques_balance(case: MillCase) -> Check:
@@ -56,17 +69,21 @@ def torques_balance(case: MillCase) -> Check:
                   "Compute it again: balls of this version get the torque that voxels take from them.")
     words = f"{found} (limit {100 * TORQUES:g} %): the drive's power has an error of this size"
     check = judged(name, max(apart, abs(whole or 0)), TORQUES, words, advice, doubtful=5 * TORQUES)
-    reach = content.get("torque_unbalanced_reach") or 0.0
-    if check.state == "holds" and reach > TORQUES:
-        return Check(name, "look", f"{words}; undecided: with 95 % confidence the last is known only to ± "
-                     f"{100 * reach:.1f} %", "Average over more turns (flow.turns).", undecided=True)
-    return check
+    return undecided_by(content.get("torque_unbalanced_reach"), TORQUES, check, words)
 
 
-def unbalanced_words(content: dict[str, Any], form: str) -> str:
-    """torque_unbalanced of a coupling.json in per cent, with its error if this is known; without, in a format."""
-    error = content.get("torque_unbalanced_error")
-    return uncertain(100 * content["torque_unbalanced"], np.nan if error is None else 100 * error, "%", form)
+def undecided_by(reach: float | None, limit: float, check: Check, words: str) -> Check:
+    """A check; if it holds, and the number that `words` name last is not known to its limit, an undecided one."""
+    if check.state != "holds" or (reach or 0.0) <= limit:
+        return check
+    return Check(check.name, "look", f"{words}; undecided: with 95 % confidence the last is known only to ± "
+                 f"{100 * (reach or 0.0):.1f} %", "Average over more turns (flow.turns).", undecided=True)
+
+
+def unbalanced_words(content: dict[str, Any], form: str, kind: str = "torque") -> str:
+    """KIND_unbalanced of a coupling.json in per cent, with its error if this is known; without, in a format."""
+    error = content.get(f"{kind}_unbalanced_error")
+    return uncertain(100 * content[f"{kind}_unbalanced"], np.nan if error is None else 100 * error, "%", form)
 
 
 def voxels_are_small(case: MillCase) -> Check:
@@ -113,6 +130,9 @@ def exchanged_table(case: MillCase) -> str:
     rows = [["mean force of the flow on all balls, by the flow", shown("force_by_flow_N", ".4g", " N")],
             ["the same, by the balls", shown("force_by_balls_N", ".4g", " N")],
             ["size of their difference", shown("force_disagreement", ".2%")]]
+    if content.get("force_unbalanced") is not None:
+        rows.append(["size of the difference to the flow's balance of momentum",
+                     unbalanced_words(content, ".2f", "force")])
     if content.get("torque_disagreement") is not None:
         rows += [["torque of this force about the axis, by the flow", shown("torque_by_flow_Nm", ".4g", " N m")],
                  ["the same, by the balls", shown("torque_by_balls_Nm", ".4g", " N m")],
