@@ -321,6 +321,38 @@ class AtTheSameTime(unittest.TestCase):
         case.turn = 2.0
         self.assertTrue(np.isnan(passes.unbalanced(case, (times + self.TIME0, swing), 3.0).error))
 
+    def test_the_force_is_compared_with_the_flow_s_balance_of_momentum(self):
+        self.assertIsNone(self.judge()["force_unbalanced"])
+        times = np.arange(1, 301) * 0.01  # three turns of 1 s
+        swing = np.repeat([-0.3, 0.1, 0.2], 100)
+        balance = {"Time": times, **{f"force_balance_{axis}": value + 0 * times for axis, value in
+                                     (("x", 3.0 + swing), ("y", 4.2), ("z", 0.0))}}
+        steps = {"time_s": times, **{f"given_force_{axis}_N": value + 0 * times for axis, value in
+                                     (("x", 3.0 + swing), ("y", 4.0), ("z", 0.0))}}
+        case = SimpleNamespace(balance=balance, begin=0.0, last=3.0, turn=1.0, record=SimpleNamespace(steps=steps))
+        # Both swing alike
+        apart = passes.unbalanced_force(case, np.array([3.0, 4.0, 0.0]))
+        self.assertAlmostEqual(apart.value, 0.2 / 5, places=9)
+        self.assertAlmostEqual(apart.error, 0, places=9)
+        steps["given_force_y_N"] = 4.0 + swing
+        apart = passes.unbalanced_force(case, np.array([3.0, 4.0, 0.0]))
+        self.assertAlmostEqual(apart.error, np.std([-0.3, 0.1, 0.2], ddof=1) / np.sqrt(3) / 5, places=9)
+        self.assertEqual(apart.freedom, 2)
+
+    def test_a_force_that_momentum_does_not_have_is_judged(self):
+        content = self.judge()
+        self.addCleanup(self.judge)
+        case = MillCase(self.case / "direct")
+        for value, reach, state, undecided in ((0.004, 0.015, "holds", False), (0.004, 0.021, "look", True),
+                                               (0.05, 0.001, "look", False), (0.2, 0.001, "fails", False)):
+            (self.case / "coupling.json").write_text(json.dumps(content | {
+                "force_unbalanced": value, "force_unbalanced_error": 0.003, "force_unbalanced_reach": reach}))
+            (found,) = (check for check in (make(case) for make in coupling_checks(case))
+                        if check.name == "The flow's momentum balances")
+            self.assertEqual((found.state, found.undecided), (state, undecided), value)
+            self.assertIn(f"by {100 * value:.1f} ± 0.3 % (limit 2 %)", found.found)
+        self.assertIn("20.0 ± 0.3 %", "".join(coupling_section(case, Readings(case))))
+
     def test_an_error_that_hides_the_limit_leaves_it_undecided(self):
         content = self.judge()
         self.assertIsNone(content["torque_unbalanced_error"])
