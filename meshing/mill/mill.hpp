@@ -8,6 +8,7 @@
 
 #include "meshing/mill/superquadric.hpp"
 #include "meshing/surface/pi.hpp"
+#include "openfoam_module/drag/viscosity_ratio.hpp"
 
 /// The description of a mill and what is made from it: its walls, the mesh of its flow, and meshes out of
 /// faces. Units are SI.
@@ -162,14 +163,14 @@ struct Dem {
 /// A Bingham slurry. Below the shear rate tau0/((viscosity_ratio - 1) mu) it is a Newtonian liquid of its
 /// largest viscosity.
 struct Slurry {
-  static constexpr double usual_viscosity_ratio = 1000;   ///< where the mill gives none
   static constexpr double largest_viscosity_ratio = 1e9;  ///< that a mill may give
 
-  double density = 0;                              ///< kg/m^3
-  double plastic_viscosity = 0;                    ///< Pa s
-  double yield_stress = 0;                         ///< Pa
-  double surface_tension = 0;                      ///< N/m
-  double viscosity_ratio = usual_viscosity_ratio;  ///< its largest viscosity over the plastic one
+  double density = 0;            ///< kg/m^3
+  double plastic_viscosity = 0;  ///< Pa s
+  double yield_stress = 0;       ///< Pa
+  double surface_tension = 0;    ///< N/m
+  /// Its largest viscosity over the plastic one.
+  double viscosity_ratio = drag::usual_viscosity_ratio;
 
   /// Shear rate below which it has no yield stress, 1/s.
   double liquid_below() const { return yield_stress / ((viscosity_ratio - 1) * plastic_viscosity); }

@@ -99,7 +99,7 @@ MillFingerprints fingerprints(const Json& keys, const Mill& mill) {
   if (const auto& counts = mill.resolution.counts; counts && !counts->halved)
     of["resolution"]["counts"].erase("core");
   // The usual largest viscosity is that without the key
-  if (mill.slurry.viscosity_ratio == Slurry::usual_viscosity_ratio) of["slurry"].erase("viscosity_ratio");
+  if (mill.slurry.viscosity_ratio == drag::usual_viscosity_ratio) of["slurry"].erase("viscosity_ratio");
   // How often balls and flow are computed in turn changes none of these flows
   for (const char* key : {"coupling", "passes", "relaxation"}) of["flow"].erase(key);
   // A flow that may take more hours is the same

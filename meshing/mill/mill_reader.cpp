@@ -183,7 +183,7 @@ Slurry read_slurry(const Section& in) {
       in.number("surface_tension", zero_up_to("a surface tension in N/m", 5), 0.07),
       in.number("viscosity_ratio",
                 from_to("the largest viscosity over the plastic one,", 10, Slurry::largest_viscosity_ratio),
-                Slurry::usual_viscosity_ratio)};
+                drag::usual_viscosity_ratio)};
 }
 
 /// Gases reach a liquid's density and viscosity at the critical point at most.

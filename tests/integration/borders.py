@@ -15,7 +15,7 @@ MAY_USE = {
     "meshing/files": set(),
     "meshing/surface": {"meshing/files"},
     "meshing": {"meshing/files", "meshing/surface",
-                "openfoam_module/drag"},  # the names of the laws, which are only in its table
+                "openfoam_module/drag"},  # names of the laws, which are only in its table; usual viscosities
     # A flow's file, out of which balls take their forces; the drag of each shape
     "dem_driver": {"averaging", "meshing", "meshing/files", "meshing/surface", "openfoam_module/drag"},
     # millDem takes the options of millAverage

@@ -11,6 +11,7 @@
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/flow_curve.hpp"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
+#include "openfoam_module/drag/viscosity_ratio.hpp"
 
 namespace drag = millfoam::drag;
 
@@ -24,7 +25,7 @@ struct Options {
   std::vector<double> superficial;
   double viscosity = 1e-3;
   double yield_stress = 0;
-  double viscosity_ratio = 1000;
+  double viscosity_ratio = drag::usual_viscosity_ratio;
   double density = 1000;
   double diameter = 5e-3;
   std::string format = "csv";

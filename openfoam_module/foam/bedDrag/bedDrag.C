@@ -6,6 +6,7 @@
 #include "bedDrag.H"
 #include "knownEntries.H"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
+#include "openfoam_module/drag/viscosity_ratio.hpp"
 
 #include <stdexcept>
 
@@ -40,7 +41,8 @@ static bedFluids readFluids(const dictionary& dict)
     requireKnownEntries(slurry, {"rho", "mu", "yieldStress", "viscosityRatio"});
     requireKnownEntries(dict.subDict("air"), {"rho", "mu"});
     const millfoam::drag::Fluid fluid(readFluid(slurry));
-    const scalar ratio = slurry.lookupOrDefault<scalar>("viscosityRatio", 1000);
+    const scalar ratio = slurry.lookupOrDefault<scalar>(
+        "viscosityRatio", millfoam::drag::usual_viscosity_ratio);
     const scalar yieldStress = slurry.lookupOrDefault<scalar>("yieldStress", 0);
     if (!(yieldStress >= 0 && ratio >= 1))
     {
