@@ -10,6 +10,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
@@ -38,6 +39,7 @@ flow: {duration: 0.3, coupling: direct, polydispersity: yes, averages: {start: 0
 class Direct(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        cls.enterClassContext(patch.dict(os.environ, MILLFOAM_NP="1"))
         cls.case = Path(tempfile.mkdtemp(prefix="direct-"))
         cls.addClassCleanup(shutil.rmtree, cls.case)
         (cls.case / "mill.yaml").write_text(MILL)
@@ -128,6 +130,7 @@ class Direct(unittest.TestCase):
             self.assertNotIn("Running flow", output)
 
     def test_a_killed_run_resumes_both_at_the_same_time(self):
+        self.enterContext(patch.dict(os.environ, MILLFOAM_NP="2"))
         case = self.copy("-killed")
         shutil.rmtree(case / "direct")
         process = subprocess.Popen(["bash", "-c", STAGES, "run_mill", case, SCRIPTS, ".", "mill.yaml"], cwd=case,
@@ -147,7 +150,7 @@ class Direct(unittest.TestCase):
         self.assertAlmostEqual(run["duration_s"], 0.3, delta=1e-9)
         windows = [read_windows(place / "direct" / "solids.h5", 0.4, 0.7) for place in (self.case, case)]
         self.assertEqual(*(len(found) for found in windows))
-        # Not the same numbers: two ranks may round sums differently, and the flow's times have ten digits
+        # Not the same numbers: two ranks round sums differently, and the flow's times have ten digits
         apart = [np.abs(one.solidity - other.solidity).max() for one, other in zip(*windows)]
         self.assertLess(apart[0], 0.05)
         # The first window after the resume; later ones are those of other balls, because impacts enlarge the difference
