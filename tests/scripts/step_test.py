@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 FUNCTIONS = (Path(__file__).resolve().parents[2] / "scripts" / "case_functions").read_text()
-STEP = FUNCTIONS[FUNCTIONS.index("report_little_room() {"):FUNCTIONS.index("\nonce() {")]
+STEP = FUNCTIONS[FUNCTIONS.index("report_little_room() {"):FUNCTIONS.index("\nwritten() {")]
 ROOM = 'df() { printf "Avail\\n %s\\n" "$left"; }\n'
 
 
