@@ -37,7 +37,8 @@ std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder
 void require_dumps(const RunMetadata& metadata);
 
 /// Throws DumpError, naming the file and both numbers, where fewer dumps are there than the run wrote.
-/// @param found  number of dumps in its folder
+/// @param metadata  of the run
+/// @param found     number of dumps in its folder
 void require_all_dumps(const RunMetadata& metadata, std::size_t found);
 
 /// The DEM time-step, s: `given`, or else the metadata's.
