@@ -17,9 +17,9 @@ from ..readings.batches import mean_over_turns, turn_means
 from ..readings.charge import circulation_centre
 from ..readings.compare import difference
 from ..readings.free_surface import WALL, toe_and_shoulder
-from ..readings.means import Mean, time_mean, turns_mean, with_error
+from ..readings.means import Mean, time_mean, with_error
 from ..readings.mill_power import (UNKNOWN, by_walls, charge_power, drive_power, known_balance, slurry_power,
-                                   written_balance)
+                                   sum_over_turns, written_balance)
 from . import ball_forces
 
 FORCES = "forces.h5"  # in a pass's folder: what its balls felt
@@ -229,17 +229,10 @@ def unbalanced(case: MillCase, felt: tuple[np.ndarray, np.ndarray], charge: floa
     times, walls = columns["Time"], by_walls(columns)
     lacking, taken = columns["power"] - walls, felt[1] * case.omega
     drive = charge + time_mean(times, walls, case.begin)
-    of_turns = mean_of_sums(case, (times, lacking), (felt[0] - case.flow.time0, taken))
+    of_turns = sum_over_turns(turn_means(times, lacking, case.begin, case.turn),
+                              turn_means(felt[0] - case.flow.time0, taken, case.begin, case.turn), fewest=2)
     return Mean((time_mean(times, lacking, case.begin) + float(np.mean(taken))) / drive, of_turns.error / abs(drive),
                 of_turns.freedom)
-
-
-def mean_of_sums(case: MillCase, *series: tuple[np.ndarray, np.ndarray]) -> Mean:
-    """Mean, over the whole turns that are averaged, of the sum of two series, each of flow times (s) and values [n].
-    They scatter alike, so the error is that of their sum in each turn; NaN for fewer than two turns."""
-    parts = [turn_means(times, values, case.begin, case.turn) for times, values in series]
-    count = min(map(len, parts))
-    return turns_mean(parts[0][-count:] + parts[1][-count:]) if count > 1 else UNKNOWN
 
 
 def unbalanced_force(case: MillCase, force: np.ndarray) -> Mean | None:
@@ -253,8 +246,9 @@ def unbalanced_force(case: MillCase, force: np.ndarray) -> Mean | None:
 
     def along(name: str, table: dict[str, np.ndarray]) -> np.ndarray:
         return np.sum([part * table[name.format(axis)] for part, axis in zip(way, "xyz")], axis=0)
-    of_turns = mean_of_sums(case, (times, along("force_balance_{}", columns)),
-                            (steps["time_s"], -along("given_force_{}_N", steps)))
+    of_turns = sum_over_turns(
+        turn_means(times, along("force_balance_{}", columns), case.begin, case.turn),
+        turn_means(steps["time_s"], -along("given_force_{}_N", steps), case.begin, case.turn), fewest=2)
     return Mean(float(np.linalg.norm(apart)) / size, of_turns.error / size, of_turns.freedom)
 
 

@@ -119,8 +119,8 @@ def by_walls(columns: dict[str, np.ndarray]) -> np.ndarray:
     return np.sum([values for name, values in columns.items() if name.startswith("power_")], axis=0)
 
 
-def sum_over_turns(first: np.ndarray, second: np.ndarray) -> Mean:
-    """Mean of the sums of two readings (W) of successive turns [n], which end at the same time; NaN if both have fewer
-    turns than TURNS in common."""
+def sum_over_turns(first: np.ndarray, second: np.ndarray, fewest: int = TURNS) -> Mean:
+    """Mean of the sums of two readings of successive turns [n], which end at the same time. They may scatter alike: the
+    error is that of their sum in each turn. NaN if both have fewer turns in common than `fewest`, two or more."""
     count = min(len(first), len(second))
-    return turns_mean(first[-count:] + second[-count:]) if count >= TURNS else UNKNOWN
+    return turns_mean(first[-count:] + second[-count:]) if count >= fewest else UNKNOWN
