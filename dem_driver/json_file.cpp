@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "dem_driver/plan_report.hpp"
+#include "averaging/values/sense_of_rotation.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_shape.hpp"
 #include "millfoam_version.hpp"
@@ -18,7 +18,7 @@ Json begin_result(const std::string& what, const meshing::Mill& mill) {
 
 void add_rotation(Json& result, const meshing::Mill& mill) {
   result["angular_velocity_rad_s"] = mill.angular_velocity;
-  result["sense"] = sense_of_rotation(mill.angular_velocity);
+  result["sense"] = averaging::sense_of_rotation(mill.angular_velocity);
 }
 
 void add_charge(Json& result, const meshing::Mill& mill, const ChargePlan& charge) {

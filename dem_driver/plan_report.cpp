@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <ostream>
 
+#include "averaging/values/sense_of_rotation.hpp"
 #include "dem_driver/json_file.hpp"
 #include "meshing/mill/stirred_geometry.hpp"
 
@@ -62,24 +63,18 @@ void add_steps(Json& json, const DemPlan& plan) {
 
 }  // namespace
 
-const char* sense_of_rotation(double angular_velocity) {
-  if (angular_velocity == 0) return "at rest";
-  return angular_velocity < 0 ? "clockwise" : "anticlockwise";
-}
-
 void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan) {
+  const char* sense = averaging::sense_of_rotation(mill.angular_velocity);
   out << std::setprecision(3) << "mill: " << mill.geometry.diameter << " m in diameter, "
       << mill.geometry.length << (mill.geometry.impeller ? " m high, " : " m long, ");
-  if (mill.geometry.impeller)
-    out << "stirred " << sense_of_rotation(mill.angular_velocity) << " seen from above, "
-        << mill.angular_velocity << " rad/s ("
+  if (mill.angular_velocity == 0)
+    out << "at rest\n";
+  else if (mill.geometry.impeller)
+    out << "stirred " << sense << " seen from above, " << mill.angular_velocity << " rad/s ("
         << std::abs(mill.angular_velocity) * meshing::impeller_radius(*mill.geometry.impeller)
         << " m/s at the tips)\n";
-  else if (mill.angular_velocity == 0)
-    out << "at rest\n";
   else
-    out << "turns " << sense_of_rotation(mill.angular_velocity) << " seen with x to the right and y up, "
-        << mill.angular_velocity << " rad/s ("
+    out << "turns " << sense << " seen with x to the right and y up, " << mill.angular_velocity << " rad/s ("
         << 100 * std::abs(mill.angular_velocity) / meshing::critical_speed(mill.geometry)
         << " % of the critical speed)\n";
   print_advice(out, mill);

@@ -11,9 +11,6 @@
 
 namespace millfoam::dem_driver {
 
-/// "clockwise", "anticlockwise" or "at rest", seen with x to the right and y up; rad/s.
-const char* sense_of_rotation(double angular_velocity);
-
 /// Prints the mill's sense of rotation and speed, the choice of softness and time-step, and the charge.
 void print_plan(std::ostream& out, const meshing::Mill& mill, const DemPlan& plan);
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "averaging/values/sense_of_rotation.hpp"
 #include "millfoam_version.hpp"
 #include "openfoam_module/record/rotation.hpp"
 
@@ -252,7 +253,7 @@ std::string FlowRecord::summary(bool complete) const {
                         {"patch", text(setup_.openfoam_patch)},
                         {"build", text(setup_.openfoam_build)}};
   result["rotation"] = {{"angular_velocity_rad_s", setup_.angular_velocity},
-                        {"sense", sense_of_rotation(setup_.angular_velocity)},
+                        {"sense", averaging::sense_of_rotation(setup_.angular_velocity)},
                         {"words", described_rotation(setup_.angular_velocity)}};
   result["limits"] = limits_of(setup_);
   add_steps(result);

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "openfoam_module/record/rotation.hpp"
 
+#include "averaging/values/sense_of_rotation.hpp"
+
 namespace millfoam::record {
 
-std::string sense_of_rotation(double angular_velocity) {
-  if (angular_velocity == 0) return "none";
-  return angular_velocity > 0 ? "anticlockwise" : "clockwise";
-}
-
 std::string described_rotation(double angular_velocity) {
-  const std::string sense = sense_of_rotation(angular_velocity);
-  return angular_velocity == 0 ? "does not turn" : sense + ", seen with x to the right and y up";
+  if (angular_velocity == 0) return "does not turn";
+  return std::string(averaging::sense_of_rotation(angular_velocity)) + ", seen with x to the right and y up";
 }
 
 }  // namespace millfoam::record

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "averaging/values/sense_of_rotation.hpp"
 #include "millfoam_version.hpp"
 #include "openfoam_module/record/rotation.hpp"
 
@@ -44,10 +45,10 @@ TEST(ToolHelp, LeavesEverythingElseToOpenFoam) {
 }
 
 TEST(Rotation, PositiveIsAnticlockwiseWithXToTheRightAndYUp) {
-  EXPECT_EQ(sense_of_rotation(2.0), "anticlockwise");
+  EXPECT_STREQ(averaging::sense_of_rotation(2.0), "anticlockwise");
   EXPECT_EQ(described_rotation(-6.1), "clockwise, seen with x to the right and y up");
   EXPECT_EQ(described_rotation(0), "does not turn");
-  EXPECT_EQ(sense_of_rotation(0), "none");
+  EXPECT_STREQ(averaging::sense_of_rotation(0), "none");
 }
 
 }  // namespace
