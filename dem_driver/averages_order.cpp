@@ -8,7 +8,6 @@
 #include <utility>
 #include <variant>
 
-#include "dem_driver/case_folder.hpp"
 #include "dem_driver/json_file.hpp"
 #include "meshing/files/file_fingerprint.hpp"
 

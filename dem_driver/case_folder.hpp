@@ -2,14 +2,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
 #include <filesystem>
-#include <iosfwd>
-#include <string>
-#include <vector>
-
-#include "dem_driver/deck.hpp"
-#include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -63,15 +56,6 @@ struct CaseFolder {
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
-/// The wall parts of this mill: shell, lifters (if any), and for plain ends feedEnd and dischargeEnd, each of
-/// which may be missing where the others close that end. Each file is read. Throws std::runtime_error naming
-/// the first `walls/<part>.stl` that is missing, that read_wall refuses, or with which the walls are not
-/// those of this mill (require_fit).
-std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill);
-
-/// Every `dump.*.txt` in the dumps folder, in no order; none without that folder.
-std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
-
 /// Lock of a folder for this process and the programs that it starts, so that no other run writes there.
 /// The lock is the system's (flock): it ends with the last of these programs, however they end.
 class FolderLock {
@@ -90,32 +74,5 @@ class FolderLock {
  private:
   int file_ = -1;
 };
-
-/// Removes `run.json`, `results.json` and the tables in their folder, so that a failed run leaves no results
-/// of an earlier run.
-void remove_results(const CaseFolder& folder);
-
-/// Makes the folders and removes dumps, contacts, run file, results, restart files, states of averages and
-/// histories of an earlier run, so that two runs never mix. Nothing else is removed. Returns the number of
-/// dumps removed.
-std::size_t prepare_folders(const CaseFolder& folder);
-
-/// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
-/// these walls only.
-std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts);
-
-/// Writes `dumps/run.json`: time-step, interval and number of the dumps, speed, begin, duration, mass of the
-/// charge and fluid. The file appears whole or not at all.
-void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
-
-/// What a `run.json` says of its complete run.
-struct CompleteRun {
-  std::string charge;    ///< fingerprint of the mill's charge
-  double time_step = 0;  ///< s
-  long end_step = 0;     ///< last step of the turning mill
-};
-
-/// Reads a `run.json`. Throws std::runtime_error naming the file, what was found and what was expected.
-CompleteRun read_run_file(const std::filesystem::path& file);
 
 }  // namespace millfoam::dem_driver

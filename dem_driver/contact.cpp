@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "meshing/surface/pi.hpp"
@@ -53,6 +54,11 @@ double largest_overlap(const ContactPair& pair, double speed, double restitution
   const double ln_e = std::log(restitution);
   const double damping = std::sqrt(ln_e * ln_e / (pi * pi + ln_e * ln_e));
   return (0.73 + 0.27 * (restitution - damping)) * elastic_overlap(pair, speed);
+}
+
+double Stiffness::of_ball(double diameter) const {
+  if (soften_below <= 0) return modulus;
+  return modulus * std::min(std::pow(diameter / soften_below, 2.5), 1.0);
 }
 
 }  // namespace millfoam::dem_driver

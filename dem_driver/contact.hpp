@@ -40,4 +40,14 @@ double hertz_contact_time(const ContactPair& pair, double speed);
 /// T. Brosh, H. Kalman & A. Levy, Particuology (2013/14).
 double largest_overlap(const ContactPair& pair, double speed, double restitution);
 
+/// How soft the balls and walls of a simulation are.
+struct Stiffness {
+  double modulus = 0;       ///< Pa, of the walls and of all balls that are not softened further
+  double soften_below = 0;  ///< m: smaller balls have modulus (d/soften_below)^2.5; 0 for none
+  /// Young's modulus of a ball of that diameter (m), Pa: Brosh's k min((d/d_threshold)^2.5, 1), with which
+  /// the smallest balls allow as long a time-step as those of the threshold. T. Brosh, H. Kalman & A. Levy,
+  /// Particuology (2013/14).
+  double of_ball(double diameter) const;
+};
+
 }  // namespace millfoam::dem_driver

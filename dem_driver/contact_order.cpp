@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
+#include "dem_driver/wall_parts.hpp"
 
 namespace millfoam::dem_driver {
 

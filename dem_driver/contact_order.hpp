@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dem_driver/contact_statistics.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "dem_driver/wall_cells.hpp"
 #include "meshing/mill/mill.hpp"
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "dem_driver/output_check.hpp"
+#include "dem_driver/run_file.hpp"
+#include "dem_driver/wall_parts.hpp"
 #include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/text_numbers.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dem_driver/case_folder.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "dem_driver/deck_outputs.hpp"
+#include "dem_driver/wall_parts.hpp"
 #include "meshing/surface/pi.hpp"
 
 namespace millfoam::dem_driver {
@@ -270,10 +271,6 @@ void write_turning(std::ostream& out, const meshing::Mill& mill, const DemPlan& 
 }
 
 }  // namespace
-
-std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts) {
-  return is_stirred(mill) ? std::vector<std::string>{impeller_part} : parts;
-}
 
 int read_ranks(const std::string& word) {
   int ranks = 0;

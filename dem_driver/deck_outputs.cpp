@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "dem_driver/deck.hpp"
+#include "dem_driver/wall_parts.hpp"
 
 namespace millfoam::dem_driver {
 namespace {

@@ -5,12 +5,23 @@
 #include <string>
 #include <vector>
 
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
 // The parts of the deck that make LIGGGHTS write what it computes.
+
+/// Name of the deck's fix through which the balls' averages are made. Only millLiggghts makes them.
+inline constexpr char averages_fix[] = "averages";
+
+/// Name of the deck's fix that writes the torque on each wall of a stirred mill, and of its files.
+inline constexpr char part_torques_kind[] = "partTorques";
+
+/// Number of bins of the overlaps' histograms, of equal width from 0 on.
+inline constexpr int overlap_bins = 1000;
+/// Upper end of these histograms over the largest ball's diameter.
+inline constexpr double overlap_range = 0.2;
 
 /// What LIGGGHTS computes of every contact, and what it prints.
 void write_thermo(std::ostream& out, const DemPlan& plan);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "dem_driver/dem_plan.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "dem_driver/deck.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_error.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "averaging/files/slurry_reader.hpp"
 #include "averaging/grids/box_grid.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "dem_driver/fluid_settings.hpp"
 #include "meshing/mill/mill.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <iosfwd>
 
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {

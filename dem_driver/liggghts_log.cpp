@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "dem_driver/deck.hpp"
+
 namespace millfoam::dem_driver {
 
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 
 namespace millfoam::dem_driver {
 

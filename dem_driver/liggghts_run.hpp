@@ -7,7 +7,7 @@
 #include <string>
 
 #include "dem_driver/case_folder.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "dem_driver/liggghts_log.hpp"
 
 namespace millfoam::dem_driver {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "dem_driver/case_folder.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 
 namespace millfoam::dem_driver {
 

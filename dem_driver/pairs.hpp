@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "dem_driver/contact.hpp"
-#include "dem_driver/stiffness.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {

@@ -5,7 +5,7 @@
 #include <iosfwd>
 #include <optional>
 
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "dem_driver/forecast.hpp"
 #include "meshing/mill/mill.hpp"
 

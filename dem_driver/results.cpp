@@ -11,9 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dem_driver/deck_outputs.hpp"
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/time_step.hpp"
+#include "dem_driver/wall_parts.hpp"
 #include "meshing/files/output_file.hpp"
 
 namespace millfoam::dem_driver {

@@ -8,7 +8,7 @@
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/contact_results.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/steady_state.hpp"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "dem_driver/output_check.hpp"
+#include "dem_driver/run_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/mill_error.hpp"

@@ -41,11 +41,6 @@ double modulus_for_overlap(const meshing::Mill& mill) {
 
 }  // namespace
 
-double Stiffness::of_ball(double diameter) const {
-  if (soften_below <= 0) return modulus;
-  return modulus * std::min(std::pow(diameter / soften_below, 2.5), 1.0);
-}
-
 double expected_impact_speed(const meshing::Mill& mill) {
   if (mill.geometry.impeller) {
     const double tip = std::abs(mill.angular_velocity) * meshing::impeller_radius(*mill.geometry.impeller);

@@ -14,16 +14,6 @@ inline constexpr double smallest_modulus = 5e6;
 /// Hardest modulus that LIGGGHTS accepts in SI units without the command `hard_particles yes`, Pa.
 inline constexpr double largest_soft_modulus = 1e9;
 
-/// How soft the balls and walls of a simulation are.
-struct Stiffness {
-  double modulus = 0;       ///< Pa, of the walls and of all balls that are not softened further
-  double soften_below = 0;  ///< m: smaller balls have modulus (d/soften_below)^2.5; 0 for none
-  /// Young's modulus of a ball of that diameter (m), Pa: Brosh's k min((d/d_threshold)^2.5, 1), with which
-  /// the smallest balls allow as long a time-step as those of the threshold. T. Brosh, H. Kalman & A. Levy,
-  /// Particuology (2013/14).
-  double of_ball(double diameter) const;
-};
-
 /// The pair of bodies that is pressed the furthest together.
 struct ExpectedOverlap {
   std::string pair;  ///< for example "2 mm on 8 mm"

@@ -8,7 +8,7 @@
 #include "averaging/tools/live_options.hpp"
 #include "dem_driver/averages_order.hpp"
 #include "dem_driver/case_folder.hpp"
-#include "dem_driver/deck.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "meshing/mill/mill_reader.hpp"
 
 namespace millfoam::dem_driver {

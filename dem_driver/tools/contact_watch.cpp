@@ -23,7 +23,6 @@
 
 #include "dem_driver/contact_order.hpp"
 #include "dem_driver/contact_record.hpp"
-#include "dem_driver/deck.hpp"
 #include "dem_driver/tools/ball_shape.hpp"
 #include "dem_driver/tools/stop.hpp"
 #include "dem_driver/tools/watched_model.hpp"

@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "dem_driver/deck.hpp"
+#include "dem_driver/deck_outputs.hpp"
 #include "dem_driver/flow_exchange.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"

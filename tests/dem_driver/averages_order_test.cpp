@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "dem_driver/contact_record.hpp"
+#include "dem_driver/deck.hpp"
 #include "dem_driver/disk_room.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/segments.hpp"

@@ -8,7 +8,9 @@
 #include <memory>
 #include <thread>
 
+#include "dem_driver/run_file.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/wall_parts.hpp"
 #include "millfoam_version.hpp"
 #include "small_mill.hpp"
 

@@ -11,7 +11,6 @@
 #include <string>
 #include <tuple>
 
-#include "dem_driver/deck.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/superquadric.hpp"
 #include "meshing/surface/pi.hpp"

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dem_driver/continued_run.hpp"
+#include "dem_driver/deck.hpp"
 #include "dem_driver/fluid_check.hpp"
 #include "dem_driver/fluid_ledger.hpp"
 #include "dem_driver/fluid_settings.hpp"

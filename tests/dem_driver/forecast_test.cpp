@@ -8,6 +8,8 @@
 #include <sstream>
 #include <utility>
 
+#include "dem_driver/deck.hpp"
+#include "dem_driver/deck_outputs.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "small_mill.hpp"
 

@@ -8,10 +8,12 @@
 #include <set>
 #include <sstream>
 
+#include "dem_driver/deck.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/segments.hpp"
+#include "dem_driver/wall_parts.hpp"
 #include "millfoam_version.hpp"
 #include "small_mill.hpp"
 

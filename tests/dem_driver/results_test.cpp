@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "dem_driver/deck_outputs.hpp"
 #include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
 

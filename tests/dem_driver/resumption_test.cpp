@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "dem_driver/run_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
 
