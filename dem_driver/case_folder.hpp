@@ -4,6 +4,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "averaging/files/file_lock.hpp"
+
 namespace millfoam::dem_driver {
 
 /// The folders and files of one case that the dry run reads and writes. The functions only make the paths;
@@ -32,7 +34,7 @@ struct CaseFolder {
   std::filesystem::path averages_order() const { return dem() / "averages.json"; }
   /// Time-step, steps and charge before the run.
   std::filesystem::path plan_file() const { return dem() / "plan.json"; }
-  /// Held by FolderLock.
+  /// Held by lock_folder.
   std::filesystem::path lock() const { return dem() / "lock"; }
   /// Time-step, interval and speed of the dumps; there only after a complete run.
   std::filesystem::path run_file() const { return dumps() / "run.json"; }
@@ -56,23 +58,13 @@ struct CaseFolder {
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
 
-/// Lock of a folder for this process and the programs that it starts, so that no other run writes there.
-/// The lock is the system's (flock): it ends with the last of these programs, however they end.
-class FolderLock {
- public:
-  /// Locks `dem/lock`, which is made where it is missing; the folder `dem` must exist. Throws
-  /// std::runtime_error when another run keeps the lock, or when the file cannot be written.
-  /// @param folder  of the case
-  /// @param longest_wait  for programs that a killed run has left behind
-  explicit FolderLock(const CaseFolder& folder,
-                      std::chrono::milliseconds longest_wait = std::chrono::seconds(10));
-  /// Gives the lock back, unless a program that this process has started still runs.
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_ = -1;
-};
+/// Locks a folder for this process and the programs that it starts, so that no other run writes there: the
+/// lock ends with the last of these programs, however they end.
+/// @param folder  of the case; its file `dem/lock` is made where it is missing, the folder `dem` must exist
+/// @param longest_wait  for programs that a killed run has left behind
+///
+/// Throws std::runtime_error when another run keeps the lock, or when the file cannot be written.
+averaging::FileLock lock_folder(const CaseFolder& folder,
+                                std::chrono::milliseconds longest_wait = std::chrono::seconds(10));
 
 }  // namespace millfoam::dem_driver

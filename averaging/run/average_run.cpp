@@ -246,8 +246,8 @@ std::vector<SolidsSummary> average_run(const AverageRequest& request, const Aver
                                        Communicator& communicator) {
   // A name that cannot be used is refused before the work, not after it.
   for (const WindowsRequest& windows : request.windows) xdmf_path(windows.output);
-  const std::vector<OutputLock> locks =
-      communicator.rank() == 0 ? lock_outputs(request) : std::vector<OutputLock>{};
+  const std::vector<FileLock> locks =
+      communicator.rank() == 0 ? lock_outputs(request) : std::vector<FileLock>{};
   const RunPlan plan = plan_run(request, progress);
   const CellSetup setup = set_up(request, plan.settings, progress.note);
 

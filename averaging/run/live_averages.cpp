@@ -207,7 +207,7 @@ double journal_bytes(const CellSetup& setup, const std::vector<WindowPlan>& plan
 std::vector<SolidsSummary> finish_live(const AverageRequest& request, const LiveRun& run,
                                        const LiveFiles& files, const std::string& id, const LiveEnd& end,
                                        const std::function<void(const std::string&)>& note) {
-  const std::vector<OutputLock> locks = lock_outputs(request);
+  const std::vector<FileLock> locks = lock_outputs(request);
   const CellSetup setup = set_up(request, run.settings, ignore);
   std::vector<WindowPlan> plans = plan_live(request, run, end.step);
   const Checkpoint state = state_at(files, id, end.step);

@@ -24,13 +24,13 @@ std::string run_of_solids(const fs::path& file) {
 
 }  // namespace
 
-std::vector<OutputLock> lock_outputs(const AverageRequest& request) {
-  std::vector<OutputLock> locks;
+std::vector<FileLock> lock_outputs(const AverageRequest& request) {
+  std::vector<FileLock> locks;
   for (const WindowsRequest& windows : request.windows) {
     require_solids_or_nothing(windows.output);
     require_summary_or_nothing(summary_path(windows.output));
     require_xdmf_or_nothing(xdmf_path(windows.output));
-    locks.emplace_back(windows.output);
+    locks.push_back(lock_output(windows.output));
   }
   return locks;
 }

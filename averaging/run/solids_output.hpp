@@ -14,7 +14,7 @@
 namespace millfoam::averaging {
 
 /// Checks that every file that a request is to write may be written, and locks them. Throws SolidsFileError.
-std::vector<OutputLock> lock_outputs(const AverageRequest& request);
+std::vector<FileLock> lock_outputs(const AverageRequest& request);
 
 /// What holds for a whole solids file.
 /// @param request  of the averages

@@ -146,7 +146,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   if (state) deck << "# begins with the restart file " << state->id << '\n';
 
   fs::create_directories(folder.dem());
-  const dem_driver::FolderLock lock(folder);
+  const averaging::FileLock lock = dem_driver::lock_folder(folder);
   const auto step = first_step(options, folder, plan, deck.str());
   if (step && *step == plan.end_step() && fs::exists(folder.run_file())) {
     std::cout << folder.run_file().string() << ": the run is complete, nothing to do\n";

@@ -5,7 +5,7 @@
 
 #include <chrono>
 #include <fstream>
-#include <memory>
+#include <optional>
 #include <thread>
 
 #include "dem_driver/run_file.hpp"
@@ -80,28 +80,28 @@ TEST(CaseFolder, ContactsThatAreMissingAreCounted) {
   EXPECT_EQ(contacts_complaint(folder, plan, 49), "");
 }
 
-TEST(FolderLock, IsKeptByOneRunAtATime) {
+TEST(CaseFolder, IsLockedByOneRunAtATime) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};
   prepare_folders(folder);
   {
-    const FolderLock first(folder);
-    EXPECT_EQ(message_of([&] { FolderLock(folder, std::chrono::milliseconds(150)); }),
+    const averaging::FileLock first = lock_folder(folder);
+    EXPECT_EQ(message_of([&] { lock_folder(folder, std::chrono::milliseconds(150)); }),
               folder.dem().string() + ": another millDem runs in this folder, expected one at a time");
   }
-  EXPECT_EQ(message_of([&] { FolderLock(folder, std::chrono::milliseconds(0)); }), "");
+  EXPECT_EQ(message_of([&] { lock_folder(folder, std::chrono::milliseconds(0)); }), "");
 }
 
-TEST(FolderLock, WaitsForProgramsThatAKilledRunHasLeft) {
+TEST(CaseFolder, LockWaitsForProgramsThatAKilledRunHasLeft) {
   const TemporaryFolder temporary;
   const CaseFolder folder{temporary.path()};
   prepare_folders(folder);
-  auto first = std::make_unique<FolderLock>(folder);
+  std::optional<averaging::FileLock> first(lock_folder(folder));
   std::thread ends([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(250));
     first.reset();
   });
-  EXPECT_EQ(message_of([&] { FolderLock second(folder); }), "");
+  EXPECT_EQ(message_of([&] { lock_folder(folder); }), "");
   ends.join();
 }
 

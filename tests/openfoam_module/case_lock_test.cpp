@@ -16,7 +16,7 @@ namespace {
 
 std::string refusal(const std::filesystem::path& folder) {
   try {
-    const CaseLock second(folder, "slurryStart");
+    const averaging::FileLock second = lock_case(folder, "slurryStart");
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -25,7 +25,7 @@ std::string refusal(const std::filesystem::path& folder) {
 
 TEST(CaseLock, RefusesASecondFlowAndNamesTheFirst) {
   const TemporaryFolder folder;
-  const CaseLock first(folder.path, "slurryFoam");
+  const averaging::FileLock first = lock_case(folder.path, "slurryFoam");
   EXPECT_THAT(refusal(folder.path),
               ::testing::AllOf(::testing::HasSubstr(folder.path.string()),
                                ::testing::HasSubstr("slurryFoam (process " + std::to_string(getpid())),
@@ -34,7 +34,7 @@ TEST(CaseLock, RefusesASecondFlowAndNamesTheFirst) {
 
 TEST(CaseLock, IsFreeAfterItsEnd) {
   const TemporaryFolder folder;
-  { const CaseLock first(folder.path, "slurryFoam"); }
+  { const averaging::FileLock first = lock_case(folder.path, "slurryFoam"); }
   EXPECT_EQ(refusal(folder.path), "");
 }
 
@@ -44,7 +44,7 @@ TEST(CaseLock, OfAKilledProcessBlocksNobody) {
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
   if (child == 0) {
-    const CaseLock first(folder.path, "slurryFoam");
+    const averaging::FileLock first = lock_case(folder.path, "slurryFoam");
     if (write(ready[1], "x", 1) == 1) pause();
     _exit(1);
   }

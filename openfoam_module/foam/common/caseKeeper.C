@@ -20,8 +20,8 @@ Foam::caseKeeper::caseKeeper(const Time& time, const std::string& program)
     const auto failure = untrapped(
         [&]
         {
-            lock_ = std::make_unique<millfoam::record::CaseLock>(
-                std::string(time.globalPath()), program);
+            lock_.emplace(millfoam::record::lock_case(
+                std::string(time.globalPath()), program));
         });
     if (failure)
     {

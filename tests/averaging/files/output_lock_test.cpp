@@ -70,26 +70,26 @@ TEST(Output, ThatIsCutShortIsToldWithTheProgramThatMakesIt) {
 TEST(Output, IsWrittenByOneRunAtATime) {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder / "solids.h5";
-  std::optional<OutputLock> first(output);
-  const OutputLock other(folder / "other.h5");
-  expect_named(message_of<SolidsFileError>([&] { OutputLock second(output); }),
+  std::optional<FileLock> first(lock_output(output));
+  const FileLock other = lock_output(folder / "other.h5");
+  expect_named(message_of<SolidsFileError>([&] { lock_output(output); }),
                {"solids.h5: another millAverage is writing this file", "solids.h5.lock"});
   EXPECT_TRUE(std::filesystem::exists(folder / "solids.h5.lock"))
       << "a run that is refused takes no lock away";
   first.reset();
   EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.lock"));
-  const OutputLock third(output);
+  const FileLock third = lock_output(output);
 }
 
 TEST(Output, IsNotBlockedByTheLockFileOfARunThatWasKilled) {
   const TemporaryFolder folder;
   folder.write("solids.h5.lock", "");
-  const OutputLock lock(folder / "solids.h5");
+  const FileLock lock = lock_output(folder / "solids.h5");
 }
 
 TEST(Output, InAFolderThatIsNotThereIsRefusedByName) {
   const TemporaryFolder folder;
-  expect_named(message_of<SolidsFileError>([&] { OutputLock lock(folder / "none/solids.h5"); }),
+  expect_named(message_of<std::runtime_error>([&] { lock_output(folder / "none/solids.h5"); }),
                {"none/solids.h5.lock", "is the folder there"});
 }
 

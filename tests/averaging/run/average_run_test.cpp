@@ -385,7 +385,7 @@ TEST_F(AverageRun, OverwritesNoFileOfAnotherKind) {
 }
 
 TEST_F(AverageRun, AnOutputThatAnotherRunIsWritingIsRefused) {
-  const OutputLock other(output());
+  const FileLock other = lock_output(output());
   expect_named(message_of<SolidsFileError>([&] { run(); }), {"solids.h5: another millAverage is writing"});
   EXPECT_FALSE(std::filesystem::exists(folder / "solids.h5.journal"));
 }
