@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/averages_order.hpp"
 
-#include <fstream>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -29,14 +27,6 @@ constexpr char order_format[] = "millfoam-live-averages";
 
 /// How a file of a request is written in JSON.
 using PathAs = std::function<std::string(const fs::path&)>;
-
-Json optional_number(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
-std::optional<double> optional_number(const Json& value) {
-  return value.is_null() ? std::nullopt : std::optional<double>(value.get<double>());
-}
 
 /// A text of a motion with the name of its table replaced.
 std::string with_table(const std::string& motion, const PathAs& path) {
@@ -66,76 +56,63 @@ Json grid_json(const CylinderRequest& cylinder, const PathAs&) {
 Json grid_json(const MeshRequest& mesh, const PathAs& path) {
   Json motion = Json::array();
   for (const std::string& text : mesh.motion) motion.push_back(with_table(text, path));
-  return {{"kind", "cells"},
-          {"mesh", path(mesh.file)},
-          {"motion", motion},
-          {"at_rest", mesh.at_rest},
-          {"period_m", optional_number(mesh.period_z)},
-          {"smoothing_m", mesh.smoothed ? Json(mesh.smoothing) : Json()}};
+  return {{"kind", "cells"},           {"mesh", path(mesh.file)},
+          {"motion", motion},          {"at_rest", mesh.at_rest},
+          {"period_m", mesh.period_z}, {"smoothing_m", mesh.smoothed ? Json(mesh.smoothing) : Json()}};
 }
 
-GridRequest grid_of(const Json& json) {
-  const auto kind = json.at("kind").get<std::string>();
+GridRequest grid_of(const JsonObject& json, const fs::path& folder) {
+  const auto kind = json.get<std::string>("kind");
   if (kind == "box")
-    return BoxGrid(json.at("lower_m"), json.at("upper_m"), json.at("shape"), json.at("periodic"));
+    return BoxGrid(json.get<averaging::Vector3>("lower_m"), json.get<averaging::Vector3>("upper_m"),
+                   json.get<averaging::VoxelIndex>("shape"), json.get<std::array<bool, 3>>("periodic"));
   if (kind == "cylinder") {
-    CylinderRequest cylinder(CylinderGrid(json.at("radii_m"), json.at("ends_m"), json.at("shape"),
-                                          json.at("periodic").get<bool>()));
-    cylinder.cylindrical = json.at("cylindrical");
-    cylinder.turning = json.at("turning");
+    CylinderRequest cylinder(
+        CylinderGrid(json.get<std::array<double, 2>>("radii_m"), json.get<std::array<double, 2>>("ends_m"),
+                     json.get<averaging::VoxelIndex>("shape"), json.get<bool>("periodic")));
+    cylinder.cylindrical = json.get<bool>("cylindrical");
+    cylinder.turning = json.get<bool>("turning");
     return cylinder;
   }
   MeshRequest mesh;
-  mesh.file = json.at("mesh").get<std::string>();
-  mesh.motion = json.at("motion").get<std::vector<std::string>>();
-  mesh.at_rest = json.at("at_rest");
-  mesh.period_z = optional_number(json.at("period_m"));
-  mesh.smoothed = !json.at("smoothing_m").is_null();
-  if (mesh.smoothed) mesh.smoothing = json.at("smoothing_m");
+  mesh.file = folder / json.get<std::string>("mesh");
+  mesh.motion = json.get<std::vector<std::string>>("motion");
+  mesh.at_rest = json.get<bool>("at_rest");
+  mesh.period_z = json.find<double>("period_m");
+  const auto smoothing = json.find<double>("smoothing_m");
+  mesh.smoothed = smoothing.has_value();
+  mesh.smoothing = smoothing.value_or(mesh.smoothing);
   return mesh;
 }
 
 Json request_json(const AverageRequest& request, const PathAs& path) {
   Json walls = Json::array(), windows = Json::array();
   for (const fs::path& file : request.walls) walls.push_back(path(file));
-  for (const averaging::WindowsRequest& series : request.windows)
-    windows.push_back(optional_number(series.length));
+  for (const averaging::WindowsRequest& series : request.windows) windows.push_back(series.length);
   return {{"grid", std::visit([&](const auto& grid) { return grid_json(grid, path); }, request.grid)},
           {"method", request.method == DepositionMethod::exact ? "exact" : "sample"},
           {"template", request.template_points},
           {"walls", walls},
-          {"solidity_cap", optional_number(request.solidity_cap)},
+          {"solidity_cap", request.solidity_cap},
           {"windows_s", windows},
-          {"start_s", optional_number(request.start)},
-          {"end_s", optional_number(request.end)},
+          {"start_s", request.start},
+          {"end_s", request.end},
           {"largest_outside", request.largest_outside}};
 }
 
-AverageRequest request_of(const Json& json, const fs::path& folder) {
-  AverageRequest request(grid_of(json.at("grid")));
-  if (auto* mesh = std::get_if<MeshRequest>(&request.grid)) mesh->file = folder / mesh->file;
-  request.method = json.at("method") == "exact" ? DepositionMethod::exact : DepositionMethod::sample;
-  request.template_points = json.at("template");
-  for (const Json& file : json.at("walls")) request.walls.push_back(folder / file.get<std::string>());
-  request.solidity_cap = optional_number(json.at("solidity_cap"));
-  for (const Json& length : json.at("windows_s")) request.windows.push_back({optional_number(length), {}});
-  request.start = optional_number(json.at("start_s"));
-  request.end = optional_number(json.at("end_s"));
-  request.largest_outside = json.at("largest_outside");
+AverageRequest request_of(const JsonObject& json, const fs::path& folder) {
+  AverageRequest request(grid_of(json.object("grid"), folder));
+  const bool exact = json.get<std::string>("method") == "exact";
+  request.method = exact ? DepositionMethod::exact : DepositionMethod::sample;
+  request.template_points = json.get<int>("template");
+  for (const auto& wall : json.get<std::vector<std::string>>("walls")) request.walls.push_back(folder / wall);
+  request.solidity_cap = json.find<double>("solidity_cap");
+  for (const auto& length : json.get<std::vector<std::optional<double>>>("windows_s"))
+    request.windows.push_back({length, {}});
+  request.start = json.find<double>("start_s");
+  request.end = json.find<double>("end_s");
+  request.largest_outside = json.get<double>("largest_outside");
   return request;
-}
-
-AveragesOrder order_of(const Json& json, const fs::path& folder) {
-  AveragesOrder order;
-  order.run.settings.timestep = json.at("timestep_s");
-  order.run.settings.angular_velocity = json.at("angular_velocity_rad_s").get<double>();
-  order.run.settings.sauter_diameter = json.at("sauter_diameter_m");
-  order.run.begin = json.at("begin");
-  order.run.interval = json.at("interval");
-  order.run.balls = json.at("balls");
-  for (const Json& averages : json.at("averages"))
-    order.averages.push_back({averages.at("id"), request_of(averages, folder)});
-  return order;
 }
 
 }  // namespace
@@ -169,18 +146,17 @@ void write_averages_order(const fs::path& file, const meshing::Mill& mill, const
 }
 
 AveragesOrder read_averages_order(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || json.value("format", std::string()) != order_format)
-    throw std::runtime_error(file.string() + ": is not of the format " + order_format +
-                             ": run millDem again");
-  try {
-    return order_of(json, file.parent_path());
-  } catch (const Json::exception& error) {
-    throw std::runtime_error(file.string() + ": " + error.what() + ": run millDem again");
-  }
+  const JsonObject json = read_order(file, order_format);
+  AveragesOrder order;
+  order.run.settings.timestep = json.get<double>("timestep_s");
+  order.run.settings.angular_velocity = json.get<double>("angular_velocity_rad_s");
+  order.run.settings.sauter_diameter = json.get<double>("sauter_diameter_m");
+  order.run.begin = json.get<long long>("begin");
+  order.run.interval = json.get<long long>("interval");
+  order.run.balls = json.get<long long>("balls");
+  for (const JsonObject& averages : json.objects("averages"))
+    order.averages.push_back({averages.get<std::string>("id"), request_of(averages, file.parent_path())});
+  return order;
 }
 
 }  // namespace millfoam::dem_driver

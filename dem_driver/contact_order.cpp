@@ -2,8 +2,6 @@
 #include "dem_driver/contact_order.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/wall_parts.hpp"
@@ -70,35 +68,19 @@ void write_contact_order(const fs::path& file, const meshing::Mill& mill, const 
 }
 
 ContactOrder read_contact_order(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
-  const Json json = Json::parse(in, nullptr, false);
-  const char* key = "format";
-  const auto read = [&](const char* name, auto& value) {
-    key = name;
-    json.at(name).get_to(value);
-  };
-  try {
-    std::string format, walls;
-    read("format", format);
-    if (format != contact_order_format) throw std::runtime_error(format);
-    ContactOrder order;
-    read("diameters_m", order.diameters);
-    read("parts", order.parts);
-    read("turning_parts", order.turning_parts);
-    read("walls", walls);
-    order.walls = file.parent_path() / walls;
-    read("timestep_s", order.timestep);
-    read("angular_velocity_rad_s", order.angular_velocity);
-    read("cell_edge_m", order.cell_edge);
-    read("end_step", order.end_step);
-    read("block_steps", order.block_steps);
-    read("wall_steps", order.wall_steps);
-    return order;
-  } catch (const std::exception&) {
-    throw std::runtime_error(file.string() + ": key '" + key + "' is missing or wrong: run millDem again");
-  }
+  const JsonObject json = read_order(file, contact_order_format);
+  ContactOrder order;
+  order.diameters = json.get<std::vector<double>>("diameters_m");
+  order.parts = json.get<std::vector<std::string>>("parts");
+  order.turning_parts = json.get<std::vector<std::string>>("turning_parts");
+  order.walls = file.parent_path() / json.get<std::string>("walls");
+  order.timestep = json.get<double>("timestep_s");
+  order.angular_velocity = json.get<double>("angular_velocity_rad_s");
+  order.cell_edge = json.get<double>("cell_edge_m");
+  order.end_step = json.get<long>("end_step");
+  order.block_steps = json.get<long>("block_steps");
+  order.wall_steps = json.get<long>("wall_steps");
+  return order;
 }
 
 }  // namespace millfoam::dem_driver

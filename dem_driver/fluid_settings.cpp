@@ -2,7 +2,6 @@
 #include "dem_driver/fluid_settings.hpp"
 
 #include <cassert>
-#include <fstream>
 #include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
@@ -16,16 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char order_format[] = "millfoam-fluid";
-
-/// A value of a JSON object of a file, which messages name.
-template <typename Value>
-Value value_of(const Json& json, const char* key, const fs::path& file) {
-  try {
-    return json.at(key).get<Value>();
-  } catch (const Json::exception&) {
-    throw std::runtime_error(file.string() + ": key '" + key + "' is missing or wrong: run millDem again");
-  }
-}
 
 Json to_json(const ExchangeOrder& order) {
   Json json;
@@ -47,22 +36,19 @@ Json to_json(const ExchangeOrder& order) {
   return json;
 }
 
-ExchangeOrder read_exchange(const Json& json, const fs::path& file) {
-  ExchangeOrder order{{value_of<averaging::Vector3>(json, "lower_m", file),
-                       value_of<averaging::Vector3>(json, "upper_m", file),
-                       value_of<averaging::VoxelIndex>(json, "shape", file),
-                       value_of<std::array<bool, 3>>(json, "periodic", file)}};
-  order.exact = value_of<bool>(json, "exact", file);
-  order.template_points = value_of<int>(json, "template_points", file);
-  for (const auto& wall : value_of<std::vector<std::string>>(json, "walls", file))
-    order.walls.push_back(file.parent_path() / wall);
-  order.angular_velocity = value_of<double>(json, "angular_velocity_rad_s", file);
-  order.mill = value_of<std::string>(json, "averages", file);
-  order.ball_density = value_of<double>(json, "ball_density_kg_m3", file);
-  order.smallest_ball = value_of<double>(json, "smallest_ball_m", file);
-  order.rayleigh_fraction = value_of<double>(json, "rayleigh_fraction", file);
-  order.begin = value_of<long>(json, "begin", file);
-  order.end = value_of<long>(json, "end", file);
+ExchangeOrder read_exchange(const JsonObject& json, const fs::path& folder) {
+  ExchangeOrder order{{json.get<averaging::Vector3>("lower_m"), json.get<averaging::Vector3>("upper_m"),
+                       json.get<averaging::VoxelIndex>("shape"), json.get<std::array<bool, 3>>("periodic")}};
+  order.exact = json.get<bool>("exact");
+  order.template_points = json.get<int>("template_points");
+  for (const auto& wall : json.get<std::vector<std::string>>("walls")) order.walls.push_back(folder / wall);
+  order.angular_velocity = json.get<double>("angular_velocity_rad_s");
+  order.mill = json.get<std::string>("averages");
+  order.ball_density = json.get<double>("ball_density_kg_m3");
+  order.smallest_ball = json.get<double>("smallest_ball_m");
+  order.rayleigh_fraction = json.get<double>("rayleigh_fraction");
+  order.begin = json.get<long>("begin");
+  order.end = json.get<long>("end");
   return order;
 }
 
@@ -73,15 +59,14 @@ void add_shapes(Json& json, const ShapeDrag& shapes) {
     json["shapes"].push_back({{"share", part.share}, {"sphericity", part.shape.sphericity}});
 }
 
-ShapeDrag read_shapes(const Json& json, const fs::path& file) {
+ShapeDrag read_shapes(const JsonObject& json) {
   ShapeDrag shapes;
   if (!json.contains("shapes")) return shapes;
-  const auto slurry = value_of<Json>(json, "slurry", file);
-  shapes.slurry = {value_of<double>(slurry, "density_kg_m3", file),
-                   value_of<double>(slurry, "viscosity_Pa_s", file)};
-  for (const auto& part : value_of<std::vector<Json>>(json, "shapes", file)) {
-    const auto sphericity = value_of<double>(part, "sphericity", file);
-    shapes.bed.push_back({value_of<double>(part, "share", file), {sphericity, sphericity}});
+  const JsonObject slurry = json.object("slurry");
+  shapes.slurry = {slurry.get<double>("density_kg_m3"), slurry.get<double>("viscosity_Pa_s")};
+  for (const JsonObject& part : json.objects("shapes")) {
+    const auto sphericity = part.get<double>("sphericity");
+    shapes.bed.push_back({part.get<double>("share"), {sphericity, sphericity}});
   }
   return shapes;
 }
@@ -194,33 +179,27 @@ void write_fluid_order(const fs::path& file, const meshing::Mill& mill, const Fl
 }
 
 FluidOrder read_fluid_order(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in)
-    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || value_of<std::string>(json, "format", file) != order_format)
-    throw std::runtime_error(file.string() + ": is not of the format " + order_format +
-                             ": run millDem again");
+  const JsonObject json = read_order(file, order_format);
   FluidOrder order;
-  order.timestep = value_of<double>(json, "timestep_s", file);
-  order.record_steps = value_of<long>(json, "interval", file);
-  const auto kind = value_of<std::string>(json, "kind", file);
+  order.timestep = json.get<double>("timestep_s");
+  order.record_steps = json.get<long>("interval");
+  const auto kind = json.get<std::string>("kind");
   if (kind == name_of(FluidKind::flow)) {
     order.fluid.kind = FluidKind::flow;
-    order.fluid.file = file.parent_path() / value_of<std::string>(json, "folder", file);
-    order.exchange = read_exchange(value_of<Json>(json, "exchange", file), file);
+    order.fluid.file = file.parent_path() / json.get<std::string>("folder");
+    order.exchange = read_exchange(json.object("exchange"), file.parent_path());
   } else if (kind == name_of(FluidKind::buoyancy)) {
     order.fluid.kind = FluidKind::buoyancy;
-    order.fluid.level = value_of<double>(json, "level_m", file);
-    order.fluid.density = value_of<double>(json, "density_kg_m3", file);
+    order.fluid.level = json.get<double>("level_m");
+    order.fluid.density = json.get<double>("density_kg_m3");
   } else {
     order.fluid.kind = FluidKind::slurry;
-    order.fluid.file = file.parent_path() / value_of<std::string>(json, "file", file);
-    order.fluid.file_id = value_of<std::string>(json, "file_id", file);
-    const bool windows = value_of<std::string>(json, "time", file) == name_of(FluidTime::windows);
+    order.fluid.file = file.parent_path() / json.get<std::string>("file");
+    order.fluid.file_id = json.get<std::string>("file_id");
+    const bool windows = json.get<std::string>("time") == name_of(FluidTime::windows);
     order.fluid.time = windows ? FluidTime::windows : FluidTime::mean;
   }
-  order.fluid.shapes = read_shapes(json, file);
+  order.fluid.shapes = read_shapes(json);
   return order;
 }
 

@@ -2,6 +2,7 @@
 #include "dem_driver/json_file.hpp"
 
 #include <ostream>
+#include <stdexcept>
 
 #include "averaging/values/sense_of_rotation.hpp"
 #include "meshing/files/output_file.hpp"
@@ -9,6 +10,14 @@
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
+
+JsonObject read_order(const std::filesystem::path& file, const std::string& format) {
+  const auto order = JsonObject::read(file, ": run millDem again");
+  if (!order)
+    throw std::runtime_error(file.string() + ": cannot be read, expected the file that millDem writes");
+  order->require_format(format);
+  return *order;
+}
 
 Json begin_result(const std::string& what, const meshing::Mill& mill) {
   return {{"format", "millfoam-" + what},

@@ -7,12 +7,17 @@
 #include <string>
 
 #include "dem_driver/charge_plan.hpp"
+#include "meshing/files/json_object.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver {
 
 /// JSON whose keys keep the order in which they were added.
 using Json = nlohmann::ordered_json;
+
+/// A file that this room has written for millLiggghts. Throws std::runtime_error naming it when it cannot be
+/// read or is of another format; what is wrong with its keys ends with the advice to run millDem again.
+JsonObject read_order(const std::filesystem::path& file, const std::string& format);
 
 /// The head of a result that `millDem` leaves: "format" ("millfoam-<what>"), "program" with its version, and
 /// "mill", the fingerprints walls and charge, which are all that a dry run depends on.

@@ -2,7 +2,6 @@
 #include "dem_driver/run_file.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
@@ -10,16 +9,6 @@
 namespace millfoam::dem_driver {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-double number(const Json& run, const char* key, const fs::path& file) {
-  if (!run.contains(key) || !run[key].is_number())
-    throw std::runtime_error(file.string() + ": no number '" + key + "', expected one");
-  return run[key].get<double>();
-}
-
-}  // namespace
 
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
   Json run = begin_result("dumps", mill);
@@ -40,16 +29,14 @@ void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const D
 }
 
 CompleteRun read_run_file(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file.string() + ": no such file, expected that of a complete run");
-  const Json run = Json::parse(in, nullptr, false);
-  if (!run.is_object())
-    throw std::runtime_error(file.string() + ": is not a JSON object, expected the file that millDem writes");
+  const auto run = JsonObject::read(file);
+  if (!run) throw std::runtime_error(file.string() + ": no such file, expected that of a complete run");
   CompleteRun found;
-  found.charge = run.value(Json::json_pointer("/mill/charge"), std::string());
-  found.time_step = number(run, "timestep_s", file);
-  const double begin = run.contains("begin_s") ? number(run, "begin_s", file) : 0;
-  const double steps = (begin + number(run, "duration_s", file)) / found.time_step;
+  if (const auto mill = run->find_object("mill"))
+    found.charge = mill->find<std::string>("charge").value_or("");
+  found.time_step = run->get<double>("timestep_s");
+  const double begin = run->find<double>("begin_s").value_or(0);
+  const double steps = (begin + run->get<double>("duration_s")) / found.time_step;
   if (!(std::abs(steps) < 1e15))
     throw std::runtime_error(file.string() +
                              ": 'duration_s' is no number of steps of 'timestep_s', expected one");

@@ -1,115 +1,72 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/dumps/run_metadata.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <limits>
 #include <sstream>
 
 #include "averaging/dumps/dump_reader.hpp"
 #include "meshing/files/file_fingerprint.hpp"
+#include "meshing/files/json_object.hpp"
 
 namespace millfoam::averaging {
 
 namespace {
 
-/// The keys of an object in a file, which messages name.
-class MetadataValues {
- public:
-  /// Throws DumpError unless `text` is an object.
-  MetadataValues(const std::string& text, std::string file) : file_(std::move(file)) {
-    try {
-      object_ = nlohmann::json::parse(text);
-    } catch (const nlohmann::json::parse_error& error) {
-      const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-      throw DumpError(file_ + ':' + std::to_string(1 + std::count(text.begin(), end, '\n')) +
-                      ": this is not JSON, expected an object as millDem writes it");
-    } catch (const nlohmann::json::exception& error) {
-      throw DumpError(file_ + ": " + error.what());
-    }
-    if (!object_.is_object()) throw DumpError(file_ + ": expected an object of JSON, {\"key\": value, ...}");
-  }
+std::optional<double> finite(const JsonObject& run, const char* key, const std::string& expected,
+                             double above = -std::numeric_limits<double>::infinity()) {
+  return run.find<double>(key, expected,
+                          [above](double value) { return value > above && std::isfinite(value); });
+}
 
-  /// A number that `allowed` accepts; nothing when the key is not there.
-  template <typename Allowed>
-  std::optional<double> number(const char* key, const char* expected, Allowed allowed) const {
-    const nlohmann::json* value = find(object_, key);
-    if (value == nullptr) return std::nullopt;
-    if (!value->is_number() || !allowed(value->get<double>())) fail(key, *value, expected);
-    return value->get<double>();
-  }
+std::optional<long long> count(const JsonObject& run, const char* key, long long least) {
+  return run.find<long long>(key, least > 0 ? "a positive whole number" : "a whole number of 0 or more",
+                             [least](long long number) { return number >= least; });
+}
 
-  /// A whole number of at least `least`; nothing when the key is not there.
-  std::optional<long long> count(const char* key, long long least) const {
-    const nlohmann::json* value = find(object_, key);
-    if (value == nullptr) return std::nullopt;
-    if (!value->is_number_integer() || value->get<long long>() < least)
-      fail(key, *value, least > 0 ? "a positive whole number" : "a whole number of 0 or more");
-    return value->get<long long>();
-  }
-
-  /// Text; empty when the key is not there. With `group` a key of the object that is this key of the file.
-  std::string text(const char* key, const char* group = nullptr) const {
-    const nlohmann::json* object = group == nullptr ? &object_ : find(object_, group);
-    if (object == nullptr) return {};
-    if (!object->is_object()) fail(group, *object, "an object");
-    const nlohmann::json* value = find(*object, key);
-    if (value == nullptr) return {};
-    if (!value->is_string()) fail(group == nullptr ? key : std::string(group) + '.' + key, *value, "text");
-    return value->get<std::string>();
-  }
-
-  [[noreturn]] void fail(const std::string& key, const nlohmann::json& value, const char* expected) const {
-    throw DumpError(file_ + ": key '" + key + "' is " + value.dump() + ", expected " + expected);
-  }
-
- private:
-  static const nlohmann::json* find(const nlohmann::json& object, const char* key) {
-    const auto found = object.find(key);
-    return found == object.end() || found->is_null() ? nullptr : &*found;
-  }
-
-  std::string file_;
-  nlohmann::json object_;
-};
-
-std::optional<double> fines_share(const MetadataValues& values) {
+std::optional<double> fines_share(const JsonObject& run) {
   const auto mass = [&](const char* key) {
-    return values.number(key, "a mass of 0 kg or more", [](double m) { return m >= 0 && std::isfinite(m); });
+    return run.find<double>(key, "a mass of 0 kg or more",
+                            [](double m) { return m >= 0 && std::isfinite(m); });
   };
   const std::optional<double> fines = mass("fines_mass_kg"), balls = mass("charge_mass_kg");
   if (!fines || !balls || *fines + *balls == 0) return std::nullopt;
   return *fines / (*fines + *balls);
 }
 
+RunMetadata metadata_of(const JsonObject& run) {
+  constexpr char format[] = "millfoam-dumps";
+  run.find<std::string>("format", '"' + std::string(format) + '"',
+                        [&](const std::string& found) { return found.empty() || found == format; });
+  RunMetadata metadata;
+  metadata.timestep = finite(run, "timestep_s", "a positive number", 0);
+  metadata.interval = count(run, "interval", 1);
+  metadata.angular_velocity = finite(run, "angular_velocity_rad_s", "a finite number");
+  metadata.begin = finite(run, "begin_s", "a finite time in s");
+  metadata.duration = finite(run, "duration_s", "a time in s above 0", 0);
+  metadata.dumps = count(run, "dumps", 0);
+  if (const auto mill = run.find_object("mill")) {
+    metadata.mill_walls = mill->find<std::string>("walls").value_or("");
+    metadata.mill_charge = mill->find<std::string>("charge").value_or("");
+  }
+  metadata.fines_share = fines_share(run);
+  return metadata;
+}
+
 }  // namespace
 
 std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder) {
-  RunMetadata metadata;
-  metadata.file = folder / "run.json";
-  std::ifstream input(metadata.file, std::ios::binary);
-  if (!input) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
-  metadata.run_id = fingerprint(text);
-  const MetadataValues values(text, metadata.file.string());
-  const std::string format = values.text("format");
-  if (!format.empty() && format != "millfoam-dumps") values.fail("format", format, "\"millfoam-dumps\"");
-  metadata.timestep =
-      values.number("timestep_s", "a positive number", [](double dt) { return dt > 0 && std::isfinite(dt); });
-  metadata.interval = values.count("interval", 1);
-  metadata.angular_velocity = values.number("angular_velocity_rad_s", "a finite number",
-                                            [](double omega) { return std::isfinite(omega); });
-  metadata.begin =
-      values.number("begin_s", "a finite time in s", [](double time) { return std::isfinite(time); });
-  metadata.duration = values.number("duration_s", "a time in s above 0",
-                                    [](double time) { return time > 0 && std::isfinite(time); });
-  metadata.dumps = values.count("dumps", 0);
-  metadata.mill_walls = values.text("walls", "mill");
-  metadata.mill_charge = values.text("charge", "mill");
-  metadata.fines_share = fines_share(values);
-  return metadata;
+  const std::filesystem::path file = folder / "run.json";
+  try {
+    const auto run = JsonObject::read(file);
+    if (!run) return std::nullopt;
+    RunMetadata metadata = metadata_of(*run);
+    metadata.file = file;
+    metadata.run_id = file_fingerprint(file);
+    return metadata;
+  } catch (const JsonError& error) {
+    throw DumpError(error.what());
+  }
 }
 
 void require_dumps(const RunMetadata& metadata) {

@@ -2,10 +2,10 @@
 #include "averaging/run/summary_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "meshing/files/json_object.hpp"
 #include "meshing/files/output_file.hpp"
 
 namespace millfoam::averaging {
@@ -18,10 +18,6 @@ constexpr const char* summary_format = "millfoam-averages";
 
 Json known(const std::string& text) {
   return text.empty() ? Json() : Json(text);
-}
-
-Json known(const std::optional<double>& number) {
-  return number ? Json(*number) : Json();
 }
 
 Json fingerprints(const SolidsHeader& header) {
@@ -95,12 +91,12 @@ void put_settings(Json& json, const SolidsSummary& summary) {
   json["whole_run"] = header.whole_run;
   json["records"] = records;
   json["timestep_s"] = header.timestep;
-  json["angular_velocity_rad_s"] = known(header.angular_velocity);
+  json["angular_velocity_rad_s"] = header.angular_velocity;
   json["method"] = header.method;
   json["grid"] = summary.grid;
   json["shape"] = summary.shape;
   json["smoothing_m"] = header.smoothing;
-  json["solidity_cap"] = known(header.solidity_cap);
+  json["solidity_cap"] = header.solidity_cap;
 }
 
 }  // namespace
@@ -113,20 +109,14 @@ std::filesystem::path summary_path(const std::filesystem::path& solids_file) {
 }
 
 void require_summary_or_nothing(const std::filesystem::path& path) {
-  std::ifstream input(path);
-  if (!input) return;
-  const Json found = Json::parse(input, nullptr, false);
-  if (found.is_object() && found.value("format", Json()) == summary_format) return;
+  if (!std::filesystem::exists(path) || JsonObject::of_format(path, summary_format)) return;
   throw SolidsFileError(path.string() + ": this file exists and is not a " + summary_format +
                         " file; it would be overwritten: give another name or remove it");
 }
 
 std::string run_of_summary(const std::filesystem::path& path) {
-  std::ifstream input(path);
-  const Json found = Json::parse(input, nullptr, false);
-  if (!found.is_object() || found.value("format", Json()) != summary_format) return {};
-  const Json run = found.value("run_id", Json());
-  return run.is_string() ? run.get<std::string>() : std::string();
+  const auto found = JsonObject::of_format(path, summary_format);
+  return found ? found->find<std::string>("run_id").value_or("") : "";
 }
 
 std::string as_json(const SolidsSummary& summary, const std::string& writer) {
@@ -144,7 +134,7 @@ std::string as_json(const SolidsSummary& summary, const std::string& writer) {
   json["balls_per_cell"] = all.balls_per_cell;
   json["mean_solidity"] = all.mean_solidity;
   json["largest_solidity"] = all.largest_solidity;
-  json["fines_share"] = known(summary.header.fines_share);
+  json["fines_share"] = summary.header.fines_share;
   json["advice"] = sentences(summary, false);
   json["warnings"] = sentences(summary, true);
   json["per_window"] = columns(summary);

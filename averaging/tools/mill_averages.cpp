@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -13,6 +11,7 @@
 
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/statistics/time_windows.hpp"
+#include "meshing/files/json_object.hpp"
 #include "meshing/files/text_numbers.hpp"
 #include "meshing/mill/resolved_mill.hpp"
 #include "meshing/walls/wall_files.hpp"
@@ -74,14 +73,14 @@ void refuse_without_grid(const Options& options) {
 }  // namespace
 
 SteadyStart steady_start(const fs::path& results) {
-  std::ifstream in(results);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("steady_from_s") || !json["steady_from_s"].is_number())
+  const auto found = JsonObject::read(results);
+  const auto time = found ? found->find<double>("steady_from_s") : std::nullopt;
+  if (!time)
     throw std::invalid_argument(results.string() +
                                 ": no number steady_from_s, which 'averages.start: steady' needs; "
                                 "give averages.start a time, or run millDem again");
-  SteadyStart start{json["steady_from_s"].get<double>(), ""};
-  if (!json.value("steady", true))
+  SteadyStart start{*time, ""};
+  if (!found->find<bool>("steady").value_or(true))
     start.warning = results.string() + ": the dry run is not steady; its last part is averaged, from " +
                     exact(start.time) + " s on. Raise dem.duration";
   return start;

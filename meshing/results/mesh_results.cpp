@@ -2,11 +2,10 @@
 #include "meshing/results/mesh_results.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "meshing/files/file_fingerprint.hpp"
+#include "meshing/files/json_object.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_fingerprints.hpp"
 #include "meshing/mill/mill_shape.hpp"
@@ -83,14 +82,9 @@ void write_wall_results(const std::optional<MillDescription>& description, const
 std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::path& case_folder) {
   if (mill.averages.start) return mill.averages.start;
   if (!mill.flow.balls) return 0;
-  const std::filesystem::path file = case_folder / "solids.json";
-  std::ifstream in(file);
-  if (!in) return std::nullopt;
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("time0_s") || !json["time0_s"].is_number())
-    throw std::runtime_error(file.string() +
-                             ": no number time0_s; expected what millAverage writes next to solids.h5");
-  return json["time0_s"].get<double>();
+  const auto solids = JsonObject::read(case_folder / "solids.json", ": run millAverage again");
+  if (!solids) return std::nullopt;
+  return solids->get<double>("time0_s");
 }
 
 }  // namespace millfoam::meshing

@@ -2,12 +2,12 @@
 #include "meshing/walls/wall_files.hpp"
 
 #include <Eigen/Geometry>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
 #include "meshing/files/file_fingerprint.hpp"
+#include "meshing/files/json_object.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/files/text_numbers.hpp"
 
@@ -15,7 +15,6 @@ namespace millfoam::meshing {
 namespace {
 
 using Eigen::Vector3d;
-using Json = nlohmann::json;
 
 void write_triangle(std::ostream& out, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const Vector3d normal = (b - a).cross(c - a).normalized();
@@ -29,17 +28,19 @@ bool is_wall(const WallPart& part, Ends ends) {
   return !part.triangles.empty() && !(is_end && ends == Ends::periodic);
 }
 
+constexpr char advice[] = ": run millMesh again";
+
 [[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& why) {
-  throw std::runtime_error((folder / walls_results_name).string() + ": " + why + ": run millMesh again");
+  throw std::runtime_error((folder / walls_results_name).string() + ": " + why + advice);
 }
 
 /// walls.json of a folder, where it is there.
-std::optional<Json> read_results(const std::filesystem::path& folder) {
-  std::ifstream in(folder / walls_results_name);
-  if (!in) return std::nullopt;
-  Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object()) refuse(folder, "is not a JSON object; expected what millMesh writes");
-  return json;
+std::optional<JsonObject> read_results(const std::filesystem::path& folder) {
+  return JsonObject::read(folder / walls_results_name, advice);
+}
+
+bool is_of_cad(const JsonObject& results) {
+  return results.find<std::string>("source") == "cad";
 }
 
 }  // namespace
@@ -66,26 +67,26 @@ std::vector<std::filesystem::path> write_walls(const WallSurface& surface, Ends 
 }
 
 bool has_cad_walls(const std::filesystem::path& folder) {
-  const auto json = read_results(folder);
-  return json && json->value("source", Json()) == "cad";
+  const auto results = read_results(folder);
+  return results && is_of_cad(*results);
 }
 
 void require_walls_of(const std::filesystem::path& folder, const Mill& mill) {
-  const auto json = read_results(folder);
-  if (!json) return;
-  const Json of_mill = json->value("mill", Json::object());
-  const std::string found = of_mill.is_object() ? of_mill.value("walls", std::string()) : std::string();
-  if (json->value("source", Json()) != "cad" && !found.empty() && found != mill.fingerprint.walls)
+  const auto results = read_results(folder);
+  if (!results) return;
+  const auto of_mill = results->find_object("mill");
+  const std::string found = of_mill ? of_mill->find<std::string>("walls").value_or("") : "";
+  if (!is_of_cad(*results) && !found.empty() && found != mill.fingerprint.walls)
     refuse(folder, "the walls are of another mill (walls " + found + ", this mill's are " +
                        mill.fingerprint.walls + ")");
-  if (json->contains("files") && !(*json)["files"].is_object())
+  if (results->contains("files") && !results->find_object("files"))
     refuse(folder, "the walls are not complete, as after an interrupted millMesh");
 }
 
 void require_written_walls(const std::filesystem::path& folder) {
-  const auto json = read_results(folder);
-  if (!json || !json->contains("files")) return;  // of an earlier version
-  for (const auto& [part, written] : (*json)["files"].items()) {
+  const auto results = read_results(folder);
+  if (!results || !results->contains("files")) return;  // of an earlier version
+  for (const auto& [part, written] : results->get<std::map<std::string, std::string>>("files")) {
     const std::filesystem::path wall = folder / (part + ".stl");
     if (!std::filesystem::exists(wall) || written != file_fingerprint(wall))
       refuse(folder, wall.filename().string() + " is not the wall that was written with this file");

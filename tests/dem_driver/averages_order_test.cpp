@@ -146,7 +146,7 @@ TEST_F(Averages, OfAFileThatIsDamagedAreRefusedByName) {
   auto json = tests::read_json(folder.averages_order());
   json["averages"][0].erase("method");
   std::ofstream(folder.averages_order()) << json;
-  EXPECT_NE(refusal().find("key 'method' not found"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("key 'averages[0].method' is missing"), std::string::npos) << refusal();
 }
 
 TEST_F(Averages, TakePartInTheDeckWhichHasNoDumpsWhereNoneAreWished) {

@@ -152,11 +152,11 @@ TEST_F(Resumption, ACompleteRunWithoutItsDeckIsNotReplaced) {
 TEST_F(Resumption, ARunFileThatIsDamagedIsNamed) {
   complete_run();
   write(folder_.run_file(), "{");
-  expect_refused(plan_, folder_.run_file().string() + ": is not a JSON object");
+  expect_refused(plan_, folder_.run_file().string() + ":1: this is not JSON");
   write(folder_.run_file(), R"({"timestep_s": 0, "duration_s": 1})");
   expect_refused(plan_, folder_.run_file().string() + ": 'duration_s' is no number of steps of 'timestep_s'");
   write(folder_.run_file(), R"({"timestep_s": 1e-5})");
-  expect_refused(plan_, folder_.run_file().string() + ": no number 'duration_s'");
+  expect_refused(plan_, folder_.run_file().string() + ": key 'duration_s' is missing, expected a number");
 }
 
 TEST_F(Resumption, ADeckAloneIsOneOfTheRunThatIsThere) {
