@@ -18,6 +18,12 @@ class RunError(RuntimeError):
     """A program that failed; the message names its log and shows the log's end."""
 
 
+def copy_case(case: Path | str, *folders: Path) -> None:
+    """Makes a case of what is in these folders; files of a later folder replace those of the ones before."""
+    for folder in folders:
+        shutil.copytree(folder, case, dirs_exist_ok=True)
+
+
 def write_parameters(case: Path | str, **values: Any) -> None:
     """Writes CASE/parameters, which the template's dictionaries include: one `key value;` on each line."""
     (Path(case) / "parameters").write_text("".join(f"{key} {value};\n" for key, value in values.items()))

@@ -5,21 +5,21 @@ LIGGGHTS runs as in a mill, by the program millLiggghts. Its deck and what it mu
 FORMATS.md) are written here, because a column is no mill. The balls are periodic to the sides and lie on a floor of
 two triangles, whose force is recorded."""
 import json
-import shutil
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.coupling.ball_forces import relaxed, write_ball_forces
 from millfoam.coupling.together import run_together
 from millfoam.files import foam
 from millfoam.files.slurry_file import read_ball_forces
 from millfoam.run import run as run_program
-from millfoam.run import write_parameters
+from millfoam.run import copy_case, write_parameters
 
 HERE = Path(__file__).parent.resolve()
-GRAVITY = 9.81
+RESOURCES = HERE.parent / "resources"
 WATER, VISCOSITY = 1000.0, 1e-3  # kg/m3, Pa s
 BALL = 2700.0  # kg/m3
 TIMESTEP = 2e-5  # s, of the balls: 0.16 of the Rayleigh time of 2 mm at 5e6 Pa
@@ -210,12 +210,13 @@ def file_hash(path):
 
 def make_case(case, column, balls, entry, source):
     """The flow's case; entry, source: key and value in bedProperties by which it knows its balls."""
-    shutil.copytree(HERE / "template", case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "column", HERE / "template")
     feed = " ".join(f"({time:g} {speed * column.area:.17g})" for time, speed in column.feed)
     write_parameters(case, width=column.width, height=column.height, cells=column.cells, voxels=column.shape[2],
-                     law=column.law, polydispersity="yes" if column.polydispersity else "no", feed=feed, density=WATER,
-                     kinematicViscosity=VISCOSITY / WATER, endTime=column.end, largestStep=column.largest_step,
-                     writeInterval=column.write_interval, averagesStart=column.averages,
+                     law=column.law, polydispersity="yes" if column.polydispersity else "no", feed=feed,
+                     gravity=f"(0 0 {-GRAVITY})", slurryDensity=WATER, slurryKinematicViscosity=VISCOSITY / WATER,
+                     endTime=column.end, largestStep=column.largest_step, writeInterval=column.write_interval,
+                     averagesStart=column.averages,
                      **{entry: f'"{source}"'})
     run_program(case, "blockMesh")
     write_balls(case / "balls.data", column, balls)

@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.optimize import brentq
 
-from column import BALL, GRAVITY, VISCOSITY, WATER
+from column import BALL, VISCOSITY, WATER
+from millfoam.constants import GRAVITY
 
 BUOYANT = (BALL - WATER) * GRAVITY  # N/m3, of balls in water
 

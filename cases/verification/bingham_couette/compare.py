@@ -10,7 +10,6 @@ sqrt(T/tau0), the slurry shears; beyond, it rests. Its angular velocity is
 (Bird, Dai & Yarusso 1983, Rev. Chem. Eng. 1:1.) Runs have both regularisations and softer plugs: the error must
 decrease with the regularisation, and every profile must agree with its regularised flow curve. Exit code 1 if a check
 fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,13 +21,14 @@ from scipy.optimize import brentq
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "bingham_poiseuille"))
 from flow_curve import regularised  # noqa: E402
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 # Viscous enough to be steady soon
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 1.0, 0.1
 INNER, OUTER, EDGE = 0.02, 0.04, 0.03  # m; the edge of the plug
@@ -115,13 +115,13 @@ class Flow:
 
 def run(regularisation, stiffness, case, template):
     cells, end = (MILL_CELLS, MILL_END) if stiffness == MILL else (RADIAL_CELLS, END)
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "bingham", template)
     ratio = stiffness * STIFFEST[regularisation]
     write_parameters(
-        case, density=DENSITY, yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY,
-        regularisation=regularisation, viscosityRatio=ratio, m=ratio * PLASTIC_VISCOSITY / YIELD_STRESS, omega=OMEGA,
-        innerRadius=CORNERS * INNER, radialCells=cells, quarterCells=QUARTER_CELLS, step=STEP, endTime=end,
-        writeInterval=round(end / STEP / 10))
+        case, convection="linearUpwind grad(U)", density=DENSITY, yieldStress=YIELD_STRESS,
+        plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation, viscosityRatio=ratio,
+        m=ratio * PLASTIC_VISCOSITY / YIELD_STRESS, omega=OMEGA, innerRadius=CORNERS * INNER, radialCells=cells,
+        quarterCells=QUARTER_CELLS, step=STEP, endTime=end, writeInterval=round(end / STEP / 10))
     run_program(case, "blockMesh")
     run_program(case, "slurryFoam")
     mesh = foam.read_mesh(case)

@@ -7,7 +7,6 @@ slurry moves as a plug of half width y0 = tau0/G with the speed G (h - y0)^2/(2 
 y0)^2 - (|y| - y0)^2)/(2 mu) (Bird, Armstrong & Hassager 1987, Dynamics of Polymeric Liquids 1, chapter 4). slurryFoam
 also runs softer plugs: the error must decrease with the regularisation, and every profile must agree with its
 regularised flow curve. Exit code 1 if a check fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,10 +18,11 @@ import numpy as np
 from flow_curve import regularised
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 # Slurry with 30 % solids by mass
 DENSITY, YIELD_STRESS, PLASTIC_VISCOSITY = 1239.0, 0.16, 0.0014
 HALF_GAP, CELLS = 0.005, 120
@@ -105,9 +105,10 @@ class Flow:
 
 
 def run(solver, regularisation, stiffness, case, template):
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "bingham", template)
     write_parameters(
-        case, solver=PROGRAMS[solver], correctors=3 if solver == "interFoam" else 1, density=DENSITY,
+        case, solver=PROGRAMS[solver], correctors=3 if solver == "interFoam" else 1,
+        convection="linearUpwind grad(U)", density=DENSITY,
         yieldStress=YIELD_STRESS, plasticViscosity=PLASTIC_VISCOSITY, regularisation=regularisation,
         viscosityRatio=stiffness * VISCOSITY_RATIO, m=stiffness * M, drive=DRIVE, halfGap=HALF_GAP,
         cells=MILL_CELLS if stiffness == MILL else CELLS, step=STEP[solver], endTime=END,

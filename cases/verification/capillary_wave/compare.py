@@ -3,7 +3,6 @@
 """A capillary wave on two viscous fluids, compared with Prosperetti's solution.
 
 Amplitude over time of slurryFoam on three meshes, and of interFoam on one of them. Exit code 1 if a check fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,11 +14,12 @@ from scipy.optimize import curve_fit
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 from prosperetti import Wave
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 LENGTH = 0.02  # m, of the wave
 SIGMA = 0.07  # N/m
 SLURRY, AIR = 1239, 1.2  # kg/m3
@@ -70,15 +70,15 @@ def shares(columns, rows):
 
 
 def build(run, case, here):
-    shutil.copytree(here / "template", case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "closed", RESOURCES / "with_interfoam", here / "template")
     columns, rows = run.cells, int(HEIGHT * run.cells)
     edge = LENGTH / run.cells
     period = run.wave.period
     write_parameters(
         case, solver=PROGRAMS[run.solver], surfaceTension=SIGMA, slurryDensity=SLURRY, airDensity=AIR,
-        kinematicViscosity=VISCOSITY, endTime=run.periods * period, writeInterval=period / RECORDS,
-        largestStep=np.sqrt(SLURRY * edge**3 / SIGMA) / 8, width=LENGTH, height=rows * edge, edge=edge,
-        cellsX=columns, cellsY=rows, correctors=3 if run.solver == "interFoam" else 1)
+        slurryKinematicViscosity=VISCOSITY, airKinematicViscosity=VISCOSITY, endTime=run.periods * period,
+        writeInterval=period / RECORDS, largestStep=np.sqrt(SLURRY * edge**3 / SIGMA) / 8, width=LENGTH,
+        height=rows * edge, edge=edge, cellsX=columns, cellsY=rows, correctors=3 if run.solver == "interFoam" else 1)
     run_program(case, "blockMesh")
     path = case / "0" / "alpha.slurry"
     alpha = shares(columns, rows).ravel()

@@ -5,7 +5,6 @@
 A full cylinder spins up as u = Omega r (1 - exp(-beta t/(epsilon rho))), ring by ring; in a half-full one the surface
 settles to the paraboloid z = z0 + Omega^2 r^2/(2 g). On meshes at rest and on meshes that turn through the bed. Exit
 code 1 if a check fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,16 +13,17 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, limit_table, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, limit_table, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
 
 matplotlib.use("Agg")
 
-GRAVITY = 9.81
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
 SOLIDITY = 0.5
@@ -92,10 +92,10 @@ def write_bed(run, case):
 
 def perform(run, case, here):
     setting = run.setting
-    shutil.copytree(here / "template", case)
-    shutil.copytree(here / "half" if run.half else here.parent / "rest" / "pool" / "ogrid", case, dirs_exist_ok=True)
+    copy_case(case, *(RESOURCES / name for name in ("common", "closed", "turning", "drum")), here / "template",
+              here / "half" if run.half else RESOURCES / "ogrid")
     write_parameters(
-        case, **SLURRY, **AIR, gravity=-GRAVITY,
+        case, **SLURRY, **AIR, gravity=f"(0 0 {-GRAVITY})", skewCorrectors=1,
         diameter=published_laws.darcy_diameter(setting["drag"], SOLIDITY, SLURRY["slurryKinematicViscosity"]),
         omega=setting["omega"], meshMotion="dynamicMotionSolverFvMesh" if run.turns else "staticFvMesh",
         meshOmega=run.turns * setting["omega"], endTime=setting["end"], writeInterval=setting["end"] / RECORDS,

@@ -4,7 +4,6 @@
 
 Exit code 1 if slurryFoam differs from the measurements by more than their own spread allows."""
 import csv
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,13 +13,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
-GRAVITY = 9.81
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 WIDTH = 2.25 * 0.0254  # of the column, m
 LENGTH, HEIGHT = 7, 2.5  # of the box, in widths
 SCALE = np.sqrt(2 * GRAVITY / WIDTH)  # T over t, 1/s
@@ -77,11 +77,11 @@ def position_error(front, delay):
 
 
 def perform(solver, cells, case, template):
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "closed", RESOURCES / "with_interfoam", template)
     end = END / SCALE
     write_parameters(
         case, solver=PROGRAMS[solver], convection=CONVECTION[solver], slurryDensity=998, slurryKinematicViscosity=1e-6,
-        airDensity=1.2, airKinematicViscosity=1.5e-5, gravity=-GRAVITY, endTime=end, writeInterval=end / 42,
+        airDensity=1.2, airKinematicViscosity=1.5e-5, gravity=f"(0 {-GRAVITY} 0)", endTime=end, writeInterval=end / 42,
         correctors=3 if solver == "interFoam" else 1, columnWidth=WIDTH, columnHeight=2 * WIDTH, length=LENGTH * WIDTH,
         height=HEIGHT * WIDTH, cellsX=int(LENGTH * cells), cellsY=int(HEIGHT * cells))
     run_program(case, "blockMesh")

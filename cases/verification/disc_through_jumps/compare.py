@@ -7,7 +7,6 @@ velocity u_s. With s = x - u_s t and xi = integral of e ds every point of the fl
 keeps its shape, and in x it is squeezed and stretched along the flow by the ratios of the voidage. Both fluids are
 alike, so that the surface carries no force. Exit code 1 if a run fails."""
 import itertools
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,10 +17,11 @@ import numpy as np
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 LENGTH, WIDTH = 0.64, 0.1  # m
 SPEED, DENSITY, NU = 0.2, 1000.0, 1e-6  # superficial, where there are no balls, m/s; kg/m3; m2/s
 RADIUS, PLACE = 0.03, (0.06, 0.05)  # of the disc at the start, m
@@ -141,17 +141,18 @@ class Disc:
 
 def perform(run, work, template):
     case = work / run.name
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "duct", template)
     bed, mesh = MOTIONS[run.motion]
     step = 0.25 * LENGTH / run.cells / (SPEED / (1 - SOLIDITY[0]) + abs(mesh))
     across = round(run.cells * WIDTH / LENGTH)
     write_parameters(
         case, length=LENGTH, width=WIDTH, cells=run.cells, across=across, speed=SPEED, slurryDensity=DENSITY,
-        slurryViscosity=NU, firstJump=JUMPS[0], secondJump=JUMPS[1], thirdJump=JUMPS[2], denseSolidity=SOLIDITY[0],
+        slurryKinematicViscosity=NU, airDensity=DENSITY, airKinematicViscosity=NU, convection="linear",
+        firstJump=JUMPS[0], secondJump=JUMPS[1], thirdJump=JUMPS[2], denseSolidity=SOLIDITY[0],
         looseSolidity=SOLIDITY[1], bedSpeed=bed, meshSpeed=mesh,
         meshMotion="dynamicMotionSolverFvMesh" if mesh else "staticFvMesh", firstStep=step, largestStep=step,
         courant=0.5, endTime=repr(run.end), writeInterval=repr(run.end / RECORDS),
-        correctors=0 if run.mesh == "aligned" else 1)
+        skewCorrectors=0 if run.mesh == "aligned" else 1)
     run_program(case, "blockMesh")
     if run.mesh == "wavy":
         bend(case)

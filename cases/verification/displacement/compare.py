@@ -7,7 +7,6 @@ volume V and the balls' volume V_s below the level, level = (V + V_s)/area, at e
 between the balls from below. The slurry rises through the growing bed and above it, so that the pressure at the bottom
 has a closed form; it must not depend on the time-step. Exit code 1 if a level, a pressure, the slurry's volume or the
 range of the phase fraction is wrong."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,15 +16,17 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import trapezoid
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 WIDTH, HEIGHT, COLUMNS, LAYERS = 0.016, 0.4, 4, 100
 LAYER = HEIGHT / LAYERS
 POOL = 0.2018  # m, the level at the start: within a layer
@@ -34,7 +35,7 @@ SOLIDITY, THICKNESS = 0.5, 0.0987  # of the bed; m, not a whole number of layers
 BED_BOTTOM = {"closed": 0.2413, "open": 0.0613}
 BED_SPEED, UNTIL = -0.2, 0.9
 RAMP = (0.1, 0.6)
-DENSITY, AIR_DENSITY, VISCOSITY, DIAMETER, GRAVITY = 1000, 1.2, 2e-4, 0.005, 9.81  # kg/m3, kg/m3, m2/s, m, m/s2
+DENSITY, AIR_DENSITY, VISCOSITY, DIAMETER = 1000, 1.2, 2e-4, 0.005  # kg/m3, kg/m3, m2/s, m
 END, WRITE_INTERVAL = 1.0, 0.02
 RUNS = {"closed": ("closed", 2e-3), "open": ("open", 2e-3), "open, small steps": ("open", 5e-4)}  # largest step, s
 TOLERANCE = 1e-6  # of the level, relative; of the phase fraction, absolute
@@ -176,13 +177,13 @@ def write_pool(case):
 
 def run(name, case, template):
     kind, largest_step = RUNS[name]
-    shutil.copytree(template / "common", case)
-    shutil.copytree(template / kind, case, dirs_exist_ok=True)
+    copy_case(case, RESOURCES / "common", template / "common", template / kind)
     write_parameters(
         case, width=WIDTH, height=HEIGHT, columns=COLUMNS, layers=LAYERS, slurryDensity=DENSITY,
-        slurryViscosity=VISCOSITY, airDensity=AIR_DENSITY, bedBottom=BED_BOTTOM[kind], bedTop=BED_BOTTOM[kind] +
-        THICKNESS, solidity=SOLIDITY, bedSpeed=BED_SPEED, until=UNTIL, rampBegin=RAMP[0], rampEnd=RAMP[1],
-        firstStep=1e-4, largestStep=largest_step, endTime=END, writeInterval=WRITE_INTERVAL)
+        slurryKinematicViscosity=VISCOSITY, gravity=f"(0 0 {-GRAVITY})", airDensity=AIR_DENSITY,
+        bedBottom=BED_BOTTOM[kind], bedTop=BED_BOTTOM[kind] + THICKNESS, solidity=SOLIDITY, bedSpeed=BED_SPEED,
+        until=UNTIL, rampBegin=RAMP[0], rampEnd=RAMP[1], firstStep=1e-4, largestStep=largest_step, endTime=END,
+        writeInterval=WRITE_INTERVAL)
     write_pool(case)
     run_program(case, "blockMesh")
     run_program(case, "slurryFoam")

@@ -23,13 +23,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
-GRAVITY = 9.81
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SLURRY, AIR = 1000.0, 1.2  # kg/m3
 SLURRY_NU, AIR_NU = 1e-6, 1.5e-5  # m2/s
 HEIGHT, LAYERS, START = 0.5, 200, 0.45  # of the column, m; surface at the start, m
@@ -197,9 +198,10 @@ def write_surface(case):
 
 
 def run(column, case, template):
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", template)
     write_parameters(
-        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryViscosity=SLURRY_NU, airDensity=AIR,
+        case, height=HEIGHT, layers=LAYERS, slurryDensity=SLURRY, slurryKinematicViscosity=SLURRY_NU,
+        airDensity=AIR, gravity=f"(0 0 {-GRAVITY})",
         law=column.law, solidity=column.solidity, diameter=column.diameter, bedBottom=column.bottom, bedTop=column.top,
         # p_rgh: slurry at the outlet, air at the top; both for a surface at rest at the tailwater's level
         outletPressure=SLURRY * GRAVITY * column.tailwater, topPressure=AIR * GRAVITY * column.tailwater,

@@ -6,7 +6,6 @@ velocity. The drum is part full, without balls and with a bed that turns at half
 Both are the same flow. So surface and velocities must approach each other as the cells get smaller, and the slurry's
 volume must not change. They are compared after every quarter turn of the drum, when the cells of both meshes coincide.
 Exit code 1 if a check fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,11 +16,14 @@ import numpy as np
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
+
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 
 
 @dataclass(frozen=True)
@@ -96,11 +98,11 @@ class Drum:
 
 def perform(frame, kind, cell, extent, case, here):
     motion, wall = FRAMES[frame]
-    shutil.copytree(here / "template", case)
-    if kind.bed:
-        shutil.copytree(here / "bed", case, dirs_exist_ok=True)
+    copy_case(case, *(RESOURCES / name for name in ("common", "closed", "mill_level", "drum")), here / "template",
+              *([here / "bed"] if kind.bed else []))
     # millMesh needs complete dictionaries; the times follow from the drum's speed, which millMesh computes
-    common = dict(meshMotion=motion, wallVelocity=wall, largestStep=extent.step * cell)
+    common = dict(meshMotion=motion, wallVelocity=wall, gravity=f"(0 {-GRAVITY} 0)", skewCorrectors=1,
+                  largestStep=extent.step * cell)
     write_parameters(case, **common, endTime=1, writeInterval=1, bedOmega=0)
     run_program(case, "millMesh", here / "drum.yaml", "--case", ".", "--set", f"resolution.cell_size={cell}")
     mill = foam.read_dictionary(case / "constant" / "millProperties")

@@ -19,10 +19,11 @@ import numpy as np
 import published_laws
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 DENSITY, VISCOSITY, DIAMETER = 1000.0, 1e-3, 5e-3
 BOXES = {"8 m": 1.0, "8 cm": 0.01}
 CELLS = 32  # along the box
@@ -163,7 +164,7 @@ def make_meshes(work, template, across):
     """One case with the mesh of each box, to copy."""
     for box, scale in BOXES.items():
         case = work / box.replace(" ", "")
-        shutil.copytree(template / "common", case)
+        copy_case(case, RESOURCES / "common", template / "common")
         write_parameters(case, scale=scale, across=across, solver="blockMesh", endTime=1, step=1, steps=1)
         run_program(case, "blockMesh")
 
@@ -171,16 +172,13 @@ def make_meshes(work, template, across):
 def run(bed, number, work, template):
     """Runs one bed in its own folder under `work` and fills in what it showed."""
     case = work / f"bed{number:04d}"
-    shutil.copytree(work / bed.box.replace(" ", ""), case)
     program = bed.solver.split(",")[0]
-    shutil.copytree(template / program, case, dirs_exist_ok=True)
-    if bed.flows:
-        shutil.copytree(template / "flow", case, dirs_exist_ok=True)
+    copy_case(case, work / bed.box.replace(" ", ""), template / program, *([template / "flow"] if bed.flows else []))
     write_parameters(
-        case, solver=program, steps=STEPS, step=bed.step, endTime=STEPS * bed.step, density=DENSITY,
-        viscosity=VISCOSITY, kinematicViscosity=VISCOSITY / DENSITY, law=bed.law, bedBegin=bed.first * bed.cell,
-        bedEnd=(bed.first + bed.cells) * bed.cell, solidity=bed.solidity, ballSpeed=bed.speed, diameter=DIAMETER,
-        fluidSpeed=FLUID_SPEED * bed.speed)
+        case, solver=program, steps=STEPS, step=bed.step, endTime=STEPS * bed.step, slurryDensity=DENSITY,
+        viscosity=VISCOSITY, convection="linearUpwind grad(U)", slurryKinematicViscosity=VISCOSITY / DENSITY,
+        law=bed.law, bedBegin=bed.first * bed.cell, bedEnd=(bed.first + bed.cells) * bed.cell, solidity=bed.solidity,
+        ballSpeed=bed.speed, diameter=DIAMETER, fluidSpeed=FLUID_SPEED * bed.speed)
     run_program(case, program)
     measure(bed, case)
     if not bed.missed:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.files.dumps import read_balls
 from millfoam.run import run
 
@@ -44,7 +45,7 @@ fix rolling all property/global coefficientRollingFriction peratomtypepair 2 0 0
 pair_style {model}
 pair_coeff * *
 timestep {timestep}
-fix gravity all gravity 9.81 vector 0 0 -1
+fix gravity all gravity {gravity} vector 0 0 -1
 fix floor all mesh/surface file floor.stl type 2
 fix gate all mesh/surface file gate.stl type 2
 fix closed all wall/{wall_model} mesh n_meshes 2 meshes floor gate {settings}
@@ -144,10 +145,10 @@ def run_pile(folder: Path, shape: Shape, ledge: Ledge, seed: int) -> np.ndarray:
     last = steps(SETTLE) + steps(RUN_OUT)
     model = MODEL + (" surface superquadric" if shaped else "")
     (folder / "in.pile").write_text(DECK.format(
-        style="superquadric" if shaped else "granular", right=length + 0.05, width=width, top=top, modulus=MODULUS,
-        poisson=POISSON, e=RESTITUTION, mu=FRICTION, floor_mu=FLOOR_FRICTION, model=f"{model} {settings}",
-        wall_model=model, settings=settings, timestep=TIMESTEP, balls="\n".join(lines), settle=steps(SETTLE),
-        run_out=steps(RUN_OUT), end=last, motion=motion))
+        style="superquadric" if shaped else "granular", right=length + 0.05, width=width, top=top, gravity=GRAVITY,
+        modulus=MODULUS, poisson=POISSON, e=RESTITUTION, mu=FRICTION, floor_mu=FLOOR_FRICTION,
+        model=f"{model} {settings}", wall_model=model, settings=settings, timestep=TIMESTEP, balls="\n".join(lines),
+        settle=steps(SETTLE), run_out=steps(RUN_OUT), end=last, motion=motion))
     run(folder, shape.program, "-in", "in.pile", "-log", "none")
     balls = read_balls(folder / f"dump.{last}.txt", "x", "y", "z", "vx", "vy", "vz")
     stay = balls[(balls[:, 2] > 0) & (balls[:, 0] < length)]

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A tracer in slurry that flows through vessels with a known distribution of residence times: plug flow, one stirred
 tank, tanks in series, a bed with axial dispersion. Exit code 1 if a number misses its limit."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,12 +10,14 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.readings.residence import Residence, TracerTable, closed_spread, read_tracer, residence
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 HEIGHT, WIDTH, SPEED = 0.2, 0.02, 0.02  # of the column, m; superficial, m/s
 STEPS = 500  # in the mean time
 CONSERVED, BOUNDED = 1e-10, 1e-10
@@ -83,12 +84,12 @@ class Run:
 
 def run(work, vessel):
     case = work / vessel.name.replace(", ", "_").replace(" ", "_")
-    shutil.copytree(Path(__file__).parent / "template", case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "column", Path(__file__).parent / "template")
     end = vessel.turnovers * vessel.mean
     write_parameters(case, width=WIDTH, height=HEIGHT, cells=vessel.cells, solidity=vessel.solidity, begin=0.05,
                      feed=f"(0 {SPEED * WIDTH**2:.17g})", length=min(vessel.feed, 1e9), dispersion=vessel.dispersion,
-                     scheme=vessel.scheme, density=1000, kinematicViscosity=1e-6, endTime=end,
-                     largestStep=vessel.mean / STEPS, writeInterval=end)
+                     scheme=vessel.scheme, gravity=f"(0 0 {-GRAVITY})", slurryDensity=1000,
+                     slurryKinematicViscosity=1e-6, endTime=end, largestStep=vessel.mean / STEPS, writeInterval=end)
     run_program(case, "blockMesh")
     run_program(case, "slurryFoam")
     table = read_tracer(case)

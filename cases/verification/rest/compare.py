@@ -6,7 +6,6 @@ Slurry alone must stay at rest to round-off. The pool's free surface, exactly fl
 with interFoam: gravity's potential is taken at the faces and not at the interface. Its spurious speeds are reported and
 must not increase. Exit code 1 if a check fails."""
 import math
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,14 +14,17 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, limit_table, run_jobs, set_options, write_parameters, write_table
+from millfoam.run import (case_options, copy_case, fresh_runs, limit_table, run_jobs, set_options, write_parameters,
+                          write_table)
 from mill_slice import FINE, MILL
 from pool_history import largest_speeds
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 STILL = 1e-14  # m/s, largest speed of the slurry alone
 CONSERVED = 3e-8  # relative change of the slurry's volume
 FLUID_STEPS, POOL_END = 50, 0.2  # s
@@ -57,9 +59,9 @@ class Pool:
 def run(name, work, here):
     """Runs one of RUNS in its own folder under `work`; a program that fails ends this one."""
     case = work / name
-    shutil.copytree(here / "template", case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "closed", RESOURCES / "mill_level", here / "template")
     mill, changes, time, parameters = RUNS[name]
-    write_parameters(case, **parameters)
+    write_parameters(case, **parameters, gravity=f"(0 {-GRAVITY} 0)", convection="linearUpwind grad(U)")
     run_program(case, "millMesh", here / mill, "--case", ".", "--at-time", time, *set_options(changes))
     if name == "pool":
         run_program(case, "setAlphaField")

@@ -15,16 +15,17 @@ import numpy as np
 
 import pool_pictures
 import pool_table
+from millfoam.constants import GRAVITY
 from millfoam.run import run as run_program
-from millfoam.run import RunError, run_jobs, set_options, write_parameters
+from millfoam.run import RunError, copy_case, run_jobs, set_options, write_parameters
 from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 
 SOLVERS = {"interFoam": "millInterFoam", "interIsoFoam": "millInterIsoFoam", "slurryFoam": "slurryFoam"}
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SLURRY = dict(slurryDensity=1239, slurryViscosity=1.4e-3, slurryKinematicViscosity=1.4e-3 / 1239)
 AIR = dict(airDensity=1.2, airViscosity=1.8e-5, airKinematicViscosity=1.8e-5 / 1.2)
 TENSION = 0.07  # N/m
-GRAVITY = 9.81  # m/s2
 # By name: the mill whose mesh it is (None: blockMesh), the pool's level, the mesh's radius and length, m. Levels run
 # through cells, not along their faces.
 MESHES = {
@@ -75,8 +76,8 @@ def bed_parameters(level, radius, length):
 def build(run, case, here, end, gravity=GRAVITY):
     """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface. gravity: along
     -y, m/s2."""
-    shutil.copytree(here / "pool" / "common", case)
-    shutil.copytree(here / "pool" / run.solver, case, dirs_exist_ok=True)
+    copy_case(case, RESOURCES / "common", RESOURCES / "closed", RESOURCES / "turning", here / "pool" / "common",
+              *([here / "pool" / run.solver] if run.solver != "slurryFoam" else []))
     if run.bed:
         shutil.copy(here / "pool" / "beds" / BEDS[run.solver], case / "constant")
     mill, level, radius, length = MESHES[run.mesh]
@@ -84,12 +85,12 @@ def build(run, case, here, end, gravity=GRAVITY):
         case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension,
         level=FULL if run.filled else level, **bed_parameters(level, radius, length), endTime=end,
         writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
-        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", omega=OMEGA.get(run.mesh, 0),
-        gravity=-gravity)
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", meshOmega=OMEGA.get(run.mesh, 0),
+        gravity=f"(0 {-gravity} 0)", skewCorrectors=1)
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
     else:
-        shutil.copytree(here / "pool" / run.mesh, case, dirs_exist_ok=True)
+        copy_case(case, RESOURCES / run.mesh)
         run_program(case, "blockMesh")
     run_program(case, "setAlphaField")
 
@@ -103,7 +104,8 @@ def kept(run, case, here, end):
         return None
     library = Path(program).parents[1] / "lib" / "libmillFoam.so"
     mills = [here / mesh[0] for mesh in MESHES.values() if mesh[0]]
-    inputs = [Path(program), library, *mills, here / "pool.py", *(here / "pool").rglob("*")]
+    inputs = [Path(program), library, *mills, here / "pool.py", *(here / "pool").rglob("*"),
+              *RESOURCES.rglob("*")]
     if left.stat().st_mtime < max(path.stat().st_mtime for path in inputs):
         return None
     history = read_history(case)

@@ -4,7 +4,6 @@
 
 Frequency and damping of slurryFoam and interFoam on the same meshes; slurryFoam also on the round mesh that turns
 inside its slip wall, and with a bed at rest in which the waves return slowly. Exit code 1 if a check fails."""
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,16 +14,17 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 import potential_flow
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "pressure_drop"))
 import published_laws  # noqa: E402, in that case's folder
 
 matplotlib.use("Agg")
 
-GRAVITY = 9.81
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SLURRY = dict(slurryDensity=1239, slurryKinematicViscosity=1e-6)
 AIR = dict(airDensity=1.2, airKinematicViscosity=1.5e-5)
 # Box, m. The wave passes through more than two rows of cells: the error depends on the level's place in its row.
@@ -130,7 +130,8 @@ def cosine_surface(case):
 
 def build(run, case, here):
     wave = theory(run)
-    shutil.copytree(here / "template", case)
+    copy_case(case, *(RESOURCES / name for name in ("common", "closed", "turning", "with_interfoam")),
+              here / "template", here / "box" if run.room == "box" else RESOURCES / "ogrid")
     period = 2 * np.pi / wave.omega
     drag = OVERDAMPING * wave.omega
     if run.bed:
@@ -139,17 +140,14 @@ def build(run, case, here):
         (case / "constant" / "bedProperties").unlink()
         end, step = run.periods * period, period / STEPS
     write_parameters(
-        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR, gravity=-GRAVITY,
-        endTime=end, writeInterval=end / (run.periods * RECORDS), largestStep=step,
+        case, solver=PROGRAMS[run.solver], convection=CONVECTION[run.solver], **SLURRY, **AIR,
+        gravity=f"(0 {-GRAVITY} 0)", endTime=end, writeInterval=end / (run.periods * RECORDS), largestStep=step,
         correctors=3 if run.solver == "interFoam" else 1, skewCorrectors=0 if run.room == "box" else 1,
-        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh",
-        omega=OMEGA, solidity=SOLIDITY,
+        meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", meshOmega=OMEGA, solidity=SOLIDITY,
         diameter=published_laws.darcy_diameter(drag, SOLIDITY, SLURRY["slurryKinematicViscosity"]),
         width=WIDTH, height=HEIGHT, cellsX=CELLS[0], cellsY=CELLS[1],
         slurryModel="Bingham" if run.stiff else "Newtonian", plasticViscosity=PLASTIC_VISCOSITY,
         viscosityRatio=VISCOSITY_RATIO, surfaceNormal=f"({-np.sin(TILT):.15g} {np.cos(TILT):.15g} 0)")
-    room = here / "box" if run.room == "box" else here.parent / "rest" / "pool" / "ogrid"
-    shutil.copytree(room, case, dirs_exist_ok=True)
     run_program(case, "blockMesh")
     if run.room == "box":
         cosine_surface(case)

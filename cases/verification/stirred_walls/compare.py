@@ -14,6 +14,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millfoam.constants import GRAVITY
 from millfoam.files import foam
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.tables import read_columns
@@ -24,7 +25,6 @@ matplotlib.use("Agg")
 HERE = Path(__file__).parent.resolve()
 TEMPLATE = HERE.parents[2] / "scripts" / "mill_case"
 STIRRED = HERE.parents[1] / "mills" / "stirred_A" / "mill.yaml"
-GRAVITY = 9.81
 HEAD = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 MIDDLE = (0.4, 0.8)  # shares of the height between which Couette flow is read, away from the ends
 # Largest differences: of Couette flow from the closed form, over the shaft's speed, and of the two meshes; of the

@@ -10,7 +10,6 @@ with the drag's gradient beta u/e by Ergun's law, or without drag. Smooth ramps 
 sharp edge has Bernoulli's jump of pressure. Meshes: aligned; wavy, with vertical columns of cells; and slanted, whose
 columns the sharp edge cuts. They are at rest or move along the duct, past the bed. Exit code 1 if a run fails."""
 import itertools
-import shutil
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,10 +21,11 @@ from scipy.integrate import cumulative_trapezoid
 
 from millfoam.files import foam
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, run_jobs, write_parameters, write_table
+from millfoam.run import case_options, copy_case, fresh_runs, run_jobs, write_parameters, write_table
 
 matplotlib.use("Agg")
 
+RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 LENGTH, WIDTH = 0.8, 0.1  # m
 # A mesh that moves along the duct, with the flow and against it: a longer part of the duct, m, at this speed, m/s. It
 # begins and ends with its bed inside.
@@ -182,7 +182,7 @@ def write_velocity(case, bed):
 
 def run(bed, mesh, cells, moves, work, template):
     case = work / f"{bed}_{mesh}_{cells}_{moves}"
-    shutil.copytree(template, case)
+    copy_case(case, RESOURCES / "common", RESOURCES / "duct", template)
     own = BEDS[bed]
     # No step differs from the last where the mesh moves: the pressure of the step after shows it. Courant's number in
     # the bed is 0.64 at most.
@@ -195,10 +195,10 @@ def run(bed, mesh, cells, moves, work, template):
         begin = farthest if moves > 0 else farthest + MOVING["speed"] * end
     write_parameters(
         case, length=length, width=WIDTH, cells=round(cells * length / LENGTH), across=cells // 8, speed=SPEED,
-        slurryDensity=DENSITY, slurryViscosity=NU, airDensity=1.2, bedBegin=own.begin, bedEnd=own.end, edge=own.edge,
-        solidity=own.most, diameter=DIAMETER, drag=own.drag, firstStep=step if moves else 0.01 * step,
+        slurryDensity=DENSITY, slurryKinematicViscosity=NU, convection="linear", bedBegin=own.begin, bedEnd=own.end,
+        edge=own.edge, solidity=own.most, diameter=DIAMETER, drag=own.drag, firstStep=step if moves else 0.01 * step,
         largestStep=step, endTime=end, writeInterval=interval, courant=1 if moves else 0.5,
-        correctors=0 if mesh == "aligned" else 1,
+        skewCorrectors=0 if mesh == "aligned" else 1,
         meshMotion="dynamicMotionSolverFvMesh" if moves else "staticFvMesh", meshSpeed=moves * MOVING["speed"])
     run_program(case, "blockMesh")
     move_points(case, mesh, begin)
