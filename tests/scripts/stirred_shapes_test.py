@@ -8,7 +8,8 @@ from types import SimpleNamespace
 
 from millfoam.readings.means import Mean
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
-from millstudies.stirred_settings import resolved
+from millstudies.mill_runs import resolved
+from millstudies.stirred_settings import FILE
 from stirred_studies import assert_are_mills
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,22 +29,22 @@ class Runs(unittest.TestCase):
         for mill, balls in (("A", 10640), ("B", 18511), ("C", 29694)):
             for shape in ("spheres", "group_3"):
                 with self.subTest(mill=mill, shape=shape):
-                    charge = resolved(RUNS[f"{mill}_{shape}"].settings(False))["derived"]["charge"]
-                    self.assertEqual(charge["balls"], balls)
+                    found = resolved(FILE, RUNS[f"{mill}_{shape}"].settings(False))
+                    self.assertEqual(found.derived("charge", "balls"), balls)
 
     def test_groups_have_the_published_sphericity(self):
         for group, published in (("group_1", 0.996), ("group_2", 0.975), ("group_3", 0.922)):
             with self.subTest(group=group):
-                charge = resolved(RUNS[f"A_{group}"].settings(False))["derived"]["charge"]
-                self.assertAlmostEqual(charge["sphericity"], published, delta=6e-4)
+                mill = resolved(FILE, RUNS[f"A_{group}"].settings(False))
+                self.assertAlmostEqual(mill.derived("charge", "sphericity"), published, delta=6e-4)
                 # Every shape has the volume of a sphere of 5 mm, and is as frequent as the others
-                self.assertAlmostEqual(charge["sauter_diameter_m"], 0.005, delta=1e-6)
+                self.assertAlmostEqual(mill.derived("charge", "sauter_diameter_m"), 0.005, delta=1e-6)
 
     def test_five_whole_turns_are_read(self):
         for run in RUNS.values():
-            mill = resolved(run.settings(False))
-            averaged = mill["mill"]["dem"]["duration"] - mill["mill"]["averages"]["start"]
-            turns = averaged / mill["derived"]["speed"]["turn_s"]
+            mill = resolved(FILE, run.settings(False))
+            averaged = mill.asked("dem", "duration") - mill.asked("averages", "start")
+            turns = averaged / mill.derived("speed", "turn_s")
             self.assertTrue(5 <= turns < 5.06, f"{run.name}: {turns} turns")
 
 

@@ -26,6 +26,7 @@ from millfoam.run import RunError, run
 from millstudies import other_readings, published_mills
 from millstudies.dry_run_options import add_options, chosen
 from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.mean_columns import value_text
 from millstudies.published_mills import Setting, run_name
 
 matplotlib.use("Agg")
@@ -141,10 +142,6 @@ def row(result):
         dry.number("power_error_W"), velocity[0], velocity_error[0], cubic, surface[0], surface_error[0], logistic,
         *centre, float(np.hypot(*centre_error)), ends[0], ends_error[0], ends[1], ends_error[1],
         dry.number("wall_time_s"))))
-
-
-def value_text(value, error, digits):
-    return f"{value:.{digits}f} ± {error:.{digits}f}"
 
 
 def print_table(rows):

@@ -15,6 +15,7 @@ import matplotlib.pyplot as plt
 from millfoam.files.data_files import write_csv
 from millstudies.dry_run_options import add_options, chosen
 from millstudies.dry_runs import is_whole, make_dry_run
+from millstudies.mean_columns import value_text
 from millstudies.published_mills import matrix, mill, run_name
 
 matplotlib.use("Agg")
@@ -51,7 +52,7 @@ def write_table(rows):
     write_csv(HERE / "dem_matrix.csv", rows)
     print(f"{'run':<32}{'balls':>7}{'power W':>18}{'steady from s':>15}{'centroid mm':>17}{'wall time s':>13}")
     for r in rows:
-        power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"
+        power = value_text(r["power_W"], r["power_error_W"], 4)
         steady = f"{r['steady_from_s']:.2f}" if r["steady"] == "yes" else "NOT STEADY"
         centroid = f"{r['centroid_x_mm']:.1f}, {r['centroid_y_mm']:.1f}"
         print(f"{r['run']:<32}{r['balls']:7d}{power:>18}{steady:>15}{centroid:>17}{r['wall_time_s']:13.0f}")

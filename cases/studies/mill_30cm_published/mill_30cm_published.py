@@ -19,6 +19,7 @@ from millfoam.readings.means import Mean
 from millfoam.report.build import compare_cases
 from millstudies.axial_slices import PRESSURES, Profile
 from millstudies.compared_runs import NOT_TESTED, SLICE, Verdict
+from millstudies.mean_columns import Row, mean_columns, value_text
 from millstudies.statements import verdicts
 
 import drawings
@@ -28,18 +29,11 @@ from runs import RUNS, Run, is_published
 
 REFERENCE = RUNS["Beetstra_75_20"]  # on the page of all runs, where it is complete
 
-Row = dict[str, Any]
-
 
 def place_of(root: Path, run: Run) -> Path:
     """The folder with a run's results: balls and slurry at the same time have one of their own."""
     direct = root / run.name / "direct"
     return direct if "flow.coupling=direct" in run.changes else root / run.name
-
-
-def pair(name: str, unit: str, mean: Mean, scale: float = 1.0) -> Row:
-    """Two columns of a table: a number and its error."""
-    return {f"{name}, {unit}": scale * mean.value, f"{name}, {unit} ±": scale * mean.error}
 
 
 def charge_row(run: Run, case: MillCase) -> Row:
@@ -49,21 +43,21 @@ def charge_row(run: Run, case: MillCase) -> Row:
     def mean(name: str, k: int = 0) -> Mean:
         return Mean(float(np.atleast_1d(found[name].value)[k]), float(np.atleast_1d(found[name].error)[k]))
     return {"run": run.name, "speed, %": run.speed, "steady from, s": case.result("steady_from_s"),
-            **pair("power", "W", Mean(case.result("power_W"), case.result("power_error_W"))),
-            **pair("centre of circulation x", "mm", mean("centre", 0), 1e3),
-            **pair("centre of circulation y", "mm", mean("centre", 1), 1e3),
-            **pair("toe", "deg", mean("ends", 0)), **pair("shoulder", "deg", mean("ends", 1)),
-            **pair("RMSD of the cubic", "m/s", mean("tangential_rmsd")),
-            **pair("RMSD of the logistic", "mm", mean("surface_rmsd"), 1e3)}
+            **mean_columns("power, W", Mean(case.result("power_W"), case.result("power_error_W"))),
+            **mean_columns("centre of circulation x, mm", mean("centre", 0), 1e3),
+            **mean_columns("centre of circulation y, mm", mean("centre", 1), 1e3),
+            **mean_columns("toe, deg", mean("ends", 0)), **mean_columns("shoulder, deg", mean("ends", 1)),
+            **mean_columns("RMSD of the cubic, m/s", mean("tangential_rmsd")),
+            **mean_columns("RMSD of the logistic, mm", mean("surface_rmsd"), 1e3)}
 
 
 def profile_columns(words: str, profile: Profile) -> Row:
     """A profile's columns of the table, after these words."""
-    return {**pair(f"{words}amplitude", "mm", profile.amplitude, 1e3),
+    return {**mean_columns(f"{words}amplitude, mm", profile.amplitude, 1e3),
             f"{words}peaks, mm": " ".join(f"{1e3 * one:.0f}" for one in profile.humps.places),
             f"{words}peaks at ends": profile.at_ends,
-            **pair(f"{words}first distance", "mm", profile.distances[0], 1e3),
-            **pair(f"{words}last distance", "mm", profile.distances[-1], 1e3),
+            **mean_columns(f"{words}first distance, mm", profile.distances[0], 1e3),
+            **mean_columns(f"{words}last distance, mm", profile.distances[-1], 1e3),
             f"{words}RMSD of the fit, mm": 1e3 * profile.humps.rmsd}
 
 
@@ -75,16 +69,16 @@ def flow_row(flow: Flow) -> Row:
     return {"run": run.name, "speed, %": run.speed, "solids, %": run.solids, "law": run.law or "–",
             "turns": flow.turns, "steady": readings.steady, "hold-up at first, l": 1e3 * first,
             "hold-up at last, l": 1e3 * last, "feed, ml/s": 1e6 * (flow.case.feed or 0),
-            **pair("discharge", "ml/s", flow.discharge, 1e6), **pair("net", "ml/s", flow.net, 1e6),
-            **pair("height", "mm", flow.height, 1e3),
-            **pair("in front of the grates: height", "mm", flow.chamber_height, 1e3),
+            **mean_columns("discharge, ml/s", flow.discharge, 1e6), **mean_columns("net, ml/s", flow.net, 1e6),
+            **mean_columns("height, mm", flow.height, 1e3),
+            **mean_columns("in front of the grates: height, mm", flow.chamber_height, 1e3),
             **profile_columns("", flow.profile), **profile_columns("in front of the grates: ", flow.chamber),
-            **pair("velocity at the toe", "mm/s", readings.toe or unknown, 1e3),
-            **pair("velocity at the shoulder", "mm/s", readings.shoulder or unknown, 1e3),
-            **pair("velocity at the shoulder's top", "mm/s", flow.top_velocity, 1e3),
+            **mean_columns("velocity at the toe, mm/s", readings.toe or unknown, 1e3),
+            **mean_columns("velocity at the shoulder, mm/s", readings.shoulder or unknown, 1e3),
+            **mean_columns("velocity at the shoulder's top, mm/s", flow.top_velocity, 1e3),
             **{key: value for name, words in PRESSURES.items()
-               for key, value in pair(f"drop of {words}", "Pa", flow.drops[name]).items()},
-            **pair("slurry at the centre of circulation", "%", flow.centre_share, 100),
+               for key, value in mean_columns(f"drop of {words}, Pa", flow.drops[name]).items()},
+            **mean_columns("slurry at the centre of circulation, %", flow.centre_share, 100),
             "force over weight": flow.case.load[0] if flow.case.load else np.nan,
             "missing over hold-up": flow.missing, "error of the feed": flow.feed_error}
 
@@ -123,7 +117,7 @@ def cell(row: Row, key: str) -> str:
     error = row.get(f"{key} ±", np.nan)
     if np.isnan(error):
         return f"{value:.4g}"
-    return f"{value:.2f} ± {error:.2f}" if abs(value) < 1000 else f"{value:.0f} ± {error:.0f}"
+    return value_text(value, error, 2 if abs(value) < 1000 else 0)
 
 
 def lines_of(rows: Sequence[Row]) -> Iterator[str]:

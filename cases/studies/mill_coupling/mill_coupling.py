@@ -14,6 +14,7 @@ from millfoam.files.mill_case import MillCase
 from millfoam.plots.mill_plots import draw_outline
 from millfoam.readings.means import Mean
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
+from millstudies.mean_columns import mean_columns, mean_text
 
 HERE = Path(__file__).parent.resolve()
 EDGE = 0.3  # solidity of the charge's outline in the picture
@@ -42,7 +43,7 @@ def rows_of(mill, ways):
         for key, (quantity, unit, scale) in QUANTITIES.items():
             # What moves a pool at rest is not known, so neither is the motor's power
             mean = one.quantities[key] if (key, name) != ("drive_power", "buoyancy") else Mean(np.nan, np.nan)
-            row[f"{quantity}, {unit}"], row[f"{quantity}, {unit} ±"] = scale * mean.value, scale * mean.error
+            row |= mean_columns(f"{quantity}, {unit}", mean, scale)
         row["solidity from one way"] = 0.0 if one is dry else change(dry, one).solidity
         row["its noise"] = np.hypot(dry.noise, one.noise) / np.sqrt(2)
         row["force over weight"] = one.load
@@ -56,9 +57,7 @@ def lines_of(rows):
         yield mill.ljust(32) + "".join(row["coupling"].rjust(18) for row in found)
         for name in (column for column in found[0] if f"{column} ±" in found[0]):
             digits = 4 if name.endswith(" W") else 2
-            cells = ("–" if np.isnan(row[name]) else f"{row[name]:.{digits}f} ± {row[name + ' ±']:.{digits}f}"
-                     for row in found)
-            yield name.ljust(32) + "".join(cell.rjust(18) for cell in cells)
+            yield name.ljust(32) + "".join(mean_text(row, name, digits).rjust(18) for row in found)
         for name in ("solidity from one way", "its noise", "force over weight"):
             yield name.ljust(32) + "".join(f"{row[name]:18.3f}" for row in found)
         yield ""

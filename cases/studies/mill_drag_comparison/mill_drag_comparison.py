@@ -20,6 +20,7 @@ from millfoam.files.data_files import write_csv
 from millfoam.files.written_times import MillFlow
 from millfoam.plots.mill_plots import draw_mill
 from millfoam.readings.shell_angles import LEVEL
+from millstudies.mean_columns import mean_columns, mean_text
 from millstudies.mill_runs import FINE, MILL, Setting, make_runs
 from millstudies.steady_flows import NUMBERS, read_all, title_of
 
@@ -52,8 +53,7 @@ def row_of(name, readings):
     """A row of the table: column -> number or text."""
     row = {"run": name}
     for number, (unit, _) in NUMBERS.items():
-        mean = readings.mean(number)
-        row[f"{number}, {unit}"], row[f"{number}, {unit} ±"] = mean.value, mean.error
+        row |= mean_columns(f"{number}, {unit}", readings.mean(number))
     for percent, value in zip(PERCENTS, readings.reynolds_percentiles(PERCENTS)):
         row[f"Re {percent} %"] = value
     return {**row, "steady": readings.steady, "steps": readings.steps, "time, s": readings.time}
@@ -72,8 +72,7 @@ def run_lines(rows):
     yield (f"{'run':<14}" + "".join(f"{column:>16}" for column in columns)
            + "".join(f"{f'Re {percent} %':>8}" for percent in PERCENTS) + f"{'steady':>8}{'steps':>8}{'time, s':>9}")
     for row in rows:
-        cells = (f"{row[column]:.2f} ± {row[column + ' ±']:.2f}" for column in columns)
-        yield (f"{row['run']:<14}" + "".join(f"{cell:>16}" for cell in cells)
+        yield (f"{row['run']:<14}" + "".join(f"{mean_text(row, column):>16}" for column in columns)
                + "".join(f"{row[f'Re {percent} %']:8.0f}" for percent in PERCENTS)
                + f"{row['steady']:>8}{row['steps']:8d}{row['time, s']:9.0f}")
     yield ("±: standard error of the mean over time, from the means of whole turns. Angles from straight down, the "

@@ -17,6 +17,7 @@ import numpy as np
 
 from millfoam.files.data_files import write_csv
 from millstudies.convergence import judge
+from millstudies.mean_columns import mean_columns, value_text
 from millstudies.mill_runs import MILL, SLICES, Setting, make_runs, time_step_limits
 from millstudies.steady_flows import NUMBERS, read_all, read_layers, title_of
 
@@ -153,7 +154,7 @@ def run_lines(families, readings):
                 yield f"{begin}{'failed':>16}"
                 continue
             one = readings[name]
-            texts = (f"{mean.value:.2f} ± {mean.error:.2f}" for mean in map(one.mean, NUMBERS))
+            texts = (value_text(mean.value, mean.error) for mean in map(one.mean, NUMBERS))
             yield (begin + "".join(f"{text:>16}" for text in texts)
                    + f"{one.steady:>8}{one.steps:8d}{one.time:9.0f}")
 
@@ -181,7 +182,7 @@ def variant_lines(families, variants, readings):
             usual = families[0].runs[size]
             if name in readings and usual in readings:
                 apart = (readings[name].mean(number) - readings[usual].mean(number) for number in NUMBERS)
-                texts = (f"{mean.value:+.2f} ± {mean.error:.2f}" for mean in apart)
+                texts = (value_text(mean.value, mean.error, sign="+") for mean in apart)
                 yield (f"{variant.name:<13}{size_text(variant, size):>18}"
                        + "".join(f"{text:>16}" for text in texts))
 
@@ -192,7 +193,7 @@ def layer_lines(layers):
            "  mean heights, mm")
     for count, one in layers.items():
         heights = " ".join(f"{1e3 * height:.1f}" for height in one.heights)
-        spread = f"{1e3 * one.spread.value:.2f} ± {1e3 * one.spread.error:.2f}"
+        spread = value_text(1e3 * one.spread.value, 1e3 * one.spread.error)
         yield (f"{count:<8}{spread:>16}{1e3 * one.by_chance:>15.2f}{1e3 * one.momentary:>15.2f}"
                f"{'yes' if one.apart else 'no':>7}  {heights}")
 
@@ -228,8 +229,7 @@ def csv_rows(families, readings):
             if name in readings:
                 row = {"family": family.name, "size": float(family.factor * size), "unit": family.unit, "run": name}
                 for number, (unit, _) in NUMBERS.items():
-                    mean = readings[name].mean(number)
-                    row |= {f"{number}, {unit}": mean.value, f"{number}, {unit} ±": mean.error}
+                    row |= mean_columns(f"{number}, {unit}", readings[name].mean(number))
                 yield {**row, "steady": readings[name].steady, "steps": readings[name].steps,
                        "time, s": readings[name].time}
 

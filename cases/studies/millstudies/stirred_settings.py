@@ -2,13 +2,9 @@
 """The mills of the studies of stirred mills, and the command `runs.py` of each study, which names its runs and what
 they change in the file of mill A."""
 import argparse
-import json
-import subprocess
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
-
-from millfoam.run import set_options
+from typing import Protocol
 
 FILE = Path(__file__).resolve().parents[2] / "mills" / "stirred_A" / "mill.yaml"
 MILLS: dict[str, tuple[str, ...]] = {"A": (), "B": ("variant=mill_B",), "C": ("variant=mill_C",)}  # -> changes of A
@@ -19,12 +15,6 @@ class Run(Protocol):
 
     def settings(self, quick: bool) -> tuple[str, ...]:
         """What it changes in FILE, as PATH=VALUE; quick: of the short form."""
-
-
-def resolved(settings: Iterable[str]) -> dict[str, Any]:
-    """The resolved mill A with these changes, PATH=VALUE. CalledProcessError if millMesh cannot read it."""
-    return json.loads(subprocess.run(["millMesh", str(FILE), *set_options(settings), "--resolved", "-"], check=True,
-                                     stdout=subprocess.PIPE, text=True).stdout)
 
 
 def print_settings(runs: Mapping[str, Run], description: str | None) -> int:

@@ -3,22 +3,16 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from millfoam.files.data_files import write_csv
 from millfoam.readings.means import Mean
 from millstudies.compared_runs import NOT_TESTED, Verdict
+from millstudies.mean_columns import Row, mean_columns
 from millstudies.stirred_runs import Numbers
 
-Row = dict[str, Any]
 IN_LINE = 5  # runs next to each other in the printed table
-
-
-def pair(name: str, unit: str, mean: Mean, scale: float = 1.0) -> Row:
-    """Two columns of a table: a number and its error."""
-    return {f"{name}, {unit}": scale * mean.value, f"{name}, {unit} ±": scale * mean.error}
 
 
 def drive_columns(one: Numbers) -> Row:
@@ -26,12 +20,12 @@ def drive_columns(one: Numbers) -> Row:
     impeller's speed: what the part takes out of the drive."""
     row: Row = {"balls": one.balls, "turns": one.turns, "read from, s": one.begin,
                 "drift in these turns": " ".join(one.drifting) or "none",
-                "millDem: steady": "yes" if one.whole_steady else "no", **pair("power", "W", one.power)}
+                "millDem: steady": "yes" if one.whole_steady else "no", **mean_columns("power, W", one.power)}
     for part, torque in one.torques.items():
-        row |= pair(f"torque on {part}", "N m", torque)
+        row |= mean_columns(f"torque on {part}, N m", torque)
         if part != "impeller":
-            row |= pair(f"power by {part}", "W", Mean(torque.value, torque.error), one.mill.omega)
-    return row | pair("at rest over impeller", "1", one.at_rest)
+            row |= mean_columns(f"power by {part}, W", Mean(torque.value, torque.error), one.mill.omega)
+    return row | mean_columns("at rest over impeller, 1", one.at_rest)
 
 
 def cell(row: Row, key: str) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 from millfoam.files.data_files import write_csv
 from millfoam.readings.compare import difference
 from millstudies.dry_runs import make_dry_run
+from millstudies.mean_columns import value_text
 from millstudies.mill_runs import MILL, resolved
 from millstudies.published_mills import averages
 
@@ -74,7 +75,7 @@ def write_table(rows, chance, path):
     lines = [f"{'run':<16}{'step us':>9}{'wall s':>8}{'power W':>16}{'overlap %':>16}{'solidity':>10}{'vel. x':>8}"
              f"{'vel. y':>8}{'centroid mm':>17}"]
     for r in rows:
-        power = f"{r['power_W']:.4f} ± {r['power_error_W']:.4f}"
+        power = value_text(r["power_W"], r["power_error_W"], 4)
         overlap = f"{r['overlap_99_percent']:.2f} / {r['overlap_largest_percent']:.1f}"
         centroid = f"{r['centroid_x_mm']:.2f}, {r['centroid_y_mm']:.2f}"
         lines.append(f"{r['run']:<16}{r['time_step_us']:9.2f}{r['wall_time_s']:8.0f}{power:>16}{overlap:>16}"

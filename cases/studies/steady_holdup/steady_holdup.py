@@ -18,6 +18,7 @@ from millfoam.files.data_files import write_csv
 from millfoam.files.mill import Mill
 from millfoam.readings import models
 from millfoam.readings.means import Mean
+from millstudies.mean_columns import Row, mean_columns, mean_text, value_text
 
 from held_flows import (Held, Stay, Trial, at_feed, by_groups, expected_volume, named, read_all, read_held, read_trial,
                         read_trials, scatter)
@@ -80,17 +81,17 @@ def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
                                           mill.slurry("plastic_viscosity_Pa_s"), mill.slurry("density_kg_m3")), **found}
 
 
-def rows_of(found: Sequence[Held]) -> Iterator[dict[str, object]]:
+def rows_of(found: Sequence[Held]) -> Iterator[Row]:
     """Rows of the table: column -> text or number."""
     for one in found:
-        row: dict[str, object] = {"mesh": one.mesh, "flow": one.name, "cells": one.case.flow.mesh.cells,
-                                  "feed, ml/s": 1e6 * one.feed}
+        row: Row = {"mesh": one.mesh, "flow": one.name, "cells": one.case.flow.mesh.cells,
+                    "feed, ml/s": 1e6 * one.feed}
         readings = [("hold-up, l", one.whole, 1e3), ("in front of the grates, l", one.chamber, 1e3),
                     ("discharge, ml/s", one.discharge, 1e6), ("height, mm", one.height, 1e3)]
         if one.steady:
             readings += [(STEADY, one.steady.whole, 1e3), (STEADY_IN_FRONT, one.steady.chamber, 1e3)]
         for name, mean, scale in readings:
-            row[name], row[f"{name} ±"] = scale * mean.value, scale * mean.error
+            row |= mean_columns(name, mean, scale)
         for name, held in (model_holdups(one.mill, one.feed) if one.case.law else {}).items():
             row[f"{name}, l"] = 1e3 * held
         yield row | {"end, s": one.end, "ended by": one.reason}
@@ -103,8 +104,7 @@ def lines_of(found: Sequence[Held]) -> Iterator[str]:
     yield (f"{'flow':<36}{'feed, ml/s':>11}" + "".join(name.rjust(width) for name, width in names.items())
            + "  end, s  ended by")
     for row in rows_of(found):
-        numbers = ((f"{row[name]:.3f} ± {row[f'{name} ±']:.3f}" if name in row else "–").rjust(width)
-                   for name, width in names.items())
+        numbers = (mean_text(row, name, 3).rjust(width) for name, width in names.items())
         yield (f"{row['mesh']}/{row['flow']}".ljust(36) + f"{row['feed, ml/s']:11.1f}" + "".join(numbers)
                + f"{row['end, s']:8.1f}  {row['ended by']}")
     yield ""
@@ -156,7 +156,8 @@ def difference_line(one: Held, base: Held) -> str:
     ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
     words = ("" if both_steady else "over the late turns ") + ("in front of the grates " if one.kind.change else "")
     apart, share = ours - theirs, 100 / theirs.value
-    return (f"{one.mesh}/{one.name}: hold-up {words}{share * apart.value:+.2f} ± {share * apart.error:.2f} % from "
+    percent = value_text(share * apart.value, share * apart.error, sign="+")
+    return (f"{one.mesh}/{one.name}: hold-up {words}{percent} % from "
             f"{base.name}'s, after {one.end:.1f} s")
 
 

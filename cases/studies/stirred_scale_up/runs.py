@@ -5,7 +5,8 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from millstudies.stirred_settings import MILLS, print_settings, resolved
+from millstudies.mill_runs import resolved
+from millstudies.stirred_settings import FILE, MILLS, print_settings
 
 SPEEDS = {"1.8": 1.846, "2.2": 2.215, "1.5": 1.477}  # as the runs name it -> of the pins' tips, m/s
 STARTING, TURNS = 0.8, 5  # s from the start of the impeller that are not read; turns of it that are
@@ -28,10 +29,10 @@ class Run:
 
     def settings(self, quick: bool) -> tuple[str, ...]:
         """What it changes in the file, as PATH=VALUE; quick: of the short form. The last turns are averaged.
-        CalledProcessError if millMesh cannot read the mill."""
+        RunError if millMesh cannot read the mill."""
         mill = (*MILLS[self.mill], f"speed.tip_speed={SPEEDS[self.speed]}")
         starting, turns = (QUICK_STARTING, QUICK_TURNS) if quick else (STARTING, TURNS)
-        averaged = turns * resolved(mill)["derived"]["speed"]["turn_s"]
+        averaged = turns * resolved(FILE, mill).derived("speed", "turn_s")
         return (*mill, *ALWAYS, f"dem.duration={starting + averaged:.6f}", f"averages.start={starting}",
                 f"averages.window={averaged:.6f}")
 

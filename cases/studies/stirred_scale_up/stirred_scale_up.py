@@ -11,10 +11,11 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
+from millstudies.mean_columns import Row, mean_columns
 from millstudies.published_stirred import WET
 from millstudies.stirred_runs import Numbers, read_all
 from millstudies.stirred_settings import MILLS
-from millstudies.stirred_tables import Row, drive_columns, pair, write_study
+from millstudies.stirred_tables import drive_columns, write_study
 
 from runs import RUNS, SPEEDS
 from scale_up_verdicts import density, verdicts
@@ -28,9 +29,9 @@ def row_of(one: Numbers) -> Row:
     known = WET.get((run.mill, run.speed))
     row: Row = {"run": run.name, "mill": run.mill, "tip speed, m/s": one.mill.derived("speed", "tip_speed_m_s"),
                 "slurry": run.slurry, **drive_columns(one)}
-    row |= pair("power per volume of slurry", "kW/m3", density(one), 1e-3)
+    row |= mean_columns("power per volume of slurry, kW/m3", density(one), 1e-3)
     row["published with slurry, by balls, kW/m3"] = known.balls / 1e3 if known else None
-    row |= pair("mean speed of balls", "m/s", one.speed)
+    row |= mean_columns("mean speed of balls, m/s", one.speed)
     row["over tip speed"] = one.speed.value / row["tip speed, m/s"]
     return row | {"published with slurry, m/s": known.speed if known else None}
 

@@ -5,9 +5,10 @@ import json
 import math
 import sys
 from dataclasses import dataclass
-from typing import Any
 
-from millstudies.stirred_settings import MILLS, print_settings, resolved
+from millfoam.files.mill import Mill
+from millstudies.mill_runs import resolved
+from millstudies.stirred_settings import FILE, MILLS, print_settings
 
 SPHERES = "spheres"
 SHAPES = (SPHERES, "group_1", "group_2", "group_3")  # the groups are variants of mill A
@@ -32,15 +33,15 @@ class Run:
 
     def settings(self, quick: bool) -> tuple[str, ...]:
         """What it changes in the file, as PATH=VALUE; quick: of the short form. The last turns are averaged, rounded up
-        to whole records. CalledProcessError if millMesh cannot read the mill."""
-        spheres = resolved(MILLS[self.mill])
+        to whole records. RunError if millMesh cannot read the mill."""
+        spheres = resolved(FILE, MILLS[self.mill])
         starting, turns = (QUICK_STARTING, QUICK_TURNS) if quick else (STARTING, TURNS)
-        averaged = RECORD * math.ceil(turns * spheres["derived"]["speed"]["turn_s"] / RECORD)
+        averaged = RECORD * math.ceil(turns * spheres.derived("speed", "turn_s") / RECORD)
         return (*self.charge(spheres), *SLOW_SHAPES.get(self.shape, ()), f"dem.record_interval={RECORD:g}",
                 f"dem.duration={starting + averaged:g}", f"averages.start={starting:g}",
                 f"averages.window={averaged:g}")
 
-    def charge(self, spheres: dict[str, Any]) -> tuple[str, ...]:
+    def charge(self, spheres: Mill) -> tuple[str, ...]:
         """Changes that give the mill, resolved with spheres, as many balls of the shape. Of the whole balls of a group,
         its first shapes may have one more each."""
         if self.shape == SPHERES:
@@ -48,8 +49,8 @@ class Run:
         group = (f"variant={self.shape}",)
         if self.mill == "A":
             return group
-        classes = resolved(group)["mill"]["charge"]["classes"]
-        balls = spheres["derived"]["charge"]["balls"]
+        classes = resolved(FILE, group).asked("charge", "classes")
+        balls = int(spheres.derived("charge", "balls"))
         for k, one in enumerate(classes):
             one["number"] = balls // len(classes) + (k < balls % len(classes))
         return (*MILLS[self.mill], "charge=" + json.dumps({"classes": classes}))

@@ -20,9 +20,10 @@ from millfoam.plots.stirred_plots import DARK, draw_meridian, label_of
 from millfoam.readings.means import Mean
 from millfoam.readings.stirred import bands
 from millfoam.readings.stirred_slurry import in_impeller
+from millstudies.mean_columns import Row, mean_columns
 from millstudies.stirred_runs import Numbers, read_all
 from millstudies.stirred_settings import MILLS
-from millstudies.stirred_tables import Row, drive_columns, pair, write_study
+from millstudies.stirred_tables import drive_columns, write_study
 
 from runs import RUNS, SHAPES
 from shape_verdicts import PUBLISHED, WITH_SLURRY, over_spheres, shape_of, verdicts
@@ -48,8 +49,9 @@ def row_of(one: Numbers, found: dict[str, Numbers], solidity: dict[str, float]) 
     row: Row = {"run": one.name, "mill": RUNS[one.name].mill, "shape": shape_of(one.name),
                 "sphericity": sphericity(one), **drive_columns(one)}
     for read, words in (("power", "power"), ("speed", "mean speed")):
-        row |= pair(f"{words} over that with spheres", "1", over_spheres(read, one, found) or Mean(np.nan, np.nan))
-    row |= pair("mean speed of balls", "m/s", one.speed)
+        over = over_spheres(read, one, found) or Mean(np.nan, np.nan)
+        row |= mean_columns(f"{words} over that with spheres, 1", over)
+    row |= mean_columns("mean speed of balls, m/s", one.speed)
     return row | {"published, m/s": known.speed if known else None,
                   "published with slurry, m/s": WITH_SLURRY.get(one.name),
                   "solidity below the pins": solidity["below"], "solidity at the pins": solidity["impeller"]}

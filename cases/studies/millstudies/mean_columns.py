@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Means with their errors in the tables of studies: two columns of a CSV file, one of a printed table."""
+from typing import Any
+
+from millfoam.readings.means import Mean
+
+Row = dict[str, Any]
+
+
+def mean_columns(column: str, mean: Mean, scale: float = 1.0) -> Row:
+    """Two columns of a row, `NAME, UNIT` and `NAME, UNIT ±`: a mean and its error, both times `scale`."""
+    return {column: scale * mean.value, f"{column} ±": scale * mean.error}
+
+
+def value_text(value: float, error: float, digits: int = 2, sign: str = "") -> str:
+    """`1.20 ± 0.10`, both with this number of digits after the point; sign `+`: the value always has one."""
+    return f"{value:{sign}.{digits}f} ± {error:.{digits}f}"
+
+
+def mean_text(row: Row, column: str, digits: int = 2) -> str:
+    """The text of a row's two mean_columns; a dash for a number that is not there or not known."""
+    if row.get(column) is None or row[column] != row[column]:
+        return "–"
+    return value_text(row[column], row[f"{column} ±"], digits)
