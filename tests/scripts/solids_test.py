@@ -4,10 +4,12 @@
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
 
+from millfoam.files import solids_file
 from millfoam.files.solids_file import mean_map, read_map, read_windows
 from millfoam.readings.means import with_error
 
@@ -47,6 +49,12 @@ class Windows(unittest.TestCase):
             np.testing.assert_allclose(mean.inside, 0.5)
             np.testing.assert_allclose(mean.velocity[..., 0], (0.1 * 1 + 0.3 * 2) / 0.4)
             self.assertEqual((mean.begin, mean.end), (0, 0.1))
+
+    def test_pictures_leave_out_the_velocity_of_rare_balls(self):
+        write(self.path, (0.03, 0.02), (1, 1))
+        for rare, shown in ((solids_file.RARE, [True, False]), (0.05, [False, False]), (0.01, [True, True])):
+            with mock.patch.object(solids_file, "RARE", rare):
+                self.assertEqual([bool(one.shown().all()) for one in read_windows(self.path)], shown)
 
     def test_none_in_that_time_or_a_file_that_is_not_whole_is_refused(self):
         with self.assertRaisesRegex(RuntimeError, "no window between 3 and inf s; the file has 0.0 to 0.15"):

@@ -13,7 +13,7 @@ from unittest import mock
 
 import numpy as np
 
-from millfoam.run import limit_table, marked
+from millfoam.run import copy_case, limit_table, marked
 from study_scripts import CASES, load
 
 
@@ -23,6 +23,27 @@ def load_case(name, script="compare.py"):
     if folder not in sys.path:
         sys.path.insert(0, folder)
     return load(f"verification/{name}/{script}", f"{name}_{Path(script).stem}")
+
+
+class Dictionaries(unittest.TestCase):
+    """Templates of cases."""
+
+    def test_none_is_there_twice(self):
+        found = {}
+        for path in (CASES / "verification").rglob("*"):
+            if path.parent.name in ("0", "constant", "system") and "/runs" not in str(path):
+                self.assertEqual(found.setdefault(path.read_text(), path), path)
+        self.assertTrue(found)
+
+    def test_a_later_folder_replaces_files_of_earlier_ones(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory(prefix="verification-")))
+        for name, files in (("shared", ("g", "U")), ("own", ("U", "p"))):
+            (folder / name / "constant").mkdir(parents=True)
+            for file in files:
+                (folder / name / "constant" / file).write_text(name)
+        copy_case(folder / "case", folder / "shared", folder / "own")
+        self.assertEqual({path.name: path.read_text() for path in (folder / "case" / "constant").iterdir()},
+                         {"g": "shared", "U": "own", "p": "own"})
 
 
 class Printed(unittest.TestCase):

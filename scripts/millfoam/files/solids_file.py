@@ -10,6 +10,7 @@ import numpy as np
 # Sense of a mill, seen with x to the right and y up: the sign of its angular speed about z
 CLOCKWISE, ANTICLOCKWISE = -1.0, 1.0
 FAINT = 1e-6  # solidity up to which a mean over time has no velocity: only an edge of a ball was in the voxel
+RARE = 0.02  # solidity, or share of slurry, up to which pictures show no velocity
 MISSING = 0.02  # share of the averaged time that a record may miss at its end
 
 
@@ -47,6 +48,10 @@ class SolidsMap:
     def centres(self) -> tuple[np.ndarray, np.ndarray]:
         """Centres of the voxels: x [nx], y [ny] (m)."""
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
+
+    def shown(self) -> np.ndarray:
+        """Where balls are not so rare that pictures leave out their velocity [ny, nx]."""
+        return self.solidity > RARE
 
     def balls(self) -> np.ndarray:
         """Share of each column's whole volume that balls fill [ny, nx]; 0 where it is not known."""

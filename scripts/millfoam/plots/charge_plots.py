@@ -28,7 +28,7 @@ def _arrows(axis: Axes, charge: SolidsMap) -> None:
     speed = np.linalg.norm(charge.velocity[..., :2], axis=-1)
     shown = np.zeros(speed.shape, bool)
     shown[thin] = True
-    shown &= (charge.solidity > 0.02) & np.isfinite(speed)
+    shown &= charge.shown() & np.isfinite(speed)
     top = np.max(speed[shown])
     arrows = axis.quiver(xx[shown], yy[shown], *charge.velocity[shown][:, :2].T, color=GREY, angles="xy", pivot="mid",
                          scale_units="width", scale=14 * top, width=0.004)

@@ -77,7 +77,7 @@ def plot_maps(flow: MillFlow, solids: SolidsMap, begin: float, out: Path | str) 
         figure.colorbar(image, ax=axis, shrink=0.85)
         axis.set_title(title)
     x, y = solids.centres()
-    _arrows(axes[0, 1], x, y, np.where((solids.solidity > 0.02)[..., None], solids.velocity, np.nan), ball_speed)
+    _arrows(axes[0, 1], x, y, np.where(solids.shown()[..., None], solids.velocity, np.nan), ball_speed)
     (x, y), thin = slurry.centres(), slice(4, None, 9)
     _arrows(axes[1, 1], x[thin], y[thin],
             np.where((slurry.share > 0.3)[..., None], slurry.velocity, np.nan)[thin, thin], slurry_speed[thin, thin])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..files import solids_file
 from ..files.slurry_file import SlurryMap
 from ..files.written_times import MillFlow
 
@@ -27,8 +28,9 @@ def mean_of_times(maps: Sequence[TimesMap]) -> TimesMap:
         share = np.where(seen > 0, sum(held) / seen, np.nan)
         velocity = sum(np.nan_to_num(one.velocity) * part for one, part in zip(maps, known)) / sum(known)
     times = sum(one.times for one in maps)
-    return TimesMap(maps[0].x, maps[0].y, share, np.where((share > 0.02)[..., None], velocity, np.nan), seen, times,
-                    source=f"the {times} written times", sense=maps[0].sense)
+    velocity = np.where((share > solids_file.RARE)[..., None], velocity, np.nan)
+    return TimesMap(maps[0].x, maps[0].y, share, velocity, seen, times, source=f"the {times} written times",
+                    sense=maps[0].sense)
 
 
 def mean_flow(flow: MillFlow, begin: float) -> TimesMap:
@@ -51,7 +53,7 @@ def mean_flow(flow: MillFlow, begin: float) -> TimesMap:
             [np.where(inside, flow.on_grid(flux[:, i], time, x, y), 0) for i in range(3)], axis=-1)
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = np.where(seen > 0, share / seen, np.nan)
-        velocity = np.where((mean > 0.02)[..., None], momentum / share[..., None], np.nan)
+        velocity = np.where((mean > solids_file.RARE)[..., None], momentum / share[..., None], np.nan)
     edges = np.linspace(-flow.radius, flow.radius, PIXELS + 1)
     return TimesMap(edges, edges, mean, velocity, seen, len(chosen), source=f"the {len(chosen)} written times",
                     sense=np.sign(flow.omega))
@@ -59,7 +61,7 @@ def mean_flow(flow: MillFlow, begin: float) -> TimesMap:
 
 def mean_load(flow: MillFlow, begin: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Force of the fluid on the balls over their weight, weighted by the balls' volume over axis and time from `begin`
-    (s), on a lab-frame grid: x, y, ratio [ny, nx]; NaN where the balls fill less than 2 % in the mean."""
+    (s), on a lab-frame grid: x, y, ratio [ny, nx]; NaN where balls are rare."""
     x = y = (np.arange(PIXELS) + 0.5) / PIXELS * 2 * flow.radius - flow.radius
     weighted, solidity, frames = np.zeros((PIXELS, PIXELS)), np.zeros((PIXELS, PIXELS)), 0
     for time, path in flow.frames_with_slurry(begin):
@@ -69,4 +71,4 @@ def mean_load(flow: MillFlow, begin: float) -> tuple[np.ndarray, np.ndarray, np.
         solidity = solidity + np.nan_to_num(flow.on_grid(flow.over_axis(phi), time, x, y))
         frames += 1
     with np.errstate(invalid="ignore", divide="ignore"):
-        return x, y, np.where(solidity > 0.02 * frames, weighted / solidity, np.nan)
+        return x, y, np.where(solidity > solids_file.RARE * frames, weighted / solidity, np.nan)

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-GRAVITY = 9.81
+from ..constants import GRAVITY
+
 FOOT = 0.3048
 TONNE = 1000.0
 OVERFLOW_TOE = 3.395  # rad, of a pool's surface in an overflow mill (Morrell 1996)

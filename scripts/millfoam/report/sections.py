@@ -123,7 +123,7 @@ def charge_maps(case: MillCase, readings: Readings) -> list[str]:
                          "near the surface (below 0) and rises with the shell. Lower panels: map minus cubic, and the "
                          "cubic's slope.",
                          title="Tangential velocity"),
-            page.picture(maps.speed_figure(case, mean.x, mean.y, mean.velocity, mean.solidity > 0.02),
+            page.picture(maps.speed_figure(case, mean.x, mean.y, mean.velocity, mean.shown()),
                          "Mean velocity of the balls across the axis. Colour: its size; arrows: its direction.",
                          title="Speed of the balls")]
 
