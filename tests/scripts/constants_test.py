@@ -7,7 +7,7 @@ from unittest import mock
 
 import numpy as np
 
-from millfoam.constants import GRAVITY
+from millfoam.files.constants import GRAVITY
 from millfoam.readings import models, power_models
 from millstudies.mill_runs import resolved
 from study_scripts import CASES
@@ -24,7 +24,7 @@ class Gravity(unittest.TestCase):
         files = [path for folder in (SCRIPTS, CASES) for path in (*folder.rglob("*.py"), *folder.rglob("constant/*"))
                  if path.is_file() and not any(part.startswith("runs") for part in path.parts)]
         self.assertEqual([path for path in files if re.search(r"\b9\.8\d*\b", path.read_text(errors="replace"))],
-                         [SCRIPTS / "millfoam" / "constants.py"])
+                         [SCRIPTS / "millfoam" / "files" / "constants.py"])
 
     def test_models_follow_it(self):
         def read():

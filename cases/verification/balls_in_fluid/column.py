@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.constants import GRAVITY
 from millfoam.coupling.ball_forces import relaxed, write_ball_forces
+from millfoam.files.constants import GRAVITY
 from millfoam.coupling.together import run_together
 from millfoam.files import foam
 from millfoam.files.slurry_file import read_ball_forces

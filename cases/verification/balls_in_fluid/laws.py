@@ -4,7 +4,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from column import BALL, VISCOSITY, WATER
-from millfoam.constants import GRAVITY
+from millfoam.files.constants import GRAVITY
 
 BUOYANT = (BALL - WATER) * GRAVITY  # N/m3, of balls in water
 

@@ -16,8 +16,8 @@ import numpy as np
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import cKDTree
 
-from millfoam.constants import GRAVITY
 from millfoam.files import foam
+from millfoam.files.constants import GRAVITY
 from millfoam.run import run as run_program
 from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from millfoam.constants import GRAVITY
+from millfoam.files.constants import GRAVITY
 from millfoam.files.dumps import read_balls
 from millfoam.run import run
 

@@ -10,7 +10,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.constants import GRAVITY
+from millfoam.files.constants import GRAVITY
 from millfoam.readings.residence import Residence, TracerTable, closed_spread, read_tracer, residence
 from millfoam.run import run as run_program
 from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table

@@ -14,8 +14,8 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.constants import GRAVITY
 from millfoam.files import foam
+from millfoam.files.constants import GRAVITY
 from millfoam.run import run as run_program
 from millfoam.run import (case_options, copy_case, fresh_runs, limit_table, run_jobs, set_options, write_parameters,
                           write_table)

@@ -15,7 +15,7 @@ import numpy as np
 
 import pool_pictures
 import pool_table
-from millfoam.constants import GRAVITY
+from millfoam.files.constants import GRAVITY
 from millfoam.run import run as run_program
 from millfoam.run import RunError, copy_case, run_jobs, set_options, write_parameters
 from mill_slice import FINE, MILL

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.optimize import curve_fit
 
 import potential_flow
-from millfoam.constants import GRAVITY
 from millfoam.files import foam
+from millfoam.files.constants import GRAVITY
 from millfoam.run import run as run_program
 from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 

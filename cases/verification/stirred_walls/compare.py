@@ -14,8 +14,8 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 
-from millfoam.constants import GRAVITY
 from millfoam.files import foam
+from millfoam.files.constants import GRAVITY
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.tables import read_columns
 from millfoam.run import case_options, fresh_runs, limit_table, run, run_jobs, set_options, write_table

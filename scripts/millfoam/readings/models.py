@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, least_squares
 
-from ..constants import GRAVITY
+from ..files.constants import GRAVITY
 
 POOR = 0.03  # of the radius that a fit may leave and still describe a surface
 

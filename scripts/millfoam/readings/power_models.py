@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..constants import GRAVITY
+from ..files.constants import GRAVITY
 
 FOOT = 0.3048
 TONNE = 1000.0
