@@ -10,7 +10,7 @@ import numpy as np
 
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.power_models import bond, hogg_fuerstenau, morrell
-from millfoam.report.power_section import models_table, powers
+from millfoam.report.power_section import models_table, outside, powers
 from report_cases import LENGTH, OMEGA, TIME0, change_json, write_flow
 
 TURN, BEGIN = 0.1, 0.5  # s: averages of write_flow's 0.8 s that are three turns
@@ -101,6 +101,16 @@ class Powers(unittest.TestCase):
         full = 0.6 * 2500 + 0.4 * 1500
         row = self.row("Hogg &amp; Fuerstenau, 35°, pores filled to 100 %", hogg_fuerstenau(*SIZE, full), 3.91)
         self.assertIn(row, self.rows(self.case(held=2 * PORES)))
+
+    def test_the_models_are_named_out_of_whose_range_the_mill_is(self):
+        case = self.case()
+        card = models_table(case, powers(case))
+        self.assertIn("Outside of the range of Morrell: diameter 0.3 m, range 3.2 to 12.2 m", card)
+        self.assertIn("Outside of the range of Hogg &amp; Fuerstenau: diameter 0.3 m, range 4.71 to 12.2 m",
+                      card)
+        self.assertNotIn("range of Bond", card)
+        self.assertEqual(outside((5.0, 6.0, 0.75, 0.3)),
+                         " Outside of the range of Bond: diameter 5 m, range up to 3.3 m.")
 
     def test_balls_that_move_with_a_flow_of_fewer_than_three_turns_are_not_compared(self):
         case = self.case("flow", (2.0, 2.1, 1.9))

@@ -182,7 +182,8 @@ def grate_hold_up(flow: float, diameter: float, grate_radius: float, open_area: 
 
     Q = 6100 J^2 g^2.5 A p^-1.38 sqrt(D) through the charge, up to J = most; what is beyond flows as a pool of the
     share J', Q' = 935 J' g^2 A sqrt(D). Q: flow in m3/h; J: share of slurry; g: mean radius of the holes over the
-    mill's; A: their area in m2; p: speed over the critical one; D: diameter in m. Pulp lifters are not in it.
+    mill's; A: their area in m2; p: speed over the critical one; D: diameter in m. Pulp lifters are not in it. The mills
+    that it was fitted to, and an example with numbers, are not at hand: the tests compare coefficients and powers.
     ValueError for values below 0, or a radius beyond the mill's."""
     share = 2 * grate_radius / diameter
     if not (flow >= 0 and diameter > 0 and 0 < share <= 1 and open_area > 0 and critical_share > 0 and most > 0):

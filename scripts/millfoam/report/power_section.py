@@ -100,7 +100,15 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
                            "laboratory mill they give the order of size. Morrell's is without the losses that he adds "
                            "(26 %); Bond's is at the pinion of a wet mill. Filled pores: the slurry in the mill over "
                            "the pores of the resting charge (by charge.packing), at most 100 %. The filling is the "
-                           "charge's bulk over the volume of the shell, without regard to lifters.")
+                           f"charge's bulk over the volume of the shell, without regard to lifters.{outside(size)}")
+
+
+def outside(size: tuple[float, float, float, float]) -> str:
+    """Models out of whose range a mill of a size (diameter, length, m, speed, filling) is, in words."""
+    diameter, _, speed, filling = size
+    found = {name: mills.outside(diameter, speed, filling) for name, mills in power_models.RANGES.items()}
+    return "".join(f" Outside of the range of {name}: {'; '.join(words)}."
+                   for name, words in found.items() if words)
 
 
 def against(model: Callable[[], float], simulated: Mean) -> tuple[str, str]:
