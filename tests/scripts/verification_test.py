@@ -12,6 +12,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 from millfoam.run import copy_case, limit_table, marked
 from study_scripts import CASES, load
@@ -195,6 +196,69 @@ class FallingHead(Printed):
         end = short.column.end
         self.assertFalse(table.splitlines()[1].endswith("MISSED"))
         self.assertTrue(table.splitlines()[2].endswith(f"  ended at {end / 2:g} of {end:g} s  MISSED"))
+
+    def test_a_grate_that_discharges_as_no_orifice_does_misses(self):
+        for name, least, most in (("grate", 0.603, 0.651), ("pegged", 0.603, 0.630)):
+            fall = self.fall(name)
+            for coefficient, misses in ((least - 1e-3, True), (least + 1e-3, False), (most - 1e-3, False),
+                                        (most + 1e-3, True), (np.nan, True)):
+                with self.subTest(name, coefficient=coefficient), \
+                        mock.patch.object(self.case.Fall, "errors", []), \
+                        mock.patch.object(self.case.Fall, "discharge_coefficient", coefficient):
+                    self.assertEqual(fall.misses(), misses)
+            self.assertFalse(fall.misses())
+            self.assertAlmostEqual(fall.discharge_coefficient,
+                                   1 / (fall.column.open_share * np.sqrt(fall.column.loss)), delta=2e-3)
+
+
+class GrateRing(Printed):
+    def setUp(self):
+        super().setUp()
+        self.case = load_case("grate_ring")
+
+    def drain(self, pool, factor=1.0, share=1.0):
+        """A pool that drains by the closed form, for a share of the case's duration; factor: on its discharge alone."""
+        time = np.linspace(0, share * self.case.END, 41)
+        volume = solve_ivp(lambda _, v: [-pool.discharge(self.case.level_of(v[0]))], (0, time[-1]),
+                           [self.case.hold_up(pool.level)], t_eval=time, rtol=1e-10, atol=1e-14).y[0]
+        flow = np.array([pool.discharge(self.case.level_of(one)) for one in volume])
+        return self.case.Drain(pool, time, volume, factor * flow)
+
+    def test_far_below_the_surface_a_ring_is_a_hole_at_the_depth_of_its_centre(self):
+        # sqrt(h) over a disc of radius r: pi r^2 sqrt(h) (1 - r^2/(32 h^2) - ...)
+        def disc(radius, depth):
+            return np.pi * radius**2 * np.sqrt(2 * 9.81 * depth) * (1 - radius**2 / (32 * depth**2))
+
+        for depth in (0.5, 2.0):
+            self.assertAlmostEqual(self.case.ring_orifice(depth, 0.09, 0.13) / (disc(0.13, depth) - disc(0.09, depth)),
+                                   1, delta=1e-4)
+
+    def test_a_shallow_pool_at_its_lower_end_is_a_segment_of_a_disc(self):
+        # The chord 2 sqrt(2 r s) at a height s above the end, and the integral of sqrt(s (h - s)) ds, pi h^2/8
+        height = 1e-5
+        expected = 2 * np.sqrt(2 * 0.13) * np.sqrt(2 * 9.81) * np.pi * height**2 / 8
+        self.assertAlmostEqual(self.case.ring_orifice(height - 0.13, 0.09, 0.13) / expected, 1, delta=1e-3)
+
+    def test_a_level_holds_its_volume(self):
+        self.assertAlmostEqual(self.case.hold_up(0.0), np.pi * 0.15**2 / 2 * 0.06)
+        self.assertAlmostEqual(self.case.level_of(self.case.hold_up(-0.04)), -0.04)
+
+    def test_each_limit_that_is_missed_is_named(self):
+        for pool in self.case.POOLS:
+            self.assertEqual(self.drain(pool).misses(), [])
+            self.assertEqual(self.drain(pool, factor=1.03).misses()[0], "discharge")
+        pool = self.case.POOLS[0]
+        self.assertEqual(self.drain(pool, factor=np.nan).misses(), ["discharge", "orifice"])
+        self.assertEqual(self.drain(pool, share=0.5).misses(), ["ended early"])
+        slow = self.drain(pool)
+        slow.volume = slow.volume[0] + 0.9 * (slow.volume - slow.volume[0])
+        self.assertIn("what has left", slow.misses())
+
+    def test_the_table_names_pools_and_misses(self):
+        _, table = self.report(self.case.print_table, [self.drain(self.case.POOLS[0]),
+                                                       self.drain(self.case.POOLS[1], factor=1.03)])
+        self.assertTrue(table.splitlines()[1].startswith("open "))
+        self.assertTrue(table.splitlines()[2].endswith("  MISSED: discharge"))
 
 
 class Sloshing(Printed):
