@@ -174,6 +174,7 @@ class Rows {
     const hdf5::Handle group = hdf5::create_group(file_.get(), "mean");
     hdf5::write_attribute(group.get(), "begin", time0 + sums.begin);
     hdf5::write_attribute(group.get(), "end", time0 + sums.end);
+    hdf5::write_attribute(group.get(), "duration", sums.duration);
     if (balls_) create_balls(group.get(), *balls_);
     for (const Field& field : shown_) {
       hdf5::write_array(group.get(), field.name, means(sums, field), row_dimensions(grid_, field.vector),

@@ -25,11 +25,11 @@ geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, hei
 speed: {fraction_of_critical: 0.6, sense: clockwise}
 charge: {fill: 0.3, diameter: 0.004}
 materials: {ball: glass, wall: HDPE}
-dem: {settle_time: 0.15, duration: 0.8, record_interval: 0.005, seed: 3}
+dem: {settle_time: 0.15, duration: 0.6, record_interval: 0.005, seed: 3}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
 averages: {voxel_size: 0.008, window: 0.05, start: 0.4}
 resolution: {cell_size: 0.006, layers: 2}
-flow: {duration: 0.5, coupling: iterated, passes: 2, averages: {start: 0.2}}
+flow: {duration: 0.3, coupling: iterated, passes: 2, averages: {start: 0.1}}
 """
 
 

@@ -30,7 +30,7 @@ import mills_test
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
 START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
-CHANGES = ("resolution={cell_size: 0.005, layers: 15}", f"dem.duration={START + END}", f"flow.duration={END}",
+CHANGES = ("resolution={cell_size: 0.005, layers: 10}", f"dem.duration={START + END}", f"flow.duration={END}",
            f"averages={{voxel_size: 0.011, window: 0.05, start: {START}}}", "flow.write_interval=0.02",
            f"flow.averages={{start: {LATE}, window: 0.05}}")
 os.environ["MILLFOAM_NP"] = "1"  # of all flows here
@@ -50,7 +50,6 @@ class ShortMill(unittest.TestCase):
                 run_mill(cls.folder / name, MILL, *CHANGES, *changes)
             else:  # without pictures
                 run_mill(cls.folder / name, MILL, *CHANGES, *changes, charge=cls.folder / "law", until="flow")
-                run(cls.folder / name, ROOT / "scripts" / "report", ".")
             cls.flows[name] = MillFlow(cls.folder / name)
         cls.solids = solids_file.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
         cls.print_summary()
@@ -142,7 +141,8 @@ class ShortMill(unittest.TestCase):
         np.testing.assert_allclose((x, y), self.late_centroids("law").mean(axis=0), atol=5e-4)
 
     def test_reports_are_written(self):
-        for name, words in (("law", "multiplier: 1.0"), ("off", "multiplier: 0.0"), ("stock", "solver: interFoam")):
+        run(self.folder / "stock", ROOT / "scripts" / "report", ".")
+        for name, words in (("law", "multiplier: 1.0"), ("stock", "solver: interFoam")):
             text = (self.folder / name / "report.html").read_text()
             for part in ("Slurry is conserved", "Tangential velocity", "Hold-up", "data:image/png", words):
                 self.assertTrue(part in text, f"{name}: {part}")

@@ -72,6 +72,15 @@ class Flow(Verdicts):
             self.check(checks.conservation(case(balance=columns)), state)
         self.check(checks.conservation(case()), "unknown")
 
+    def test_time_that_the_averages_do_not_cover(self):
+        path = Path(self.enterContext(tempfile.TemporaryDirectory())) / "slurry.h5"
+        for covered, state in (({}, "unknown"), ({"duration": 2.0}, "holds"), ({"duration": 1.999}, "holds"),
+                               ({"duration": 1.997}, "fails")):
+            with h5py.File(path, "w") as file:
+                file.attrs.update(complete=1, version=2)
+                file.create_group("mean").attrs.update(begin=3.0, end=5.0, **covered)
+            self.check(checks.averaged_time(case(slurry=path)), state)
+
     def steadiness(self, drift=0.0, noise=0.0, machine="tumbling", **others):
         """Of a hold-up of 1 l that drifts by a share of itself in the whole time."""
         time = np.linspace(0, 6, 1201)

@@ -22,13 +22,13 @@ import numpy as np
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
+from millfoam.files.constants import GRAVITY
 from millfoam.files.tables import read_columns
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, marked, run_jobs, set_options, write_table
 
 matplotlib.use("Agg")
 
-GRAVITY = 9.81
 RADIUS, LENGTH, INNER, OUTER, OPEN = 0.15, 0.06, 0.09, 0.13, 0.1  # of mill.yaml, m
 END = 0.4  # s, of mill.yaml
 BEGIN = 0.05  # s: the pool begins at rest and has its discharge after 0.03 s

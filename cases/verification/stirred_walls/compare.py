@@ -65,7 +65,8 @@ def runs(quick: bool) -> dict[str, Run]:
              "level: 0.0775}", "flow.balls=false", f"flow.duration={0.05 if quick else 1}",
              "flow.write_interval=0.05", "flow.max_time_step=0.002",
              f"resolution.cell_size={0.0775 / 12:.6g}")
-    couette = (f"resolution.cell_size={0.0775 / (18 if quick else 24):.6g}", f"flow.duration={0.25 if quick else 0.4}")
+    couette = (f"resolution.cell_size={0.0775 / (18 if quick else 24):.6g}", f"flow.duration={0.25 if quick else 0.4}",
+               f"flow.max_time_step={0.001 if quick else 0.0005}")
     found = {"Couette, turning mesh": Run(own, couette, "turning", True, True),
              "Couette, mesh at rest": Run(own, couette, "rest", False, True),
              "pool at rest": Run(STIRRED, still, "pool", False)}

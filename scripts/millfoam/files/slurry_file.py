@@ -129,6 +129,14 @@ def _means(path: Path | str, file: h5py.File, begin: float | None, end: float | 
             (ends - begins)[chosen], (float(begins[chosen[0]]), float(ends[chosen[-1]])))
 
 
+def missing_share(path: Path | str) -> float | None:
+    """Share of the time of a slurry.h5's mean over the run that no sample covers, as segments were lost; None if the
+    file has no such mean, or is of a millFoam that did not write this. RuntimeError if it is not complete."""
+    with _open_slurry(path) as file:
+        about = file["mean"].attrs if "mean" in file else {}
+        return 1 - float(about["duration"] / (about["end"] - about["begin"])) if "duration" in about else None
+
+
 def read_ball_forces(path: Path | str, begin: float | None = None, end: float | None = None) -> BallForces:
     """BallForces of a slurry.h5: mean over the windows in [begin, end) of DEM time (s), or without times the file's own
     mean over the run. RuntimeError if the file is not complete, has no window in these times, or was written by a flow

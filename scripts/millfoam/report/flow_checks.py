@@ -4,11 +4,13 @@ import numpy as np
 
 from ..files.data_files import number
 from ..files.mill_case import MillCase
+from ..files.slurry_file import missing_share
 from ..files.stirred_case import StirredCase
 from ..readings.stirred_flow import read_flow_torques
 from .verdict import Check, judged
 
 CONSERVED = 1e-6  # of the hold-up that may be missing
+GAP = 1e-3  # of the averages' time that may be missing: names of times are rounded
 CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
 TORQUES = 0.05  # of the impeller's torque on balls and slurry that the slurry's balance may miss
@@ -38,6 +40,18 @@ def conservation(case: MillCase) -> Check:
     return judged(name, share, CONSERVED, f"at most {share:.1e} of the hold-up is missing (limit {CONSERVED:.0e})",
                   "Look in steps.csv for steps in which alpha is outside [0, 1] (alpha_min, alpha_max_minus_1), and "
                   "give the limiter more iterations (nLimiterIter).")
+
+
+def averaged_time(case: MillCase) -> Check:
+    """Whether samples cover all of the time of a MillCase's slurry.h5."""
+    name = "The slurry's averages have no gap"
+    missing = missing_share(case.slurry)
+    if missing is None:
+        return Check(name, "unknown", "slurry.h5 does not say which share of its time is missing",
+                     "Run the flow with this version, beyond the start of its averages.")
+    return judged(name, missing, GAP, f"{100 * missing:.3g} % of their time are missing",
+                  "Remove the flow and run it again: files of postProcessing/voxelAverages/segments were lost.",
+                  meaning="Maps of the slurry and the force on balls are means of a part of the time")
 
 
 def slurry_torques(case: MillCase) -> Check:

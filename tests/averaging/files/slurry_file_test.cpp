@@ -128,6 +128,9 @@ TEST_F(SlurryFile, AHoleWithinAWindowIsMarkedAndCountsForNothing) {
   expect("window/ends_short", {1});
   expect("ledger/volume_in", {0.2});
   expect("grid/insideFraction", {1, 0.5});
+  const hdf5::Handle file = hdf5::open_file(whole), mean = hdf5::open_group(file.get(), "mean");
+  EXPECT_EQ(hdf5::read_double_attribute(mean.get(), "end", 1)[0], 1);
+  EXPECT_EQ(hdf5::read_double_attribute(mean.get(), "duration", 1)[0], 0.75);
 }
 
 TEST_F(SlurryFile, SegmentsThatOverlapAreRefused) {
