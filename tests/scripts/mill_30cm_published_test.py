@@ -316,6 +316,26 @@ class Tables(unittest.TestCase):
         self.assertRegex(missing[0], "not read: dry_75: .*mill.json")
         self.assertEqual(missing[1], "not finished: dry_60: not begun")
 
+    def test_a_flow_beyond_its_limits_is_named_and_fails_the_study_after_all_is_written(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.enterContext(mock.patch.object(sys, "argv", ["mill_30cm_published", str(folder)]))
+        for missing, error, words in ((1e-13, 1e-13, []), (2e-10, 1e-13, ["2.0e-10 of the slurry is missing"]),
+                                      (np.nan, 2e-6, ["nan of the slurry", "the feed differs by 2.0e-06 of it"])):
+            flow = SimpleNamespace(run=RUNS["fluid_75_20"], case=SimpleNamespace(feed=6e-5), missing=missing,
+                                   feed_error=error)
+            with mock.patch.object(study, "read_each", side_effect=[({}, []), ({"fluid_75_20": flow}, [])]), \
+                    mock.patch.object(study, "write_all", lambda root, dry, flows, missing: missing), \
+                    mock.patch("builtins.print"):
+                if words:
+                    with self.assertRaisesRegex(SystemExit, "error: these flows are beyond their limits"):
+                        study.main()
+                else:
+                    study.main()
+            written = (folder / "mill_30cm_published.txt").read_text()
+            self.assertEqual(written.count("not conserved: fluid_75_20: "), len(words))
+            for one in words:
+                self.assertIn(one, written)
+
     def test_cost_of_a_dry_run_stands_beside_its_plan(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
         run = folder / "dry_75"

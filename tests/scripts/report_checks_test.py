@@ -66,7 +66,7 @@ class Contacts(Verdicts):
 
 class Flow(Verdicts):
     def test_slurry_that_is_missing(self):
-        for missing, state in ((0.9e-9, "holds"), (-0.9e-9, "holds"), (1.1e-9, "fails"), (-1.1e-9, "fails"),
+        for missing, state in ((0.9e-13, "holds"), (-0.9e-13, "holds"), (1.1e-13, "fails"), (-1.1e-13, "fails"),
                                (np.nan, "fails")):
             columns = {"missing": np.array([0, missing]), "holdUp": np.array([1e-3, 1e-3])}
             self.check(checks.conservation(case(balance=columns)), state)
@@ -80,6 +80,24 @@ class Flow(Verdicts):
                 file.attrs.update(complete=1, version=2)
                 file.create_group("mean").attrs.update(begin=3.0, end=5.0, **covered)
             self.check(checks.averaged_time(case(slurry=path)), state)
+
+    def test_a_feed_that_is_not_as_asked(self):
+        time = np.linspace(0.1, 6, 60)
+        for error, state in ((0.0, "holds"), (0.9e-6, "holds"), (-0.9e-6, "holds"), (1.1e-6, "fails"),
+                             (-1.1e-6, "fails"), (np.nan, "fails")):
+            columns = {"Time": time, "fed": 6e-5 * (1 + error) * time}
+            self.check(checks.fed_as_asked(case(balance=columns, feed=6e-5)), state)
+        # Too much for a while, and then too little
+        columns = {"Time": time, "fed": 6e-5 * (time + 1e-4 * np.sin(np.pi * time / 6))}
+        self.check(checks.fed_as_asked(case(balance=columns, feed=6e-5)), "fails")
+        self.check(checks.fed_as_asked(case(feed=6e-5)), "unknown")
+
+    def test_only_a_mill_with_a_feed_is_asked_for_it(self):
+        for feed, expected in ((6e-5, True), (0.0, False)):
+            mill = case(flow=True, feed=feed)
+            mill.mill.slurry = {"yield_stress_Pa": 0}.get
+            names = [one.name for one in checks.all_checks(mill)]
+            self.assertEqual("Fed as asked" in names, expected)
 
     def steadiness(self, drift=0.0, noise=0.0, machine="tumbling", **others):
         """Of a hold-up of 1 l that drifts by a share of itself in the whole time."""

@@ -10,11 +10,11 @@ import matplotlib
 
 from millfoam.files.stirred_case import StirredCase
 from millfoam.plots.stirred_slurry_plots import maps_figure, vortex_figure
+from millfoam.readings.slurry_conservation import CONSERVED
 from millfoam.readings.stirred_flow import StirredFlowNumbers, read_stirred_flow
 from millfoam.readings.stirred_slurry import dumps_of_last_turn, read_slurry_flow
 from number_table import write_numbers
 
-CONSERVED = 1e-8  # of the hold-up
 # Viscosity in the published tables over that of the text
 PRINTED_VISCOSITY = 10.0
 

@@ -12,6 +12,7 @@ from millfoam.files.solids_file import SolidsMap
 from millfoam.readings.batches import batch_means
 from millfoam.readings.charge import circulation_centre
 from millfoam.readings.means import Mean, block_mean, turns_mean
+from millfoam.readings.slurry_conservation import feed_error, missing_share
 from millfoam.readings.slurry_on_maps import axial_velocity
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millstudies.axial_slices import PRESSURES, Profile, Slices, pressure_drop, read_profile, read_slices
@@ -33,11 +34,11 @@ class NotFinished(RuntimeError):
 class Flow:
     """A flow: its Run, case and number of averaged turns; height of the slurry's centre (m), of all by slurryBalance
     and of that in front of the grates by axialProfiles (NaN without it); discharge (m3/s, by the outlet's own flux) and
-    net rate of volume (m3/s); largest error of the volume over the hold-up, and of the fed volume over what was asked
-    for; its Slices; Profile of the published slices, which reach over the pulp lifters, and of those in front of the
-    grates; drops of the pressure by PRESSURES (Pa); what is read for published statements; map of the slurry; velocity
-    along the axis at the top of the shoulder (m/s); slurry's share of the fluid at the charge's centre of circulation
-    (NaN without balls)."""
+    net rate of volume (m3/s); missing_share and feed_error of slurry_conservation (NaN without a feed); its Slices;
+    Profile of the published slices, which reach over the pulp lifters, and of those in front of the grates; drops of
+    the pressure by PRESSURES (Pa); what is read for published statements; map of the slurry; velocity along the axis at
+    the top of the shoulder (m/s); slurry's share of the fluid at the charge's centre of circulation (NaN without
+    balls)."""
     run: Run
     case: MillCase
     turns: int
@@ -114,8 +115,7 @@ def read_flow(run: Run, folder: Path) -> Flow:
     return Flow(run, case, turns, over_turns(case, "y", turns),
                 height(readings) if readings.series else Mean(np.nan, np.nan),
                 over_turns(case, "discharge", turns), net_rate(case, turns),
-                float(np.abs(columns["missing"]).max() / columns["holdUp"].max()),
-                float(abs(columns["fed"][-1] / (case.feed * columns["Time"][-1]) - 1)) if case.feed else np.nan,
+                missing_share(columns), feed_error(columns, case.feed) if case.feed else np.nan,
                 slices, read_profile(slices, humps), read_profile(slices, humps, case.length),
                 {name: pressure_drop(slices, name, case.length) for name in PRESSURES}, readings, slurry,
                 block_mean([top_velocity(one) for one in blocks]),

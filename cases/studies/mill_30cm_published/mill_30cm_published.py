@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the complete runs of the study: tables on the screen and, in the folder of the runs, charges.csv, flows.csv,
 statements.csv, costs.csv, mill_30cm_published.txt with all of them, profiles.png, axial_flow.png, holdup.png, and
-comparison.html, one page of all runs. Runs that are not complete, or cannot be read, are listed."""
+comparison.html, one page of all runs. Runs that are not complete, or cannot be read, are listed. It fails, after all is
+written, if a run does not conserve its slurry or is not fed as asked."""
 import argparse
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -16,6 +18,7 @@ from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.charge import charge_with_errors
 from millfoam.readings.means import Mean
+from millfoam.readings.slurry_conservation import AS_ASKED, CONSERVED
 from millfoam.report.build import compare_cases
 from millstudies.axial_slices import PRESSURES, Profile
 from millstudies.compared_runs import NOT_TESTED, SLICE, Verdict
@@ -81,6 +84,15 @@ def flow_row(flow: Flow) -> Row:
             **mean_columns("slurry at the centre of circulation, %", flow.centre_share, 100),
             "force over weight": flow.case.load[0] if flow.case.load else np.nan,
             "missing over hold-up": flow.missing, "error of the feed": flow.feed_error}
+
+
+def beyond_limits(flow: Flow) -> Iterator[str]:
+    """Why the numbers of a flow are not to be trusted: slurry is missing, or it is not fed as asked."""
+    if not flow.missing <= CONSERVED:
+        yield f"{flow.run.name}: {flow.missing:.1e} of the slurry is missing; expected {CONSERVED:g} or less"
+    if flow.case.feed and not flow.feed_error <= AS_ASKED:
+        yield (f"{flow.run.name}: the feed differs by {flow.feed_error:.1e} of it from what was asked; expected "
+               f"{AS_ASKED:g} or less")
 
 
 def cost_row(run: Run, root: Path) -> Row:
@@ -186,9 +198,12 @@ def main() -> None:
     flows, lacking = read_each(root, [run for run in RUNS.values() if run.way != "dry"], read_flow)
     if not dry and not flows:
         parser.exit(1, "\n".join(["no run is complete:", *missing, *lacking]) + "\n")
-    lines = write_all(root, dry, flows, missing + lacking)
+    beyond = [f"not conserved: {words}" for flow in flows.values() for words in beyond_limits(flow)]
+    lines = write_all(root, dry, flows, [*missing, *lacking, *beyond])
     (root / "mill_30cm_published.txt").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
+    if beyond:
+        sys.exit("\n".join(["mill_30cm_published: error: these flows are beyond their limits:", *beyond]))
 
 
 if __name__ == "__main__":

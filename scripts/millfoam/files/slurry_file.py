@@ -129,7 +129,7 @@ def _means(path: Path | str, file: h5py.File, begin: float | None, end: float | 
             (ends - begins)[chosen], (float(begins[chosen[0]]), float(ends[chosen[-1]])))
 
 
-def missing_share(path: Path | str) -> float | None:
+def uncovered_share(path: Path | str) -> float | None:
     """Share of the time of a slurry.h5's mean over the run that no sample covers, as segments were lost; None if the
     file has no such mean, or is of a millFoam that did not write this. RuntimeError if it is not complete."""
     with _open_slurry(path) as file:

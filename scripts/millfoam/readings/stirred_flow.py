@@ -7,6 +7,7 @@ import numpy as np
 
 from ..files.stirred_case import StirredCase
 from .means import Mean, mean_of_series
+from .slurry_conservation import missing_share
 from .stirred_power import balls_power, mean_from, scaled
 from .stirred_slurry import SlurryFlow
 
@@ -91,5 +92,5 @@ def read_stirred_flow(case: StirredCase, flow: SlurryFlow) -> StirredFlowNumbers
     return StirredFlowNumbers(
         begin, float(time[-1]), (time[-1] - begin) / case.turn, found.torques, found.unbalanced,
         averaged(case, time, columns["power"]), found.ball_power,
-        float(np.abs(columns["missing"]).max() / columns["holdUp"][0]),
+        missing_share(columns),
         averaged(case, time, columns["z"]), slip, scaled(slip, 1 / root), reynolds)

@@ -4,8 +4,8 @@ from ..files.mill_case import MillCase
 from .charge_checks import (averaging_volume, charge_steadiness, contact_balance, follows_shell, ledger, lost_balls,
                             overlap, torque_balance, window_noise)
 from .coupling_section import coupling_checks
-from .flow_checks import (averaged_time, conservation, continuity, courant, drag_range, drag_viscosity, mesh, one_way,
-                          slurry_torques, solids_on_mesh, yield_stress)
+from .flow_checks import (averaged_time, conservation, continuity, courant, drag_range, drag_viscosity, fed_as_asked,
+                          mesh, one_way, slurry_torques, solids_on_mesh, yield_stress)
 from .stages import same_mill
 from .steadiness import flow_steadiness
 from .verdict import Check
@@ -19,6 +19,7 @@ def all_checks(case: MillCase) -> list[Check]:
     if case.flow:
         functions += [conservation, flow_steadiness, courant, mesh, yield_stress]
         functions += [averaged_time] if case.slurry else []
+        functions += [fed_as_asked] if case.mill.flow("feed_m3_s", 0.0) else []
         functions += [slurry_torques] if "torque_balls" in (case.balance or {}) else []
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]

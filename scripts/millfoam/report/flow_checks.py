@@ -4,12 +4,12 @@ import numpy as np
 
 from ..files.data_files import number
 from ..files.mill_case import MillCase
-from ..files.slurry_file import missing_share
+from ..files.slurry_file import uncovered_share
 from ..files.stirred_case import StirredCase
+from ..readings.slurry_conservation import AS_ASKED, CONSERVED, feed_error, missing_share
 from ..readings.stirred_flow import read_flow_torques
 from .verdict import Check, judged
 
-CONSERVED = 1e-6  # of the hold-up that may be missing
 GAP = 1e-3  # of the averages' time that may be missing: names of times are rounded
 CORRECTION = 2.0  # %, of the balls' volume on the flow's mesh
 OUT_OF_RANGE = 20.0  # % of the slurry in the bed
@@ -36,7 +36,7 @@ def conservation(case: MillCase) -> Check:
     if columns is None:
         return Check(name, "unknown", "the flow ran without the function object slurryBalance",
                      "Add it to controlDict; see slurryBalance.H.")
-    share = np.abs(columns["missing"]).max() / np.abs(columns["holdUp"]).max()
+    share = missing_share(columns)
     return judged(name, share, CONSERVED, f"at most {share:.1e} of the hold-up is missing (limit {CONSERVED:.0e})",
                   "Look in steps.csv for steps in which alpha is outside [0, 1] (alpha_min, alpha_max_minus_1), and "
                   "give the limiter more iterations (nLimiterIter).")
@@ -45,13 +45,27 @@ def conservation(case: MillCase) -> Check:
 def averaged_time(case: MillCase) -> Check:
     """Whether samples cover all of the time of a MillCase's slurry.h5."""
     name = "The slurry's averages have no gap"
-    missing = missing_share(case.slurry)
+    missing = uncovered_share(case.slurry)
     if missing is None:
         return Check(name, "unknown", "slurry.h5 does not say which share of its time is missing",
                      "Run the flow with this version, beyond the start of its averages.")
     return judged(name, missing, GAP, f"{100 * missing:.3g} % of their time are missing",
                   "Remove the flow and run it again: files of postProcessing/voxelAverages/segments were lost.",
                   meaning="Maps of the slurry and the force on balls are means of a part of the time")
+
+
+def fed_as_asked(case: MillCase) -> Check:
+    """Whether the inlet of a mill with a feed takes in what is asked."""
+    name, asked = "Fed as asked", case.mill.flow("feed_m3_s")
+    columns = case.balance
+    if columns is None:
+        return Check(name, "unknown", "the flow ran without the function object slurryBalance",
+                     "Add it to controlDict; see slurryBalance.H.")
+    error = feed_error(columns, asked)
+    return judged(name, error, AS_ASKED, f"by the inlet's flux, what was fed differs by at most {error:.1e} from "
+                  f"{1e6 * asked:.3g} ml/s (limit {AS_ASKED:.0e})",
+                  "Look at the inlet's velocity (U in the times' folders): its flux times the patch's share of slurry "
+                  "must be the feed of mill.yaml (flow.feed).")
 
 
 def slurry_torques(case: MillCase) -> Check:
