@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section of the report about power: powers of flows of three turns, and their places among the models."""
+"""Section of the report about power: powers of flows of two and three turns, and their places among the models."""
 import re
 import tempfile
 import unittest
@@ -10,7 +10,8 @@ import numpy as np
 
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.power_models import bond, hogg_fuerstenau, morrell
-from millfoam.report.power_section import models_table, outside, powers
+from millfoam.readings.means import Mean
+from millfoam.report.power_section import models_table, net_note, outside, powers, specific
 from report_cases import LENGTH, OMEGA, TIME0, change_json, write_flow
 
 TURN, BEGIN = 0.1, 0.5  # s: averages of write_flow's 0.8 s that are three turns
@@ -76,10 +77,26 @@ class Powers(unittest.TestCase):
         # Of the sums 2.3, 2.5 and 2.4
         self.assertAlmostEqual(found["drive"].error, 0.1 / np.sqrt(3), places=9)
 
-    def test_of_fewer_than_three_turns_are_the_charges_alone(self):
+    def test_of_two_turns_have_an_error_of_one_degree_of_freedom_and_its_reach(self):
+        case = self.case("flow", (2.0, 2.1, 1.9))
+        case.begin = BEGIN + TURN
+        found = powers(case)
+        self.assertEqual(list(found), ["charge", "slurry", "drive"])
+        self.assertAlmostEqual(found["slurry"].value, 0.75, places=9)
+        self.assertEqual([one.freedom for one in found.values()], [1, 1, 1])
+        # 12.7 errors of 0.05 W
+        self.assertEqual(specific(case, "slurry", found["slurry"])[1], "0.75 ± 0.05 W (95 % within ± 0.64 W: the error "
+                                                                       "has 1 degree of freedom)")
+        self.assertIn("Both are means over 2 whole turns", net_note(case))
+        # Three turns have two degrees, and what is not from turns has a known error
+        for power in (Mean(0.75, 0.05, 2), Mean(0.75, 0.05)):
+            self.assertEqual(specific(case, "slurry", power)[1], "0.75 ± 0.05 W")
+
+    def test_of_fewer_than_two_turns_are_the_charges_alone(self):
         case = self.case()
-        case.turn = 0.12
+        case.turn = 0.2
         self.assertEqual(list(powers(case)), ["charge"])
+        self.assertIn("needs two whole turns; this flow has 1", net_note(case))
 
     def test_a_flow_whose_balls_do_not_feel_it_is_compared_dry_and_with_the_slurry_in_its_pores(self):
         wet = "pores filled to 75 %"
@@ -112,12 +129,23 @@ class Powers(unittest.TestCase):
         self.assertEqual(outside((5.0, 6.0, 0.75, 0.3)),
                          " Outside of the range of Bond: diameter 5 m, range up to 3.3 m.")
 
-    def test_balls_that_move_with_a_flow_of_fewer_than_three_turns_are_not_compared(self):
+    def test_a_pool_above_the_charge_has_a_row_of_its_own(self):
+        full, pool = 0.6 * 2500 + 0.4 * 1500, "Morrell, C-model, pores filled to 100 %, with its pool"
+        rows = self.rows(self.case(held=1.01 * PORES))
+        self.assertIn(self.row(pool, morrell(*SIZE, full, 1500, overflow=True).net, 3.91), rows)
+        self.assertIn(self.row(pool.removesuffix(", with its pool"), morrell(*SIZE, full).net, 3.91), rows)
+        self.assertNotIn(pool, [name for name, *_ in self.rows(self.case(held=0.99 * PORES))])
+
+    def test_balls_that_move_with_a_flow_of_fewer_than_two_turns_are_not_compared(self):
         case = self.case("flow", (2.0, 2.1, 1.9))
-        case.turn = 0.12
+        case.turn = 0.2
         card = models_table(case, powers(case))
         self.assertIn("The power is not compared with models: the balls feel the slurry", card)
-        # Two turns end with the flow: 0.24 s of 2.0, 2.1 and 1.9 W
+
+    def test_two_turns_end_with_the_flow(self):
+        case = self.case("flow", (2.0, 2.1, 1.9))
+        case.turn = 0.12
+        # 0.24 s of 2.0, 2.1 and 1.9 W
         self.assertAlmostEqual(powers(case)["charge"].value, (0.04 * 2.0 + 0.1 * 2.1 + 0.1 * 1.9) / 0.24, delta=1e-9)
 
 

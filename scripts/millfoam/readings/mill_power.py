@@ -6,7 +6,7 @@ from ..files.mill_case import MillCase
 from .batches import mean_over_turns, turn_means, whole_turns
 from .means import Mean, turns_mean
 
-TURNS = 3  # of the averaged flow, at least: the error of fewer turns is not known
+TURNS = 3  # of the averaged flow, at least: the error of two has one degree of freedom, and is hardly known
 UNKNOWN = Mean(np.nan, np.nan)
 
 
@@ -34,10 +34,10 @@ def written_balance(case: MillCase) -> dict[str, np.ndarray] | None:
     return {name: values[:until] for name, values in case.balance.items()} if until > 0 else None
 
 
-def known_balance(case: MillCase) -> dict[str, np.ndarray] | None:
-    """written_balance; None, too, if fewer turns than TURNS are averaged."""
+def known_balance(case: MillCase, fewest: int = TURNS) -> dict[str, np.ndarray] | None:
+    """written_balance; None, too, if fewer turns than `fewest` are averaged."""
     columns = written_balance(case)
-    return columns if columns and whole_turns(columns["Time"][-1] - case.begin, case.turn) >= TURNS else None
+    return columns if columns and whole_turns(columns["Time"][-1] - case.begin, case.turn) >= fewest else None
 
 
 def during_flow(case: MillCase, table: dict[str, np.ndarray] | None) -> tuple[np.ndarray, np.ndarray] | None:
@@ -79,9 +79,10 @@ def power_begin(case: MillCase) -> float:
     return case.result("power_from_s" if "power_from_s" in (case.results or {}) else "steady_from_s")
 
 
-def slurry_power(case: MillCase) -> Mean:
-    """Torque that walls and balls give to the slurry, times the mill's speed, W; NaN for fewer turns than TURNS."""
-    columns = known_balance(case)
+def slurry_power(case: MillCase, fewest: int = TURNS) -> Mean:
+    """Torque that walls and balls give to the slurry, times the mill's speed, W; NaN for fewer turns than `fewest`, two
+    or more."""
+    columns = known_balance(case, fewest)
     found = columns and mean_over_turns(columns["Time"], columns["power"], case.begin, case.turn)
     return found or UNKNOWN
 
@@ -97,20 +98,20 @@ def given_power(case: MillCase) -> Mean:
                           -turn_means(*series, case.begin, case.turn))
 
 
-def drive_power(case: MillCase) -> Mean:
-    """Power that the drive gives to balls and slurry together, W; NaN for fewer turns than TURNS.
+def drive_power(case: MillCase, fewest: int = TURNS) -> Mean:
+    """Power that the drive gives to balls and slurry together, W; NaN for fewer turns than `fewest`, two or more.
 
     Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
     that of the walls on the slurry. If they moved at the same time as the flow, both are of the same turns, and the
     error is that of their sums. Balls that do not feel the slurry give it power of their own, which is added."""
-    columns = known_balance(case)
+    columns = known_balance(case, fewest)
     if columns is None:
         return UNKNOWN
     given = by_walls(columns) if feels_slurry(case) else columns["power"]
     to_slurry = turn_means(columns["Time"], given, case.begin, case.turn)
     series = during_flow(case, case.energy)
     if series:
-        return sum_over_turns(to_slurry, turn_means(*series, case.begin, case.turn))
+        return sum_over_turns(to_slurry, turn_means(*series, case.begin, case.turn), fewest)
     return charge_power(case) + turns_mean(to_slurry)
 
 

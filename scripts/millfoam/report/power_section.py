@@ -14,6 +14,9 @@ from .case_readings import Readings
 from .coupling_section import coupling_of
 from .words import uncertain
 
+FEWEST = 2  # whole turns of the flow with powers of slurry and drive
+FREEDOM = 2.0  # degrees of freedom of an error, below which the table has the interval that follows from it
+
 
 def power_section(case: MillCase, _readings: Readings) -> list[str]:
     """Cards of the net power and of the models; none without a dry run's results."""
@@ -26,19 +29,29 @@ def power_section(case: MillCase, _readings: Readings) -> list[str]:
 
 
 def powers(case: MillCase) -> dict[str, Mean]:
-    """Name -> Mean (W) of the charge's power, and with a flow of enough turns the slurry's and the drive's."""
+    """Name -> Mean (W) of the charge's power, and with a flow of FEWEST turns or more the slurry's and the drive's."""
     found = {"charge": charge_power(case)}
-    slurry = slurry_power(case)
+    slurry = slurry_power(case, FEWEST)
     if np.isfinite(slurry.value):
-        found |= {"slurry": slurry, "drive": drive_power(case)}
+        found |= {"slurry": slurry, "drive": drive_power(case, FEWEST)}
     return found
 
 
 def specific(case: MillCase, name: str, power: Mean) -> tuple[str, ...]:
-    """Row of a power: name, W, W/m and W/kg with their errors."""
+    """Row of a power: name, W, W/m and W/kg with their errors, W also with the interval of an error of few degrees of
+    freedom."""
     mass = case.mill.derived("charge", "mass_kg")
-    return (name, *(uncertain(power.value / over, power.error / over, unit)
-                    for over, unit in ((1.0, "W"), (case.length, "W/m"), (mass, "W/kg"))))
+    watts, *others = (uncertain(power.value / over, power.error / over, unit)
+                      for over, unit in ((1.0, "W"), (case.length, "W/m"), (mass, "W/kg")))
+    return name, watts + reach_words(power), *others
+
+
+def reach_words(power: Mean) -> str:
+    """How far a power (W) may be from its value if its error has fewer degrees of freedom than FREEDOM; else empty."""
+    if not (power.freedom < FREEDOM and power.error > 0):
+        return ""
+    return (f" (95 % within ± {power.reach:.2g} W: the error has {power.freedom:.2g} "
+            f"degree{'' if power.freedom == 1 else 's'} of freedom)")
 
 
 def net_note(case: MillCase) -> str:
@@ -51,8 +64,8 @@ def net_note(case: MillCase) -> str:
                   + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
                      if feels_slurry(case) else
                      "both together; the balls do not feel the slurry, and keep what they give to it.")
-                  + (f" Both are means over {turns} whole turns of the flow." if turns >= 3 else
-                     f" The power of slurry and drive needs three whole turns; this flow has {turns}."))
+                  + (f" Both are means over {turns} whole turns of the flow." if turns >= FEWEST else
+                     f" The power of slurry and drive needs two whole turns; this flow has {turns}."))
     return f"{words} ±: standard errors over time.{torque_words(case)}"
 
 
@@ -69,13 +82,15 @@ def torque_words(case: MillCase) -> str:
 
 
 def models_table(case: MillCase, found: dict[str, Mean]) -> str:
-    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores."""
+    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores, and with the
+    pool of what does not fit into them."""
     mill = case.mill
     solidity, pores = (mill.derived("charge", key) for key in ("resting_solidity", "pore_volume_m3"))
     kinds = [] if feels_slurry(case) else [
         (", dry", found["charge"], power_models.bulk_density(mill.ball_density, solidity))]
+    held = 0.0
     if "drive" in found:
-        columns = known_balance(case)
+        columns = known_balance(case, FEWEST)
         assert columns is not None
         held = time_mean(columns["Time"], columns["holdUp"], case.begin)
         filled = power_models.pores_filled(held, pores)
@@ -92,15 +107,21 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
                   *against(lambda: power_models.morrell(*size, density).net, simulated))]
     if not kinds:
         return page.paragraph("The power is not compared with models: the balls feel the slurry, and the flow was "
-                              "averaged over fewer than three turns.")
+                              "averaged over fewer than two turns.")
+    if held > pores:
+        rows.append((f"Morrell, C-model{kinds[-1][0]}, with its pool", *against(
+            lambda: power_models.morrell(*size, kinds[-1][2], mill.slurry("density_kg_m3"), overflow=True).net,
+            kinds[-1][1])))
     rows.append(("Bond", *against(lambda: power_models.bond(diameter, *size[2:], mass),
                                   kinds[-1][1])))
     return page.table(["", "power by the model", "simulated over it"], rows, title="Power among the models",
                       note="The models were fitted to mills of metres with steel balls and their lifters. For a "
                            "laboratory mill they give the order of size. Morrell's is without the losses that he adds "
                            "(26 %); Bond's is at the pinion of a wet mill. Filled pores: the slurry in the mill over "
-                           "the pores of the resting charge (by charge.packing), at most 100 %. The filling is the "
-                           f"charge's bulk over the volume of the shell, without regard to lifters.{outside(size)}")
+                           "the pores of the resting charge (by charge.packing), at most 100 %. With its pool: what "
+                           "does not fit into the pores is the pool of Morrell's overflow mill, whatever its volume. "
+                           "The filling is the charge's bulk over the volume of the shell, without regard to lifters."
+                           + outside(size))
 
 
 def outside(size: tuple[float, float, float, float]) -> str:
