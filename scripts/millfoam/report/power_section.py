@@ -82,8 +82,8 @@ def torque_words(case: MillCase) -> str:
 
 
 def models_table(case: MillCase, found: dict[str, Mean]) -> str:
-    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores, and with the
-    pool of what does not fit into them."""
+    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores, and
+    with the pool of what does not fit into them."""
     mill = case.mill
     solidity, pores = (mill.derived("charge", key) for key in ("resting_solidity", "pore_volume_m3"))
     kinds = [] if feels_slurry(case) else [
